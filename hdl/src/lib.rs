@@ -9,6 +9,7 @@ mod files;
 pub mod leaf;
 pub mod mesh;
 pub mod predicate;
+mod prelude;
 pub mod serial;
 pub mod stream;
 pub mod top;

@@ -24,8 +24,8 @@ enum Command {
     Export(ExportArguments),
     /// Make the bitstream of a board, and a report of its clock and its cells.
     ///
-    /// The command exports the design, synthesises it, places and routes it with several seeds, and packs the
-    /// fastest. The median of the seeds must meet the clock. The exit code is 0 only if there is a bitstream
+    /// The command exports the design, synthesises it, places and routes it with several seeds, and packs the fastest.
+    /// The median of the seeds must meet the clock. The exit code is 0 only if there is a bitstream
     /// that meets its clock.
     Board(Box<BoardArguments>),
 }

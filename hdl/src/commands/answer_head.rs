@@ -9,9 +9,8 @@
 //! Latency: 3 clocks from `request.first` and `request.count` to `head`.
 
 use super::types::{Head, RecordCount, Request, Word};
+use crate::prelude::*;
 use incircle_protocol::{Opcode, Status, COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS, LATENCY_BUCKETS};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// Status and length of an answer; see the top of this file.
 #[derive(LogicBlock, Default)]

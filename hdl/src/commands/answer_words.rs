@@ -7,9 +7,8 @@
 //! Latency: 2 clocks from `index`, and 1 from `counter` and `latency`, at an edge with `chooses`.
 
 use super::types::{RecordCount, Tally, VertexCount, Word};
+use crate::prelude::*;
 use incircle_protocol::{Opcode, CORE_COORD_BITS, CORE_VERSION, MAGIC, PROTOCOL_VERSION};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The words of a payload; see the top of this file.
 #[derive(LogicBlock, Default)]

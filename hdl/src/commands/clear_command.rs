@@ -9,9 +9,8 @@
 
 use super::types::{Clearing, TakenWord, Word};
 use crate::engine::Deal;
+use crate::prelude::*;
 use incircle_protocol::{Opcode, CLEAR_BATCH, FIRST_ROUND};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The effect of a `Clear`; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -28,9 +28,8 @@ use super::command_gate::CommandGate;
 use super::point_slot::PointSlot;
 use super::types::{Activity, AnswerProgress, Clearing, CommandState, Request, Tally, VertexCount, Word};
 use crate::engine::{Arrival, Deal, EngineState};
+use crate::prelude::*;
 use incircle_protocol::{Opcode, PADDING};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The port for commands; see the top of this file.
 #[derive(LogicBlock, Default)]

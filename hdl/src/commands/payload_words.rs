@@ -6,8 +6,7 @@
 //! Latency: 2 clocks to a beat, from `runs` or from the beat before.
 
 use super::types::{AnswerBeat, Word, WordIndex};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The words of a payload, one after the other; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -9,8 +9,7 @@
 use super::types::{TakenWord, Tally, VertexCount, Word};
 use crate::engine::types::VertexId;
 use crate::engine::{Arrival, EngineState};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The last point and the counts; see the top of this file.
 #[derive(LogicBlock, Default)]

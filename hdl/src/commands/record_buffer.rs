@@ -9,8 +9,7 @@ use super::record_words::RecordWords;
 use super::types::Word;
 use crate::engine::types::VertexId;
 use crate::mesh::Record;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The buffer for a record; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -14,8 +14,7 @@ use super::types::{AnswerBeat, RecordCount, Word};
 use super::vertex_stream::VertexStream;
 use crate::engine::types::TriangleId;
 use crate::mesh::Record;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The payload of a read-out; see the top of this file.
 #[derive(LogicBlock, Default)]

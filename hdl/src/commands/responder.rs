@@ -26,8 +26,7 @@ use super::record_reads::RecordReads;
 use super::types::{AnswerBeat, AnswerProgress, Head, Request, Word, WordIndex, WordPair, WORD_PAIR_BITS};
 use crate::engine::types::TriangleId;
 use crate::mesh::Record;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The part of an answer that the output loads next.
 #[derive(Clone, Copy, Debug, PartialEq, LogicState)]

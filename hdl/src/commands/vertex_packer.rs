@@ -21,8 +21,7 @@
 
 use super::types::{AnswerBeat, RecordCount, Word};
 use crate::engine::types::VertexId;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The packer of vertices; see the top of this file.
 #[derive(LogicBlock, Default)]

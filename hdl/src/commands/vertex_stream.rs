@@ -10,8 +10,7 @@ use super::types::{AnswerBeat, RecordCount, ANSWER_BEAT_BITS};
 use super::vertex_packer::VertexPacker;
 use crate::engine::types::VertexId;
 use crate::leaf::{Fifo, Unpack};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// Number of address bits of the queue of beats.
 const QUEUE_BITS: usize = 4;

@@ -1,5 +1,4 @@
-//! The insertion engine: accepts points, keeps the triangle records, and has many insertions in
-//! flight on one pipeline.
+//! The insertion engine: accepts points, keeps the triangle records, and has many insertions in flight on one pipeline.
 //!
 //! ```text
 //!                 +------- PushPort <-----+--------------+

@@ -108,8 +108,8 @@ pub fn core(config: Config, with_probe: bool) -> Result<String, ExportError> {
     })
 }
 
-/// The whole Verilog of a core behind a serial link: the device,
-/// and around it the ANSI wrapper [`SERIAL_TOP_NAME`](crate::top::SERIAL_TOP_NAME).
+/// The whole Verilog of a core behind a serial link: the device, and around it
+/// the ANSI wrapper [`SERIAL_TOP_NAME`](crate::top::SERIAL_TOP_NAME).
 ///
 /// `with_probe` adds the write port of the triangle memory to the wrapper's ports, for simulation.
 ///

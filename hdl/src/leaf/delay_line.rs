@@ -9,8 +9,7 @@
 //! stages, one slice of an ECP5 keeps 4 bits. Block RAM is scarce, lies far from most logic, and would be nearly empty.
 
 use super::lut_memory::LutMemory;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// Number of bits of the counter; the ring uses as many of them as it needs.
 const COUNTER_BITS: usize = 6;

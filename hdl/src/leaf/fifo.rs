@@ -12,8 +12,7 @@
 
 use super::lut_memory::LutMemory;
 use super::memory_shape::MAX_ADDRESS_BITS;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// A FIFO; see the top of this file.
 #[derive(LogicBlock)]

@@ -4,8 +4,7 @@
 //! Latency: 2 clocks from `fetches` to `fetched`.
 
 use super::block_memory::BlockMemory;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The ring of spilled entries; see the top of this file.
 #[derive(LogicBlock, Default)]

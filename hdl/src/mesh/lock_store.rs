@@ -1,7 +1,7 @@
 //! The locks of the triangle records, each with its holder, the context of the attempt that took the lock.
 //!
-//! 1. A visit with `takes` that finds the lock clear sets the lock for its context. A visit that finds the lock
-//!    set does not change it, and `foreign` says whether another context holds it. The holder of each lock is
+//! 1. A visit with `takes` that finds the lock clear sets the lock for its context. A visit that finds the lock set
+//!    does not change it, and `foreign` says whether another context holds it. The holder of each lock is
 //!    stored for that (L9).
 //! 2. A lock that is cleared at the edge at which a visit wants it ends up clear, and counts as foreign to that visit,
 //!    whoever held it: `LockMemory` cannot both clear and set a lock at one edge.
@@ -28,8 +28,7 @@
 
 use crate::engine::types::LockClear;
 use crate::leaf::{BlockMemory, LockMemory, Parameter};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// Locks and their holders; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -14,8 +14,7 @@
 //! Source: `orient2d(u, v, p)` is the cross product of `u - p` and `v - p`.
 
 use crate::leaf::Multiplier;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// A cross product; see the top of this file.
 #[derive(LogicBlock, Default)]

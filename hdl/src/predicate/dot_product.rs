@@ -13,8 +13,7 @@
 //! Source: the dot products of the Cline-Renka form of incircle.
 
 use crate::leaf::Multiplier;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// A dot product; see the top of this file.
 #[derive(LogicBlock, Default)]

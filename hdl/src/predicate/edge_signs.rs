@@ -12,8 +12,7 @@
 
 use super::signs::EdgeFlags;
 use crate::leaf::{FlagDelay, Parameter};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The flags of three orient2d; see the top of this file.
 #[derive(LogicBlock, Default)]

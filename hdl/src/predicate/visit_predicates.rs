@@ -22,8 +22,7 @@ use super::signs::{Corners, Signs};
 use super::vertex_order::VertexOrder;
 use super::wide_product::WideProduct;
 use super::widths::Point;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The predicates of a visit; see the top of this file.
 #[derive(LogicBlock)]

@@ -11,8 +11,7 @@
 //! between them. The middle is at most `2 * 2^16 * 2^17 = 2^34`, so 36 bits hold it.
 
 use crate::leaf::Multiplier;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// A wide product; see the top of this file.
 #[derive(LogicBlock)]

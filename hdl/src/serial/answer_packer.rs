@@ -10,9 +10,8 @@
 
 use super::types::{AnswerPlace, Byte};
 use crate::commands::types::Word;
+use crate::prelude::*;
 use incircle_protocol::MAX_PAYLOAD;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The event that the packer awaits.
 #[derive(Clone, Copy, Debug, PartialEq, LogicState)]

@@ -10,9 +10,8 @@
 
 use super::types::Step;
 use crate::leaf::Parameter;
+use crate::prelude::*;
 use incircle_protocol::PHASE_BITS;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 const _: () = assert!(PHASE_BITS == 24, "the phase of this block has as many bits as the protocol says");
 

@@ -18,8 +18,7 @@
 //! ```
 
 use super::types::Byte;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// A decoder of COBS; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -22,8 +22,7 @@
 //! ```
 
 use super::types::Byte;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The byte that goes out next.
 #[derive(Clone, Copy, Debug, PartialEq, LogicState)]

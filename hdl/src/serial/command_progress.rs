@@ -9,8 +9,7 @@
 //! Latency: 1 clock from a word taken and from the end of an answer.
 
 use crate::commands::types::Word;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The commands under way; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -16,8 +16,7 @@
 
 use super::types::Byte;
 use crate::commands::types::Word;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// Bytes joined into words; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -10,8 +10,7 @@
 
 use super::types::Byte;
 use crate::commands::types::Word;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// A running check sum; see the top of this file.
 #[derive(LogicBlock, Default)]

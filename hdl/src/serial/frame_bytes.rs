@@ -7,8 +7,7 @@
 
 use super::types::{AnswerPlace, Byte};
 use crate::commands::types::Word;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The bytes of a frame; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -6,9 +6,8 @@
 //! Latency: none (combinational) to `starts`, 1 clock to `kind` and `contents`.
 
 use super::types::{Byte, Contents};
+use crate::prelude::*;
 use incircle_protocol::DeviceFrame;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The choice of the next frame; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -7,9 +7,8 @@
 
 use super::types::{Byte, Receipt, Session};
 use crate::commands::types::Word;
+use crate::prelude::*;
 use incircle_protocol::{STATUS_BAD_RATE, STATUS_BUSY, STATUS_DROPPED, STATUS_OPEN};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The header of frames to the host; see the top of this file.
 #[derive(LogicBlock, Default)]

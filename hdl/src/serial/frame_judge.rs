@@ -12,9 +12,8 @@
 
 use super::types::{Byte, FrameHead, Session};
 use crate::packed;
+use crate::prelude::*;
 use incircle_protocol::{HostFrame, MAX_PAYLOAD};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 packed! {
     /// The request of a frame, valid for one clock after the end of the frame.

@@ -4,9 +4,8 @@
 //! Latency: 1 clock from `at` to `is_last`.
 
 use super::types::BytePlace;
+use crate::prelude::*;
 use incircle_protocol::{ANSWER_HEADER_BYTES, CRC_BYTES, DEVICE_HEADER_BYTES, GREETING_WORDS};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The ends of parts; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -9,9 +9,8 @@
 use super::crc32::Crc32;
 use super::types::{Byte, FrameHead};
 use crate::commands::types::Word;
+use crate::prelude::*;
 use incircle_protocol::{CRC_BYTES, HOST_HEADER_BYTES, MAX_PAYLOAD};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The field of the frame to which the next byte belongs.
 #[derive(Clone, Copy, Debug, PartialEq, LogicState)]

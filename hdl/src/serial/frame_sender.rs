@@ -8,8 +8,7 @@
 
 use super::frame_part::FramePart;
 use super::types::{Byte, BytePlace, Contents};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The stage of the frame under way.
 #[derive(Clone, Copy, Debug, PartialEq, LogicState)]

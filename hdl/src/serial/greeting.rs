@@ -5,12 +5,11 @@
 use super::types::Byte;
 use crate::commands::types::Word;
 use crate::leaf::Parameter;
+use crate::prelude::*;
 use incircle_protocol::{
     Config, Greeting as GreetingWords, Identity, LinkConfig, CORE_COORD_BITS, CORE_VERSION, GREETING_WORDS, LINK_MAGIC,
     LINK_VERSION, MAGIC, PROTOCOL_VERSION,
 };
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 const _: () = assert!(GREETING_WORDS == 13, "the kernel of this block lists the words of the greeting");
 

@@ -7,9 +7,8 @@
 //! Latency: 2 clocks from the end of a time.
 
 use crate::leaf::Parameter;
+use crate::prelude::*;
 use incircle_protocol::{LinkConfig, BREAK_MS};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 const _: () = assert!(BREAK_MS == 1, "eight eighths of this block are a break, and a short one");
 

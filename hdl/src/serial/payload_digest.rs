@@ -9,8 +9,7 @@
 use super::crc32::Crc32;
 use super::types::Byte;
 use crate::commands::types::Word;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The digest of a session; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -11,9 +11,8 @@ use super::frame_judge::Asked;
 use super::types::Step;
 use crate::commands::types::Word;
 use crate::leaf::Parameter;
+use crate::prelude::*;
 use incircle_protocol::{LinkConfig, FIRST_RATE, MAX_STEP};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The rate of the line; see the top of this file.
 #[derive(LogicBlock, Default)]

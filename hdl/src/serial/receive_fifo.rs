@@ -15,9 +15,8 @@
 
 use super::types::Byte;
 use crate::leaf::{BlockMemory, Parameter};
+use crate::prelude::*;
 use incircle_protocol::LinkConfig;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// Bits of an address of the largest FIFO.
 const ADDRESS_BITS: usize = 15;

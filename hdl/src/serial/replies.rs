@@ -11,9 +11,8 @@
 
 use super::frame_judge::Asked;
 use super::types::Byte;
+use crate::prelude::*;
 use incircle_protocol::DeviceFrame;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The control frames that are due; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -20,9 +20,8 @@ use super::rate_control::RateControl;
 use super::session_state::SessionState;
 use super::types::Lamps;
 use crate::commands::{AnswerSink, CommandSource};
+use crate::prelude::*;
 use incircle_protocol::{Config, ConfigError, LinkConfig, LinkConfigError};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// A core's link to a serial line; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -9,8 +9,7 @@
 
 use super::frame_judge::Asked;
 use super::types::{Byte, Session};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The state of the session; see the top of this file.
 #[derive(LogicBlock, Default)]

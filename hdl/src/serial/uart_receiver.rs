@@ -13,8 +13,7 @@
 
 use super::bit_clock::BitClock;
 use super::types::{Byte, Step};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The part of a byte that is on the line.
 #[derive(Clone, Copy, Debug, PartialEq, LogicState)]

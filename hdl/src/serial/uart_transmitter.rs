@@ -9,8 +9,7 @@
 
 use super::bit_clock::BitClock;
 use super::types::{Byte, Step};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// A transmitter of bytes; see the top of this file.
 #[derive(LogicBlock, Default)]

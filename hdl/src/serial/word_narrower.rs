@@ -15,8 +15,7 @@
 //! ```
 
 use crate::commands::types::Word;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// Beats split into words; see the top of this file.
 #[derive(LogicBlock, Default)]

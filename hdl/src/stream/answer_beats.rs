@@ -8,8 +8,7 @@
 //! Latency: 1 clock from the last pair of a beat.
 
 use crate::leaf::Parameter;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// Pairs joined to beats; see the top of this file.
 #[derive(LogicBlock, Default)]

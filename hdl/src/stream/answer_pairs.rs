@@ -22,8 +22,7 @@
 
 use crate::commands::types::Word;
 use crate::commands::AnswerSink;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// Words joined to pairs; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -5,9 +5,8 @@
 
 use super::events::AnswerEvents;
 use crate::commands::types::Word;
+use crate::prelude::*;
 use incircle_protocol::{answer_header, Status};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The watch on answers; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -20,8 +20,7 @@
 //! Source: C. E. Cummings, Simulation and Synthesis Techniques for Asynchronous FIFO Design, SNUG 2002, style 1.
 
 use crate::leaf::{DualClockMemory, Parameter, Synchroniser};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// A FIFO between two clocks; see the top of this file.
 #[derive(LogicBlock, Default)]

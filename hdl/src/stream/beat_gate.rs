@@ -4,8 +4,7 @@
 //! Latency: none (combinational) to `push`, 1 clock to `events`.
 
 use super::events::CommandEvents;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The gate for command beats; see the top of this file.
 #[derive(LogicBlock, Default)]

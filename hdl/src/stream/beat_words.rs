@@ -17,8 +17,7 @@
 
 use crate::commands::CommandSource;
 use crate::leaf::Parameter;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// Beats split into words; see the top of this file.
 #[derive(LogicBlock, Default)]

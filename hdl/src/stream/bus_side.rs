@@ -8,9 +8,8 @@ use super::beat_gate::BeatGate;
 use super::register_block::RegisterBlock;
 use super::reset_request::ResetRequest;
 use crate::leaf::{Parameter, Synchroniser};
+use crate::prelude::*;
 use incircle_protocol::Config;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The bus's half of the link; see the top of this file.
 #[derive(LogicBlock, Default)]

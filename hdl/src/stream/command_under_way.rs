@@ -6,8 +6,7 @@
 //! Latency: 1 clock from a word to `is_busy`.
 
 use crate::commands::types::Word;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The command under way; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -9,8 +9,7 @@ use super::command_under_way::CommandUnderWay;
 use super::reset_reply::ResetReply;
 use crate::commands::{AnswerSink, CommandSource};
 use crate::leaf::{Parameter, Synchroniser};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The core's half of the link; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -12,9 +12,8 @@ use super::events::{AnswerEvents, CommandEvents};
 use super::register_port::RegisterPort;
 use super::traffic::Traffic;
 use crate::commands::types::Word;
+use crate::prelude::*;
 use incircle_protocol::{Config, StreamRegister};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The register block; see the top of this file.
 #[derive(LogicBlock, Default)]

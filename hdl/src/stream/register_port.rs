@@ -26,8 +26,7 @@
 
 use super::axi::{Address, AxiLite};
 use crate::commands::types::Word;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The AXI4-Lite port; see the top of this file.
 #[derive(LogicBlock, Default)]

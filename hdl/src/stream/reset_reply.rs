@@ -7,8 +7,7 @@
 //! Latency: 1 clock to `resets`, 8 to `reply`.
 
 use crate::leaf::FlagDelay;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The core's side of a reset; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -8,8 +8,7 @@
 //!
 //! Latency: 1 clock to `request` and `resets`.
 
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The event that the block awaits.
 #[derive(Clone, Copy, Debug, PartialEq, LogicState)]

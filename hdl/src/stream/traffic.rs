@@ -8,9 +8,8 @@
 use super::axi::RegisterIndex;
 use super::events::{AnswerEvents, CommandEvents};
 use crate::commands::types::Word;
+use crate::prelude::*;
 use incircle_protocol::StreamRegister;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The counters of the streams; see the top of this file.
 #[derive(LogicBlock, Default)]

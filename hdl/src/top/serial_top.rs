@@ -6,10 +6,9 @@
 use super::core::Core;
 use crate::commands::{AnswerSink, CommandSource};
 use crate::engine::Write;
+use crate::prelude::*;
 use crate::serial::{SerialError, SerialLink};
 use incircle_protocol::{Config, LinkConfig};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The core behind a serial link; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -1,8 +1,8 @@
 //! The consequences of a completed visit for its context: whether the context falls asleep, keeps its point,
 //! or needs the priority.
 //!
-//! 1. A context falls asleep when its last visit completes. The context keeps its point, unless its ring is complete
-//!    or the point equals a vertex (L1).
+//! 1. A context falls asleep when its last visit completes. The context keeps its point, unless its ring is complete or
+//!    the point equals a vertex (L1).
 //! 2. A context asks for the priority when it aborts, and returns the priority when its point is settled (L2).
 //!
 //! Latency: none, the block is combinational.
@@ -22,8 +22,8 @@ pub struct Aftermath {
     /// A commit or a release of the context becomes due with this visit.
     pub hands_over: Signal<In, Bit>,
     pub outcome: Signal<Out, Outcome>,
-    /// An aborted attempt is over; or a root visit that locked the root ends the attempt (`stops_at_root`). Either
-    /// way the locks are due for release.
+    /// An aborted attempt is over; or a root visit that locked the root ends the attempt (`stops_at_root`). Either way
+    /// the locks are due for release.
     pub fails: Signal<Out, Bit>,
     pub stops_at_root: Signal<Out, Bit>,
     is_failure: Signal<Local, Bit>,

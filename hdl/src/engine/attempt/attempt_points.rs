@@ -19,9 +19,8 @@
 
 use crate::engine::types::{context_bits, Clocks, ContextId, Start, VertexId, CONTEXT_BITS, LATENCY_BITS, VERTEX_BITS};
 use crate::leaf::LutMemory;
+use crate::prelude::*;
 use incircle_protocol::Config;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The points of the contexts; see the top of this file.
 #[derive(LogicBlock, Default)]

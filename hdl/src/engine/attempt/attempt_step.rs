@@ -1,11 +1,11 @@
 //! The state of an attempt after one of its tests.
 //!
-//! 1. A test that completes leaves one visit fewer in flight. If the tested record joins the cavity, two new visits
-//!    and one new entry come.
-//! 2. An aborted attempt drains: it is over when its last visit completes and not before, because a visit in flight
-//!    may still take a lock (L1).
-//! 3. A record that joins the cavity brings two open edges, the root brings three. When the last of them is passed,
-//!    the record is an inner one.
+//! 1. A test that completes leaves one visit fewer in flight. If the tested record joins the cavity, two new visits and
+//!    one new entry come.
+//! 2. An aborted attempt drains: it is over when its last visit completes and not before, because a visit in flight may
+//!    still take a lock (L1).
+//! 3. A record that joins the cavity brings two open edges, the root brings three. When the last of them is passed, the
+//!    record is an inner one.
 //!
 //! Latency: none, the block is combinational.
 

@@ -15,9 +15,8 @@ use crate::engine::types::{
     context_bits, ring_bits, Attempt, Case, RingCount, RingEntry, Step, Visit, ATTEMPT_BITS, CONTEXT_BITS, ENTRY_BITS,
 };
 use crate::leaf::{LutMemory, Parameter, Unpack};
+use crate::prelude::*;
 use incircle_protocol::Config;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 crate::packed! {
     /// An attempt, with flags that are ready sooner because they are kept apart from it.
@@ -59,8 +58,7 @@ pub struct AttemptStore {
     written_flags: Signal<Local, Bits<2>>,
     state: DFF<Attempt>,
     flag_bits: DFF<Bits<2>>,
-    /// The bit of `half_open`, in the bypassed state and in the stored one; `went_round` tells which
-    /// of the two counts.
+    /// The bit of `half_open`, in the bypassed state and in the stored one; `went_round` tells which of the two counts.
     kept_passed: DFF<Bit>,
     stored_passed: DFF<Bit>,
     went_round: DFF<Bit>,

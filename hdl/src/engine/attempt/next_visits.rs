@@ -1,8 +1,8 @@
 //! The visits that follow a completed visit.
 //!
-//! 1. If a root visit or a test met no foreign lock, `bundle` holds the visits that follow when the cavity opens or
-//!    the tested record joins it. For every other visit `bundle` holds the same visit again, except that `walks_on`
-//!    changes its record and `locates` lets it take the lock.
+//! 1. If a root visit or a test met no foreign lock, `bundle` holds the visits that follow when the cavity opens or the
+//!    tested record joins it. For every other visit `bundle` holds the same visit again, except that `walks_on` changes
+//!    its record and `locates` lets it take the lock.
 //!
 //! ```text
 //!           c                         c
@@ -27,8 +27,7 @@
 //! ```
 
 use crate::engine::types::{Bundle, Case, RingEntry, TriangleId, Turned, Visit};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The visits that follow; see the top of this file.
 #[derive(LogicBlock, Default)]

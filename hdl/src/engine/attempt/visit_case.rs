@@ -1,9 +1,9 @@
 //! The meaning of a completed visit for its context.
 //!
-//! 1. A root visit or a test that meets a foreign lock aborts its attempt (L1). If its context holds the priority,
-//!    the record is visited again instead (L2).
-//! 2. A walk holds no locks. It makes its visit again if the record is not written yet or is being written (L7), and
-//!    if the record holds the point while the context still has locks of its last point (L6).
+//! 1. A root visit or a test that meets a foreign lock aborts its attempt (L1). If its context holds the priority, the
+//!    record is visited again instead (L2).
+//! 2. A walk holds no locks. It makes its visit again if the record is not written yet or is being written (L7), and if
+//!    the record holds the point while the context still has locks of its last point (L6).
 //! 3. The root is visited again under its lock, because the findings of the walk need not be true any more (L5).
 //! 4. At most one of `looks` to `root_duplicate` in the case is high, except that `waits` comes with `revisits`. None
 //!    is high for a test of an attempt that drains.
@@ -12,8 +12,8 @@
 //!
 //! Latency: 1 clock from the early inputs; none from `verdict`, `drains` and `is_full`.
 //!
-//! A walk ends at a record that holds its point. The record is visited again as root and opens the cavity. Then
-//! another context holds the lock of a neighbour:
+//! A walk ends at a record that holds its point. The record is visited again as root and opens the cavity. Then another
+//! context holds the lock of a neighbour:
 //! ```text
 //! early_done      ___/^^\__/^^\__/^^\________
 //! early.rotates   _______________/^^\________
@@ -29,8 +29,7 @@
 //! ```
 
 use crate::engine::types::{Case, Turned, Upcoming, Verdict, Visit};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The meaning of a visit; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -29,9 +29,8 @@ use super::inner_list::InnerList;
 use super::star_id::StarId;
 use crate::engine::types::{CommitJob, Committed, Entry, InnerWrite, RingHead, Slot, TriangleId, VertexId, Write};
 use crate::engine::write::{LinkWrite, RecordWrite};
+use crate::prelude::*;
 use incircle_protocol::Config;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The commit; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -13,9 +13,8 @@ use crate::engine::types::{
     CommitJob, CommitRequest, Committed, EntryWrite, InnerWrite, LockClear, LockWrite, ReleaseJob, ReleaseRequest,
     Released, TriangleId, Write,
 };
+use crate::prelude::*;
 use incircle_protocol::Config;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// From rings to stars; see the top of this file.
 #[derive(LogicBlock, Default)]
@@ -33,8 +32,7 @@ pub struct CommitPath {
     /// A ring is complete; or the locks of an attempt that ended without a commit are due.
     pub commit: Signal<In, CommitRequest>,
     pub releases: Signal<In, ReleaseRequest>,
-    /// Others write new records: four of a first triangle, or two of a solo insertion; only while no
-    /// commit is at work.
+    /// Others write new records: four of a first triangle, or two of a solo insertion; only while no commit is at work.
     pub seeds: Signal<In, Bit>,
     pub solo_inserts: Signal<In, Bit>,
     /// A record or a link.

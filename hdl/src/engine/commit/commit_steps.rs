@@ -7,8 +7,7 @@
 //! Latency: 1 clock; `takes` is a function of registers and `awaits_id`.
 
 use crate::engine::types::RingHead;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The state of the commit.
 #[derive(Clone, Copy, Debug, PartialEq, LogicState)]

@@ -18,8 +18,7 @@
 //! records           0  0  4  4  4  4  4  4  4  4  6
 //! ```
 
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The counts of records; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -4,8 +4,8 @@
 //! 1. `steps` comes only while neither `is_used_up` nor `is_awaited` is high.
 //! 2. A list is not written in the clock before it is read, nor while it is being read.
 //!
-//! Latency: three clocks from `restarts` or `steps` to the next `inner_id` (block RAM, its output register,
-//! and one register away from it). The outputs are registers. There is no reset, because the first
+//! Latency: three clocks from `restarts` or `steps` to the next `inner_id` (block RAM, its output register, and one
+//! register away from it). The outputs are registers. There is no reset, because the first
 //! `restarts` sets every register.
 //!
 //! A list of two records, 20 and 21:
@@ -22,9 +22,8 @@ use crate::engine::types::{
     context_bits, ring_bits, ContextId, InnerWrite, RingCount, TriangleId, ENTRY_BITS, RING_ADDRESS_BITS, TRIANGLE_BITS,
 };
 use crate::leaf::BlockMemory;
+use crate::prelude::*;
 use incircle_protocol::Config;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The lists of inner records; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -16,8 +16,7 @@
 
 use crate::engine::types::CONTEXT_BITS;
 use crate::leaf::{LutMemory, Parameter};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// A queue of jobs; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -7,11 +7,10 @@
 //! 3. While a job is due, a lock is cleared in every clock: there is no pause between jobs.
 //! 4. No job is due while the memory is swept, because no visit is made then.
 //!
-//! Latency: 5 clocks from the job to its first `clear` if the block is idle; the sweep takes one
-//! clock for each record.
+//! Latency: 5 clocks from the job to its first `clear` if the block is idle; the sweep takes one clock for each record.
 //!
-//! A sweep of four records; then two aborted attempts, of contexts 1 and 0, and a ring of context 3, which overtakes
-//! the second:
+//! A sweep of four records; then two aborted attempts, of contexts 1 and 0, and a ring of context 3,
+//! which overtakes the second:
 //! ```text
 //! reset            /^^\_______________________________________________
 //! sweeps           ___/^^^^^^^^^^^\___________________________________
@@ -32,9 +31,8 @@ use crate::engine::types::{
     TriangleId, LOG_ADDRESS_BITS, LOG_BITS, RELEASE_JOB_BITS, TRIANGLE_BITS,
 };
 use crate::leaf::{BlockMemory, Unpack};
+use crate::prelude::*;
 use incircle_protocol::Config;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The log of locks and its release; see the top of this file.
 #[derive(LogicBlock, Default)]
@@ -152,8 +150,7 @@ impl Logic for Release {
         self.read_at.place.next = self.place.q.val();
         self.log.read_address.next = self.read_at.address.val();
 
-        // The next job is taken together with the last lock of the job at work, so that no clock
-        // is lost between jobs.
+        // The next job is taken together with the last lock of the job at work, so that no clock is lost between jobs.
         self.after_place.next = self.place.q.val() + self.one_place.val();
         self.fetches_last.next = self.works.q.val() & self.one_is_left.q.val();
         self.takes.next = (!self.works.q.val()) | self.fetches_last.val();

@@ -15,9 +15,8 @@ use crate::engine::types::{
     RING_ADDRESS_BITS,
 };
 use crate::leaf::{BankedMemory, PacedMemory, Unpack};
+use crate::prelude::*;
 use incircle_protocol::Config;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// Width in bits of the word that leads on from an entry.
 const FOLLOWER_BITS: usize = ENTRY_BITS + 1;

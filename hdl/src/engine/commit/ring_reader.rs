@@ -1,5 +1,5 @@
-//! Reads complete rings in the order of their entries, an entry a clock, one ring after another. A list in memory
-//! takes several clocks to follow, so the reader works ahead of the commit.
+//! Reads complete rings in the order of their entries, an entry a clock, one ring after another. A list in memory takes
+//! several clocks to follow, so the reader works ahead of the commit.
 //!
 //! 1. A ring starts at entry 0 and follows `after` until that is 0. It has three entries or more.
 //! 2. All entries of a ring are final when `commit` comes, or become so at the same edge. None is written again until
@@ -35,9 +35,8 @@ use crate::engine::types::{
     COMMIT_JOB_BITS,
 };
 use crate::leaf::Unpack;
+use crate::prelude::*;
 use incircle_protocol::Config;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The reader of rings; see the top of this file.
 #[derive(LogicBlock, Default)]

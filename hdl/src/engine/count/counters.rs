@@ -12,9 +12,8 @@ use super::event_counter::EventCounter;
 use super::latency_range::LatencyRange;
 use super::visit_counters::VisitCounters;
 use crate::engine::types::{Clocks, Events};
+use crate::prelude::*;
 use incircle_protocol::Counter;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The event counters; see the top of this file.
 #[derive(LogicBlock, Default)]

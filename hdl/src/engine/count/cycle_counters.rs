@@ -6,9 +6,8 @@
 //! Latency: 2 clocks to a count; `value` follows `select` by 1.
 
 use super::event_counter::{EventCounter, WideCounter};
+use crate::prelude::*;
 use incircle_protocol::Counter;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// Counts of clocks; see the top of this file.
 #[derive(LogicBlock, Default)]

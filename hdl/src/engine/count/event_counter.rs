@@ -5,8 +5,7 @@
 //!
 //! Latency: 2 clocks to the count.
 
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// A counter of one word; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -1,7 +1,7 @@
 //! The histogram of latencies: the number of insertions in each bucket of latencies.
 //!
-//! 1. The memory has one read port, which serves a latency that comes before it serves `select`. The host does not
-//!    read while points are inserted.
+//! 1. The memory has one read port, which serves a latency that comes before it serves `select`. The host does not read
+//!    while points are inserted.
 //! 2. Latencies come at least three clocks apart.
 //!
 //! Latency: a latency is counted at the fifth edge; its bucket takes three clocks, the read one, the write one. A
@@ -18,9 +18,8 @@
 use super::latency_bucket::LatencyBucket;
 use crate::engine::types::Clocks;
 use crate::leaf::LutMemory;
+use crate::prelude::*;
 use incircle_protocol::LATENCY_BUCKETS;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// Width of a bucket's count in bits: each of up to 16384 points is counted once.
 const COUNT_BITS: usize = 15;

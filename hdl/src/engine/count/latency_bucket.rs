@@ -7,8 +7,7 @@
 //! Latency: 2 clocks, because registers stand behind the step of eight octaves and behind that of four.
 
 use crate::engine::types::Clocks;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The bucket of a latency; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -1,14 +1,13 @@
 //! The latency of each insertion, and the least and the most of all.
 //!
 //! 1. The first latency counts as the least. Any latency counts as the first while the most is 0.
-//! 2. Insertions are finished at least three clocks apart, as each commit writes three records or more. So a latency
-//!    is compared in one clock and stored in the next, while it still stands.
+//! 2. Insertions are finished at least three clocks apart, as each commit writes three records or more. So a latency is
+//!    compared in one clock and stored in the next, while it still stands.
 //!
 //! Latency: 1 clock to `latency`, 3 to `least` and `most`.
 
 use crate::engine::types::Clocks;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// Latencies of insertions; see the top of this file.
 #[derive(LogicBlock, Default)]

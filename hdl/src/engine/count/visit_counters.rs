@@ -4,9 +4,8 @@
 
 use super::event_counter::EventCounter;
 use crate::engine::types::{RingCount, VisitEvents};
+use crate::prelude::*;
 use incircle_protocol::Counter;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// Counts of visits; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -1,15 +1,15 @@
 //! The state of each context, a bit each; and which context holds the priority or asks for a solo insertion.
 //!
-//! 1. There is one priority. A context that aborts while the priority is free takes it, and keeps it until its point
-//!    is finished (L2). No other context ever waits while it holds locks. But contexts that abort and retry in step
-//!    with the waiting one could keep its locks taken for ever. So when the waiting context has met 8 foreign locks,
-//!    no other context retries until its point is finished (L3). New points may start: they are finished, or abort
-//!    and then rest, so some point is always finished in the end.
+//! 1. There is one priority. A context that aborts while the priority is free takes it, and keeps it until its point is
+//!    finished (L2). No other context ever waits while it holds locks. But contexts that abort and retry in step with
+//!    the waiting one could keep its locks taken for ever. So when the waiting context has met 8 foreign locks, no
+//!    other context retries until its point is finished (L3). New points may start: they are finished, or abort and
+//!    then rest, so some point is always finished in the end.
 //! 2. The first context whose list overflows gets its solo insertion first. Another one that
 //!    overflows meanwhile retries later.
-//! 3. All flags of `outcome` come from one visit. A visit that asks for the priority neither waits nor returns it,
-//!    and one that hands over also falls asleep. `outcome` never comes with `solo_ends`, because all visits then
-//!    belong to the solo insertion. All other events may come together.
+//! 3. All flags of `outcome` come from one visit. A visit that asks for the priority neither waits nor returns it, and
+//!    one that hands over also falls asleep. `outcome` never comes with `solo_ends`, because all visits then belong to
+//!    the solo insertion. All other events may come together.
 //!
 //! Latency: 1 clock from an event to `contexts`.
 //!
@@ -33,8 +33,7 @@
 //! ```
 
 use crate::engine::types::{CommitJob, Committed, ContextSet, ContextState, Outcome, Released, Start};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The state of each context; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -1,7 +1,7 @@
 //! Hands points to contexts, and knows when every point is finished or the work has come to a halt.
 //!
-//! 1. The consequences of a visit for its context are noted a clock after the visit completes. From then on the
-//!    context may start again, and its foreign locks count.
+//! 1. The consequences of a visit for its context are noted a clock after the visit completes. From then on the context
+//!    may start again, and its foreign locks count.
 
 use super::context_flags::ContextFlags;
 use super::finished_points::FinishedPoints;
@@ -11,9 +11,8 @@ use crate::engine::types::{
     Clocks, Committed, ContextId, ContextSet, ContextState, Deal, Fetched, Outcome, Released, SeedProgress,
     SoloProgress, SoloStart, Start, VertexId,
 };
+use crate::prelude::*;
 use incircle_protocol::Config;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The dispatcher; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -1,7 +1,7 @@
 //! Whether the context that the pointer has just left is due: for a retry, with a new point, or not yet.
 //!
-//! 1. A context that is asleep and keeps its point is due when it has rested, no commit or release of it is due, and
-//!    no other context is urgent.
+//! 1. A context that is asleep and keeps its point is due when it has rested, no commit or release of it is due, and no
+//!    other context is urgent.
 //! 2. A context that is asleep and has no point is due when its next point has come and it may work.
 //! 3. No context is due while one asks for a solo insertion, because its point must not be tried again meanwhile. If
 //!    only one context works, it may be the context that starts at this edge, and is not due then.

@@ -10,14 +10,14 @@
 //!                       +-----> Watchdog -> stuck
 //! ```
 //! A pointer goes round the contexts, one a clock, and starts the context it stands at if that context is due. The
-//! round costs an insertion a few clocks, but avoids a search over all contexts, which would be the slowest path of
-//! the core. [`Watchdog`] reports `stuck` when no point was finished for `incircle_protocol::patience` clocks;
-//! commands are then answered with `Stuck`.
+//! round costs an insertion a few clocks, but avoids a search over all contexts, which would be the slowest path of the
+//! core. [`Watchdog`] reports `stuck` when no point was finished for `incircle_protocol::patience` clocks; commands are
+//! then answered with `Stuck`.
 //!
 //! Lock rules (see `docs/engine.md`): L1, a context whose attempt aborted rests until a fourth round of the pointer
 //! ([`DueCheck`]); L2, there is one priority ([`ContextFlags`]); L3, when the context with the priority has met 8
-//! foreign locks, no other context retries until its point is finished ([`ContextFlags`], [`DueCheck`]); L8, the
-//! first points go to context 0 ([`DueCheck`], [`Starter`], [`NextPoint`]).
+//! foreign locks, no other context retries until its point is finished ([`ContextFlags`], [`DueCheck`]); L8, the first
+//! points go to context 0 ([`DueCheck`], [`Starter`], [`NextPoint`]).
 
 mod context_flags;
 mod dispatcher;

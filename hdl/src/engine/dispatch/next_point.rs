@@ -4,9 +4,9 @@
 //!    one by one (L8).
 //! 2. From vertex 16 on points are dealt: vertex `j` belongs to context `(j - 16) mod contexts`.
 //! 3. In a batch, context `c` takes vertex `3c + 2` first, the third of its own first triangle, whose first record is
-//!    `4c`. From `dealt_from = 3 contexts` on, vertex `j` belongs to context `(j - dealt_from) mod contexts`. The
-//!    flag `is_seed` says that a vertex is such a third one. The flag is made when the vertex is chosen, a clock
-//!    ahead of the sum: a comparison with `dealt_from` in front of the sum would limit the clock of the core.
+//!    `4c`. From `dealt_from = 3 contexts` on, vertex `j` belongs to context `(j - dealt_from) mod contexts`. The flag
+//!    `is_seed` says that a vertex is such a third one. The flag is made when the vertex is chosen, a clock ahead of
+//!    the sum: a comparison with `dealt_from` in front of the sum would limit the clock of the core.
 //!
 //! Latency: none, the block is combinational.
 

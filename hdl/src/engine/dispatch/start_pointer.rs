@@ -7,8 +7,7 @@
 
 use super::next_point::Pointer;
 use crate::engine::types::ContextId;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The pointer; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -1,20 +1,20 @@
 //! Wakes sleeping contexts: a pointer goes round them, one a clock, and a walk starts where one is due.
 //!
-//! 1. A context starts a retry if it is asleep, keeps its point, has no commit or release due, and has rested.
-//!    Retries start only in every fourth round of the pointer, which spreads them (L1), and not beside a context that
-//!    has waited for long (L3).
+//! 1. A context starts a retry if it is asleep, keeps its point, has no commit or release due, and has rested. Retries
+//!    start only in every fourth round of the pointer, which spreads them (L1), and not beside a context that has
+//!    waited for long (L3).
 //! 2. A context starts with a new point if it is asleep, has none, and its next point has come. Until context 0 has
 //!    taken vertex 16, no other context works, except in a batch (L8).
-//! 3. A start that may find the queue or the port of the vertex memory taken is made in the next clock instead.
-//!    While a start is due, the pointer waits in every clock in which a visit completes, because the visits that
+//! 3. A start that may find the queue or the port of the vertex memory taken is made in the next clock instead. While a
+//!    start is due, the pointer waits in every clock in which a visit completes, because the visits that
 //!    follow are known late.
 //! 4. The walk of a new point starts at the star of the context's last commit, or at the first record of its mesh if
 //!    there was no commit.
 //! 5. A context that asks for a solo insertion starts it when all contexts rest and the pointer has passed it.
 //! 6. In the first round of the pointer no context starts: `PlanTable` writes down the first vertex of each.
-//! 7. The pointer is two contexts ahead. In the clock after it has stood at a context, the next vertex of that
-//!    context is there, and the starter decides whether the context is due and where it would start. In the clock
-//!    after that the context starts, unless the queue is taken.
+//! 7. The pointer is two contexts ahead. In the clock after it has stood at a context, the next vertex of that context
+//!    is there, and the starter decides whether the context is due and where it would start. In the clock after that
+//!    the context starts, unless the queue is taken.
 //!
 //! Latency: 2 clocks from the pointer to `starts`.
 //!
@@ -45,9 +45,8 @@ use crate::engine::types::{
     CONTEXT_BITS, TRIANGLE_BITS, VERTEX_BITS,
 };
 use crate::leaf::LutMemory;
+use crate::prelude::*;
 use incircle_protocol::Config;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 crate::packed! {
     /// A context two clocks behind the pointer, with all that its start needs.

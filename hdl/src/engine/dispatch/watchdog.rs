@@ -13,8 +13,7 @@
 //! ```
 
 use crate::engine::types::Clocks;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The watchdog; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -1,7 +1,7 @@
 //! The records of a first triangle and its ghost triangles.
 //!
-//! Let `a` be the first vertex, `b = a + 1` and `c = a + 2` if the three turn left, otherwise `b` and `c` the other
-//! way round. With ids that count from the first record:
+//! Let `a` be the first vertex, `b = a + 1` and `c = a + 2` if the three turn left, otherwise `b` and `c` the other way
+//! round. With ids that count from the first record:
 //! ```text
 //! id  v              n          behind the hull edge
 //! 0   (a, b, c)      1, 2, 3

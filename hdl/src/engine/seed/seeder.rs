@@ -1,5 +1,4 @@
-//! Makes the first triangle and its ghost triangles from the first three points; in a batch, for
-//! one job after another.
+//! Makes the first triangle and its ghost triangles from the first three points; in a batch, for one job after another.
 //!
 //! 1. The orientation of the three points is found by a *look*, a visit of a provisional record with their vertices.
 //!    The seeder writes that record when the first of the points comes. The look says on which side of the first two
@@ -23,8 +22,7 @@
 
 use super::seed_writes::SeedWrites;
 use crate::engine::types::{Arrival, ContextId, Deal, SeedProgress, TriangleId, Verdict, VertexId, Write};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The first triangles; see the top of this file.
 #[derive(LogicBlock, Default)]

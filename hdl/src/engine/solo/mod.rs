@@ -1,5 +1,4 @@
-//! Solo insertion: a point whose boundary is longer than its list is inserted by flips, while
-//! all other contexts sleep.
+//! Solo insertion: a point whose boundary is longer than its list is inserted by flips, while all other contexts sleep.
 //!
 //! ```text
 //! Dispatcher -> Solo -> visit -> PushPort           SoloSteps: locates the point, then goes round its star

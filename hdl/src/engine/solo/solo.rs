@@ -18,8 +18,8 @@
 //!         p                     p
 //! ```
 //! Latency, with `w` records in the walk and `f` flips: `w + 3 f + 8` visits one after the other (2 mends, `f + 3`
-//! fetches, `2 f + 3` tests), each two clocks longer than the visit latency, and `3 f + 5` clocks besides. A
-//! duplicate takes `w` visits and two clocks.
+//! fetches, `2 f + 3` tests), each two clocks longer than the visit latency, and `3 f + 5` clocks besides. A duplicate
+//! takes `w` visits and two clocks.
 //!
 //! A walk of two records, the split, and the first mend, with visits of two clocks:
 //! ```text
@@ -40,8 +40,7 @@ use super::solo_steps::SoloSteps;
 use crate::engine::types::{
     Completion, ContextId, Push, SoloProgress, SoloStart, TriangleId, Turned, Verdict, VertexId, Write,
 };
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The solo insertion; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -6,8 +6,8 @@
 //!    record the one at work.
 //! 3. A flip turns the two records at the edge into two star records. The first, between `a` and the apex, stays at
 //!    work; the second takes the id of the outside record.
-//! 4. All inputs that change go into registers first, so phases and visits take effect a clock later. The context,
-//!    the new vertex, the next new id and the located record stand still for longer than that.
+//! 4. All inputs that change go into registers first, so phases and visits take effect a clock later. The context, the
+//!    new vertex, the next new id and the located record stand still for longer than that.
 //!
 //! Latency: 2 clocks from a visit that completes to `write`; `bundle`, `tests` and `flips` come a clock earlier.
 
@@ -15,8 +15,7 @@ use super::solo_visit::SoloVisit;
 use super::solo_writes::SoloWrites;
 use super::star_state::{Beyond, SoloPhase, SoloTurn, StarTriangle};
 use crate::engine::types::{Bundle, Completion, ContextId, Slot, TriangleId, Turned, Verdict, VertexId, Visit, Write};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The star; see the top of this file.
 #[derive(LogicBlock, Default)]
@@ -56,8 +55,7 @@ pub struct SoloStar {
     triangle: DFF<StarTriangle>,
     beyond: DFF<Beyond>,
     request: DFF<Write>,
-    /// Two values that stand long before they are asked for: the last star record of the round, and
-    /// the second new id.
+    /// Two values that stand long before they are asked for: the last star record of the round, and the second new id.
     is_last: DFF<Bit>,
     third: DFF<TriangleId>,
     visits: SoloVisit,

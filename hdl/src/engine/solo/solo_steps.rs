@@ -1,8 +1,7 @@
 //! The phases of a solo insertion: it walks to the record of the point, splits it, and goes round the star
 //! by tests and flips.
 //!
-//! 1. `is_locate`, `is_mend`, `is_fetch` and `is_test` wait for a visit. The other phases take a
-//!    clock for each write.
+//! 1. `is_locate`, `is_mend`, `is_fetch` and `is_test` wait for a visit. The other phases take a clock for each write.
 //! 2. The insertion ends when the walk finds that the point equals a corner, or when the last test of a round
 //!    finds its edge final.
 //!
@@ -10,8 +9,7 @@
 
 use super::star_state::SoloPhase;
 use crate::engine::types::{Slot, Verdict};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The state of a solo insertion.
 #[derive(Clone, Copy, Debug, PartialEq, LogicState)]

@@ -23,9 +23,9 @@ crate::packed! {
         pub inners: RingCount,
         /// The number of locks in the log of the context.
         pub logged: LockCount,
-        /// Bit `y` belongs to the cavity record that allocated entry `y` and so brought two new edges: one of them
-        /// has been passed, that is, the record behind the edge has joined the cavity too. The root brought three
-        /// edges and uses bits 0 and 1.
+        /// Bit `y` belongs to the cavity record that allocated entry `y` and so brought two new edges: one of them has
+        /// been passed, that is, the record behind the edge has joined the cavity too. The root brought three edges and
+        /// uses bits 0 and 1.
         pub half_open: Bits<64>,
     }
 
@@ -76,8 +76,8 @@ crate::packed! {
         /// The point equals a vertex, as a visit of the walk or of the root has found.
         pub walk_duplicate: bool,
         pub root_duplicate: bool,
-        /// Visits follow: a revisit, the next step of the walk, the root visit or tests. `may_ask` is known sooner,
-        /// and is high whenever `asks` is.
+        /// Visits follow: a revisit, the next step of the walk, the root visit or tests. `may_ask` is known sooner, and
+        /// is high whenever `asks` is.
         pub asks: bool,
         pub may_ask: bool,
     }
@@ -103,8 +103,8 @@ crate::packed! {
         pub will_retry: bool,
         /// A commit or a release of the context becomes due.
         pub hands_over: bool,
-        /// The context aborts and wants the priority; or meets a foreign lock while it holds the priority (`waits`);
-        /// or has finished its point and returns the priority if it holds it.
+        /// The context aborts and wants the priority; or meets a foreign lock while it holds the priority (`waits`); or
+        /// has finished its point and returns the priority if it holds it.
         pub asks_for_priority: bool,
         pub waits: bool,
         pub returns_priority: bool,

@@ -51,8 +51,8 @@ crate::packed! {
         pub entry: Entry,
         /// The entry is the last one of its ring.
         pub is_last: bool,
-        /// The entry has the same cavity record behind it as the entry before it or as the first entry of its ring,
-        /// so it needs another id for its star record.
+        /// The entry has the same cavity record behind it as the entry before it or as the first entry of its ring, so
+        /// it needs another id for its star record.
         pub shares: bool,
     }
 

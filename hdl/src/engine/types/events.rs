@@ -40,8 +40,7 @@ crate::packed! {
         pub solo_duplicate: bool,
         /// A walk or a root visit finds that the point equals a vertex.
         pub duplicate: bool,
-        /// The engine does this in this clock: issue a visit, write a record or a link, work on a
-        /// commit, clear a lock.
+        /// The engine does this in this clock: issue a visit, write a record or a link, work on a commit, clear a lock.
         pub is_issuing: bool,
         pub is_writing: bool,
         pub is_committing: bool,

@@ -14,8 +14,8 @@ pub const BUNDLE_BITS: usize = Bundle::BITS;
 pub const TURNED_BITS: usize = Turned::BITS;
 
 crate::packed! {
-    /// One visit of a record. A visit of a walk has neither `rotates` nor `locks`, a root visit has `locks` alone,
-    /// and a test has both. Visits of a solo insertion never lock.
+    /// One visit of a record. A visit of a walk has neither `rotates` nor `locks`, a root visit has `locks` alone, and
+    /// a test has both. Visits of a solo insertion never lock.
     pub struct Visit {
         /// The context that the visit belongs to.
         pub context: ContextId,

@@ -1,12 +1,12 @@
-//! The queue of visits: bundles come in, and their visits are issued, one in each clock, first in, first out. A
-//! cavity asks for up to three visits at once, but the read port of the triangle memory serves one a clock.
+//! The queue of visits: bundles come in, and their visits are issued, one in each clock, first in, first out. A cavity
+//! asks for up to three visits at once, but the read port of the triangle memory serves one a clock.
 //!
 //! 1. A bundle takes a clock for each of its one to three visits, the first visit first. `Bundle` says in
 //!    which fields they differ.
 //! 2. The queue has a place for every ring entry of every context. A context never has more visits out than its ring
 //!    has entries, so the queue never overflows.
-//! 3. The id of the record goes to all block RAMs of the triangle memory. Three registers hold the id, so that each
-//!    can stand near the RAMs that it drives. Reset gives each register another value, because synthesis would
+//! 3. The id of the record goes to all block RAMs of the triangle memory. Three registers hold the id, so that each can
+//!    stand near the RAMs that it drives. Reset gives each register another value, because synthesis would
 //!    otherwise merge the three.
 //!
 //! Latency: 1 clock from `push` to `visit` if the queue is empty.
@@ -24,8 +24,7 @@
 
 use crate::engine::types::{Bundle, Push, RecordRead, TriangleId, Visit, BUNDLE_BITS, RING_ADDRESS_BITS};
 use crate::leaf::{DeepFifo, Unpack};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The queue and the issue register; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -1,10 +1,10 @@
 //! The registered push port of the visit pipeline: passes on the visits of whichever block asks for some.
 //!
-//! 1. Three sources ask: the completed visit, a context that starts, and a solo insertion. No context starts in a
-//!    clock in which the completed visit may ask, and a solo insertion asks only while no other context works. So at
-//!    most one source asks at a time.
-//! 2. The bundle is chosen by `may_ask` and `solo_is_at_work`, which are known sooner than `asks` and `valid`. The
-//!    long path of a verdict then ends at one bit instead of a whole bundle.
+//! 1. Three sources ask: the completed visit, a context that starts, and a solo insertion. No context starts in a clock
+//!    in which the completed visit may ask, and a solo insertion asks only while no other context works. So at most one
+//!    source asks at a time.
+//! 2. The bundle is chosen by `may_ask` and `solo_is_at_work`, which are known sooner than `asks` and `valid`. The long
+//!    path of a verdict then ends at one bit instead of a whole bundle.
 //!
 //! Latency: 1 clock from a request to `push`.
 //! ```text
@@ -21,8 +21,7 @@
 //! ```
 
 use crate::engine::types::{Bundle, Follow, Push, Start};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The push port; see the top of this file.
 #[derive(LogicBlock, Default)]

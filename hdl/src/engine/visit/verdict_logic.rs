@@ -1,17 +1,17 @@
 //! The verdict of a visit, from the signs of its predicates: whether the record conflicts with the point, and how
 //! a walk goes on.
 //!
-//! 1. A triangle conflicts with the point if the point lies inside its circumcircle, or on the circle and the tie
-//!    rule says so: the diagonal ends in the lexicographically smallest of the four points.
+//! 1. A triangle conflicts with the point if the point lies inside its circumcircle, or on the circle and the tie rule
+//!    says so: the diagonal ends in the lexicographically smallest of the four points.
 //! 2. A ghost triangle conflicts if the point lies strictly beyond its hull edge, or on the line of the edge and
 //!    strictly between its ends. (Of the two ends, the lower one counts as between. A point there is a duplicate, and
 //!    no cavity is dug for it.)
-//! 3. Corners come as stored, but the record comes rotated. Only the tie rule depends on the rotation: it asks for
-//!    the diagonal that ends in the first corner. The three corners of a triangle differ.
-//! 4. A walk ends in a triangle that has the point on the right of no side, and in a ghost triangle whose hull edge
-//!    has the point strictly beyond. A walk leaves a triangle across the most negative side, the first one of equals,
-//!    and a ghost triangle across its only finite side. Walks do not rotate their records, so the `walk_next` of a
-//!    triangle, `is_left` and `is_straight` count only with slot 0.
+//! 3. Corners come as stored, but the record comes rotated. Only the tie rule depends on the rotation: it asks for the
+//!    diagonal that ends in the first corner. The three corners of a triangle differ.
+//! 4. A walk ends in a triangle that has the point on the right of no side, and in a ghost triangle whose hull edge has
+//!    the point strictly beyond. A walk leaves a triangle across the most negative side, the first one of equals, and a
+//!    ghost triangle across its only finite side. Walks do not rotate their records, so the `walk_next` of a triangle,
+//!    `is_left` and `is_straight` count only with slot 0.
 //!
 //! Latency: none, the block is combinational.
 

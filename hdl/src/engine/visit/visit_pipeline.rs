@@ -2,16 +2,16 @@
 //!
 //! 1. Every visit takes the same time. So visits complete in the order of their issue, at most one a clock.
 //! 2. A visit whose record is written in the clock in which it is issued, or is not written yet, completes with
-//!    `turned.again` (L7). Vertices, neighbours and slot of `turned` and the whole `verdict` are arbitrary then;
-//!    `took` and `foreign` hold all the same.
+//!    `turned.again` (L7). Vertices, neighbours and slot of `turned` and the whole `verdict` are arbitrary then; `took`
+//!    and `foreign` hold all the same.
 //! 3. A visit is judged by the point that its context has 4 clocks after the issue. The user changes that point only
 //!    while none of the context's visits is out.
 //! 4. A read-out never meets a write of its record at one edge, because the user reads only while no
 //!    insertion is at work.
 //!
 //! Latency: `STAGES` = 16 clocks from the issue register to `visit`, 17 from `push`, and 18 round the loop with the
-//! register that drives `push`. The record is there after 2 clocks, the corners after 5, the signs after 15. A
-//! read-out takes 3 clocks from `read` to `read_out`.
+//! register that drives `push`. The record is there after 2 clocks, the corners after 5, the signs after 15. A read-out
+//! takes 3 clocks from `read` to `read_out`.
 //!
 //! A bundle of two visits of context 1, then a read-out:
 //! ```text
@@ -36,9 +36,8 @@ use crate::engine::types::{
 use crate::leaf::{DelayLine, LutMemory, Unpack};
 use crate::mesh::{ReadRecord, TriangleStore, VertexStore};
 use crate::predicate::{Point, POINT_BITS};
+use crate::prelude::*;
 use incircle_protocol::{triangle_id_bits, vertex_id_bits, Config};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The visit pipeline; see the top of this file.
 #[derive(LogicBlock, Default)]
@@ -144,9 +143,8 @@ impl Logic for VisitPipeline {
         self.issue.read.next = self.read.val();
         self.is_issuing.next = self.issue.visit_valid.val();
 
-        // L7: clock 0 marks a record that is not written yet, or is being written at this edge. Columns
-        // of such a record may come from two different triangles, so the step of a walk across such a
-        // record would mean nothing.
+        // L7: clock 0 marks a record that is not written yet, or is being written at this edge. Columns of such a
+        // record may come from two different triangles, so the step of a walk across such a record would mean nothing.
         self.is_written.next = self.issue.visit.val().record < self.records.val();
         self.is_torn.next = self.write.val().valid & (self.write.val().id == self.issue.visit.val().record);
         self.again1.d.next = self.is_torn.val() | (!self.is_written.val());

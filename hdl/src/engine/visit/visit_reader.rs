@@ -4,8 +4,8 @@
 //! 1. With `visit.rotates` the slot whose neighbour is `visit.cavity_record` comes first, otherwise slot 0 does. The
 //!    neighbours of a record differ, so the slot is unique.
 //! 2. `took`, `foreign` and `again` pass unchanged into `turned`.
-//! 3. No logic stands between the output of a memory and the first register, because block RAM lies far from all
-//!    other logic. The corners therefore stay as stored, and `VerdictLogic` allows for the rotation.
+//! 3. No logic stands between the output of a memory and the first register, because block RAM lies far from all other
+//!    logic. The corners therefore stay as stored, and `VerdictLogic` allows for the rotation.
 //!
 //! Latency: see the clocks named at the ports; `LATENCY` is that of the corners.
 //!
@@ -28,8 +28,7 @@
 use crate::engine::types::{Slot, Turned, VertexId, Visit};
 use crate::mesh::{Record, TriangleStore, VertexStore};
 use crate::predicate::Corners;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// Rotation and corners of a record; see the top of this file.
 #[derive(LogicBlock, Default)]

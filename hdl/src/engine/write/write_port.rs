@@ -1,9 +1,9 @@
 //! The registered write port of the triangle memory: takes the request of whichever block makes one.
 //!
 //! 1. Without a request the data are held, and `write.valid` and all `enables` are low.
-//! 2. The enables are registers of their own, so that no logic stands between this port and the many block RAMs that
-//!    it drives. For the same reason the record's id has two copies, each of which may stand near its RAMs. Reset
-//!    gives each copy another value, because synthesis would otherwise merge them.
+//! 2. The enables are registers of their own, so that no logic stands between this port and the many block RAMs that it
+//!    drives. For the same reason the record's id has two copies, each of which may stand near its RAMs. Reset gives
+//!    each copy another value, because synthesis would otherwise merge them.
 //!
 //! Latency: 1 clock; the memory shows the write from the clock after.
 //! ```text
@@ -17,8 +17,7 @@
 //! ```
 
 use crate::engine::types::{Write, WriteEnables};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The write port; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -118,7 +118,9 @@ fn refuse_foreign_rows(bytes: &[u8]) -> Result<(), Failure> {
         let foreign = first.filter(|&word| !goes_on && !KEYWORDS.iter().any(|known| known.as_bytes() == word));
         if let Some(word) = foreign {
             let shown = quoted(word);
-            return Err(Failure::input(format!("row {row}: {shown} does not start a statement of OBJ, such as 'v' or 'f'")));
+            return Err(Failure::input(format!(
+                "row {row}: {shown} does not start a statement of OBJ, such as 'v' or 'f'"
+            )));
         }
         goes_on = content.trim_ascii_end().ends_with(b"\\");
     }

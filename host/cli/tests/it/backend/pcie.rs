@@ -35,7 +35,9 @@ fn cards_that_cannot_be_had_end_with_exit_code_4() {
     for name in ["xdma0_h2c_0", "xdma0_c2h_0", "xdma0_user"] {
         scratch.write(name, "");
     }
-    scratch.run("info --backend pcie:.").fails(5, &["the reading of a register failed", "the file ends before this register"]);
+    scratch
+        .run("info --backend pcie:.")
+        .fails(5, &["the reading of a register failed", "the file ends before this register"]);
     scratch.write("xdma0_user", "none".repeat(64));
     scratch.run("info --backend pcie:.").fails(4, &["begin with 0x656e6f6e", "choose another card"]);
 }
