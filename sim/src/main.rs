@@ -37,6 +37,7 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Task {
     /// Put a board behind a pseudo-terminal, until SIGTERM or SIGINT ends the program.
+    #[command(after_help = "Example:\n  incircle-sim serve --link /tmp/board")]
     Serve {
         /// Symbolic link to make, which leads to the terminal.
         #[arg(long, value_name = "PATH")]
@@ -55,6 +56,7 @@ enum Task {
         slow: Option<u32>,
     },
     /// Put the files of a PCIe card into a directory, until SIGTERM or SIGINT ends the program.
+    #[command(after_help = "Example:\n  incircle-sim serve-pcie --dir /tmp/card")]
     ServePcie {
         /// Directory for the files; made if it does not exist.
         #[arg(long, value_name = "DIR")]
