@@ -150,7 +150,7 @@ fn attempts_drain_before_they_release() {
 
 /// L1: who has aborted rests before it tries again. No mesh and no end depends on that, since others yield to the one that waits.
 #[test]
-fn aborted_attempts_back_off() {
+fn aborted_attempts_rest() {
     let jobs = Jobs { contexts: 16, ..CROWD };
     assert!(differ(&jobs.cycles(Defect::NeverRests)));
 }
