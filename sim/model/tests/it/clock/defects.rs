@@ -152,7 +152,7 @@ fn attempts_drain_before_they_release() {
 /// L1: a context that has aborted rests before it tries again. No mesh and no termination depends on that, because the
 /// other contexts yield to the one with the priority.
 #[test]
-fn aborted_attempts_back_off() {
+fn aborted_attempts_rest() {
     let jobs = Jobs { contexts: 16, ..CROWD };
     assert!(differ(&jobs.cycles(Defect::NeverRests)));
 }

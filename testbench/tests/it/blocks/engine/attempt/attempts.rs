@@ -258,7 +258,7 @@ impl Rig {
             ("looks again while busy", outcome.revisit && !done.visit.locks && !done.lock.again),
             ("aborts at a root", outcome.aborts && is_root),
             ("aborts at a test", outcome.aborts && done.visit.rotates),
-            ("takes the visit", outcome.asks_for_priority && self.priority_context.is_none()),
+            ("takes the priority", outcome.asks_for_priority && self.priority_context.is_none()),
             ("locks while it drains", done.lock.took && outcome.entry.is_none() && outcome.push.is_none() && !is_root),
             ("outcome_overflows", outcome.overflows),
             ("duplicates of walks", outcome.duplicate && !is_root),

@@ -461,12 +461,12 @@ fn visits(name: &str, config: Config) {
 
 #[test]
 fn visit_pipeline_of_a_tiny_core() {
-    visits("completion_pipeline_tiny", TINY);
+    visits("visit_pipeline_tiny", TINY);
 }
 
 #[test]
 fn visit_pipeline_of_a_small_core() {
-    visits("completion_pipeline_small", SMALL);
+    visits("visit_pipeline_small", SMALL);
 }
 
 #[test]
@@ -484,5 +484,5 @@ fn visit_pipeline_shows_the_wave_of_its_header() {
         ("read_done", "read_out_valid", 0, 1, When::Always),
     ];
     let pipeline = VisitPipeline::new(TINY);
-    draw("completion_pipeline_tiny", pipeline, &stimuli, 24, &lanes).assert_drawn_in("completion_pipeline");
+    draw("visit_pipeline_tiny", pipeline, &stimuli, 24, &lanes).assert_drawn_in("visit_pipeline");
 }
