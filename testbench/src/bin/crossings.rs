@@ -1,5 +1,5 @@
-//! Lists what crosses between the two clocks of a core behind a stream link. The exit code is 0 only if all of it goes through synchronisers and the
-//! FIFOs' memories.
+//! Lists what crosses between the two clocks of a core behind a stream link. The exit code is 0 only if every crossing
+//! goes through a synchroniser or the memory of a FIFO.
 
 use std::error::Error;
 use std::process::ExitCode;

@@ -1,4 +1,5 @@
-//! What the driver of PCIe cards costs a point, against a card that does nothing: in memory, and through the files of a directory.
+//! Measures what the driver of PCIe cards costs for each point, against a card that does nothing: in memory, and
+//! through the files of a directory.
 
 use std::error::Error;
 
@@ -39,7 +40,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("{}", serde_json::Value::Array(found.iter().map(entry).collect()));
         return Ok(());
     }
-    println!("{n} points a job, {jobs} jobs, nanoseconds a point");
+    println!("{jobs} jobs of {n} points, nanoseconds per point");
     println!("{:8} {:10} {:>8} {:>8} {:>8}", "way", "read-out", "best", "median", "target");
     for (way, read_out, cost, target) in found {
         println!("{way:8} {read_out:10} {:8.1} {:8.1} {target:8.0}", cost.best, cost.median);
