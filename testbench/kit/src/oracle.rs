@@ -65,7 +65,7 @@ mod tests {
     fn four_points_of_a_square_are_cut_by_the_tie_rule() {
         // (0, 0) is lowered, so the circles of both triangles at (0, 0) stay empty: the diagonal starts there.
         assert_eq!(delaunay(&[[0, 0], [1, 0], [1, 1], [0, 1]]), [[0, 1, 2], [0, 2, 3]]);
-        // The same square in another order.
+        // Points in another order: the places in the answer change, the diagonal stays.
         assert_eq!(delaunay(&[[1, 1], [0, 1], [0, 0], [1, 0]]), [[0, 1, 2], [0, 2, 3]]);
     }
 
@@ -87,7 +87,7 @@ mod tests {
         let last = (1 << 31) - 1;
         let corners = [[0, 0], [last, 0], [last, last], [0, last]];
         assert_eq!(delaunay(&corners), [[0, 1, 2], [0, 2, 3]]);
-        // One grid step inside the circle of the others: no tie any more.
+        // One grid step inside the circle of the others there is no tie any more.
         let inside = [[1, 1], [last, 0], [last, last], [0, last]];
         assert_eq!(delaunay(&inside), [[0, 1, 2], [0, 2, 3]]);
         assert!(conflicts(inside[1], inside[2], inside[3], inside[0]));
