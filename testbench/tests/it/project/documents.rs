@@ -44,7 +44,7 @@ fn links(text: &str) -> Vec<&str> {
         .collect()
 }
 
-/// The name under which a heading of this document is linked to.
+/// Names under which the headings of this document can be linked to.
 fn anchors(text: &str) -> BTreeSet<String> {
     text.lines()
         .filter(|line| line.starts_with('#'))

@@ -17,7 +17,7 @@ const HOPS: u32 = 16;
 enum Meaning {
     /// A module of the crate.
     Module(Segments),
-    /// An item of the module asked.
+    /// An item of that module.
     Item,
     /// An item that another path names, seen from that module; true if the module hands it on.
     Other(Segments, bool),
