@@ -15,7 +15,7 @@ const LIMIT: Duration = Duration::from_secs(60);
 /// Bits of a beat of the stream.
 const BEAT_BITS: u32 = 128;
 
-/// How the driver reaches the card.
+/// The way in which the driver reaches the card.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Way {
     /// Through calls within the memory of the process.
@@ -63,7 +63,7 @@ pub enum DriverCostError {
 /// Jobs whose time is measured.
 #[derive(Clone, Copy, Debug)]
 pub struct Jobs {
-    /// Number of jobs.
+    /// Number of jobs to run.
     pub count: usize,
     /// Points of each job.
     pub points: u32,

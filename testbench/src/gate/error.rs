@@ -8,7 +8,7 @@ pub enum GateError {
     Missing {
         /// Name of the program.
         tool: &'static str,
-        /// The system's reason.
+        /// The reason that the system gives.
         source: std::io::Error,
     },
     /// The tool ended with an error.
@@ -38,7 +38,7 @@ pub enum GateError {
         tool: &'static str,
         /// Name of the top module.
         top: String,
-        /// What is wrong with the report.
+        /// The fault of the report.
         reason: String,
     },
     /// The scratch folder cannot be used.

@@ -31,7 +31,7 @@ pub struct Cells {
     pub carry: u64,
     /// Memories of 16 x 4 bits. Each takes two look-up tables, and two more that address them.
     pub distributed_ram: u64,
-    /// Flip-flops.
+    /// Flip-flops of one bit.
     pub flip_flops: u64,
     /// Multipliers of 18 x 18 bits.
     pub multipliers: u64,
@@ -91,7 +91,7 @@ pub struct ArtixCells {
     pub luts: u64,
     /// Carry cells of four bits.
     pub carry: u64,
-    /// Flip-flops.
+    /// Flip-flops of one bit.
     pub flip_flops: u64,
     /// Block memories of 18 kbit; one of 36 kbit counts as two.
     pub block_ram: u64,

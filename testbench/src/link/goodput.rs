@@ -30,7 +30,7 @@ pub enum Way {
     Records,
 }
 
-/// One measurement.
+/// Measurement of one direction at one rate.
 #[derive(Clone, Copy, Debug)]
 pub struct Goodput {
     /// Rate of the line in bits per second.

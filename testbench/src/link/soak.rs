@@ -33,7 +33,7 @@ pub struct Soak {
     pub faults: FaultSpec,
     /// Rate of the line in bits per second.
     pub rate: u32,
-    /// Number of jobs.
+    /// Number of jobs to run.
     pub jobs: u64,
     /// Largest number of points of a job.
     pub points: usize,

@@ -101,7 +101,7 @@ impl Lockstep {
     /// Runs a job to its last answer word, and returns all answer words.
     ///
     /// # Errors
-    /// The first mismatch.
+    /// The first mismatch between core and model.
     ///
     /// # Panics
     /// Panics if the job takes more clocks than any job of its size can.

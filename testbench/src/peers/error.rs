@@ -14,7 +14,7 @@ pub enum PeerError {
     Peer {
         /// Name of the peer.
         peer: &'static str,
-        /// What happened, in words.
+        /// The event in words.
         reason: String,
     },
     /// The results cannot be printed.

@@ -94,7 +94,7 @@ impl Contestant for Spade {
     }
 }
 
-/// The library `delaunator`.
+/// The library `delaunator`, by its one function.
 struct Delaunator;
 
 impl Contestant for Delaunator {

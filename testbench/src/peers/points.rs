@@ -15,7 +15,7 @@ const AIRPORTS_NAME: &str = "airports";
 /// A set of points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Set {
-    /// A generated set.
+    /// A set that the kit generates.
     Distribution(Distribution),
     /// The airports of the world, as many as the list has.
     Airports,

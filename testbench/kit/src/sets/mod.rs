@@ -30,21 +30,21 @@ pub enum Distribution {
     Line,
     /// A chequered board, 7/8 of the points on black squares.
     Checkers,
-    /// A square lattice.
+    /// Points of a square lattice.
     Lattice,
     /// A square lattice, turned by an exact rotation.
     RotatedLattice,
-    /// Near a circle.
+    /// Points close to a circle.
     Circle,
-    /// Gaussian clusters.
+    /// Points in Gaussian clusters.
     Clusters,
-    /// On a parabola.
+    /// Points on a parabola.
     Parabola,
-    /// The same, with the vertex where a Hilbert curve ends.
+    /// The parabola mirrored, with the vertex where a Hilbert curve ends.
     ParabolaInward,
     /// Two convex chains that face each other.
     TwoChains,
-    /// On a spiral.
+    /// Points on a spiral.
     Spiral,
     /// All points of a small box, each about four times.
     Box,
@@ -83,7 +83,7 @@ impl Distribution {
     /// The five distributions of the literature.
     pub const LITERATURE: [Self; 5] = [Self::Uniform, Self::Normal, Self::Kuzmin, Self::Line, Self::Checkers];
 
-    /// All distributions.
+    /// Returns all distributions.
     pub fn all() -> &'static [Self] {
         &Self::ALL
     }

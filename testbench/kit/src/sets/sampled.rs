@@ -1,9 +1,9 @@
 //! Sets that are samples of a distribution.
 //!
 //! The first five are those of G. E. Blelloch, G. L. Miller, D. Talmor, "Developing a practical projection-based
-//! parallel Delaunay algorithm", SCG 1996 (uniform, normal, Kuzmin, line singularity), and of K. Buchin, "Constructing
-//! Delaunay triangulations along space-filling curves", ESA 2009, with O. Schrijvers, F. van Bommel, K. Buchin, EuroCG
-//! 2012 (checkers).
+//! parallel Delaunay algorithm", SCG 1996 (uniform, normal, Kuzmin, line singularity), and of K. Buchin,
+//! "Constructing Delaunay triangulations along space-filling curves", ESA 2009, and O. Schrijvers, F. van
+//! Bommel, K. Buchin, EuroCG 2012 (checkers).
 
 use super::grid::{room, Grid, Points};
 use crate::random::SplitMix64;
@@ -26,8 +26,8 @@ pub fn uniform(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     repeat(n, || Some(anywhere(grid, random)))
 }
 
-/// Independent Gaussian coordinates around the centre; the sides are four standard deviations away. Points outside
-/// are drawn anew.
+/// Independent Gaussian coordinates around the centre; the sides are four standard deviations away.
+/// A point outside is drawn anew.
 pub fn normal(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     let deviation = grid.half() / NORMAL_DEVIATIONS;
     repeat(n, || {
@@ -75,8 +75,8 @@ pub fn checkers(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     repeat(n, || Some(one(random)))
 }
 
-/// The grid points next to random places of the circle that touches the sides: nearly cocircular, so `incircle` is near
-/// zero everywhere.
+/// The grid points next to random places of the circle that touches the sides: they are nearly cocircular,
+/// so `incircle` is near zero everywhere.
 pub fn circle(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     let centre = grid.half() - 0.5;
     let one = |random: &mut SplitMix64| {

@@ -33,33 +33,33 @@ pub enum MapError {
     /// The addresses form no range.
     #[error("{size} bytes at {address:#x} are no range of addresses: map at least a byte, and at most up to 2^64 - 1")]
     Range {
-        /// First address.
+        /// First address of the range.
         address: u64,
-        /// Number of bytes.
+        /// Number of bytes in the range.
         size: u64,
     },
     /// A part of the range is mapped already.
     #[error("{size} bytes at {address:#x} overlap what is mapped: unmap that first")]
     Overlaps {
-        /// First address.
+        /// First address of the range.
         address: u64,
-        /// Number of bytes.
+        /// Number of bytes in the range.
         size: u64,
     },
     /// The range is not a mapping.
     #[error("{size} bytes at {address:#x} are no mapping: unmap what was mapped as a whole")]
     NotMapped {
-        /// First address.
+        /// First address of the range.
         address: u64,
-        /// Number of bytes.
+        /// Number of bytes in the range.
         size: u64,
     },
     /// The system refuses the mapping.
     #[error("the memory at {address:#x} cannot be mapped: {source}: check offset and size of its file")]
     System {
-        /// First address.
+        /// First address of the memory.
         address: u64,
-        /// The system's reason.
+        /// The reason that the system gives.
         source: vm_memory::mmap::MmapRegionError,
     },
 }
@@ -136,7 +136,7 @@ impl HostMemory {
         Ok(())
     }
 
-    /// Unmaps everything.
+    /// Unmaps all of the memory.
     pub fn clear(&mut self) {
         self.mappings.clear();
     }

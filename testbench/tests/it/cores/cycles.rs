@@ -27,7 +27,8 @@ fn all_tables_are_up_to_date() {
     let differs = counted.lines().zip(held.lines()).find(|(counted, held)| counted != held);
     assert!(
         counted == held,
-        "cycles.md differs ({differs:?}, counted and held): run `cargo run --release -p incircle-testbench --bin cycles`"
+        "cycles.md differs ({differs:?}, counted and held): \
+         run `cargo run --release -p incircle-testbench --bin cycles`"
     );
 }
 

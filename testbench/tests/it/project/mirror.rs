@@ -1,5 +1,5 @@
-//! Checks that the tests of blocks mirror `hdl/src`: the test of `engine/visit/issue.rs` is
-//! `blocks/engine/visit/issue.rs`.
+//! Checks that the tests of blocks mirror `hdl/src`: the file `engine/visit/issue.rs`
+//! there has its test in `blocks/engine/visit/issue.rs`.
 
 use std::collections::BTreeSet;
 use std::fs;

@@ -333,7 +333,12 @@ fn width_of(layout: &TypeDescriptor) -> u32 {
 /// of an interface is written with a dot: `command.valid`. Generic parameters stand in brackets before the type,
 /// or `[]` if there are none.
 macro_rules! named_ports {
-    ([$($generics:tt)*] $block:ty, [$($input:ident $(. $inner:ident)*),*], [$($output:ident $(. $outer:ident)*),*] $(, $clock:ident)?) => {
+    (
+        [$($generics:tt)*] $block:ty,
+        [$($input:ident $(. $inner:ident)*),*],
+        [$($output:ident $(. $outer:ident)*),*]
+        $(, $clock:ident)?
+    ) => {
         impl<$($generics)*> $crate::rig::block_ports::NamedPorts for $block {
             fn set(&mut self, port: &str, number: $crate::rig::block_ports::Whole) {
                 use $crate::rig::block_ports::PortValue;
@@ -347,15 +352,21 @@ macro_rules! named_ports {
             fn get(&self, port: &str) -> $crate::rig::block_ports::Whole {
                 use $crate::rig::block_ports::PortValue;
                 match port {
-                    $(concat!(stringify!($output) $(, "_", stringify!($outer))*) => self.$output$(.$outer)*.val().to_number(),)*
+                    $(concat!(stringify!($output) $(, "_", stringify!($outer))*) => {
+                        self.$output$(.$outer)*.val().to_number()
+                    })*
                     _ => panic!("no output {port}"),
                 }
             }
             fn layout(&self, port: &str) -> Option<rust_hdl_core::prelude::TypeDescriptor> {
                 use $crate::rig::block_ports::layout_of;
                 match port {
-                    $(concat!(stringify!($input) $(, "_", stringify!($inner))*) => layout_of(&self.$input$(.$inner)*),)*
-                    $(concat!(stringify!($output) $(, "_", stringify!($outer))*) => layout_of(&self.$output$(.$outer)*),)*
+                    $(concat!(stringify!($input) $(, "_", stringify!($inner))*) => {
+                        layout_of(&self.$input$(.$inner)*)
+                    })*
+                    $(concat!(stringify!($output) $(, "_", stringify!($outer))*) => {
+                        layout_of(&self.$output$(.$outer)*)
+                    })*
                     _ => None,
                 }
             }

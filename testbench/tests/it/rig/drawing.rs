@@ -13,7 +13,7 @@ pub enum When {
     Always,
     /// Clocks in which bit 0 of this port is set.
     If(&'static str),
-    /// These clocks only.
+    /// These clocks and no others.
     At(&'static [usize]),
 }
 

@@ -31,7 +31,7 @@ pub fn opened(files: CardFiles) -> Result<Device, Error> {
     Ok(Device::from_transport(Box::new(transport)))
 }
 
-/// Runs a job.
+/// Runs a job on the device.
 pub fn triangulate(device: &mut Device, points: &[Point]) -> Result<Mesh, Error> {
     let options = Options::default().timeout(LIMIT);
     device.session_within(LIMIT)?.triangulate_with(points, &options).map(|solution| solution.mesh)

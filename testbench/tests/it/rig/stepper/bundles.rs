@@ -162,7 +162,7 @@ impl Visit {
     }
 }
 
-/// What a visit found at the lock of its record.
+/// The finding of a visit at the lock of its record.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LockFinding {
     pub took: bool,
@@ -177,12 +177,12 @@ pub fn turned(v: [u64; 3], n: [u64; 3], slot: u64, lock: LockFinding, infinite: 
     pack(TURNED, [v0, v1, v2, n0, n1, n2, slot, took, foreign, again, i0, i1, i2])
 }
 
-/// Packs a `CommitJob`.
+/// Packs a `CommitJob` from its fields.
 pub fn commit_job(context: u64, vertex: u64, inners: u64, locks: u64, since: u64) -> u128 {
     pack(COMMIT_JOB, [context, vertex, inners, locks, since])
 }
 
-/// Packs a `ReleaseJob`.
+/// Packs a `ReleaseJob` from its fields.
 pub fn release_job(context: u64, locks: u64) -> u128 {
     pack(RELEASE_JOB, [context, locks])
 }
