@@ -1,5 +1,5 @@
-//! Checks that the documents keep up with the project: links lead somewhere, the library's example is the compiled one,
-//! and the table of dependencies agrees with cargo.
+//! The documents keep up with the project: links lead somewhere, the library's example is the compiled one, and the table of
+//! dependencies is what cargo says.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ fn documents() -> BTreeSet<String> {
         let entries = std::fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
         for path in entries.map(|entry| entry.expect("an entry").path()) {
             let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            // Folders of git and of builds are not part of the repository.
+            // Folders of git and of builds are none of the repository's.
             if path.is_dir() && !path.is_symlink() && !name.starts_with('.') && !path.join("CACHEDIR.TAG").exists() {
                 look_into(&path, documents);
             } else if name.ends_with(".md") {
@@ -34,7 +34,7 @@ fn read(path: &str) -> String {
     std::fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
-/// Targets of all `[...](...)` in a document, without those on the web.
+/// The targets of all `[...](...)` in a document, without those on the web.
 fn links(text: &str) -> Vec<&str> {
     text.split("](")
         .skip(1)
@@ -44,7 +44,7 @@ fn links(text: &str) -> Vec<&str> {
         .collect()
 }
 
-/// Names under which the headings of this document can be linked to.
+/// The name under which a heading of this document is linked to.
 fn anchors(text: &str) -> BTreeSet<String> {
     text.lines()
         .filter(|line| line.starts_with('#'))
@@ -121,7 +121,7 @@ fn metadata() -> Metadata {
         .expect("cargo metadata")
 }
 
-/// `MIT/Apache-2.0` and `Apache-2.0 OR MIT` are the same licence.
+/// `MIT/Apache-2.0` and `Apache-2.0 OR MIT` are the same.
 fn licence(text: &str) -> BTreeSet<String> {
     let parts = text.split(['/', ' ']).filter(|part| !part.is_empty() && *part != "OR");
     parts.map(str::to_owned).collect()

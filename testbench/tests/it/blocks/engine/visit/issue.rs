@@ -28,8 +28,8 @@ impl Queue {
     }
 
     fn push(&mut self, bundle: u128) {
-        let [is_pair, is_triple, context, rotates, locks, entry, after, rest @ ..] = unpack(BUNDLE, bundle);
-        let [cavity_entry, cavity_record, record, after2, record2, record3] = rest;
+        let [is_pair, is_triple, context, rotates, locks, entry, after, ..] = unpack(BUNDLE, bundle);
+        let [.., cavity_entry, cavity_record, record, after2, record2, record3] = unpack(BUNDLE, bundle);
         let visits = [(entry, after, record), (after, after2, record2), (after2, 0, record3)];
         let last = (is_pair + is_triple) as usize;
         for (place, (entry, after, record)) in visits.into_iter().enumerate().take(last + 1) {
