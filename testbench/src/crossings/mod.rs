@@ -96,6 +96,7 @@ struct Seen {
     memories: bool,
 }
 
+/// The clocks on which a bit depends, each with the kinds of its sources.
 type Sources = BTreeMap<String, Seen>;
 
 /// The search through a netlist, with the sources of every bit seen so far in `cones`.

@@ -15,8 +15,8 @@ fn folder(name: &str) -> PathBuf {
     folder
 }
 
-/// Runs `board colorlight-i5` with a tiny core and more options. All seeds reach `fmax`, whatever the clock; `fault`
-/// names the fault of a tool.
+/// Runs `board colorlight-i5` with a tiny core and more options. `fmax` lists the clocks that the seeds reach, in their
+/// order; `fault` names the fault of a tool.
 fn build(out: &Path, options: &[&str], fmax: &str, fault: &str) -> Output {
     let stand_ins = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join("stand_ins");
     let path = std::env::var("PATH").unwrap_or_default();

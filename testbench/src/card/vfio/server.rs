@@ -29,6 +29,7 @@ pub struct VfioCard {
     shared: Arc<Shared>,
 }
 
+/// The card with its bridge, as its own thread and the server share it.
 struct Shared {
     bridge: Mutex<Bridge>,
     changed: Condvar,
