@@ -1,4 +1,4 @@
-//! The blocks that carry insertions through their phases, and the command streams.
+//! Blocks that take insertions through their phases, and blocks of the command streams.
 
 use incircle_protocol::{Config, LARGE, MAX_RING, SMALL, TINY};
 
@@ -13,9 +13,9 @@ use incircle_hdl::engine::{
     Release, RingReader, Seeder, Solo, SoloVisit, SoloWrites, StarId, Starter, VisitCase, Watchdog, WideCounter,
 };
 
-/// The name of each root module, and its Verilog.
+/// Name of the root module and Verilog of each block.
 pub(crate) fn blocks() -> Vec<(String, String)> {
-    // `context` and `release` alone are words of SystemVerilog.
+    // The words `context` and `release` are keywords of SystemVerilog and cannot be names of modules.
     let longest_list = Config { ring: MAX_RING, contexts: 24, ..TINY };
     vec![
         block(Attempts::new(SMALL), "attempts_small"),

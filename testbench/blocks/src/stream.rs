@@ -1,4 +1,4 @@
-//! The blocks of the stream link, and the whole of it.
+//! The blocks of the stream link, and the whole link.
 
 use incircle_protocol::SMALL;
 
@@ -11,7 +11,7 @@ use incircle_hdl::stream::{
 };
 use rust_hdl_core::prelude::*;
 
-/// The name of each root module, and its Verilog.
+/// Name of the root module and Verilog of each block.
 pub(crate) fn blocks() -> Vec<(String, String)> {
     let link = |name: &str, beat_bits| named(name, stream_link(SMALL, beat_bits, name));
     vec![

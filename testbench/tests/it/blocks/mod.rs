@@ -1,4 +1,4 @@
-//! Each block by itself: its Rust behaviour, its Verilog and plain code say the same.
+//! Tests of each block by itself: its Rust behaviour, its Verilog and plain code must agree.
 
 mod commands;
 mod engine;

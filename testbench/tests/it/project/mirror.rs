@@ -1,10 +1,12 @@
-//! The tests of blocks mirror `hdl/src`: the test of `engine/visit/issue.rs` is `blocks/engine/visit/issue.rs`.
+//! Checks that the tests of blocks mirror `hdl/src`: the file `engine/visit/issue.rs`
+//! there has its test in `blocks/engine/visit/issue.rs`.
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Blocks without a file of their own: the test that runs the block, from `tests/it`, and why that is enough.
+/// Blocks without a test file of their own: the test that runs the block, by its path from `tests/it`,
+/// and why that test is enough.
 const ELSEWHERE: [(&str, &str, &str); 26] = [
     (
         "engine/attempt/aftermath",
@@ -38,7 +40,7 @@ const ELSEWHERE: [(&str, &str, &str); 26] = [
     ("top/stream_top", "links/stream_top", "the device at its ports"),
 ];
 
-/// Files that hold more than one block to something.
+/// Test files of more than one block.
 const MORE: [&str; 2] = ["leaf/cells", "serial/serial_link_faults"];
 
 fn root() -> PathBuf {
@@ -49,7 +51,7 @@ fn text(path: &Path) -> String {
     fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// The Rust files below a folder for which this holds, as paths from there without their ending.
+/// Rust files below a folder for whose text `counts` holds, as paths from that folder without their ending.
 fn files(folder: &Path, counts: fn(&str) -> bool) -> BTreeSet<String> {
     let mut found = BTreeSet::new();
     let mut open = vec![folder.to_path_buf()];

@@ -1,7 +1,7 @@
-//! Cavities that several contexts grow in one triangulation, as sets of triangles.
+//! A reference for cavities that several contexts grow in one triangulation, as sets of triangles.
 //!
-//! It knows no entry counts and no bits of half-open triangles: a visit is an element of what is out, a triangle of the cavity
-//! has a number of edges that nobody has passed, and the list of locks is a list.
+//! The reference has no counts of entries and no bits of half-open triangles. A visit is an element of a set, a
+//! triangle of the cavity has a number of edges that no conflict has passed, and the list of locks is a list.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,7 +9,7 @@ use crate::rig::flip_mesh::{Mesh, Point, Record};
 use crate::rig::stepper::bundles::{commit_job, release_job, Edge, Finding, LockFinding, Visit};
 use incircle_testkit::SplitMix64;
 
-/// A point to insert: where it is, the triangles that hold it, and those that it removes.
+/// A point to insert: its place, the triangles that hold it, and the triangles that it removes.
 #[derive(Clone, Debug)]
 pub struct Target {
     pub point: Point,
@@ -23,7 +23,7 @@ pub struct Ground {
     records: BTreeMap<u64, Record>,
 }
 
-/// Spreads numbers over 15 bits, no two to the same.
+/// Spreads numbers over 15 bits, no two to the same value.
 pub fn spread(number: u64) -> u64 {
     number * 0x5a6d % (1 << 15)
 }
@@ -42,7 +42,7 @@ impl Ground {
         Self { records: records.collect(), mesh }
     }
 
-    /// A point to insert, if it lies on no circle of the triangulation or on one of its points.
+    /// Returns the point as one to insert if it lies on no circle of the triangulation, or on one of its points.
     pub fn target(&self, point: Point) -> Option<Target> {
         let conflicts = |record: &Record| [0, 1, 2].map(|slot| self.mesh.conflicts(record.turned(slot).v, point));
         let is_decided = |record: &Record| conflicts(record).iter().all(|conflict| *conflict == conflicts(record)[0]);
@@ -54,19 +54,19 @@ impl Ground {
         })
     }
 
-    /// The record of a visit, as it is turned, and by how much.
+    /// Returns the record of a visit as it is turned, and the slot that comes first.
     pub fn read(&self, visit: &Visit) -> (Record, u64) {
         let record = self.records[&visit.record];
         let slot = if visit.rotates { record.slot_to(visit.cavity_record) } else { 0 };
         (record.turned(slot), slot as u64)
     }
 
-    /// Any triangle.
+    /// Returns a random triangle.
     pub fn somewhere(&self, random: &mut SplitMix64) -> u64 {
         spread(random.below(self.records.len() as u64))
     }
 
-    /// What a sound core finds out for this point, and a walk that wanders.
+    /// Returns what a sound core finds for this point; a walk may also wander.
     pub fn find(&self, visit: &Visit, target: &Target, random: &mut SplitMix64) -> Finding {
         let (record, _) = self.read(visit);
         let near = target.places[random.below(target.places.len() as u64) as usize];
@@ -82,7 +82,7 @@ impl Ground {
     }
 }
 
-/// A visit that completes: what was read, and what was found out.
+/// A visit that completes, with the record that was read and the result.
 pub struct Completion {
     pub visit: Visit,
     pub record: Record,
@@ -91,7 +91,7 @@ pub struct Completion {
     pub finding: Finding,
 }
 
-/// What the machine around a context is at.
+/// State of the blocks around a context.
 pub struct Around {
     pub seeded: bool,
     pub ring: u64,
@@ -99,10 +99,10 @@ pub struct Around {
     pub is_busy: bool,
 }
 
-/// What must come out.
+/// Outputs that must follow a visit.
 #[derive(Default)]
 pub struct Outcome {
-    /// Visits, and the bundle that asks for them.
+    /// Number of visits that follow, and the bundle that asks for them.
     pub push: Option<(usize, u128)>,
     pub sleeps: bool,
     pub will_retry: bool,
@@ -123,20 +123,20 @@ pub struct Outcome {
     pub root_changed: bool,
 }
 
-/// A cavity that grows.
+/// A cavity as it grows.
 #[derive(Clone, Debug, Default)]
 pub struct Growth {
     pub has_failed: bool,
     /// Locks, in the order in which they were taken.
     pub log: Vec<u64>,
     pub entries: BTreeMap<u64, Edge>,
-    /// The triangles of the cavity, with the edges of each that nobody has passed; the edge by which it was entered does not
-    /// count.
+    /// Triangles of the cavity, each with the number of its edges that no conflict has passed. The edge by which a
+    /// triangle was entered does not count.
     pub closed_edges: BTreeMap<u64, u64>,
     pub inner: Vec<u64>,
 }
 
-/// A context: the point it has, and the visits of it that are out.
+/// A context: its point, and those of its visits that are out.
 #[derive(Clone, Debug, Default)]
 pub struct Context {
     pub index: u64,
@@ -148,7 +148,7 @@ pub struct Context {
 }
 
 impl Context {
-    /// A visit of it completes, and is out no more.
+    /// Completes a visit of the context, which is not out any more.
     pub fn complete(&mut self, done: &Completion, around: &Around) -> Outcome {
         let mut outcome = match (done.visit.rotates, done.visit.locks) {
             (false, false) => self.complete_walk(done, around),
@@ -272,7 +272,7 @@ impl Context {
         outcome
     }
 
-    /// The cavity grows through the edge of a visit.
+    /// Grows the cavity through the edge of a visit.
     fn pass(&mut self, done: &Completion, outcome: &mut Outcome) {
         let visit = done.visit;
         let y = self.growth.closed_edges.len() as u64 + 2;
@@ -303,7 +303,7 @@ impl Context {
 }
 
 impl Growth {
-    /// The ring is that of the cavity, by what the triangulation says alone.
+    /// Checks that the ring is that of the cavity, by the triangulation alone.
     pub fn assert_ring(&self, ground: &Ground, target: &Target) {
         let cavity: BTreeSet<u64> = self.closed_edges.keys().copied().collect();
         assert_eq!(cavity, target.cavity);
@@ -314,7 +314,7 @@ impl Growth {
             let outside = ground.records[&edge.outside_record].turned(edge.slot as usize);
             assert!(!cavity.contains(&edge.outside_record) && cavity.contains(&edge.cavity_record));
             assert_eq!((outside.n[0], spread(outside.v[2])), (edge.cavity_record, edge.first_vertex));
-            // The next edge begins where this one ends.
+            // The next edge begins at the end of this one.
             assert_eq!(self.entries[&edge.after].first_vertex, spread(outside.v[1]));
             place = edge.after;
         }

@@ -1,5 +1,5 @@
-//! `AnswerHead`: Rust, Verilog and the protocol as `incircle-protocol` states it agree, over random commands and counts
-//! of a mesh that change in every clock.
+//! Runs `AnswerHead` in Rust and in Verilog beside the protocol as `incircle-protocol` states it: all three must agree
+//! over random commands, and counts of a mesh that change in every clock.
 
 use crate::rig::answer_words::{commands, Answer, Asked};
 use crate::rig::stepper::{named_ports, Stepper};

@@ -1,5 +1,5 @@
-//! `AnswerWords`: Rust, Verilog and the protocol as `incircle-protocol` states it agree, over random commands and
-//! counts of a mesh that change in every clock.
+//! Runs `AnswerWords` in Rust and in Verilog beside the protocol as `incircle-protocol` states it: all three must agree
+//! over random commands, and counts of a mesh that change in every clock.
 
 use crate::rig::answer_words::{commands, percent, Asked};
 use crate::rig::stepper::{named_ports, Stepper};
@@ -33,7 +33,7 @@ fn answer_words_follow_the_protocol() {
     let mut block = Stepper::new("answer_words", AnswerWords::default(), 1);
     let mut compared = [0; 3];
     for (opcode, _, clocks) in commands(&mut random) {
-        // Counters and buckets come from outside a clock after their index.
+        // Counters and buckets come from outside, a clock after their index.
         let mut asked_before: Vec<(Asked, usize)> = vec![];
         let mut chosen = None;
         for clock in 0..clocks {

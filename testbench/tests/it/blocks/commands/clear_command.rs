@@ -1,4 +1,4 @@
-//! `ClearCommand`: Rust, Verilog and lists of what must happen agree clock by clock.
+//! Runs `ClearCommand` in Rust and in Verilog beside lists of what must happen: all three must agree in every clock.
 
 use crate::rig::stepper::bundles::Deal;
 use crate::rig::stepper::{named_ports, Stepper};
@@ -28,7 +28,7 @@ fn clear_command_is_granted_or_refused() {
         let word = match random.below(3) {
             0 => command_word(Opcode::Insert) | wanted,
             1 => random.next_u64() as u32,
-            // Of the bits between the opcode and the low byte only the lowest counts.
+            // Of the bits between the opcode and the low byte only the lowest counts, so the others are random.
             _ => clear_word(wanted) | (random.below(1 << 16) as u32) << 8,
         };
         let accepts = random.below(2) == 0;

@@ -1,4 +1,4 @@
-//! `CommandGate`: Rust, Verilog and a statement of the rule agree over random inputs.
+//! Runs `CommandGate` in Rust and in Verilog beside a statement of the rule: all three must agree over random inputs.
 
 use crate::rig::stepper::bundles::flip;
 use crate::rig::stepper::{named_ports, Stepper};
@@ -32,7 +32,7 @@ fn command_gate_waits_for_the_point_before_and_the_first_triangle() {
         }
         let word = if flip(&mut random) { random.below(1 << 32) } else { 0 };
         block.set("command_data", word);
-        // Its states in order: a command, two arguments, points, two without words.
+        // States of the gate in their order: a command, two arguments, points, two without words.
         block.set("state", [0, 1 + random.below(2), 3, 4 + random.below(2)][meaning as usize]);
         let is_undecided = start_is_open && !stuck;
         let ready = match meaning {

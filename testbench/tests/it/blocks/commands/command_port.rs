@@ -1,5 +1,5 @@
-//! The command stream: Rust, Verilog and a list of what has been asked for agree clock by clock, crossed with a host that pauses,
-//! an engine and a responder that take their time, and resets.
+//! Runs the command stream in Rust and in Verilog beside a list of the words that are wanted: all three must agree in
+//! every clock, with a host that pauses, an engine and a responder that take their time, and resets.
 
 use std::collections::VecDeque;
 
@@ -16,7 +16,7 @@ named_ports!(
     clock
 );
 
-/// The words of a random command.
+/// Words of a random command.
 fn command(random: &mut SplitMix64) -> Vec<u32> {
     match random.below(14) {
         12 => vec![PADDING; 1 + random.below(3) as usize],
@@ -38,7 +38,7 @@ fn command(random: &mut SplitMix64) -> Vec<u32> {
     }
 }
 
-/// What the last clock showed, for a wave.
+/// Outputs of the last clock, for a wave.
 #[derive(Clone, Copy, Debug, Default)]
 struct Shown {
     ready: bool,
@@ -47,6 +47,7 @@ struct Shown {
     answers: bool,
 }
 
+/// The command port between a host and the surroundings that the test plays.
 struct Rig {
     block: Stepper<CommandPort>,
     random: SplitMix64,
@@ -56,7 +57,7 @@ struct Rig {
     words: VecDeque<u32>,
     is_offered: bool,
     refused: u32,
-    /// Answers that were due while the core was stuck.
+    /// Number of answers that were due while the core was stuck.
     stuck_answers: u32,
     shown: Shown,
 }
@@ -110,7 +111,7 @@ impl Rig {
         self.block.expect("command_ready", ready);
         self.block.set("command_valid", self.is_offered);
         self.block.settle();
-        // It does not wait for `command_valid`.
+        // The port must not wait for `command_valid`.
         self.block.expect("command_ready", ready);
         self.expect();
         let answers = self.reference.answers_now();
@@ -136,7 +137,7 @@ impl Rig {
             ("answer_is_idle", pins.responder_is_idle),
             ("answer_ends", pins.answer_ends),
             ("answer_is_taken", self.around.answer_is_taken),
-            // The wrong way round first: nothing that is looked at then may depend on it.
+            // Wrong values first: no output that is read now may depend on these inputs.
             ("command_valid", !self.is_offered),
         ] {
             self.block.set(port, value);
@@ -176,7 +177,7 @@ impl Rig {
         }
     }
 
-    /// The engine and the responder live through a clock.
+    /// Lets the engine and the responder go on for a clock.
     fn live(&mut self) {
         let around = &mut self.around;
         around.sweeping = around.sweeping.saturating_sub(1);
@@ -199,7 +200,7 @@ impl Rig {
         }
         if self.reference.clears {
             (around.seeded, around.collinear, around.triple_is_in) = (false, false, false);
-            // The histogram is swept.
+            // A clear sweeps the histogram for a number of clocks.
             around.sweeping = self.random.below(20);
         }
     }
@@ -235,7 +236,7 @@ fn command_port_with_a_slower_host_and_a_large_memory() {
     run(16384, 24, 60);
 }
 
-/// An insertion of three points into an empty core.
+/// Inserts three points into an empty core.
 #[test]
 fn command_port_shows_the_wave_of_its_header() {
     let mut rig = Rig::new(Shape { capacity: 8, contexts: 2 });
@@ -246,7 +247,7 @@ fn command_port_shows_the_wave_of_its_header() {
         let sweeps = rig.around.sweeping > 0;
         let offers = !rig.words.is_empty();
         rig.clock(100);
-        // An engine and a responder that are soon done.
+        // The engine and the responder need few clocks here.
         rig.around.busy = rig.around.busy.min(2);
         rig.around.answering = rig.around.answering.min(2);
         let shown = rig.shown;

@@ -1,4 +1,4 @@
-//! The blocks of `hdl/src/commands`.
+//! Tests of the blocks in `hdl/src/commands`.
 
 mod answer_head;
 mod answer_words;

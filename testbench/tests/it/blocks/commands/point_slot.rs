@@ -1,4 +1,4 @@
-//! `PointSlot`: Rust, Verilog and lists of what must happen agree clock by clock.
+//! Runs `PointSlot` in Rust and in Verilog beside lists of what must happen: all three must agree in every clock.
 
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::commands::PointSlot;
@@ -8,7 +8,7 @@ named_ports!(PointSlot, [reset, clears, capacity, engine, taken], [arrival, tall
 
 const CLOCKS: usize = 8000;
 
-/// Points that were stored, in their order, and how many were not.
+/// Points that were stored, in their order, and the number of those that were refused.
 #[derive(Default)]
 struct SlotReference {
     stored: Vec<u64>,
@@ -30,7 +30,7 @@ impl SlotReference {
         }
     }
 
-    /// An edge at which `word` comes and is stored or refused.
+    /// Passes an edge at which `word` comes and is stored or refused.
     fn edge(&mut self, word: Option<u64>, has_room: bool) {
         let stored = word.filter(|_| has_room);
         self.refused += u64::from(self.is_surplus);

@@ -1,4 +1,4 @@
-//! `RecordBuffer`: Rust, Verilog and lists of what must happen agree clock by clock.
+//! Runs `RecordBuffer` in Rust and in Verilog beside lists of what must happen: all three must agree in every clock.
 
 use std::collections::VecDeque;
 
@@ -28,7 +28,7 @@ fn record_buffer_hands_out_three_words_or_all_vertices() {
         let is_whole = words.len() == 3;
         let takes_whole = is_whole && random.below(3) == 0;
         let takes = !words.is_empty() && !takes_whole && random.below(3) != 0;
-        // The next record may come as one is taken whole.
+        // The next record may come at the edge at which the last one is taken whole.
         let comes = (words.is_empty() || takes_whole) && random.below(3) == 0;
         let columns = [(); 6].map(|()| random.below(1 << 15) as u32);
         let was_set = random.below(2) == 0;

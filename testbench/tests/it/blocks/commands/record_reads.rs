@@ -1,5 +1,5 @@
-//! `RecordReads`: Rust, Verilog and the layout that the protocol states agree, crossed with idle, back-pressure and
-//! resets.
+//! Runs `RecordReads` in Rust and in Verilog beside the layout that the protocol states: all three must agree, while
+//! idle clocks, back-pressure and resets come in between.
 
 use std::collections::VecDeque;
 
@@ -84,7 +84,7 @@ fn reads_give_the_words_of_records_or_their_vertices() {
                 assert!(clock < 40_000, "no end");
             }
             if cut < 40_000 {
-                // What was under way is dropped, here and on the way from the memory.
+                // Drops reads that were under way, in the block and on the way from the memory.
                 block.set("runs", false);
                 block.set("read_done", false);
                 block.set("takes", false);

@@ -1,4 +1,4 @@
-//! `RecordWords`: Rust, Verilog and a statement of the rule agree over random inputs.
+//! Runs `RecordWords` in Rust and in Verilog beside a statement of the rule: all three must agree over random inputs.
 
 use crate::rig::stepper::bundles::flip;
 use crate::rig::stepper::{named_ports, Stepper};

@@ -1,5 +1,6 @@
-//! The answer stream: Rust, Verilog and the words that an answer has agree, crossed with idle, back-pressure and resets. What is
-//! offered and not taken must stand still, and the number of words loaded fixes the clock in which an answer ends.
+//! Runs the answer stream in Rust and in Verilog beside the words that an answer has: all three must agree, while idle
+//! clocks, back-pressure and resets come in between. Words on offer must stay until they are taken, and the number of
+//! words loaded fixes the clock in which an answer ends.
 
 use std::collections::VecDeque;
 
@@ -15,22 +16,22 @@ named_ports!(
     clock
 );
 
-/// True that many times in a hundred.
+/// Returns true `times` times in a hundred.
 fn percent(random: &mut SplitMix64, times: u64) -> bool {
     random.below(100) < times
 }
 
-/// A word of 32 bits, from the corners as often as not.
+/// Returns a random word of 32 bits, often one of the extremes.
 fn word(random: &mut SplitMix64) -> u32 {
     [0, 1, u32::MAX, 1 << 31, random.next_u64() as u32, random.below(8) as u32][random.below(6) as usize]
 }
 
-/// What an answer is made of, for the responder.
+/// The parts of an answer that the responder sends.
 #[derive(Default)]
 struct Sent {
     header: u32,
     payload: Vec<u32>,
-    /// First record and number of records, for a read; the payload then holds their words, or their vertices alone.
+    /// For a read, its first record and number of records; the payload then has their words, or their vertices alone.
     range: Option<(u64, u64)>,
     is_packed: bool,
 }
@@ -49,7 +50,7 @@ impl Sent {
         }
     }
 
-    /// A read of whole records.
+    /// Makes the answer to a read of whole records.
     fn read(header: u32, first: u64, count: u64) -> Self {
         let words = |id| {
             let (v, n, lock) = columns(id);
@@ -59,7 +60,7 @@ impl Sent {
         Self { header, payload, range: Some((first, count)), is_packed: false }
     }
 
-    /// A read of their vertices.
+    /// Makes the answer to a read of vertices.
     fn triangles(header: u32, first: u64, count: u64) -> Self {
         let length = LAYOUT.triangles_words(count as u32).expect("few records");
         let mut payload = vec![0; length as usize];
@@ -73,7 +74,8 @@ impl Sent {
         [&[self.header, self.payload.len() as u32], &self.payload[..]].concat()
     }
 
-    /// Words of its last beat: header and length are one, of vertices all have two, but for a word that is left.
+    /// Number of words in the last beat. Header and length share a beat; beats of vertices have two words,
+    /// except one that is left over.
     fn last_beat(&self) -> usize {
         match self.payload.len() {
             0 => 2,
@@ -83,10 +85,10 @@ impl Sent {
     }
 }
 
-/// The layout of the largest core.
+/// Layout of the words of the largest core.
 const LAYOUT: Layout = Layout::of(CORE_COORD_BITS, 1 << 14);
 
-/// A record whose columns tell its id.
+/// A record whose columns are made from its id.
 fn columns(id: u64) -> ([u32; 3], [u32; 3], bool) {
     let id = id as u32;
     let column = |k: u32| (id ^ (0x1111 * k)) & 0x7fff;
@@ -96,36 +98,36 @@ fn columns(id: u64) -> ([u32; 3], [u32; 3], bool) {
 /// Clocks from a read to its record in the core.
 const READ_CLOCKS: usize = 3;
 
-/// The responder and what surrounds it: the answer words, the memory, the host.
+/// The responder and the blocks around it: the answer words, the memory, the host.
 struct ResponderRig {
     block: Stepper<Responder>,
     random: SplitMix64,
-    /// Percent of the clocks in which the host takes a word.
+    /// Percentage of the clocks in which the host takes a word.
     ready: u64,
-    /// Reads under way: clocks to go, id.
+    /// Reads under way: clocks left, id.
     reads: VecDeque<(usize, u64)>,
     read_clocks: usize,
-    /// Clocks that an answer has been due, what `index` was a clock ago, and `index_ahead` one and two clocks ago.
+    /// Clocks that an answer has been due, then `index` of a clock ago, then `index_ahead` of one and two clocks ago.
     due: usize,
     index: usize,
     aheads: [usize; 2],
     /// The word that was chosen last.
     chosen: u32,
-    /// Clocks of a sweep that are left.
+    /// Clocks that are left of a sweep.
     sweeping: u64,
     offered: Option<(u128, bool, bool)>,
     taken: Vec<u32>,
-    /// Words taken up to the end of each answer.
+    /// Number of words taken up to the end of each answer.
     lasts: Vec<usize>,
-    /// Beats loaded since reset.
+    /// Number of beats loaded since reset.
     beats: usize,
-    /// Words loaded since reset, and those of the answers that have ended.
+    /// Number of words loaded since reset, and of those in answers that have ended.
     loaded: usize,
     ended: usize,
     wave: Wave,
 }
 
-/// What a clock showed.
+/// Outputs of a clock.
 struct Clocked {
     ends: bool,
     valid: bool,
@@ -173,11 +175,11 @@ impl ResponderRig {
     fn set_inputs(&mut self, answers: bool, sent: &Sent) {
         let block = &mut self.block;
         block.set("answers", answers);
-        // In the middle of an answer it does not count.
+        // In the middle of an answer a sweep must not matter.
         let is_under_way = self.loaded > self.ended;
         block.set("sweeps", self.sweeping > 0 || is_under_way && self.random.below(2) == 0);
         self.sweeping = self.sweeping.saturating_sub(1);
-        // Status and length are computed in three clocks.
+        // Status and length take three clocks to compute.
         self.due = if answers { self.due + 1 } else { 0 };
         let is_good = self.due > 3;
         block.set("header", if is_good { sent.header } else { 0xbad });
@@ -185,7 +187,7 @@ impl ResponderRig {
         block.set("is_empty", is_good == sent.payload.is_empty());
         block.set("is_read", sent.range.is_some());
         block.set("is_packed", sent.is_packed);
-        // Bits above an id do not count.
+        // Bits above those of an id must not matter.
         let (first, count) = sent.range.unwrap_or((0, 77));
         block.set("first", first | 0xabcd_0000);
         block.set("count", count | 0x1234_0000);
@@ -193,7 +195,7 @@ impl ResponderRig {
         let mask = if is_under_way { 127 } else { 0 };
         let [index, ahead] = ["index", "index_ahead"].map(|port| block.get_masked(port, mask) as usize);
         block.set("word", self.chosen);
-        // A word is chosen in two clocks, or in three from where it is announced.
+        // A word is chosen within two clocks, or within three from where it is announced.
         if block.is("chooses") {
             let is_announced = self.aheads[1] == self.index;
             self.chosen = sent.payload.get(self.index).filter(|_| is_announced).copied().unwrap_or(0xbad);
@@ -209,7 +211,7 @@ impl ResponderRig {
         block.set("read_done", due);
     }
 
-    /// One clock; `answers` is held by the command port.
+    /// Runs one clock; the command port holds `answers`.
     fn clock(&mut self, answers: bool, sent: &Sent) -> Clocked {
         self.set_inputs(answers, sent);
         let ready = percent(&mut self.random, self.ready);
@@ -227,7 +229,7 @@ impl ResponderRig {
         } else if let Some((data, both, _)) = beat {
             self.loaded += 1 + usize::from(both);
             self.beats += 1;
-            assert!(both || data >> 32 == 0, "the half of a word that is none: {data:x}");
+            assert!(both || data >> 32 == 0, "the unused half is not zero: {data:x}");
         }
         for read in &mut self.reads {
             read.0 = read.0.saturating_sub(1);
@@ -256,9 +258,10 @@ impl ResponderRig {
         Clocked { ends, valid }
     }
 
-    /// A whole answer; returns the clocks from its first to that of `ends`, and the clocks of the header and of the beat after it.
+    /// Runs a whole answer. Returns the clocks from its first to that of `ends`, and the clocks of the header
+    /// and of the beat after it.
     fn answer(&mut self, sent: &Sent) -> (usize, [usize; 2]) {
-        // The command port awaits a command before.
+        // The command port awaits a command between answers.
         self.due = 0;
         let before = self.beats;
         let mut beats = [None; 2];
@@ -272,7 +275,7 @@ impl ResponderRig {
             if shown.ends {
                 self.ended += sent.words().len();
                 assert_eq!(self.loaded, self.ended - sent.last_beat(), "the last word is loaded at the edge of `ends`");
-                // What is loaded at this edge is there in the next clock.
+                // A beat that is loaded at this edge is on offer in the next clock.
                 return (clock, beats.map(|beat| beat.unwrap_or(clock + 1)));
             }
         }
@@ -289,7 +292,7 @@ fn responder_sends_every_answer_whole_and_in_order() {
         for _ in 0..60 {
             let sent = Sent::random(&mut random);
             if random.below(8) == 0 {
-                // Reset in the middle: what was under way is dropped.
+                // A reset in the middle of an answer drops everything that was under way.
                 for _ in 0..random.below(30) {
                     if rig.clock(true, &sent).ends {
                         break;
@@ -351,7 +354,7 @@ fn responder_begins_no_answer_in_a_sweep() {
     }
 }
 
-/// A read of one record, whose header has to wait.
+/// Reads one record, whose header has to wait.
 #[test]
 fn responder_shows_the_wave_of_its_header() {
     let mut rig = ResponderRig::new(100, READ_CLOCKS);

@@ -1,5 +1,5 @@
-//! `VertexPacker`: Rust, Verilog and the layout that the protocol states agree, crossed with idle, back-pressure and
-//! resets.
+//! Runs `VertexPacker` in Rust and in Verilog beside the layout that the protocol states: all three must agree, while
+//! idle clocks, back-pressure and resets come in between.
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use crate::rig::vertex_beats::{beats_of, set_vertices, vertices, Beat};
@@ -28,7 +28,7 @@ fn packer_leaves_no_gap() {
         start(&mut block, records.len(), run == 0);
         let mut expected = beats_of(&records);
         let mut rest = records.iter();
-        // Now and then it is cut short by a reset.
+        // Every ninth run is cut short by a reset.
         let cut = if run % 9 == 8 { random.below(12) } else { 1000 };
         let mut clock = 0;
         let mut since_last = 0;
@@ -49,7 +49,7 @@ fn packer_leaves_no_gap() {
         if cut < 1000 {
             start(&mut block, 1, true);
             block.settle();
-            assert!(!block.is("valid"), "a beat after a reset");
+            assert!(!block.is("valid"), "a beat survived the reset");
         }
     }
 }

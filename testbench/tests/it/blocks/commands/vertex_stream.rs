@@ -1,5 +1,5 @@
-//! `VertexStream`: Rust, Verilog and the layout that the protocol states agree, crossed with idle, back-pressure and
-//! resets.
+//! Runs `VertexStream` in Rust and in Verilog beside the layout that the protocol states: all three must agree, while
+//! idle clocks, back-pressure and resets come in between.
 
 use std::collections::VecDeque;
 
@@ -33,7 +33,7 @@ fn stream_keeps_every_beat_whatever_is_taken() {
             let mut rest = records.iter().copied();
             let mut clock = 0;
             while !expected.is_empty() {
-                // `has_room` follows registers only.
+                // `has_room` follows registers only, so `takes` may still change.
                 block.set("takes", false);
                 let next = under_way.pop_front().flatten();
                 block.set("comes", next.is_some());

@@ -1,4 +1,4 @@
-//! `LockStore`: Rust, Verilog and plain arrays agree clock by clock.
+//! Runs `LockStore` in Rust and in Verilog beside plain arrays: all three must agree in every clock.
 
 use crate::rig::drawing::{draw, When};
 use crate::rig::ids::id;
@@ -11,23 +11,23 @@ named_ports!([] LockStore, [id, context_id, takes, clear], [took, foreign, was_s
 
 const CYCLES: usize = 6_000;
 
-/// What happened at the locks, so that a test can say that it all did.
+/// Counts of events at the locks, so that a test can check that each of them happened.
 #[derive(Debug, Default)]
 pub struct LockEvents {
     pub took: usize,
     pub foreign: usize,
     pub own: usize,
     pub met_clear: usize,
-    /// The holder took the lock one clock before the visit, two, or three.
+    /// Visits whose lock was taken by another visit one, two or three clocks before.
     pub before: [usize; 3],
 }
 
-/// Locks as a list of holders: what a visit finds, and then the clear of the same edge.
+/// Locks as a list of holders: the finding of a visit comes first, then the clear of the same edge.
 pub struct LockReference {
     pub locks: Locks,
     pub last: usize,
     pub last_context: u64,
-    /// The locks that the three visits before took, the latest first.
+    /// Locks that the three visits before took, the latest first.
     pub taken: [Option<usize>; 3],
     pub events: LockEvents,
 }
@@ -39,7 +39,7 @@ impl LockReference {
         Self { locks: Locks::new(last + 1), last, last_context, taken: [None; 3], events: LockEvents::default() }
     }
 
-    /// took, foreign, `was_set`.
+    /// Passes an edge; returns `took`, `foreign` and `was_set`.
     pub fn edge(&mut self, id: u64, context: u64, takes: bool, clear: Option<u64>) -> [Expected; 3] {
         let id = id as usize & self.last;
         let context = context & self.last_context;
@@ -71,7 +71,7 @@ impl LockReference {
     }
 }
 
-/// What a visit finds: the lock as it was, and a clock later what became of it.
+/// Delays the finding of a visit: the lock as it was, and a clock later what became of it.
 pub struct LockDelay {
     pub was_set: Delay<Expected>,
     pub became: Delay<[Expected; 2]>,
@@ -84,7 +84,7 @@ impl Default for LockDelay {
 }
 
 impl LockDelay {
-    /// took, foreign, `was_set`.
+    /// Delays `took`, `foreign` and `was_set`.
     pub fn pass(&mut self, [took, foreign, was_set]: [Expected; 3]) -> [Expected; 3] {
         let [took, foreign] = self.became.pass([took, foreign]).unwrap_or([None; 2]);
         [took, foreign, self.was_set.pass(was_set).flatten()]
@@ -95,7 +95,7 @@ fn lock_store(name: &str, id_bits: u32, context_bits: u32) {
     let mut numbers = SplitMix64::new(26);
     let stimuli: Vec<Vec<u64>> = (0..CYCLES)
         .map(|cycle| {
-            // In turn: visits at every clock, with gaps, with clears at every clock.
+            // Visits at every clock, visits with gaps, and clears at every clock take turns.
             let (gaps, clears) = [(9, 3), (2, 3), (9, 1)][cycle / 100 % 3];
             let context = (2 * numbers.bits(1)) | (numbers.bits(5) >> context_bits << context_bits);
             let takes = u64::from(!numbers.once_in(gaps));

@@ -1,4 +1,4 @@
-//! `CommandUnderWay`: Rust, Verilog and plain code agree clock by clock.
+//! Runs `CommandUnderWay` in Rust and in Verilog beside plain code: all three must agree in every clock.
 
 use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::stream_bits::set_bits;
@@ -29,7 +29,7 @@ fn a_command_is_under_way_until_its_answer_has_ended_and_padding_is_none() {
     block.edge();
     let mut is_busy = false;
     for _ in 0..500 {
-        // Padding before a command, then its words, of which some are zero.
+        // Padding before a command, then its words, some of which are zero.
         if !is_busy {
             for _ in 0..random.below(4) {
                 clock(&mut block, Some(0), false, false, Some(false));
@@ -40,7 +40,7 @@ fn a_command_is_under_way_until_its_answer_has_ended_and_padding_is_none() {
             let word = [None, Some(0), Some(7)][random.below(3) as usize];
             clock(&mut block, word, false, false, Some(true));
         }
-        // The last word of its answer waits; meanwhile padding or the next command is taken.
+        // The last word of the answer waits; meanwhile padding or the next command is taken.
         let mut follows = false;
         for _ in 0..random.below(4) {
             let word = [None, Some(0), Some(2 << 24)][random.below(3) as usize];

@@ -1,4 +1,4 @@
-//! The blocks of `hdl/src/stream`.
+//! Tests of the blocks in `hdl/src/stream`.
 
 mod answer_beats;
 mod answer_pairs;

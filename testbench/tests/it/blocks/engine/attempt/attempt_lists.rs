@@ -1,5 +1,5 @@
-//! `AttemptLists`: Rust, Verilog and a statement of each rule agree, over all inputs where these are single bits, and
-//! over random ones.
+//! Runs `AttemptLists` in Rust and in Verilog beside a statement of each rule: all three must agree for every
+//! combination of single bits and for random values of the wider inputs.
 
 use crate::rig::attempt_state::State;
 use crate::rig::stepper::bundles::{commit_job, flip, id, release_job, turned, Edge, LockFinding, Visit};

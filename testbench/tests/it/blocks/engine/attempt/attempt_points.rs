@@ -1,4 +1,5 @@
-//! `AttemptPoints`: Rust, Verilog and a plain statement agree on random visits.
+//! Runs `AttemptPoints` in Rust and in Verilog beside a plain statement of the rule: all
+//! three must agree on random visits.
 
 use crate::rig::stepper::bundles::flip;
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
@@ -17,7 +18,7 @@ fn attempt_points_show_the_wave_of_their_header() {
     let mut points = [(); 4].map(|()| None);
     let mut wave = Wave::default();
     for clock in 0..ROUNDS {
-        // The wave first, then anything.
+        // The clocks of the wave come first, then random ones.
         let takes = if clock < 4 { clock == 0 } else { flip(&mut random) };
         let [taker, taken_id, now, context] = match clock {
             0..4 => [1, 7, 3, 1],
@@ -28,7 +29,7 @@ fn attempt_points_show_the_wave_of_their_header() {
             block.set(port, value);
         }
         block.settle();
-        // What was taken at the last edge is not there yet.
+        // A point that was taken at the last edge cannot be read yet.
         let known: Option<[u64; 2]> =
             points[context as usize].filter(|(taken, _)| taken + 1 < clock).map(|(_, point)| point);
         if let Some([vertex, since]) = known {

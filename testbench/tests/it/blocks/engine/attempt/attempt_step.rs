@@ -1,4 +1,5 @@
-//! `AttemptStep`: Rust, Verilog and a plain statement agree on random visits.
+//! Runs `AttemptStep` in Rust and in Verilog beside a plain statement of the rule: all
+//! three must agree on random visits.
 
 use crate::rig::attempt_state::State;
 use crate::rig::stepper::bundles::flip;
@@ -55,7 +56,7 @@ fn attempt_step_counts_visits_entries_triangles_and_locks() {
         block.expect("succeeds", is_over && !after.drains);
         block.expect("finds_inner", finds_inner);
         block.expect("passes_root", passes_root);
-        // What is no test changes no state, or begins another.
+        // A visit that is no test changes no state, or begins another one.
         if is_test {
             block.expect("after", after.packed());
         }

@@ -1,4 +1,5 @@
-//! `AttemptStore`: Rust, Verilog and a plain statement agree on random visits.
+//! Runs `AttemptStore` in Rust and in Verilog beside a plain statement of the rule: all
+//! three must agree on random visits.
 
 use crate::rig::attempt_state::State;
 use crate::rig::stepper::bundles::flip;
@@ -16,7 +17,7 @@ fn attempt_store_has_every_state_at_hand_when_its_visit_completes() {
     let mut random = SplitMix64::new(54);
     let mut block = Stepper::new("attempt_store_small", AttemptStore::new(SMALL), 2);
     let ring = u64::from(SMALL.ring);
-    // Whatever the memory holds at first, these are written before they are read.
+    // States are written before they are read, whatever the memory holds at first.
     let mut states = [(); 4].map(|()| None::<State>);
     let (mut context, mut cavity_entry, mut seen) = (0, 0, [0; 4]);
     block.set("ring_capacity", ring);
@@ -28,7 +29,7 @@ fn attempt_store_has_every_state_at_hand_when_its_visit_completes() {
         let splits = !opens && flip(&mut random) && before.is_some_and(|state| state.count < ring);
         let revisits = !opens && !splits && random.below(4) == 0;
         let is_test = !opens && (splits || random.below(4) > 0);
-        // No other visit of a context that opens is out.
+        // No other visit of a context that opens a cavity is out.
         let early_context = if opens && next_context == context { (context + 1) % 4 } else { next_context };
         for (port, value) in [
             ("early_visit_context", early_context),

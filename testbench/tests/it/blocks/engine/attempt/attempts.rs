@@ -1,5 +1,6 @@
-//! The completion of visits in a closed loop: several contexts grow cavities in one triangulation whose records, locks and predicates
-//! the test plays. Rust, Verilog and cavities as sets of triangles agree clock by clock, and every ring is that of its cavity.
+//! Completes visits in a closed loop: several contexts grow cavities in one triangulation, and the test plays its
+//! records, locks and predicates. Rust, Verilog and cavities as sets of triangles must agree in every clock, and every
+//! ring must be that of its cavity.
 
 use std::collections::BTreeMap;
 
@@ -20,7 +21,7 @@ named_ports!(
 
 const CONTEXTS: u64 = SMALL.contexts as u64;
 
-/// What a context is at, as the blocks around see it.
+/// State of a context as the blocks around see it.
 #[derive(Clone, Debug, Default)]
 struct Life {
     context: Context,
@@ -28,20 +29,21 @@ struct Life {
     will_retry: bool,
     has_overflowed: bool,
     root: u64,
-    /// Locks that it holds still although its attempt is over, and clocks until they are released.
+    /// Clocks until the locks of a finished attempt are released, if it still holds some.
     due: Option<u64>,
 }
 
-/// A visit that completes, its record as a number, and what was true around it a clock earlier.
+/// A visit that completes, its record as a number, and the state around it a clock earlier.
 struct Announced {
     done: Completion,
     turned: u128,
     around: Around,
 }
 
-/// How often each thing has happened.
+/// Number of times that each event has happened.
 type Tally = BTreeMap<&'static str, usize>;
 
+/// The block among contexts, records and locks that the test plays.
 struct Rig {
     block: Stepper<Attempts>,
     random: SplitMix64,
@@ -55,12 +57,12 @@ struct Rig {
     /// The visit that completes in this clock, as it was announced in the clock before.
     announced: Option<Announced>,
     now: u64,
-    /// Nothing unforeseen happens.
+    /// True if the mesh does not change by surprise.
     is_calm: bool,
     tally: Tally,
 }
 
-/// Points on a ring and some within, so that a point in the middle removes many triangles.
+/// Points on a ring and some inside, so that a point in the middle removes many triangles.
 fn ground_points(random: &mut SplitMix64, around: usize, within: usize) -> Vec<Point> {
     let mut points: Vec<Point> = (0..around)
         .map(|place| {
@@ -111,7 +113,7 @@ impl Rig {
         !self.is_calm && self.random.below(times) == 0
     }
 
-    /// A context that sleeps goes on with its point, or takes another.
+    /// Starts a context that sleeps, with its point or with another one.
     fn start(&mut self) {
         let context = self.random.below(CONTEXTS);
         let takes = {
@@ -119,7 +121,7 @@ impl Rig {
             let life = &mut self.lives[context as usize];
             let may = !life.awake && one_in_four && !(life.will_retry && life.due.is_some());
             if may && life.has_overflowed {
-                // It inserts its point alone.
+                // A context whose list overflowed inserts its point solo.
                 (life.will_retry, life.has_overflowed) = (false, false);
                 self.priority_context = self.priority_context.filter(|holder| *holder != context);
             }
@@ -143,7 +145,8 @@ impl Rig {
         self.now = (self.now + 1) % (1 << 22);
     }
 
-    /// Reads the record, takes the lock and asks the predicates. Now and then the mesh seems to have changed since the walk.
+    /// Reads the record, takes the lock and evaluates the predicates. Now and then the mesh seems
+    /// to have changed since the walk.
     fn read(&mut self, visit: Visit) -> Completion {
         let life = &self.lives[visit.context as usize];
         let target = &self.targets[life.context.target];
@@ -161,14 +164,14 @@ impl Rig {
             finding.falls_onto_corner |= self.one_in(8);
         }
         if lock.foreign || lock.again {
-            // A record that somebody changes says anything.
+            // A record that is being changed gives arbitrary results.
             finding.conflict = self.one_in(2);
             finding.located = self.one_in(2);
         }
         Completion { visit, record, slot, lock, finding }
     }
 
-    /// Says which visit completes in the next clock; anything if none does.
+    /// Announces the visit that completes in the next clock, or random values if none does.
     fn announce(&mut self, visit: Option<Visit>) -> Option<Announced> {
         let seeded = !self.one_in(100);
         let busy = self.lives.iter().enumerate().filter(|(_, life)| life.due.is_some());
@@ -194,7 +197,7 @@ impl Rig {
         Some(Announced { done, turned, around })
     }
 
-    /// One clock: the visit that completes, and the one that does in the next clock.
+    /// Runs one clock: a visit completes, and the one of the next clock is announced.
     fn clock(&mut self, upcoming: Option<Visit>) -> Option<(Completion, Outcome)> {
         let next = self.announce(upcoming);
         let announced = std::mem::replace(&mut self.announced, next);
@@ -217,7 +220,7 @@ impl Rig {
         seen
     }
 
-    /// What blocks further on do: they release locks.
+    /// Lets time pass for the blocks further on, which release locks.
     fn pass_time(&mut self) {
         for (context, life) in (0..).zip(&mut self.lives) {
             if life.due == Some(0) {
@@ -275,14 +278,14 @@ impl Rig {
         }
     }
 
-    /// Some visit that is out, of some context: it completes in the next clock.
+    /// Returns a visit that is out, of some context, which completes in the next clock.
     fn any_visit(&mut self) -> Option<Visit> {
         let life = self.random.below(CONTEXTS) as usize;
         let place = self.random.below(self.lives[life].context.out.len() as u64) as usize;
         self.lives[life].context.out.get(place).copied()
     }
 
-    /// The visit that was announced completes now.
+    /// Completes the visit that was announced.
     fn complete(&mut self) {
         let Some(Announced { done: Completion { visit, .. }, .. }) = self.announced else {
             return;
@@ -302,13 +305,13 @@ impl Rig {
     }
 }
 
-/// Every output against what must come out.
+/// Compares every output with the expected one.
 fn compare(block: &Stepper<Attempts>, seen: Option<&(Completion, Outcome)>) {
     let nothing = Outcome::default();
     let outcome = seen.map_or(&nothing, |(_, outcome)| outcome);
     let visit = seen.map(|(done, _)| done.visit);
     let is = |rotates, locks| visit.is_some_and(|visit| visit.rotates == rotates && (visit.locks == locks || rotates));
-    // All may ask but tests that find their edge final, whatever has become of their attempt.
+    // Every visit may ask except a test that finds its edge final, whatever has become of its attempt.
     let may_ask = seen.is_some_and(|(done, _)| !is(true, true) || done.lock.foreign || done.finding.conflict);
     for (port, value) in [
         ("asks", outcome.push.is_some()),
@@ -376,7 +379,7 @@ fn attempts_grow_the_rings_of_all_contexts_at_once() {
 fn attempts_show_the_wave_of_their_header() {
     let mut rig = Rig::new(65, 32, 8, 8);
     rig.is_calm = true;
-    // The first ones fall onto corners.
+    // The first targets fall onto corners.
     let is_small = |target: &usize| rig.targets[*target].cavity.len() == 2;
     let target = (4..rig.targets.len()).find(is_small).expect("a small cavity");
     let context = &mut rig.lives[1].context;
@@ -389,7 +392,7 @@ fn attempts_show_the_wave_of_their_header() {
     let root = rig.targets[target].places[0];
     rig.lives[1].context.out.push(Visit { context: 1, ..Visit::look(root) });
     let mut wave = Wave::default();
-    // The visits in their order; the pipeline between is left out.
+    // The visits complete in their order; the pipeline between is left out.
     let completes = |clock: usize| clock % 2 == 1 || clock > 4;
     for clock in 0..12 {
         rig.complete();

@@ -1,5 +1,5 @@
-//! `NextVisits`: Rust, Verilog and a statement of each rule agree, over all inputs where these are single bits, and
-//! over random ones.
+//! Runs `NextVisits` in Rust and in Verilog beside a statement of each rule: all three must agree for every combination
+//! of single bits and for random values of the wider inputs.
 
 use crate::rig::stepper::bundles::{id, turned, LockFinding, Visit};
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
@@ -10,7 +10,7 @@ named_ports!(NextVisits, [early_visit, early_turned, found, walk_next, entry], [
 
 const ROUNDS: usize = 6000;
 
-/// A visit that completes, and what follows: its bundle, of as many bits as count.
+/// A visit that completes, and the visits that follow: their bundle, and the number of its bits that count.
 struct Follow {
     visit: Visit,
     n: [u64; 3],
@@ -24,12 +24,12 @@ struct Follow {
 }
 
 impl Follow {
-    /// Any visit of a case: it repeats, walks on, locates, opens, or splits.
+    /// Makes a random visit of a case: it repeats, walks on, locates, opens a cavity, or splits an edge.
     fn random(case: u64, random: &mut SplitMix64) -> Self {
         let n = [(); 3].map(|()| id(random));
         let (walk_next, y) = (id(random), random.below(64));
         let any = Visit::random(random);
-        // Walks and roots have no entry.
+        // Walks and root visits have no entry.
         let look = Visit { context: any.context, ..Visit::look(any.record) };
         let visit = match case {
             1 | 2 => look,
@@ -65,7 +65,7 @@ impl Follow {
     }
 }
 
-/// One clock: what follows the visit that completes, and the one that does in the next clock.
+/// Runs one clock: checks the visits that follow the completing one, and announces the one of the next clock.
 fn follow_clock(block: &mut Stepper<NextVisits>, follow: &Follow, upcoming: &Follow, random: &mut SplitMix64) {
     let lock = LockFinding { foreign: upcoming.is_foreign, ..LockFinding::default() };
     block.set("early_visit", upcoming.visit.packed());

@@ -1,5 +1,5 @@
-//! `VisitCase`: Rust, Verilog and a statement of each rule agree, over all inputs where these are single bits, and over
-//! random ones.
+//! Runs `VisitCase` in Rust and in Verilog beside a statement of each rule: all three must agree for every combination
+//! of single bits and for random values of the wider inputs.
 
 use crate::rig::stepper::bundles::{flip, id, turned, Finding, LockFinding, Visit};
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
@@ -8,7 +8,7 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(VisitCase, [early, seeded, is_busy, holds_priority, verdict, drains, is_full], [found], clock);
 
-/// Outputs of `VisitCase` of which at most one is high.
+/// Outputs of `VisitCase`, of which at most one is high.
 const CASES: [&str; 13] = [
     "looks",
     "revisits",
@@ -25,7 +25,7 @@ const CASES: [&str; 13] = [
     "root_duplicate",
 ];
 
-/// The single bits that a case follows from.
+/// The single bits from which a case follows.
 struct Bits {
     done: bool,
     rotates: bool,
@@ -40,7 +40,7 @@ struct Bits {
 }
 
 impl Bits {
-    /// The bits of a number.
+    /// Takes the bits from a number.
     fn of(number: u64) -> Self {
         let bit = |place: u32| number >> place & 1 == 1;
         let finding = Finding { conflict: bit(3), located: bit(4), falls_onto_corner: bit(5), ..Finding::default() };
@@ -58,7 +58,7 @@ impl Bits {
         }
     }
 
-    /// What the visit means, as the rules have it.
+    /// The case of the visit, by the rules.
     fn case(&self) -> Option<&'static str> {
         let Finding { conflict, located, falls_onto_corner, .. } = self.finding;
         if !self.done {
@@ -94,7 +94,7 @@ impl Bits {
     }
 }
 
-/// Drives what is looked at a clock ahead.
+/// Drives the inputs that the block reads a clock ahead.
 fn set_early(block: &mut Stepper<VisitCase>, bits: &Bits, random: &mut SplitMix64) {
     let visit = Visit { rotates: bits.rotates, locks: bits.locks, ..Visit::random(random) };
     let lock = LockFinding { took: flip(random), ..bits.lock };
@@ -106,7 +106,7 @@ fn set_early(block: &mut Stepper<VisitCase>, bits: &Bits, random: &mut SplitMix6
     }
 }
 
-/// One clock: what was looked at in the one before, with its verdict, and the next.
+/// Runs one clock: the verdict for the bits of the clock before, and the early inputs of the next.
 fn case_clock(block: &mut Stepper<VisitCase>, bits: &Bits, upcoming: &Bits, random: &mut SplitMix64) {
     set_early(block, upcoming, random);
     let finding = Finding { is_left: flip(random), is_straight: flip(random), walk_next: id(random), ..bits.finding };

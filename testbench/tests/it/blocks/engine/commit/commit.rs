@@ -1,5 +1,5 @@
-//! The commit: Rust, Verilog and a list of all it must do agree clock by clock. The list is written down beforehand,
-//! from the whole ring; the block sees one entry at a time.
+//! Runs the commit in Rust and in Verilog beside a list of all its steps: all three must agree in every clock. The list
+//! is written down beforehand from the whole ring, while the block sees one entry at a time.
 
 use std::collections::{BTreeSet, VecDeque};
 
@@ -15,21 +15,22 @@ named_ports!(Commit, [reset, head, head_job, inner, fresh], [takes, takes_fresh,
 
 const LONGEST: Config = Config { ring: MAX_RING, contexts: MAX_CONTEXTS, ..TINY };
 
-/// A step of a commit. Each takes a clock, or waits.
+/// A step of a commit. Each step takes a clock, or waits.
 #[derive(Clone, Copy, Debug, Default)]
 struct Act {
-    /// It takes an entry, and waits for that.
+    /// The step takes an entry, and waits for it.
     takes: bool,
-    /// It gives an inner triangle back, and waits until that is read.
+    /// The step gives an inner record back, and waits until its id is read.
     gives_back: bool,
     takes_fresh: bool,
     ends: bool,
-    /// The write that is made at its edge, and seen in the next clock.
+    /// The write made at the edge of this step, which is seen in the next clock.
     makes: Option<u128>,
 }
 
-/// Ids of the records of a ring, in order, by their definition: the first edge behind which a triangle lies keeps its id, all
-/// others get those that no edge has, then new ones. And whether each was inner or new.
+/// Ids of the star's records in the order of the ring, by their definition: the first edge of a cavity record keeps
+/// that record's id, all other edges get the ids of inner records, and then new ones. The two flags say whether an id
+/// is that of an inner record, and whether it is new.
 fn ids(ring: &Ring, fresh: u64) -> Vec<(u64, bool, bool)> {
     let mut kept = BTreeSet::new();
     let mut spare = ring.inner.iter();
@@ -40,7 +41,7 @@ fn ids(ring: &Ring, fresh: u64) -> Vec<(u64, bool, bool)> {
         (false, true) => (new.next().expect("ids without end"), false, true),
     };
     let ids: Vec<_> = ring.in_order().into_iter().map(|edge| id(edge.cavity_record)).collect();
-    // Every triangle of the cavity gives its id to one of the star, and two are new.
+    // Every cavity record gives its id to one record of the star, and two ids are new.
     let mut old: BTreeSet<u64> = ring.entries.iter().map(|edge| edge.cavity_record).collect();
     old.extend(&ring.inner);
     old.extend([fresh, fresh + 1]);
@@ -48,7 +49,7 @@ fn ids(ring: &Ring, fresh: u64) -> Vec<(u64, bool, bool)> {
     ids
 }
 
-/// All that the commit of a ring does after it has taken the first entry.
+/// All steps of a ring's commit after its first entry was taken.
 fn acts(ring: &Ring, fresh: u64) -> VecDeque<Act> {
     let edges = ring.in_order();
     let ids = ids(ring, fresh);
@@ -64,7 +65,7 @@ fn acts(ring: &Ring, fresh: u64) -> VecDeque<Act> {
     let mut acts = VecDeque::new();
     for (place, edge) in edges.iter().enumerate() {
         let ahead = ids.get(place + 1);
-        // The first entry is passed over until the last one's id is known.
+        // The first entry is passed over until the id of the last one is known.
         acts.push_back(Act {
             takes: ahead.is_some(),
             gives_back: ahead.is_some_and(|(_, is_inner, _)| *is_inner),
@@ -83,12 +84,12 @@ fn acts(ring: &Ring, fresh: u64) -> VecDeque<Act> {
     acts
 }
 
-/// What the test does in a clock.
+/// Actions of the test in a clock.
 #[derive(Clone, Copy, Debug, Default)]
 struct Drive {
-    /// An entry that is offered already stays.
+    /// The next entry is offered; an entry on offer stays.
     offers: bool,
-    /// The next inner triangle is listed, if there is one.
+    /// The next inner record is listed, if there is one.
     lists: bool,
     solo_inserts: bool,
     seeds: bool,
@@ -96,7 +97,7 @@ struct Drive {
     reset: bool,
 }
 
-/// What a clock showed.
+/// Outputs of a clock.
 #[derive(Clone, Copy, Debug, Default)]
 struct Shown {
     head_valid: bool,
@@ -109,16 +110,16 @@ struct Shown {
 /// The commit, and the rings that come to it.
 struct CommitRig {
     block: Stepper<Commit>,
-    /// Rings to come; the entries of the first one come first. Their inner triangles are listed one ring ahead.
+    /// Rings to come; the entries of the first one come first. Their inner records are listed one ring ahead.
     rings: VecDeque<Ring>,
-    /// Inner triangles of the first ring, and of the second, that are listed.
+    /// Number of inner records that are listed, of the first ring and of the second.
     listed: [usize; 2],
-    /// Entries of the first ring that have been taken.
+    /// Number of entries of the first ring that were taken.
     taken: usize,
     is_offered: bool,
-    /// The ring at work and what is still to do for it.
+    /// The ring at work, and the steps that are left for it.
     work: Option<(Ring, VecDeque<Act>)>,
-    /// Clocks that the next inner triangle has been looked for.
+    /// Clocks for which the block has looked for the next inner record.
     age: u32,
     made: Option<u128>,
     count: Count,
@@ -143,7 +144,7 @@ impl CommitRig {
         rig
     }
 
-    /// Offers the next entry, and lists an inner triangle of the first ring, else of the second.
+    /// Offers the next entry, and lists an inner record of the first ring, or else of the second.
     fn set_inputs(&mut self, drive: Drive) {
         let block = &mut self.block;
         block.set("reset", drive.reset);
@@ -171,7 +172,7 @@ impl CommitRig {
         }
     }
 
-    /// What is done in this clock, and whether an entry is taken by it.
+    /// The step of this clock, and whether it takes an entry.
     fn act(&self) -> (Option<Act>, bool) {
         let Some((_, acts)) = &self.work else {
             return (None, self.is_offered);
@@ -185,7 +186,7 @@ impl CommitRig {
         }
     }
 
-    /// One clock of both; nothing is compared in the first one.
+    /// Runs one clock of the block and the list; nothing is compared in the first one.
     fn clock(&mut self, drive: Drive) -> Shown {
         self.set_inputs(drive);
         let (act, takes) = self.act();
@@ -194,7 +195,7 @@ impl CommitRig {
         let block = &mut self.block;
         block.settle();
         if block.clocks() > 0 {
-            // It says so before there is an entry.
+            // The block is ready before there is an entry.
             if self.is_offered {
                 block.expect("takes", takes);
             }
@@ -241,7 +242,7 @@ impl CommitRig {
         }
     }
 
-    /// The entry on the head is taken: the first one of a ring begins its commit.
+    /// Takes the entry at the head; the first entry of a ring begins its commit.
     fn take(&mut self) {
         if self.work.is_none() {
             let ring = self.rings[0].clone();
@@ -258,7 +259,7 @@ impl CommitRig {
         }
     }
 
-    /// Keeps two rings coming, never two of one context after each other: a list is written while the one before is read.
+    /// Keeps two rings coming, never two of one context in a row, since a list is written while the one before is read.
     fn add_rings(&mut self, config: Config, random: &mut SplitMix64) {
         while self.rings.len() < 2 {
             let last = self.rings.back().or(self.work.as_ref().map(|(ring, _)| ring)).map(|ring| ring.context);
@@ -270,7 +271,7 @@ impl CommitRig {
     }
 }
 
-/// Runs a commit with rings that come one right after the other, and with gaps.
+/// Runs a commit with rings that follow each other at once, and with gaps.
 fn writes_stars(name: &'static str, config: Config) {
     let mut random = SplitMix64::new(9);
     let mut rig = CommitRig::new(name, config);
@@ -299,7 +300,8 @@ fn writes_stars(name: &'static str, config: Config) {
     assert!(
         reached.iter().zip([400, 100, 1000, 10, 3]).all(|(seen, least)| *seen >= least)
             && most_inners * 6 >= config.ring as usize,
-        "rings, taken at once, clocks an entry waited, solo insertions, resets: {reached:?}; {most_inners} inner triangles"
+        "rings, taken at once, clocks an entry waited, solo insertions, resets: {reached:?}; \
+         {most_inners} inner records"
     );
 }
 
@@ -317,7 +319,7 @@ fn number(number: u64) -> Cell {
     Cell::Number(number.into())
 }
 
-/// The cavity of two triangles 0 and 1 becomes the star of four: two old ids, two new ones.
+/// Commits a cavity of two records, 0 and 1, as a star of four: two old ids, two new ones.
 #[test]
 fn commit_shows_the_wave_of_its_header() {
     let edge = |first_vertex, outside_record, cavity_record, after| Edge {

@@ -1,4 +1,5 @@
-//! The release of locks: Rust, Verilog and a list of what is still to be cleared agree clock by clock.
+//! Releases locks in Rust and in Verilog beside a list of the locks that are still to be cleared: all
+//! three must agree in every clock.
 
 use std::collections::VecDeque;
 
@@ -12,21 +13,21 @@ named_ports!(Release, [reset, last_id, lock, commit, failure], [sweeps, clear, r
 
 const LONGEST: Config = Config { ring: MAX_RING, contexts: MAX_CONTEXTS, ..TINY };
 
-/// A lock to clear; the last one of a context names it.
+/// A lock to clear; the last lock of a job names the job's context.
 #[derive(Clone, Copy, Debug)]
 struct Lock {
     id: u64,
     last_of: Option<u64>,
 }
 
-/// The locks of a context, all in the log.
+/// A context and its locks, all of them in the log.
 type Job = (u64, Vec<u64>);
 
-/// The release as lists of what it has to do.
+/// The release as lists of its tasks.
 #[derive(Default)]
 struct ReleaseReference {
     to_sweep: VecDeque<u64>,
-    /// Jobs of rings, and of failures.
+    /// Jobs of finished rings, and jobs of aborted attempts.
     due: [VecDeque<Job>; 2],
     /// Locks of the job at work that have not been fetched.
     at_work: VecDeque<Lock>,
@@ -66,13 +67,13 @@ impl ReleaseReference {
 #[derive(Clone, Debug, Default)]
 struct Drive {
     reset: bool,
-    /// A lock joins the log of this context at this place.
+    /// A lock that joins the log: context, place, id.
     lock: Option<(u64, u64, u64)>,
     ring: Option<Job>,
     failure: Option<Job>,
 }
 
-/// One clock of both; nothing is compared in the first one.
+/// Runs one clock of the block and the list; nothing is compared in the first one.
 fn release_clock(block: &mut Stepper<Release>, reference: &mut ReleaseReference, drive: &Drive, last_id: u64) {
     let (context, place, id) = drive.lock.unwrap_or((1, 2, 0x5a5a & last_id));
     block.set("reset", drive.reset);
@@ -104,14 +105,14 @@ fn release_clock(block: &mut Stepper<Release>, reference: &mut ReleaseReference,
     reference.edge(drive, last_id);
 }
 
-/// What a context is at.
+/// State of a context.
 #[derive(Clone, Debug)]
 enum Attempt {
-    /// It logs so many locks more.
+    /// The context logs so many more locks; the list has those logged so far.
     Logs(u64, Vec<u64>),
-    /// Its ring is being written.
+    /// The ring of the context is being written.
     Commits(Vec<u64>),
-    /// Its locks are due.
+    /// The locks of the context are due.
     IsDue,
 }
 
@@ -138,7 +139,7 @@ impl Attempts {
         self.contexts[context] = Attempt::Logs(locks, Vec::new());
     }
 
-    /// Some context takes a lock, at which its attempt may fail; and the ring of some context may be finished.
+    /// Lets some context take a lock, at which its attempt may abort, and possibly finishes the ring of a context.
     fn drive(&mut self, random: &mut SplitMix64) -> Drive {
         let mut drive = Drive::default();
         let context = random.below(self.contexts.len() as u64) as usize;
@@ -190,7 +191,7 @@ fn releases_locks(name: &'static str, config: Config, last_id: u64) {
     let [rings, failures] = attempts.jobs;
     assert!(
         resets > 3 && both_due > 4 * config.contexts as usize && idle > 300 && rings > 100 && failures > 100,
-        "{resets} resets, {both_due} clocks with rings and failures due, {idle} idle; {rings} rings, {failures} failures"
+        "{resets} resets, {both_due} clocks with rings and aborts due, {idle} idle; {rings} rings, {failures} aborts"
     );
 }
 

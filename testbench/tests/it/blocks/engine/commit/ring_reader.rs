@@ -1,5 +1,5 @@
-//! `RingReader`: Rust, Verilog and a list of all entries in their order agree clock by clock. The list is laid out when
-//! a ring is finished; it knows no pointers.
+//! Runs `RingReader` in Rust and in Verilog beside a list of all entries in their order: all three must agree in every
+//! clock. The list is laid out when a ring is finished, and has no pointers.
 
 use std::collections::VecDeque;
 
@@ -12,19 +12,19 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(RingReader, [reset, entry, commit, takes], [head, head_job], clock);
 
-/// An entry in its place in the order.
+/// An entry at its place in the order.
 #[derive(Clone, Copy, Debug, Default)]
 struct Item {
     entry: u128,
     is_first: bool,
     is_last: bool,
-    /// The triangle behind it lies behind the one before it or the first one too.
+    /// The cavity record of the entry is that of the entry before or of the first one too.
     shares: bool,
     job: u128,
     context: u64,
 }
 
-/// What the reader does, as a list: five stages that all move when the last is free or taken.
+/// The reader as a list: five stages that all move when the last one is empty or taken.
 #[derive(Default)]
 struct ReaderReference {
     coming: VecDeque<Item>,
@@ -57,7 +57,7 @@ impl ReaderReference {
     }
 }
 
-/// A context: its ring, and the places that are not final yet, none once the ring is finished.
+/// A context: its ring, and the places that are not final yet, of which none is left once the ring is finished.
 #[derive(Clone, Default)]
 struct Filling {
     ring: Ring,
@@ -75,14 +75,14 @@ struct ReaderRig {
     shared: usize,
 }
 
-/// What happens at an edge.
+/// Events at an edge.
 #[derive(Default)]
 struct Drive {
     reset: bool,
     takes: bool,
-    /// An entry of a context becomes final.
+    /// The entry of a context that becomes final.
     entry: Option<(u64, u64, Edge)>,
-    /// And with it a ring.
+    /// The ring that the entry finishes, if any.
     finished: Option<Ring>,
 }
 
@@ -101,7 +101,7 @@ impl ReaderRig {
         rig
     }
 
-    /// One clock of both; nothing is compared in the first one.
+    /// Runs one clock of the block and the reference; nothing is compared in the first one.
     fn clock(&mut self, drive: &Drive) {
         let block = &mut self.block;
         let (context, place, edge) =
@@ -140,7 +140,7 @@ impl ReaderRig {
         }
     }
 
-    /// Entries of any context become final in any order, and the head is taken in so many of 8 clocks.
+    /// Makes entries of any context final in any order, and takes the head, each in so many of 8 clocks.
     fn random_drive(&mut self, fills: u64, takes: u64, random: &mut SplitMix64) -> Drive {
         let mut drive = Drive { reset: random.below(900) == 0, takes: random.below(8) < takes, ..Drive::default() };
         let context = random.below(self.contexts.len() as u64);
@@ -165,7 +165,7 @@ impl ReaderRig {
     }
 }
 
-/// Runs a reader with rings faster than they are taken, and slower.
+/// Runs a reader with rings that come faster than they are taken, and slower.
 fn reads_rings(name: &'static str, config: Config) {
     let mut random = SplitMix64::new(7);
     let mut rig = ReaderRig::new(name, config);

@@ -1,4 +1,4 @@
-//! `StarId`: Rust, Verilog and plain lists agree clock by clock.
+//! Runs `StarId` in Rust and in Verilog beside plain lists: all three must agree in every clock.
 
 use crate::rig::stepper::bundles::Edge;
 use crate::rig::stepper::{named_ports, Stepper};

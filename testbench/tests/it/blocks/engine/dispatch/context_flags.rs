@@ -1,4 +1,4 @@
-//! `ContextFlags`: Rust, Verilog and lists of contexts agree clock by clock.
+//! Runs `ContextFlags` in Rust and in Verilog beside lists of contexts: all three must agree in every clock.
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use incircle_hdl::engine::ContextFlags;
@@ -12,12 +12,12 @@ named_ports!(
     clock
 );
 
-/// What happens in a clock; contexts by number.
+/// Events of a clock; contexts are numbers.
 #[derive(Clone, Copy, Debug, Default)]
 struct Events {
     reset: bool,
     clears: bool,
-    /// The context whose visit completes, and what that leads to.
+    /// The context whose visit completes; the fields below say what that leads to.
     context: u64,
     sleeps: bool,
     will_retry: bool,
@@ -32,7 +32,7 @@ struct Events {
     solo_ends: bool,
 }
 
-/// What one context is at.
+/// State of one context.
 #[derive(Clone, Copy, Debug)]
 struct Flags {
     asleep: bool,
@@ -42,15 +42,15 @@ struct Flags {
     hinted: bool,
 }
 
-/// All contexts, the priority, and who is alone or wants to be.
+/// All contexts, the priority, and the context that inserts or waits to insert solo.
 #[derive(Clone, Debug)]
 struct FlagsReference {
     contexts: Vec<Flags>,
     priority_context: Option<u64>,
-    /// Foreign locks that the waiting context has met.
+    /// Number of foreign locks that the context with the priority has met.
     met: u64,
     solo: Option<u64>,
-    /// Everybody rested a clock ago, and nobody has started since.
+    /// All contexts rested a clock ago, and none has started since.
     rested: bool,
 }
 
@@ -112,7 +112,7 @@ impl FlagsReference {
     }
 }
 
-/// One clock of both.
+/// Runs one clock of the block and the lists; nothing is compared in the first one.
 fn flags_clock(block: &mut Stepper<ContextFlags>, reference: &mut FlagsReference, events: &Events) {
     block.set("built_contexts", (1u64 << reference.contexts.len()) - 1);
     for (port, value) in [
@@ -132,7 +132,7 @@ fn flags_clock(block: &mut Stepper<ContextFlags>, reference: &mut FlagsReference
     ] {
         block.set(port, value);
     }
-    // A context that nothing happens to is named all the same.
+    // A context to which nothing happens is named all the same.
     let other = events.context ^ 1;
     block.set("outcome_context", events.context);
     block.set("start_context", events.starter.unwrap_or(other));
@@ -160,7 +160,7 @@ fn flags_clock(block: &mut Stepper<ContextFlags>, reference: &mut FlagsReference
     reference.edge(events);
 }
 
-/// Any context of which this holds.
+/// Returns a random context if the condition holds for it.
 fn any(reference: &FlagsReference, random: &mut SplitMix64, holds: impl Fn(&Flags) -> bool) -> Option<u64> {
     let context = random.below(reference.contexts.len() as u64);
     holds(&reference.contexts[context as usize]).then_some(context)
@@ -175,12 +175,12 @@ fn events(reference: &FlagsReference, random: &mut SplitMix64) -> Events {
     let solo_works = reference.solo.is_some() && reference.rests();
     let mut events =
         Events { reset, clears, context: random.below(reference.contexts.len() as u64), ..Events::default() };
-    // No visit of a context completes while a context inserts alone.
+    // No visit of another context completes during a solo insertion.
     if solo_works {
         events.solo_ends = ends_solo;
     } else if let Some(context) = any(reference, random, |flags| !flags.asleep) {
         let is_free = !reference.contexts[context as usize].busy;
-        // Who meets a foreign lock with the priority waits, and neither asks for it nor ends.
+        // A context that meets a foreign lock with the priority waits; it neither asks for the priority nor ends.
         let waits = reference.priority_context == Some(context) && meets;
         let sleeps = over && !waits;
         let asks_for_priority = asks_for_priority && !waits;

@@ -1,4 +1,4 @@
-//! : Rust, Verilog and lists of contexts agree clock by clock.
+//! Runs `FinishedPoints` in Rust and in Verilog beside a list of finished points: all three must agree in every clock.
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use incircle_hdl::engine::FinishedPoints;
@@ -25,17 +25,17 @@ struct Finishing {
     all_rest: bool,
 }
 
-/// A list of finished points, and what is known of it.
+/// A list of finished points, and its length as the block knows it.
 #[derive(Default)]
 struct Finished {
     points: Vec<&'static str>,
-    /// Their number a clock ago.
+    /// Length of the list a clock ago.
     counted: u64,
-    /// It was not that of the points that had come.
+    /// True if the length differed from the number of points that had come.
     is_behind: bool,
 }
 
-/// One clock of the block and of a list of finished points: whether there is nothing left to do.
+/// Runs one clock of the block and of the list, and returns whether nothing is left to do.
 fn finished_points_clock(block: &mut Stepper<FinishedPoints>, finished: &mut Finished, now: &Finishing) -> bool {
     for (port, value) in [
         ("reset", now.reset),
@@ -79,7 +79,7 @@ fn finished_points_counts_every_finished_point_once() {
     let (mut most, mut both) = (0, 0);
     for clock in 0..20_000 {
         let mut one_in = |times: u64| random.below(times) == 0;
-        // First triangles come before all other points, in a batch several.
+        // First triangles come before all other points; in a batch there are several.
         let seeds = finished.points.len() < 72 && finished.points.iter().all(|what| *what == "seed") && one_in(8);
         let inserts = !seeds && one_in(3);
         let is_solo = one_in(4);

@@ -1,4 +1,4 @@
-//! The blocks of `hdl/src/engine/dispatch`.
+//! Tests of the blocks in `hdl/src/engine/dispatch`.
 
 mod context_flags;
 mod finished_points;

@@ -1,4 +1,4 @@
-//! `NextPoint`: Rust, Verilog and the rule by which points are dealt agree.
+//! Runs `NextPoint` in Rust and in Verilog beside the rule by which points are dealt: all three must agree.
 
 use crate::rig::stepper::bundles::Deal;
 use crate::rig::stepper::{named_ports, Stepper};
@@ -23,7 +23,7 @@ fn next_point_deals_every_vertex_to_one_context() {
                 block.set("passed_id", pair[0]);
                 let is_seed = deal.is_batch && place == 0;
                 block.set("passed_is_seed", is_seed);
-                // Of others it is anything.
+                // For other contexts the value is arbitrary.
                 block.set("passed_dealt", if is_seed { pair[1] } else { pair[1] % 128 });
                 block.settle();
                 if place == 0 {
@@ -38,7 +38,7 @@ fn next_point_deals_every_vertex_to_one_context() {
                 takers[pair[0] as usize] += 1;
             }
         }
-        // The first two of a triple are taken with its third.
+        // The first two points of a triple are taken with its third.
         let triples = if deal.is_batch { contexts as usize } else { 1 };
         let waits = |id: usize| id < 3 * triples && id % 3 != 2;
         assert!((0..400).all(|id| takers[id] == usize::from(!waits(id))), "{deal:?}: {takers:?}");

@@ -1,4 +1,5 @@
-//! The waking of contexts in a closed loop: Rust, Verilog and a list of what each context has taken agree clock by clock.
+//! Starts contexts in a closed loop, in Rust and in Verilog beside a list of the vertices that each context has taken:
+//! all three must agree in every clock.
 
 use std::collections::VecDeque;
 
@@ -24,32 +25,32 @@ struct Life {
     began: bool,
     hint: Option<u64>,
     root: u64,
-    /// The vertex that it has taken last.
+    /// The vertex that the context took last.
     last: Option<u64>,
 }
 
-/// What the pointer has seen of the context it stood at.
+/// State of the context at which the pointer stood, as the pointer saw it.
 #[derive(Clone, Copy, Debug)]
 struct Sight {
     context: u64,
-    /// The vertex that it has taken last.
+    /// The vertex that the context took last.
     last: Option<u64>,
     vertex: u64,
 }
 
-/// A context that the pointer stood at two steps ago, and what has been decided about it.
+/// The context at which the pointer stood two steps ago, and the decision about it.
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
     sight: Sight,
     is_due: bool,
-    /// It tries its point again.
+    /// The context tries its point again.
     will_retry: bool,
-    /// Where it would start.
+    /// The record at which the context would start.
     record: u64,
     is_solo: bool,
 }
 
-/// What comes out in a clock.
+/// Outputs of a clock.
 #[derive(Clone, Copy, Debug, Default)]
 struct Seen {
     starts: bool,
@@ -58,7 +59,7 @@ struct Seen {
     waits: bool,
 }
 
-/// Inputs of a clock that no context decides.
+/// Inputs of a clock that do not come from a context.
 #[derive(Clone, Copy, Debug, Default)]
 struct Inputs {
     reset: bool,
@@ -66,17 +67,18 @@ struct Inputs {
     came: bool,
     seeded: bool,
     solo: bool,
-    /// Who wants to be alone, and who waits.
+    /// Value of `solo_context` and of `priority_context`.
     special: u64,
     solo_is_at_work: bool,
     all_rest: bool,
     is_urgent: bool,
-    /// A visit completes, and it may ask for others.
+    /// A visit completes, and may ask for others.
     is_done: bool,
     is_blocked: bool,
     deed: Option<(u64, Deed)>,
 }
 
+/// The starter among contexts that the test plays.
 struct Rig {
     block: Stepper<Starter>,
     contexts: u64,
@@ -110,7 +112,7 @@ impl Rig {
         rig
     }
 
-    /// After a clock with reset or clear: nothing has come, everyone sleeps.
+    /// Forgets everything after a clock with reset or clear: no point has come, and all contexts sleep.
     fn forget(&mut self) {
         self.arrived = 0;
         self.lives = vec![Life::default(); self.contexts as usize];
@@ -127,21 +129,21 @@ impl Rig {
         (0..).zip(&self.lives).fold(0, |set, (place, life)| set | u64::from(flag(life)) << place)
     }
 
-    /// Whether a context that the pointer has seen is due, and where it would start.
+    /// Decides whether a context that the pointer has seen is due, and where it would start.
     fn decide(&self, inputs: &Inputs, sight: Sight) -> Option<Candidate> {
         let life = self.lives.get(sight.context as usize)?;
         let works = if sight.context == 0 { inputs.seeded || !life.began } else { self.all_work };
         let is_due = match life.will_retry {
-            // Rounds of the pointer in which nobody tries again: three of four.
+            // In three of four rounds of the pointer no context tries again.
             true => {
                 let has_rested = (self.steps / self.contexts).is_multiple_of(4);
                 let may_try = !inputs.is_urgent || inputs.special == sight.context;
                 has_rested && may_try && !life.busy
             }
-            // In the first round of the pointer nobody starts.
+            // In the first round of the pointer no context starts.
             false => self.steps >= self.contexts && sight.vertex < self.arrived && works,
         };
-        // One that works alone may start just now.
+        // With one context only, that context may be starting in this clock.
         let starts_now = self.contexts == 1 && self.candidate.is_some_and(|candidate| candidate.is_due);
         Some(Candidate {
             sight,
@@ -156,7 +158,7 @@ impl Rig {
         })
     }
 
-    /// What must come out: the vertex that the candidate takes, if it takes a new one, and where it starts.
+    /// Expected start: the vertex that the candidate takes, if it takes a new one, and the record at which it starts.
     fn wants(&self, inputs: &Inputs) -> Option<(Option<u64>, u64)> {
         let candidate = self.candidate.filter(|candidate| candidate.is_due && !inputs.solo)?;
         Some(((!candidate.will_retry).then_some(candidate.sight.vertex), candidate.record))
@@ -204,11 +206,11 @@ impl Rig {
         }
     }
 
-    /// One clock.
+    /// Runs one clock of the block and of the lists.
     fn clock(&mut self, inputs: &Inputs) -> Seen {
         self.drive(inputs);
         let wanted = self.wants(inputs);
-        // A point that is stored takes the port that a new point needs.
+        // A point that is being stored takes the port that a new point needs.
         let lacks_port = wanted.is_some_and(|start| start.0.is_some() && inputs.came);
         let start = wanted.filter(|_| !inputs.is_blocked && !lacks_port);
         let mut seen = Seen { waits: wanted.is_some() && (inputs.is_done || lacks_port), ..Seen::default() };
@@ -233,7 +235,8 @@ impl Rig {
         seen
     }
 
-    /// Who wants to be alone starts when the pointer has seen it, with the point that it has, where its attempt was.
+    /// Checks the start of a solo insertion: the context starts once the pointer has seen it, with the point that it
+    /// has, at the record of its attempt.
     fn expect_solo(&self, inputs: &Inputs, candidate: Candidate) {
         let may_start = inputs.solo && inputs.all_rest && !inputs.solo_is_at_work;
         let starts = may_start && candidate.is_solo;
@@ -284,7 +287,7 @@ impl Rig {
     }
 }
 
-/// What a job has seen.
+/// Events of a job.
 #[derive(Default)]
 struct Tally {
     taken: Vec<(u64, u64)>,
@@ -293,7 +296,7 @@ struct Tally {
     stops: VecDeque<u64>,
 }
 
-/// Lets points come and contexts live until all points are taken and everyone sleeps.
+/// Lets points come and contexts work until all points are taken and all contexts sleep.
 fn job(rig: &mut Rig, random: &mut SplitMix64, points: u64, tally: &mut Tally) {
     let (mut came, mut solo, mut is_urgent, mut special) = (false, false, false, 0);
     for _ in 0..200_000 {
@@ -336,16 +339,16 @@ fn job(rig: &mut Rig, random: &mut SplitMix64, points: u64, tally: &mut Tally) {
     panic!("of {points} points {} are taken: {:?}", tally.taken.len(), rig.lives);
 }
 
-/// What becomes of a context at an edge.
+/// Fate of a context at an edge.
 #[derive(Clone, Copy, Debug)]
 enum Deed {
-    /// It falls asleep: to try again from this root or not, with a commit or release due or not.
+    /// The context falls asleep, to try again from this root or not, with a commit or release due or not.
     Sleeps { root: u64, will_retry: bool, busy: bool },
-    /// Its commit ends and leaves this hint, and its locks are released.
+    /// The commit of the context ends and leaves this hint, and its locks are released.
     IsFreed { hint: u64 },
 }
 
-/// Some context falls asleep, or is freed.
+/// Lets some context fall asleep, or frees it.
 fn deed(rig: &Rig, random: &mut SplitMix64) -> Option<(u64, Deed)> {
     let context = random.below(rig.contexts);
     let [root, hint] = [(); 2].map(|()| random.below(1 << 15));
@@ -356,13 +359,13 @@ fn deed(rig: &Rig, random: &mut SplitMix64) -> Option<(u64, Deed)> {
     sleeps.or(frees).map(|deed| (context, deed))
 }
 
-/// Jobs of so many contexts and points each, one after the other; batches or not.
+/// Runs jobs one after another, each with so many contexts and points, as batches or not.
 fn jobs(name: &'static str, config: Config, jobs: &[(u64, u64)], is_batch: bool) {
     let mut random = SplitMix64::new(80);
     let (mut again, mut waits) = (0, 0);
     let mut rig = Rig::new(name, config);
     for (contexts, points) in jobs.iter().copied() {
-        // All contexts sleep when the mesh is forgotten.
+        // All contexts sleep when the mesh is cleared.
         (rig.contexts, rig.is_batch) = (contexts, is_batch);
         rig.lives = vec![Life::default(); contexts as usize];
         rig.clock(&Inputs { clears: true, came: true, ..Inputs::default() });
@@ -374,13 +377,13 @@ fn jobs(name: &'static str, config: Config, jobs: &[(u64, u64)], is_batch: bool)
             let expected = rig.deal().dealt(context).take_while(|vertex| *vertex < points);
             assert!(own.eq(expected), "{contexts} contexts, context {context}");
         }
-        // Until vertex 16 is taken, context 0 is the only one.
+        // Until vertex 16 is taken, context 0 is the only one that works.
         let first = tally.taken.len().min(FIRST_ROUND as usize - 1);
         assert!(is_batch || tally.taken[..first].iter().all(|(context, _)| *context == 0));
         vertices.sort_unstable();
         let triples = if is_batch { contexts } else { 1 };
         assert!(vertices.into_iter().eq((0..points).filter(|id| *id >= 3 * triples || id % 3 == 2)));
-        // The pointer leaves nobody out; it is two contexts ahead.
+        // The pointer skips no context; it is two contexts ahead.
         let stops: Vec<u64> = tally.stops.into_iter().skip(2).collect();
         assert!(stops.windows(2).all(|two| two[1] == (two[0] + 1) % contexts));
         (again, waits) = (again + tally.again, waits + tally.waits);

@@ -1,4 +1,4 @@
-//! `SoloVisit`: Rust, Verilog and a statement of the rule agree over random inputs.
+//! Runs `SoloVisit` in Rust and in Verilog beside a statement of the rule: all three must agree over random inputs.
 
 use crate::rig::stepper::bundles::{flip, id, turned, LockFinding, Visit};
 use crate::rig::stepper::{named_ports, Stepper};

@@ -1,4 +1,4 @@
-//! `SoloWrites`: Rust, Verilog and a statement of what each state writes agree.
+//! Runs `SoloWrites` in Rust and in Verilog beside a statement of what each state writes: all three must agree.
 
 use crate::rig::stepper::bundles::{link_write, record_write, turned, LockFinding};
 use crate::rig::stepper::{named_ports, Stepper};
@@ -11,7 +11,7 @@ named_ports!(
     [write]
 );
 
-/// A finding that no write may depend on.
+/// A finding at a lock on which no write may depend.
 const LOCKED: LockFinding = LockFinding { took: true, foreign: true, again: true };
 
 /// Inputs of `SoloWrites` that are ids.

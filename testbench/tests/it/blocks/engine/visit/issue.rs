@@ -1,4 +1,4 @@
-//! `Issue`: Rust, Verilog and plain arithmetic agree, clock by clock.
+//! Runs `Issue` in Rust and in Verilog beside plain arithmetic: all three must agree in every clock.
 
 use std::cell::RefCell;
 use std::collections::VecDeque;
@@ -13,7 +13,7 @@ named_ports!([] Issue, [reset, push, read], [visit_valid, visit, vertices_id, li
 
 const CYCLES: usize = 6_000;
 
-/// Visits waiting, each with a mark on the last of its bundle, and the issue register.
+/// Visits that wait, each with a mark on the last of its bundle, and the issue register.
 #[derive(Default)]
 struct Queue {
     waiting: VecDeque<(u128, bool)>,
@@ -46,7 +46,7 @@ fn issue_makes_one_visit_a_clock_in_order() {
     let queue = RefCell::new((Queue::default(), SplitMix64::new(31)));
     let stimuli = (0..CYCLES).map(|cycle| {
         let (queue, numbers) = &mut *queue.borrow_mut();
-        // In turn: floods, drops, droughts.
+        // Floods, drops and droughts take turns.
         let rate = [1, 2, 9, 40][cycle / 128 % 4];
         let has_place = queue.bundles() < PLACES;
         let push = has_place && numbers.once_in(rate);

@@ -1,4 +1,5 @@
-//! Who may push visits into the queue: Rust, Verilog and a statement of the rules agree.
+//! Decides who may push visits into the queue, in Rust and in Verilog beside a statement of
+//! the rules: all three must agree.
 
 use crate::rig::stepper::bundles::{flip, id, Visit};
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
@@ -9,7 +10,7 @@ named_ports!(PushPort, [reset, follow, start, solo_is_at_work, solo], [push], cl
 
 const ROUNDS: usize = 6000;
 
-/// Who asks for visits in a clock; nobody else may.
+/// The blocks that ask for visits in a clock.
 #[derive(Clone, Copy, Debug, Default)]
 struct Asking {
     reset: bool,
@@ -23,7 +24,7 @@ struct Asking {
     solo: Visit,
 }
 
-/// One clock of the push port; what it must show in the next one.
+/// Runs one clock of the push port, and returns the visit that it must show in the next one.
 fn push_clock(block: &mut Stepper<PushPort>, asking: &Asking, shown: Option<Visit>) -> Option<Visit> {
     for (port, value) in [
         ("reset", asking.reset),
@@ -44,7 +45,7 @@ fn push_clock(block: &mut Stepper<PushPort>, asking: &Asking, shown: Option<Visi
         block.expect("push_valid", shown.is_some());
     }
     if let Some(visit) = shown {
-        // A walk's visit has no entry.
+        // The visit of a walk has no entry.
         let visits = if visit.locks && !visit.rotates { 3 } else { 1 };
         let bits = if visits == 3 {
             93
@@ -81,7 +82,7 @@ fn push_port_takes_the_visits_of_whoever_asks() {
             starts: starts && !may_ask && !solo_is_at_work,
             solo_is_at_work,
             solo_asks: solo_is_at_work && solo_asks,
-            // A root's three tests are told from the others by the kind of visit here.
+            // A root visit here, so that its three tests can be told from other visits by their kind.
             follows: Visit { rotates: false, locks: true, ..Visit::random(&mut random) },
             starter: Visit { context: random.below(24), ..Visit::look(id(&mut random)) },
             solo: Visit { rotates: true, ..Visit::random(&mut random) },

@@ -1,9 +1,9 @@
-//! A whole visit: queue, memories, locks, reader, predicates and verdict together agree in Rust, in Verilog and in plain arithmetic,
-//! and answer after the clocks they promise.
+//! Runs whole visits: queue, memories, locks, reader, predicates and verdict together must agree in Rust, in Verilog
+//! and in plain arithmetic, and must answer after the promised number of clocks.
 //!
-//! The records are not those of a mesh but random ones, three links that differ and any corners, so that every turn, tie and ghost
-//! comes up; the pipeline does not know the difference. Visits of all contexts come at every clock and meet at few records, while
-//! records are written, points change and locks are cleared.
+//! The records are not those of a mesh but random ones, with three links that differ and any corners, so that every
+//! turn, tie and ghost triangle comes up. The pipeline does not know the difference. Visits of all contexts come at
+//! every clock and meet at few records, while records are written, points change and locks are cleared.
 
 use std::cell::RefCell;
 use std::collections::VecDeque;
@@ -16,7 +16,12 @@ use incircle_hdl::engine::VisitPipeline;
 use incircle_protocol::{infinite_vertex, Config, SMALL, TINY};
 use incircle_testkit::SplitMix64;
 
-named_ports!([] VisitPipeline, [reset, infinite, records, push, position, read, write, enables, arrival, fetch_id, clear], [is_issuing, completion, early, read_out, fetched], clock);
+named_ports!(
+    [] VisitPipeline,
+    [reset, infinite, records, push, position, read, write, enables, arrival, fetch_id, clear],
+    [is_issuing, completion, early, read_out, fetched],
+    clock
+);
 
 const INPUTS: [&str; 18] = [
     "reset",
@@ -39,8 +44,8 @@ const INPUTS: [&str; 18] = [
     "enables",
 ];
 
-/// Of `turned` first what is arbitrary in a torn record, then took, foreign and again, then which vertex is infinite. Of `verdict` the
-/// parts of `VERDICT_PARTS`.
+/// Outputs that are compared. `turned` comes in parts: first the bits that are arbitrary in a torn record, then took,
+/// foreign and again, then which vertex is infinite. `verdict` comes in the parts of `VERDICT_PARTS`.
 const OUTPUTS: [&str; 18] = [
     "is_issuing",
     "completion_done",
@@ -65,35 +70,35 @@ const OUTPUTS: [&str; 18] = [
 /// Clocks from the issue register to `done`.
 const STAGES: usize = 16;
 
-/// Clocks from the issue register in which vertices are read, and the point.
+/// Clocks from the issue register to the read of the vertices and of the point.
 const VERTEX_CLOCK: usize = 2;
 
 const POINT_CLOCK: usize = 4;
 
-/// Records and vertices that a test uses.
+/// Number of records and of vertices that a test uses.
 const POOL: u64 = 16;
 
-/// Clocks of a round: writes, visits, rest, read-outs.
+/// Clocks of a round, which writes, visits, rests and reads out.
 const ROUND: usize = 104;
 
 const ROUNDS: usize = 45;
 
-/// A visit under way: what is known of it so far, and nothing where it is arbitrary.
+/// A visit under way, with everything that is known of it so far; `None` where a value is arbitrary.
 #[derive(Clone, Copy)]
 struct Flight {
     visit: u128,
     context: usize,
-    /// took, foreign, again.
+    /// Bits found at the lock: took, foreign, again.
     lock: [bool; 3],
     slot: usize,
-    /// As stored, like its corners.
+    /// The record as stored; its corners are in the same order.
     record: Option<Record>,
     corners: Option<[Point; 3]>,
     verdict: Expected,
     parts: [Expected; 3],
 }
 
-/// What happened, so that a test can say that it all did.
+/// Counts of events, so that a test can check that each of them happened.
 #[derive(Debug, Default)]
 struct Seen {
     visits: usize,
@@ -117,7 +122,7 @@ impl Seen {
     }
 }
 
-/// The memories as arrays, the visits waiting, and what comes out when.
+/// The memories as arrays, the visits that wait, and the visits under way.
 struct Visits {
     vertices: u64,
     contexts: u64,
@@ -130,14 +135,14 @@ struct Visits {
     waiting: VecDeque<u128>,
     issued: Option<u128>,
     reads: Option<u64>,
-    /// Place 0 is what comes out in this clock.
+    /// Visits under way; the one at place 0 comes out in this clock.
     flights: VecDeque<Option<Flight>>,
     read_outs: VecDeque<Option<(Record, bool)>>,
     fetched: Delay<Expected>,
     seen: Seen,
 }
 
-/// Inputs of a clock that are not the same all the time.
+/// Inputs of a clock that change.
 #[derive(Default)]
 struct Writes {
     write: u128,
@@ -167,18 +172,18 @@ impl Visits {
         }
     }
 
-    /// A record of the pool, spread over the memory.
+    /// Returns the id of a record of the pool, spread over the memory.
     fn record_id(&mut self) -> u64 {
         self.numbers.below(POOL) * (self.records.len() as u64 / POOL)
     }
 
-    /// A record of the pool; every second time the one that a visit reads in this clock.
+    /// Returns the id of a record of the pool; every second time that of the record that a visit reads in this clock.
     fn visited_id(&mut self) -> u64 {
         let any = self.record_id();
         self.issued.filter(|_| self.numbers.bits(1) == 1).map_or(any, |visit| unpack(VISIT, visit)[7])
     }
 
-    /// A vertex of the pool; the last one stands where the infinite vertex reads.
+    /// Returns a vertex of the pool; the last one stands where the infinite vertex reads.
     fn vertex_id(&mut self, place: u64) -> u64 {
         let pool = POOL.min(self.vertices);
         (place % pool + 1) * (self.vertices / pool) - 1
@@ -200,7 +205,7 @@ impl Visits {
             corners[place] = self.infinite;
         }
         let last = self.records.len() as u64 - 1;
-        // Links of different columns differ, also when they are written one by one.
+        // Links of different columns differ, even if they are written one by one.
         let n = [0, 1, 2].map(|column| self.numbers.next_u64() & last & !3 | column);
         let columns = if whole { 0b1111 } else { self.numbers.bits(4) };
         let [vertices, link0, link1, link2] = [0, 1, 2, 3].map(|bit| columns >> bit & 1);
@@ -221,7 +226,8 @@ impl Visits {
         pack(BUNDLE, bundle)
     }
 
-    /// First everything is written; then each round writes at every second clock before its visits and at every sixth during them.
+    /// Writes everything at first. After that, each round writes at every second clock before its visits
+    /// and at every sixth during them.
     fn writes(&mut self, round: usize, clock: usize) -> Writes {
         let mut writes = Writes::default();
         let place = self.numbers.next_u64();
@@ -279,7 +285,7 @@ impl Visits {
         ]
     }
 
-    /// Outputs of a clock, then its edge.
+    /// Returns the outputs of a clock, then passes its edge.
     fn cycle(&mut self, values: &[u128]) -> Vec<Expected> {
         let mut shown = self.outputs();
         let fetched = (values[13] == 0).then(|| self.positions[values[14] as usize].into());
@@ -327,7 +333,7 @@ impl Visits {
         shown
     }
 
-    /// The visit in the issue register reads its record at this edge and comes out `STAGES` clocks later.
+    /// The visit in the issue register reads its record at this edge, and comes out `STAGES` clocks later.
     fn visit(&mut self, visit: u128, values: &[u128]) {
         let [context, rotates, locks, .., cavity_record, record] = unpack(VISIT, visit);
         let write = unpack(WRITE, values[10]);
@@ -356,9 +362,9 @@ impl Visits {
         });
     }
 
-    /// The visit whose record is there reads its corners; a corner that is written at this edge is arbitrary.
+    /// The visit that has its record reads the corners; a corner that is written at this edge is arbitrary.
     fn read_vertices(&mut self, values: &[u128]) {
-        // The memory has no word for the infinite vertex: its id wraps.
+        // The memory has no word for the infinite vertex, so its id wraps.
         let place = |vertex: u64| (vertex % self.vertices) as usize;
         let written = (values[13] == 1).then_some(values[11] as usize);
         if let Some(flight) = &mut self.flights[STAGES - VERTEX_CLOCK] {
@@ -368,7 +374,7 @@ impl Visits {
         }
     }
 
-    /// The visit whose corners are there gets its context's point.
+    /// The visit that has its corners gets the point of its context.
     fn judge(&mut self) {
         if let Some(flight) = &mut self.flights[STAGES - POINT_CLOCK] {
             let p = point(self.points[flight.context]);
@@ -435,8 +441,8 @@ impl Visits {
 fn visits(name: &str, config: Config) {
     assert_eq!(VisitPipeline::STAGES, STAGES);
     let visits = RefCell::new(Visits::new(config));
-    // Before its reset a block that starts with anything may have taken a lock: all are cleared, and nothing is compared until then, nor
-    // in the two clocks in which a vertex comes that nobody wrote.
+    // Before its reset the block starts with random values and may have taken a lock. So all locks are cleared first,
+    // and nothing is compared until then, nor in the two clocks in which a vertex comes that nobody wrote.
     let clears = 2 * config.points as usize;
     let clearing = (0..=clears + STAGES).map(|clock| {
         let mut inputs = vec![0; INPUTS.len()];

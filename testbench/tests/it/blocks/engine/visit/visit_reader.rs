@@ -1,4 +1,4 @@
-//! `VisitReader`: Rust, Verilog and plain arithmetic agree, clock by clock.
+//! Runs `VisitReader` in Rust and in Verilog beside plain arithmetic: all three must agree in every clock.
 
 use crate::rig::drawing::{draw, When};
 use crate::rig::stepper::bundles::{pack, random_fields, unpack, VISIT};
@@ -7,13 +7,18 @@ use crate::rig::visit_model::Record;
 use incircle_hdl::engine::VisitReader;
 use incircle_testkit::SplitMix64;
 
-named_ports!([] VisitReader, [infinite, visit, record, again, took, foreign, stored_corners], [turned, visit_at_record, corners], clock);
+named_ports!(
+    [] VisitReader,
+    [infinite, visit, record, again, took, foreign, stored_corners],
+    [turned, visit_at_record, corners],
+    clock
+);
 
 const CYCLES: usize = 6_000;
 
 const INFINITE: u64 = 0x7fff;
 
-/// A record with three links that differ, and the infinite vertex on one corner or none.
+/// A record with three links that differ, and the infinite vertex on one corner or on none.
 pub fn record(numbers: &mut SplitMix64) -> Record {
     let mut v = [(); 3].map(|()| numbers.bits(15) % INFINITE);
     let place = numbers.bits(3) as usize;
@@ -32,7 +37,8 @@ fn visit_reader_turns_record_and_corners() {
     records.push(Record::default());
     let stimuli: Vec<Vec<u128>> = (0..CYCLES)
         .map(|cycle| {
-            // The visit's record is there two clocks later; it came through one of its links, or through none.
+            // The record of the visit is there two clocks later; the visit came through one
+            // of its links, or through none.
             let mut visit = random_fields(VISIT, &mut numbers);
             let link = numbers.bits(2) as usize;
             if link < 3 {
@@ -71,8 +77,8 @@ fn visit_reader_turns_record_and_corners() {
         |values| {
             past.push(values.to_vec());
             let ago = |clocks: usize| past.len().checked_sub(1 + clocks).map(|at| &past[at]);
-            // The record that stood on the columns three clocks ago, the slot that its visit puts first, and its lock a
-            // clock later.
+            // The record that stood on the columns three clocks ago, the slot that its visit puts first,
+            // and its lock a clock later.
             let visit = || {
                 let (columns, lock, visit) = (ago(3)?, ago(2)?, unpack(VISIT, ago(5)?[1]));
                 let column = |port: usize| columns[port] as u64;
@@ -93,7 +99,7 @@ fn visit_reader_turns_record_and_corners() {
 
 #[test]
 fn visit_reader_shows_the_wave_of_its_header() {
-    // Through link 1, so that vertex 1 comes first.
+    // The visit comes through link 1, so vertex 1 comes first.
     let stimuli = [
         (0, "visit", pack(VISIT, [0, 1, 0, 0, 0, 0, 30, 5])),
         (2, "record_v0", 11),
