@@ -1,7 +1,6 @@
-//! Measures a whole job beside two well-known libraries, on one thread: uniform points of 16
-//! bits, fresh ones for every iteration.
-//! The counts are 16,384 and those of the one earlier paper on Delaunay triangulation in an FPGA; `testbench/cycles.md`
-//! cites that paper and has the core's cycles for the same counts.
+//! Measures a whole job beside two well-known libraries, on one thread: uniform points of 16 bits, fresh ones for every
+//! iteration. The counts are 16,384 and those at which the survey of Elshakhs et al. reports the speed of another core
+//! in an FPGA; `testbench/cycles.md` cites the survey and has the cycles of our core for the same counts.
 //!
 //! `incircle/cpu` is the call `triangulate` of the library: it removes duplicates, orders the points, runs the
 //! CPU triangulator and returns canonical triangles. `spade/bulk` builds a half-edge structure and `delaunator`

@@ -68,6 +68,7 @@ pub enum MapError {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Refused;
 
+/// Memory of the host at the addresses of the card, with the accesses that the host allows.
 #[derive(Debug)]
 struct Mapping {
     address: u64,

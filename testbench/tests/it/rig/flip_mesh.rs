@@ -8,8 +8,8 @@ pub type Point = (i64, i64);
 /// Number of the infinite vertex.
 pub const INFINITE: u64 = 0x7fff;
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 /// A record: its vertices `v`, counter-clockwise, and opposite each the id of a neighbour `n`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Record {
     pub v: [u64; 3],
     pub n: [u64; 3],
@@ -34,8 +34,8 @@ pub enum Written {
     Link { id: u64, slot: u64, value: u64 },
 }
 
-#[derive(Clone, Debug, Default)]
 /// The points and the records of a mesh.
+#[derive(Clone, Debug, Default)]
 pub struct Mesh {
     pub points: Vec<Point>,
     pub records: Vec<Record>,
