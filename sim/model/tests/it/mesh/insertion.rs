@@ -92,7 +92,7 @@ fn every_order_and_list_size_gives_the_same_mesh() {
 }
 
 #[test]
-fn insertion_alone_makes_two_tests_a_flip_and_three() {
+fn a_solo_insertion_makes_two_tests_a_flip_and_three() {
     let mut random = Random(2);
     let points: Vec<Point> = (0..500).map(|_| Point { x: random.below(300), y: random.below(300) }).collect();
     let (mesh, _) = build(&points, 3).unwrap();
