@@ -60,7 +60,11 @@ struct ExportArguments {
 #[command(after_help = "Example:\n  incircle-hdl board ulx3s-85f --out build/ulx3s-85f")]
 struct BoardArguments {
     /// Name of the board: ulx3s-85f, colorlight-i5 or ecpix-5.
-    #[arg(value_parser = named_board, required_unless_present_any = ["all", "table"], conflicts_with_all = ["all", "table"])]
+    #[arg(
+        value_parser = named_board,
+        required_unless_present_any = ["all", "table"],
+        conflicts_with_all = ["all", "table"]
+    )]
     name: Option<Board>,
     /// Make the bitstreams of all boards, each in a folder with the board's name.
     #[arg(long, conflicts_with = "table")]

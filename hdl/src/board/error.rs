@@ -34,7 +34,11 @@ pub enum BoardError {
     #[error("the tools cannot be installed, which needs python3 with venv and a network, the first time: {0}")]
     Install(Box<BoardError>),
     /// A tool has ended well but printed warnings that nobody has judged yet.
-    #[error("{program} warns, see {}: judge these warnings and change the source, or the list of those accepted\n{warnings}", log.display())]
+    #[error(
+        "{program} warns, see {}: judge these warnings and change the source, or the list of those \
+         accepted\n{warnings}",
+        log.display()
+    )]
     Warned {
         program: String,
         /// The file with all output of the tool.

@@ -22,15 +22,22 @@ fn counts_of(text: &str) -> Result<(Cells, Cells), String> {
     // No device has more cells than fit in 32 bits.
     let count = |line: &str| line.strip_suffix(" objects.")?.trim().parse::<u32>().ok();
     let counts: Vec<u64> = text.lines().filter_map(count).map(u64::from).collect();
-    let [luts, core_luts, carries, core_carries, memories, core_memories, ffs, core_ffs, dsps, core_dsps, ebrs, core_ebrs] =
-        counts[..]
-    else {
-        return Err(format!("it holds {} counts, not {}", counts.len(), 2 * COUNTED.len()));
+    // For each kind of cell all, then those of the core.
+    let [luts, carries, memories, ffs, dsps, ebrs] = match counts.as_chunks::<2>() {
+        (pairs, []) if pairs.len() == 6 => [0, 1, 2, 3, 4, 5].map(|kind| pairs[kind]),
+        _ => {
+            return Err(format!("it holds {} counts, not {}", counts.len(), 2 * COUNTED.len()));
+        }
     };
     // A carry cell takes two look-up tables, and a distributed memory keeps its bits in two.
     let lut = |luts: u64, carries: u64, memories: u64| luts + 2 * carries + 2 * memories;
-    let core = Cells { lut: lut(core_luts, core_carries, core_memories), ff: core_ffs, dsp: core_dsps, ebr: core_ebrs };
-    let all = Cells { lut: lut(luts, carries, memories), ff: ffs, dsp: dsps, ebr: ebrs };
+    let cells = |side: usize| Cells {
+        lut: lut(luts[side], carries[side], memories[side]),
+        ff: ffs[side],
+        dsp: dsps[side],
+        ebr: ebrs[side],
+    };
+    let (all, core) = (cells(0), cells(1));
     if !core.is_within(all) {
         return Err(format!("the core has more cells than there are: {core:?}, {all:?}"));
     }

@@ -118,7 +118,8 @@ fn three(Summary { min, median, max }: Summary) -> String {
 /// The table of all boards. Its links start at `constraints/`.
 fn overview(measured: &[(Board, Option<Measurement>)]) -> String {
     let mut text = String::from(
-        "\n| board | points, contexts | LUT, core + link | FF | DSP | EBR | Fmax of the seeds, min / median / max | clock | cycles an insertion | insertions a second | serial |\n\
+        "\n| board | points, contexts | LUT, core + link | FF | DSP | EBR | Fmax of the seeds, min / median / max \
+         | clock | cycles an insertion | insertions a second | serial |\n\
          |---|---|---|---|---|---|---|---|---|---|---|\n",
     );
     for (board, measurement) in measured {
@@ -151,7 +152,7 @@ fn overview(measured: &[(Board, Option<Measurement>)]) -> String {
         })
         .collect();
     measurements.push(format!("cycles of {POINT_SET} points to the brim: testbench/cycles.md"));
-    text += &format!("\nMeasured: {}.\n", measurements.join("; "));
+    text += &format!("\nMeasured:\n- {}.\n", measurements.join(";\n- "));
     text
 }
 

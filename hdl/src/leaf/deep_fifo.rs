@@ -162,8 +162,7 @@ impl<const A: usize, const D: usize> Logic for DeepFifo<A, D> {
             self.data.next = self.kept_data.val();
         }
 
-        // The register of the oldest entry is loaded with its successor on every pop, even if that is
-        // only just being pushed.
+        // On every pop the register of the oldest entry takes the successor, even one that is only just pushed.
         self.new_bank.read_address.next = self.after_first.q.val();
         self.fetched_bank.read_address.next = self.after_first.q.val();
         self.was_fetched.read_address.next = self.after_first.q.val();
@@ -181,8 +180,7 @@ impl<const A: usize, const D: usize> Logic for DeepFifo<A, D> {
             self.holds_first.d.next = self.holds_first.q.val() & (self.holds_more.q.val() | self.push.val());
         }
 
-        // Nothing here depends on `pop`, which comes late, except the last line: the other decisions are the same
-        // whether or not the oldest entry leaves.
+        // The input `pop` comes late, so only the last of these decisions depends on it.
         self.joins.next = self.push.val() & self.holds_first.q.val();
         self.spills.next = self.joins.val() & (self.holds_spilled.q.val() | self.window_is_full.q.val());
         self.enters.next = self.joins.val() & (!self.spills.val());
@@ -201,8 +199,7 @@ impl<const A: usize, const D: usize> Logic for DeepFifo<A, D> {
         self.fetched_bank.write_data.next = self.ring.fetched_data.val();
         self.fetched_bank.write_enable.next = self.ring.fetched.val();
 
-        // A fetch reserves its place in the window and marks it at once; its data follow two clocks later,
-        // in the other bank.
+        // A fetch marks its place in the window at once; the data follow two clocks later, in the other bank.
         self.new_bank.write_address.next = self.place.val();
         self.new_bank.write_data.next = self.push_data.val();
         self.new_bank.write_enable.next = self.enters.val();

@@ -114,8 +114,7 @@ impl Logic for FrameReader {
         self.comes.next = self.is_over.q.val();
         self.is_sound.next = self.is_good.q.val();
 
-        // The check sum runs over its own bytes too: a sound frame then ends in one constant state, and no
-        // byte need be kept.
+        // The check sum runs over its own bytes too, so that a sound frame ends in one constant state.
         self.crc.sets.next = self.reset.val() | self.frame_ends.val();
         self.crc.start.next = self.first_state.val();
         self.crc.takes.next = self.data_valid.val();

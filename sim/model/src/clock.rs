@@ -112,8 +112,8 @@ impl ClockModel {
     pub fn describe(&self) -> String {
         let now = &self.registers;
         format!(
-            "asleep {:x}, retrying {:x}, busy {:x}, priority_context {:?}, solo {:?}, {} of {} points finished, commit {:?}, \
-             solo {:?}, command {:?}",
+            "asleep {:x}, retrying {:x}, busy {:x}, priority_context {:?}, solo {:?}, {} of {} points finished, \
+             commit {:?}, solo {:?}, command {:?}",
             now.contexts.asleep,
             now.contexts.retrying,
             now.contexts.busy,

@@ -90,18 +90,16 @@ pub fn measure(detail: Detail, rate: u32, points: usize) -> Result<[Goodput; 2],
 pub fn document() -> Result<String, Box<dyn Error>> {
     let mut text = String::from(
         "# Goodput of the serial link\n\n\
-         Made by `cargo run --release -p incircle-testbench --bin goodput`: the driver's protocol \
-         before the Verilated `incircle_serial_top`, its pins\n\
-         driven and sampled bit by bit, with 1 ms of round trip besides the bits, in virtual time, \
-         so the same everywhere. The core is `full`,\n\
-         its link has 16,384 bytes of FIFO.\n\n\
-         Payload is what the core and its user see: the words of one `Insert` with its points, \
-         the words of one `Read` answer with its\n\
-         records. The time is that of the whole command, from the call of the driver to the last word \
-         of the answer in its hands, so the\n\
-         round trip, frame headers, check sums, encoding, acknowledgements and the core's own work \
-         all count as losses. The limit is the\n\
-         rate over ten, as 8N1 sends ten bits a byte: what the line would carry if there were nothing but payload.\n\n\
+         For readers who want to know how much of a serial line is left for their points and triangles.\n\
+         Made by `cargo run --release -p incircle-testbench --bin goodput`: the driver's protocol runs before the\n\
+         Verilated `incircle_serial_top`, whose pins are driven and sampled bit by bit. Time is virtual, with 1 ms of\n\
+         round trip besides the bits, so the figures are the same on every machine. The core is `full`, and its link\n\
+         has a FIFO of 16,384 bytes.\n\n\
+         Payload is what the core and its user see: the words of one `Insert` with its points, or the words of one\n\
+         answer to `Read` with its records. The time is that of the whole command, from the call of the driver to the\n\
+         last word of the answer, so the round trip, frame headers, check sums, encoding, acknowledgements and the\n\
+         work of the core all count as losses. The limit is the rate over ten, because 8N1 sends ten bits a byte: the\n\
+         line would carry that much if it carried payload alone.\n\n\
          | bits per second | way | payload bytes | time | bytes per second | of the limit |\n\
          |---|---|---|---|---|---|\n",
     );

@@ -148,8 +148,7 @@ impl Logic for ContextFlags {
         self.state.d.next.began = self.state.q.val().began | self.starting.val();
         self.state.d.next.hinted = self.state.q.val().hinted | self.had_commit.val();
 
-        // L2: only the first context to ask gets the priority. If two could wait, each could wait for a
-        // lock of the other.
+        // L2: the first context to ask gets the priority; if two could wait, each could wait for the other.
         self.takes.next = self.outcome.val().asks_for_priority & (!self.state.q.val().priority_is_held);
         self.takes_priority.next = self.takes.val();
         self.is_holder.next = (self.outcome.val().returns_priority
@@ -159,8 +158,7 @@ impl Logic for ContextFlags {
             self.state.d.next.priority_is_held = true;
             self.state.d.next.priority_context = self.outcome.val().context;
         }
-        // L3: 8 foreign locks make the wait of the context with the priority a long one, and then no
-        // other context may retry.
+        // L3: after 8 foreign locks the context with the priority has waited long, and no other may retry.
         self.has_waited_long.next = self.waited.q.val().get_bit(3);
         self.contexts.next.is_urgent = self.state.q.val().priority_is_held & self.has_waited_long.val();
         if self.outcome.val().waits & (!self.has_waited_long.val()) {

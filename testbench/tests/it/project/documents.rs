@@ -1,5 +1,5 @@
-//! The documents keep up with the project: links lead somewhere, the book has every page, examples are the compiled ones, and
-//! the table of dependencies is what cargo says.
+//! The documents keep up with the project: links lead somewhere, the book has every page, examples are the compiled
+//! ones, and the table of dependencies is what cargo says.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Component, Path, PathBuf};
@@ -12,7 +12,7 @@ fn documents() -> BTreeSet<String> {
         let entries = std::fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
         for path in entries.map(|entry| entry.expect("an entry").path()) {
             let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            // Folders of git and of builds are not the repository's. Cargo marks its own; `docs/build` may be there before it.
+            // Folders of git and of builds are not ours. Cargo marks its own, but `docs/build` may come first.
             let is_ours = !name.starts_with('.') && name != "target" && !path.join("CACHEDIR.TAG").exists();
             if path.is_dir() && !path.is_symlink() && is_ours {
                 look_into(&path, documents);
@@ -67,8 +67,8 @@ fn anchors(text: &str) -> BTreeSet<String> {
         .collect()
 }
 
-/// The file, by its path from the root, and the heading to which a link in `document` leads. The heading is empty if the link
-/// names none.
+/// The file, by its path from the root, and the heading to which a link in `document` leads. The heading is empty if
+/// the link names none.
 fn destination<'a>(document: &str, link: &'a str) -> (String, &'a str) {
     let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
     if file.is_empty() {
