@@ -1,4 +1,5 @@
-//! Exports each named configuration of the core afresh, and the boards and cards that are simulated, and verilates them.
+//! Exports the named configurations of the core, and the simulated boards and cards, from `hdl`, and
+//! translates them with Verilator.
 
 #[path = "src/serial/board.rs"]
 mod board;
@@ -7,16 +8,17 @@ use incircle_hdl::export;
 use incircle_protocol::{Config, FULL, SMALL};
 use verilated::build::{Builder, ModelSource, Optimisation};
 
-/// Root modules of the exported core, of the core behind its serial link, and behind its stream link.
+/// Root modules: the core, the core behind its serial link, and the core behind its stream link.
 const TOP: &str = "incircle_core";
 const SERIAL_TOP: &str = "incircle_serial_top";
 const STREAM_TOP: &str = "incircle_stream_top";
-/// The cards that are simulated, with the bits of their beats.
+/// The simulated cards, with the bits of their beats.
 const CARDS: [(Config, u32); 3] = [(SMALL, 64), (SMALL, 128), (FULL, 64)];
 
 fn main() {
     println!("cargo:rerun-if-env-changed=INCIRCLE_ONLY");
-    // For work on a few of them: only models whose name begins with one of these prefixes, separated by commas, are built.
+    // For work on a few models: if the variable is set, only models whose name begins with one of its prefixes,
+    // separated by commas, are built.
     let only = std::env::var("INCIRCLE_ONLY").unwrap_or_default();
     let is_wanted = |name: &str| only.is_empty() || only.split(',').any(|prefix| name.starts_with(prefix));
     let mut builder = Builder::new();
@@ -42,7 +44,7 @@ fn main() {
             builder = builder.model(ModelSource::new(&name, STREAM_TOP, verilog).optimisation(Optimisation::Fast));
         }
     }
-    // For the tests of the device's streams, without a core behind them.
+    // A small model for the tests of `SimDevice`, which need the two streams but no core.
     match ModelSource::file("echo", "echo", "tests/echo.v") {
         Ok(echo) => builder.model(echo.trace(true)).compile(),
         Err(error) => panic!("{error}"),

@@ -1,6 +1,6 @@
-//! Verilates every block that incircle-hdl exports, and whole cores for lock-step: sound ones, ones with faults, and one as the
-//! netlist that synthesis makes of it. So tests can run any of them by name. All but netlists and boards start without the initial
-//! values of their flip-flops, so at random.
+//! Verilates what the tests run by name: every block that `incircle-hdl` exports, whole cores for lock-step (sound ones
+//! and ones with faults), a core as the netlist that synthesis makes of it, stream links and boards. All but netlists
+//! and boards are built without the initial values of their flip-flops, so they start at random.
 
 #[path = "build/boards.rs"]
 mod boards;
@@ -32,7 +32,8 @@ fn main() {
     println!("cargo:rerun-if-changed=cells");
     println!("cargo:rerun-if-changed=../constraints");
     println!("cargo:rerun-if-env-changed=INCIRCLE_ONLY");
-    // For work on a few blocks: only models whose name begins with one of these prefixes, separated by commas, are built.
+    // For work on a few blocks: `INCIRCLE_ONLY` lists prefixes, separated by commas, and only models whose name begins
+    // with one of them are built.
     let only = std::env::var("INCIRCLE_ONLY").unwrap_or_default();
     let is_wanted = |name: &str| only.is_empty() || only.split(',').any(|prefix| name.starts_with(prefix));
     let mut builder = Builder::new();
@@ -55,7 +56,8 @@ fn main() {
     }
     let netlists = if only.is_empty() || only.contains("netlist") { netlists::all() } else { Vec::new() };
     for (name, verilog) in netlists.into_iter().filter(|(name, _)| is_wanted(name)) {
-        // Quick to compile: it is large, and runs no more than some hundred thousand clocks.
+        // A netlist is compiled without optimisation: the text is large, and runs no
+        // more than some hundred thousand clocks.
         builder =
             builder.model(ModelSource::new(name, incircle_hdl::top::CORE_NAME, verilog).random_initial_state(true));
     }

@@ -3,7 +3,8 @@
 #     cargo run --release -p incircle-hdl -- export --config full --top stream --width 128 -o device.v
 #     vivado -mode batch -source constraints/acorn-cle-215/build.tcl -tclargs device.v build/acorn [PART]
 #
-# PART is xc7a200tfbg484-2 (CLE-215), unless given: xc7a200tfbg484-3 for a CLE-215+. A clock that is missed ends with an error and no bitstream.
+# PART is xc7a200tfbg484-2, a CLE-215, unless another is given: xc7a200tfbg484-3 for a CLE-215+. A missed clock ends the
+# script with an error and without a bitstream.
 
 if {$argc < 2 || $argc > 3} {
     error "give the exported Verilog, a folder for the result, and the part if it is not a CLE-215"
@@ -20,7 +21,7 @@ file mkdir $out
 create_project -in_memory -part $part
 set_property target_language Verilog [current_project]
 
-# The bridge: four lanes of 5 GT/s, one stream each way of 128 bits at 125 MHz, and a window of registers.
+# The bridge has four lanes of 5 GT/s, one stream of 128 bits at 125 MHz each way, and a window of registers.
 create_ip -name xdma -vendor xilinx.com -library ip -module_name xdma_bridge -dir $out
 set_property -dict [list \
     CONFIG.mode_selection Advanced \

@@ -1,6 +1,6 @@
-// incircle on an Acorn CLE-215: the pins, the clock of the core, and the device behind the vendor's bridge from PCI Express to AXI.
+// incircle on an Acorn CLE-215: the pins, the clock of the core, and the device behind the vendor's PCI Express bridge.
 //
-// The bridge makes the bus clock, 125 MHz; the core has a clock of its own, so that neither sets the other's.
+// The bridge makes the bus clock, 125 MHz. The core has a clock of its own, so that neither limits the other.
 `default_nettype none
 module acorn_cle_215 (
     input wire clk200_p,
@@ -8,13 +8,13 @@ module acorn_cle_215 (
     input wire pcie_clk_p,
     input wire pcie_clk_n,
     input wire pcie_rst_n,
-    // Held low: the card always wants its reference clock.
+    // Held low, because the card always asks for its reference clock.
     output wire pcie_clkreq_n,
     input wire [3:0] pcie_rx_p,
     input wire [3:0] pcie_rx_n,
     output wire [3:0] pcie_tx_p,
     output wire [3:0] pcie_tx_n,
-    // Link up, bus clock runs, core clock runs, always on.
+    // Lamps from bit 0 up: the link is up, the bus clock runs, the core clock runs, always on.
     output wire [3:0] led
 );
     assign pcie_clkreq_n = 1'b0;
@@ -50,7 +50,7 @@ module acorn_cle_215 (
         .PWRDWN(1'b0),
         .RST(1'b0)
     );
-    // Until it is locked the core has no clock, and a reset waits for it: protocol/STREAM.md, rule 8.
+    // Until the PLL is locked the core has no clock, and a reset waits for one: protocol/STREAM.md, rule 8.
     BUFGCE core_clock_buffer (.I(core_clock_raw), .CE(locked), .O(core_clock));
 
     // The bridge.
@@ -164,7 +164,7 @@ module acorn_cle_215 (
         .s_axi_rready(read_ready)
     );
 
-    // Lamps: a blink for each clock. Configuration sets the counters to 0.
+    // One lamp blinks for each clock. Configuration sets the counters to 0.
     reg [25:0] bus_beat = 26'd0;
     reg [25:0] core_beat = 26'd0;
     always @(posedge bus_clock) bus_beat <= bus_beat + 26'd1;

@@ -1,14 +1,14 @@
 // incircle on a Colorlight i5 in its extension board: the pins, the clock, and the device behind its serial link.
 //
-// `BOARD_PLL` is the list of the PLL's dividers; see ecp5/clock.v.
+// `BOARD_PLL` is the list of dividers of the PLL; see ecp5/clock.v.
 `default_nettype none
 module colorlight_i5 (
     input wire clk_25mhz,
     output wire uart_tx,
     input wire uart_rx,
-    // The one lamp of the module, lit by a low level: alive.
+    // The only lamp of the module, which a low level lights: alive.
     output wire led_n,
-    // Pins of the PMOD connector P3: busy and error.
+    // Two pins of the PMOD connector P3: busy and error.
     output wire [1:0] pmod
 );
     wire clock;

@@ -7,14 +7,14 @@
 // | `clock` | out | 1 | the clock of everything else |
 // | `reset` | out | 1 | in that clock; active high |
 //
-// 1. Out of configuration `reset` is high. It falls when the PLL has been locked, and the button up, for 255 clocks.
-// 2. It rises again two clocks after the lock is lost or the button is pressed.
+// 1. After configuration `reset` is high. It falls once the PLL has been locked, with the button up, for 255 clocks.
+// 2. `reset` rises again two clocks after the lock is lost or the button is pressed.
 //
-// The oscillator's frequency, divided by INPUT_DIVIDER, is what the phase detector compares with CLKOP; the VCO runs at
-// LOOP_DIVIDER times that, `clock` at the VCO's frequency by OUTPUT_DIVIDER. `incircle-hdl board` computes the three.
+// The phase detector compares CLKOP with the oscillator's frequency divided by INPUT_DIVIDER. The VCO runs at
+// LOOP_DIVIDER times that, and `clock` at the VCO's frequency by OUTPUT_DIVIDER. `incircle-hdl board` computes them.
 //
-// Written from the description in: Lattice, ECP5 and ECP5-5G sysCLOCK PLL/DLL Design and Usage Guide. The four attributes are the
-// settings of the loop filter that Project Trellis' own calculator gives for every frequency.
+// Written from: Lattice, ECP5 and ECP5-5G sysCLOCK PLL/DLL Design and Usage Guide. The four attributes set the loop
+// filter as the calculator of Project Trellis does for every frequency.
 `default_nettype none
 module clock_and_reset #(
     parameter INPUT_DIVIDER = 1,
@@ -67,7 +67,7 @@ module clock_and_reset #(
         .ENCLKOP(1'b0)
     );
 
-    // Configuration sets all of these to 0. The first two bits of `calm` take what has no clock, or another.
+    // Configuration sets these to 0. The bits of `calm` synchronise the lock and the button, which are asynchronous.
     reg [1:0] calm = 2'b00;
     reg [7:0] waited = 8'd0;
     reg released = 1'b0;

@@ -1,12 +1,12 @@
 // incircle on an ECPIX-5: the pins, the clock, and the device behind its serial link.
 //
-// `BOARD_PLL` is the list of the PLL's dividers; see ecp5/clock.v.
+// `BOARD_PLL` is the list of dividers of the PLL; see ecp5/clock.v.
 `default_nettype none
 module ecpix_5 (
     input wire clk_100mhz,
     output wire uart_tx,
     input wire uart_rx,
-    // Lit by a low level: LD5 green is alive, LD6 blue is busy, LD7 red is error.
+    // A low level lights a lamp: LD5 green is alive, LD6 blue is busy, LD7 red is error.
     output wire ld5_g,
     output wire ld6_b,
     output wire ld7_r

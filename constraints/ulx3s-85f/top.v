@@ -1,17 +1,17 @@
 // incircle on a ULX3S: the pins, the clock, and the device behind its serial link.
 //
-// `BOARD_PLL` is the list of the PLL's dividers; see ecp5/clock.v.
+// `BOARD_PLL` is the list of dividers of the PLL; see ecp5/clock.v.
 `default_nettype none
 module ulx3s_85f (
     input wire clk_25mhz,
-    // Named by the makers as the USB bridge sees them: the bridge receives on rxd and sends on txd.
+    // The makers name the pins as the USB bridge sees them: the bridge receives on rxd and sends on txd.
     output wire ftdi_rxd,
     input wire ftdi_txd,
-    // FIRE1: a reset, high while pressed.
+    // Button FIRE1, high while pressed: reset.
     input wire btn_fire1,
-    // Alive, busy, error.
+    // Lamps: alive, busy, error.
     output wire [2:0] led,
-    // High, or the ESP32 on the board takes over.
+    // Held high, or else the ESP32 on the board takes over.
     output wire wifi_gpio0
 );
     wire clock;

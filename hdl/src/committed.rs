@@ -1,4 +1,4 @@
-//! The Verilog files that the repository holds, so that the core can be synthesised without Rust.
+//! The Verilog files that the repository holds, so that a user can synthesise the core without Rust.
 
 use crate::export::{self, ExportError};
 use crate::files::replace;
@@ -7,26 +7,26 @@ use std::fmt;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// Configurations whose Verilog is committed.
+/// The configurations whose Verilog is in the repository.
 pub const COMMITTED: [Config; 2] = [SMALL, FULL];
 
-/// What is exported.
+/// The module that an export describes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Top {
     /// The core with its two streams of words.
     Core,
     /// The core behind a serial link.
     Serial(LinkConfig),
-    /// The core behind a stream link with beats of so many bits.
+    /// The core behind a stream link with beats of this many bits.
     Stream(u32),
 }
 
-/// An export that did not reach its file.
+/// The reason why an export did not reach its file.
 #[derive(Debug)]
 pub enum WriteError {
     /// The design is not fit for export.
     Export(ExportError),
-    /// The file cannot be written.
+    /// The file, named first, cannot be written.
     File(PathBuf, io::Error),
 }
 
@@ -41,17 +41,17 @@ impl fmt::Display for WriteError {
 
 impl std::error::Error for WriteError {}
 
-/// The folder of the committed files.
+/// The folder of the committed Verilog files.
 pub fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("verilog")
 }
 
-/// The committed file of a configuration.
+/// The committed Verilog file of a configuration.
 pub fn file(config: Config) -> PathBuf {
     folder().join(format!("incircle_{}.v", config.name))
 }
 
-/// What the committed file of a configuration must hold.
+/// The text that the committed file of a configuration must hold.
 ///
 /// # Errors
 /// If the design is not fit for export.
@@ -59,7 +59,7 @@ pub fn text(config: Config, with_probe: bool) -> Result<String, ExportError> {
     top_text(config, Top::Core, with_probe)
 }
 
-/// The Verilog of a configuration, with a head that says what it is.
+/// The Verilog of a configuration, below a head that names the design and the configuration.
 fn top_text(config: Config, top: Top, with_probe: bool) -> Result<String, ExportError> {
     let Config { name, points, ring, contexts } = config;
     let (what, verilog) = match top {
@@ -76,7 +76,7 @@ fn top_text(config: Config, top: Top, with_probe: bool) -> Result<String, Export
     ))
 }
 
-/// Writes all committed files anew and returns their paths.
+/// Writes all committed files again and returns their paths.
 ///
 /// # Errors
 /// If the design is not fit for export, or a file cannot be written.
@@ -90,9 +90,9 @@ pub fn renew() -> Result<Vec<PathBuf>, WriteError> {
     Ok(files)
 }
 
-/// Writes the Verilog of a configuration to a file, or to standard output for `-` or no path.
+/// Writes the Verilog of a configuration to a file, or to standard output if the path is `-` or missing.
 ///
-/// The file is replaced when the text is complete, so a failed export leaves the old one.
+/// The file is replaced only when the text is complete, so a failed export leaves the old file.
 ///
 /// # Errors
 /// If the design is not fit for export, or the file cannot be written.
@@ -101,7 +101,7 @@ pub fn write(config: Config, top: Top, with_probe: bool, path: Option<PathBuf>) 
     match path.filter(|path| path.as_os_str() != "-") {
         None => {
             let written = io::stdout().lock().write_all(text.as_bytes());
-            // A reader that has seen enough is no error.
+            // A reader that closes the pipe early, such as `head`, has what it wanted.
             written.or_else(|error| match error.kind() {
                 io::ErrorKind::BrokenPipe => Ok(()),
                 _ => Err(WriteError::File("standard output".into(), error)),

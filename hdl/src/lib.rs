@@ -1,14 +1,15 @@
-//! The incircle core in rust-hdl, its export to Verilog, and the boards it runs on.
+//! The incircle core in rust-hdl, its export to Verilog, and the boards on which it runs.
 
 pub mod board;
+pub mod commands;
 pub mod committed;
 pub mod engine;
 pub mod export;
 mod files;
 pub mod leaf;
-pub mod link;
 pub mod mesh;
 pub mod predicate;
+mod prelude;
 pub mod serial;
 pub mod stream;
 pub mod top;

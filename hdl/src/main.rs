@@ -1,4 +1,4 @@
-//! The hardware side's command: export of the core to Verilog, and bitstreams for boards.
+//! The command of the hardware side: exports the core to Verilog, and makes bitstreams for boards.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use incircle_hdl::board::{self, Board, BoardError, Clock, Origin, Report, Request, BOARDS};
@@ -8,9 +8,9 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// The incircle core: export to Verilog, and bitstreams for boards.
+/// Export the incircle core to Verilog, and make bitstreams for boards.
 #[derive(Parser)]
-#[command(name = "incircle-hdl", version)]
+#[command(name = "incircle-hdl", version, after_help = "Example:\n  incircle-hdl export --config full -o core.v")]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -18,20 +18,22 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Write the Verilog of the core, or of a whole device.
+    /// Write the Verilog of the core or of a whole device.
     ///
-    /// Without options this renews the files that the repository holds, hdl/verilog/incircle_*.v.
+    /// Without options the command renews the files in the repository, hdl/verilog/incircle_*.v.
     Export(ExportArguments),
     /// Make the bitstream of a board, and a report of its clock and its cells.
     ///
-    /// Exports, synthesises, places and routes with several seeds, and packs the fastest. The median of the seeds must meet the clock. The
-    /// exit code is 0 only if there is a bitstream that meets its clock.
+    /// The command exports the design, synthesises it, places and routes it with several seeds, and packs the fastest.
+    /// The median of the seeds must meet the clock. The exit code is 0 only if there is a bitstream
+    /// that meets its clock.
     Board(Box<BoardArguments>),
 }
 
 #[derive(Args)]
+#[command(after_help = "Example:\n  incircle-hdl export --config full --top serial -o serial.v")]
 struct ExportArguments {
-    /// Configuration: tiny, small, full or large. Default: those the repository holds.
+    /// Configuration: tiny, small, full or large. Default: the ones that the repository holds.
     #[arg(long, value_parser = config)]
     config: Option<Config>,
     /// File to write; `-` is standard output. Needs --config.
@@ -40,62 +42,67 @@ struct ExportArguments {
     /// Add the write port of the triangle memory to the ports, for simulation.
     #[arg(long, requires = "config")]
     probe: bool,
-    /// What to export: the core with its two streams of words, or the core behind a serial link or a stream link.
+    /// Module to export: the core with its two streams of words, or the core behind a serial link or a stream link.
     #[arg(long, value_enum, default_value = "core", requires = "config")]
     top: TopName,
-    /// Clock of the serial link in Hz.
+    /// Clock of the serial link, in Hz.
     #[arg(long, default_value_t = 125_000_000)]
     clock_hz: u32,
-    /// Bytes of the serial link's receive FIFO: a power of two.
+    /// Size of the serial link's receive FIFO in bytes, a power of two.
     #[arg(long, default_value_t = 4_096)]
     fifo_bytes: u32,
-    /// Bits of a beat of the stream link: 64 or 128.
+    /// Width of a beat of the stream link in bits: 64 or 128.
     #[arg(long, default_value_t = 64, value_parser = beat_bits)]
     width: u32,
 }
 
 #[derive(Args)]
+#[command(after_help = "Example:\n  incircle-hdl board ulx3s-85f --out build/ulx3s-85f")]
 struct BoardArguments {
-    /// The board: ulx3s-85f, colorlight-i5 or ecpix-5.
-    #[arg(value_parser = named_board, required_unless_present_any = ["all", "table"], conflicts_with_all = ["all", "table"])]
+    /// Name of the board: ulx3s-85f, colorlight-i5 or ecpix-5.
+    #[arg(
+        value_parser = named_board,
+        required_unless_present_any = ["all", "table"],
+        conflicts_with_all = ["all", "table"]
+    )]
     name: Option<Board>,
-    /// All boards, each into a folder of its name.
+    /// Make the bitstreams of all boards, each in a folder with the board's name.
     #[arg(long, conflicts_with = "table")]
     all: bool,
-    /// Write the tables of the documents anew from the boards' reports.
+    /// Write the tables in the documents again from the reports of the boards.
     #[arg(long, conflicts_with_all = ["out", "seeds", "config", "clock", "system", "system_yosys", "renew"])]
     table: bool,
-    /// Folder for the bitstream, report.json, and all that the tools say.
+    /// Folder for the bitstream, report.json and the output of the tools.
     #[arg(short, long, required_unless_present = "table")]
     out: Option<PathBuf>,
-    /// Seeds of the placer; the clock is judged by their median.
+    /// Number of seeds for the placer; their median must meet the clock.
     #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=99))]
     seeds: u32,
-    /// Configuration of the core, if not that of the board.
+    /// Configuration of the core. Default: that of the board.
     #[arg(long, value_parser = config)]
     config: Option<Config>,
-    /// The clock in MHz and no other; `usual`: that of the board's table and no other; `largest`: the largest that is met. Default: the
-    /// board's usual clock, or less if that is missed.
+    /// Clock to try: a number of MHz; `usual`, the board's usual clock; or `largest`, the largest clock that the board
+    /// meets. Default: the usual clock, and lower ones while it is missed.
     #[arg(long, value_name = "MHZ", value_parser = clock)]
     clock: Option<Clock>,
-    /// Use yosys, nextpnr-ecp5 and ecppack from PATH, not the pinned ones.
+    /// Use yosys, nextpnr-ecp5 and ecppack from PATH instead of the pinned ones.
     #[arg(long)]
     system: bool,
-    /// Use yosys from PATH, and the pinned nextpnr-ecp5 and ecppack.
+    /// Use yosys from PATH, with the pinned nextpnr-ecp5 and ecppack.
     #[arg(long, conflicts_with = "system")]
     system_yosys: bool,
-    /// Keep the report in the board's folder, and renew the tables.
+    /// Keep the report in the folder of the board, and renew the tables.
     #[arg(long, conflicts_with = "config")]
     renew: bool,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
 enum TopName {
-    /// incircle_core
+    /// The module incircle_core
     Core,
-    /// incircle_serial_top
+    /// The module incircle_serial_top
     Serial,
-    /// incircle_stream_top
+    /// The module incircle_stream_top
     Stream,
 }
 
@@ -125,7 +132,7 @@ fn named_board(name: &str) -> Result<Board, String> {
     Board::named(name).ok_or_else(|| format!("there is no board of this name: choose one of {names}"))
 }
 
-/// Writes one configuration's Verilog, or renews what is committed.
+/// Writes the Verilog of one configuration, or renews the committed files.
 fn export(arguments: ExportArguments) -> Result<(), committed::WriteError> {
     let ExportArguments { config, out, probe, top, clock_hz, fifo_bytes, width } = arguments;
     let top = match top {
@@ -143,7 +150,7 @@ fn export(arguments: ExportArguments) -> Result<(), committed::WriteError> {
     Ok(())
 }
 
-/// Makes what was asked for; the error of each board that failed.
+/// Makes the bitstreams and tables that the user asked for, and returns the error of each board that failed.
 fn boards(arguments: &BoardArguments) -> Vec<BoardError> {
     let mut errors = Vec::new();
     if let Some(out) = &arguments.out {
@@ -186,7 +193,7 @@ fn one_board(arguments: &BoardArguments, board: Board, out: &Path) -> Result<(),
     Ok(())
 }
 
-/// Prints a line; a reader that has seen enough is no error.
+/// Prints a line on standard output; a reader that closes the pipe early is no error.
 fn print(line: &str) -> std::io::Result<()> {
     match writeln!(std::io::stdout(), "{line}") {
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
@@ -194,12 +201,12 @@ fn print(line: &str) -> std::io::Result<()> {
     }
 }
 
-/// Says a line on standard error. Where that is gone nobody can be told.
+/// Prints a line on standard error. If standard error is closed, nobody can be told.
 fn complain(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
 }
 
-/// Exit code if the tools cannot be fetched, so that a script can tell that from a fault.
+/// Exit code if the tools cannot be fetched, so that a script can tell this case from a fault of the design.
 const NO_TOOLS: u8 = 3;
 
 fn main() -> ExitCode {

@@ -22,7 +22,7 @@ module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,
     // Constant declarations
     localparam  infinite = 15'b11111111111;
     localparam  capacity = 15'b10000000000;
-    localparam  ring = 7'b100000;
+    localparam  ring_capacity = 7'b100000;
     localparam  last_id = 15'b11111111111;
     localparam  contexts = 5'b100;
     localparam  all_contexts = 24'hf;
@@ -55,7 +55,7 @@ module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,
     reg  [7:0] answer_words$opcode;
     reg  [14:0] answer_words$capacity;
     reg  [4:0] answer_words$contexts;
-    reg  [6:0] answer_words$ring;
+    reg  [6:0] answer_words$ring_capacity;
     reg  [47:0] answer_words$tally;
     reg  [31:0] answer_words$insertions;
     reg  [31:0] answer_words$duplicates;
@@ -155,7 +155,7 @@ module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,
         .opcode(answer_words$opcode),
         .capacity(answer_words$capacity),
         .contexts(answer_words$contexts),
-        .ring(answer_words$ring),
+        .ring_capacity(answer_words$ring_capacity),
         .tally(answer_words$tally),
         .insertions(answer_words$insertions),
         .duplicates(answer_words$duplicates),
@@ -261,7 +261,7 @@ module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,
         answer_words$tally = command_port$tally;
         answer_words$capacity = capacity;
         answer_words$contexts = contexts;
-        answer_words$ring = ring;
+        answer_words$ring_capacity = ring_capacity;
         answer_words$records = engine$state[(64'h5)+:(15)];
         answer_words$insertions = counters$insertions;
         answer_words$duplicates = counters$duplicates;
@@ -277,7 +277,7 @@ module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,
         responder$read_done = engine$read_out[(64'h0)+:(1)];
         responder$record = engine$read_out[(64'h1)+:(91)];
         engine$limits[(64'h0)+:(15)] = infinite;
-        engine$limits[(64'hf)+:(7)] = ring;
+        engine$limits[(64'hf)+:(7)] = ring_capacity;
         engine$limits[(64'h16)+:(15)] = last_id;
         engine$limits[(64'h25)+:(24)] = all_contexts;
         engine$limits[(64'h3d)+:(22)] = patience;
@@ -817,14 +817,14 @@ module incircle_core_logic$answer_head$triple(d,q,clock);
 endmodule // incircle_core_logic$answer_head$triple
 
 
-module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,ring,tally,insertions,duplicates,records,index,counter,latency,chooses,word);
+module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,ring_capacity,tally,insertions,duplicates,records,index,counter,latency,chooses,word);
     
     // Module arguments
     input wire  clock;
     input wire  [7:0] opcode;
     input wire  [14:0] capacity;
     input wire  [4:0] contexts;
-    input wire  [6:0] ring;
+    input wire  [6:0] ring_capacity;
     input wire  [47:0] tally;
     input wire  [31:0] insertions;
     input wire  [31:0] duplicates;
@@ -909,7 +909,7 @@ module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,ring,tall
                 end
             default:
                 begin
-                    identity$d = ((ring) & 32'hffffffff);
+                    identity$d = ((ring_capacity) & 32'hffffffff);
                     report$d = 32'h0;
                 end
         endcase
@@ -3673,10 +3673,10 @@ module incircle_core_logic$counters$visits(clock,zero,events,select,value);
     reg  root_retries$zero;
     reg  root_retries$count;
     wire  [31:0] root_retries$value;
-    reg  waiting_tokens$clock;
-    reg  waiting_tokens$zero;
-    reg  waiting_tokens$count;
-    wire  [31:0] waiting_tokens$value;
+    reg  priorities_taken$clock;
+    reg  priorities_taken$zero;
+    reg  priorities_taken$count;
+    wire  [31:0] priorities_taken$value;
     
     // Local signals
     reg  [31:0] wide_triangles;
@@ -3745,11 +3745,11 @@ module incircle_core_logic$counters$visits(clock,zero,events,select,value);
         .count(root_retries$count),
         .value(root_retries$value)
     );
-    incircle_core_logic$counters$visits$waiting_tokens waiting_tokens(
-        .clock(waiting_tokens$clock),
-        .zero(waiting_tokens$zero),
-        .count(waiting_tokens$count),
-        .value(waiting_tokens$value)
+    incircle_core_logic$counters$visits$priorities_taken priorities_taken(
+        .clock(priorities_taken$clock),
+        .zero(priorities_taken$zero),
+        .count(priorities_taken$count),
+        .value(priorities_taken$value)
     );
     
     // Update code
@@ -3768,7 +3768,7 @@ module incircle_core_logic$counters$visits(clock,zero,events,select,value);
         revisits$clock = clock;
         aborts$clock = clock;
         root_retries$clock = clock;
-        waiting_tokens$clock = clock;
+        priorities_taken$clock = clock;
         walk_visits$zero = zero;
         tests$zero = zero;
         overflowed$zero = zero;
@@ -3777,7 +3777,7 @@ module incircle_core_logic$counters$visits(clock,zero,events,select,value);
         revisits$zero = zero;
         aborts$zero = zero;
         root_retries$zero = zero;
-        waiting_tokens$zero = zero;
+        priorities_taken$zero = zero;
         walk_visits$count = events[(64'h0)+:(1)];
         tests$count = events[(64'h2)+:(1)];
         overflowed$count = events[(64'h4)+:(1)];
@@ -3786,7 +3786,7 @@ module incircle_core_logic$counters$visits(clock,zero,events,select,value);
         revisits$count = events[(64'h3)+:(1)];
         aborts$count = events[(64'h6)+:(1)];
         root_retries$count = events[(64'h7)+:(1)];
-        waiting_tokens$count = events[(64'h8)+:(1)];
+        priorities_taken$count = events[(64'h8)+:(1)];
         last_triangles$d = 32'h0;
         if (events[(64'h9)+:(1)]) begin
             last_triangles$d = events[(64'ha)+:(7)];
@@ -3836,7 +3836,7 @@ module incircle_core_logic$counters$visits(clock,zero,events,select,value);
                 end
             default:
                 begin
-                    chosen$d = waiting_tokens$value;
+                    chosen$d = priorities_taken$value;
                 end
         endcase
     end
@@ -4147,6 +4147,95 @@ module incircle_core_logic$counters$visits$overflowed$word(d,q,clock);
     end
           
 endmodule // incircle_core_logic$counters$visits$overflowed$word
+
+
+module incircle_core_logic$counters$visits$priorities_taken(clock,zero,count,value);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  zero;
+    input wire  count;
+    output reg  [31:0] value;
+    
+    // Stub signals
+    reg  counts$d;
+    wire  counts$q;
+    reg  counts$clock;
+    reg  [31:0] word$d;
+    wire  [31:0] word$q;
+    reg  word$clock;
+    
+    // Local signals
+    reg  [31:0] one;
+    
+    // Sub module instances
+    incircle_core_logic$counters$visits$priorities_taken$counts counts(
+        .d(counts$d),
+        .q(counts$q),
+        .clock(counts$clock)
+    );
+    incircle_core_logic$counters$visits$priorities_taken$word word(
+        .d(word$d),
+        .q(word$q),
+        .clock(word$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        counts$clock = clock;
+        word$clock = clock;
+        counts$d = counts$q;
+        word$d = word$q;
+        one = 32'h1;
+        value = word$q;
+        counts$d = count;
+        if (counts$q) begin
+            word$d = word$q + one;
+        end
+        if (zero) begin
+            word$d = 32'h0;
+        end
+    end
+    
+endmodule // incircle_core_logic$counters$visits$priorities_taken
+
+
+module incircle_core_logic$counters$visits$priorities_taken$counts(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$visits$priorities_taken$counts
+
+
+module incircle_core_logic$counters$visits$priorities_taken$word(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 32'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$visits$priorities_taken$word
 
 
 module incircle_core_logic$counters$visits$revisits(clock,zero,count,value);
@@ -4524,95 +4613,6 @@ module incircle_core_logic$counters$visits$triangles(d,q,clock);
 endmodule // incircle_core_logic$counters$visits$triangles
 
 
-module incircle_core_logic$counters$visits$waiting_tokens(clock,zero,count,value);
-    
-    // Module arguments
-    input wire  clock;
-    input wire  zero;
-    input wire  count;
-    output reg  [31:0] value;
-    
-    // Stub signals
-    reg  counts$d;
-    wire  counts$q;
-    reg  counts$clock;
-    reg  [31:0] word$d;
-    wire  [31:0] word$q;
-    reg  word$clock;
-    
-    // Local signals
-    reg  [31:0] one;
-    
-    // Sub module instances
-    incircle_core_logic$counters$visits$waiting_tokens$counts counts(
-        .d(counts$d),
-        .q(counts$q),
-        .clock(counts$clock)
-    );
-    incircle_core_logic$counters$visits$waiting_tokens$word word(
-        .d(word$d),
-        .q(word$q),
-        .clock(word$clock)
-    );
-    
-    // Update code
-    always @(*) begin
-        counts$clock = clock;
-        word$clock = clock;
-        counts$d = counts$q;
-        word$d = word$q;
-        one = 32'h1;
-        value = word$q;
-        counts$d = count;
-        if (counts$q) begin
-            word$d = word$q + one;
-        end
-        if (zero) begin
-            word$d = 32'h0;
-        end
-    end
-    
-endmodule // incircle_core_logic$counters$visits$waiting_tokens
-
-
-module incircle_core_logic$counters$visits$waiting_tokens$counts(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$counters$visits$waiting_tokens$counts
-
-
-module incircle_core_logic$counters$visits$waiting_tokens$word(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$counters$visits$waiting_tokens$word
-
-
 module incircle_core_logic$counters$visits$walk_visits(clock,zero,count,value);
     
     // Module arguments
@@ -4748,7 +4748,7 @@ module incircle_core_logic$engine(clock,reset,limits,deal,clears,arrival,arrived
     reg  insertions$came;
     reg  [21:0] insertions$now;
     reg  [153:0] insertions$early;
-    reg  [173:0] insertions$visit;
+    reg  [173:0] insertions$completion;
     reg  [2:0] insertions$seed;
     reg  [4:0] insertions$solo;
     wire  [94:0] insertions$follow;
@@ -4771,7 +4771,7 @@ module incircle_core_logic$engine(clock,reset,limits,deal,clears,arrival,arrived
     reg  [93:0] pipeline$push;
     reg  [37:0] pipeline$position;
     wire  pipeline$is_issuing;
-    wire  [173:0] pipeline$visit;
+    wire  [173:0] pipeline$completion;
     wire  [153:0] pipeline$early;
     reg  [15:0] pipeline$read;
     wire  [91:0] pipeline$read_out;
@@ -4785,7 +4785,7 @@ module incircle_core_logic$engine(clock,reset,limits,deal,clears,arrival,arrived
     reg  solo$reset;
     reg  [35:0] solo$start;
     reg  [14:0] solo$records;
-    reg  [173:0] solo$visit;
+    reg  [173:0] solo$completion;
     wire  [93:0] solo$push;
     wire  [109:0] solo$write;
     wire  [4:0] solo$progress;
@@ -4806,7 +4806,7 @@ module incircle_core_logic$engine(clock,reset,limits,deal,clears,arrival,arrived
     reg  push_port$reset;
     reg  [94:0] push_port$follow;
     reg  [36:0] push_port$start;
-    reg  push_port$is_alone;
+    reg  push_port$solo_is_at_work;
     reg  [93:0] push_port$solo;
     wire  [93:0] push_port$push;
     reg  write_port$clock;
@@ -4818,7 +4818,7 @@ module incircle_core_logic$engine(clock,reset,limits,deal,clears,arrival,arrived
     wire  [33:0] write_port$enables;
     
     // Local signals
-    reg  [173:0] visit;
+    reg  [173:0] completion;
     reg  [19:0] verdict;
     
     // Sub module instances
@@ -4832,7 +4832,7 @@ module incircle_core_logic$engine(clock,reset,limits,deal,clears,arrival,arrived
         .came(insertions$came),
         .now(insertions$now),
         .early(insertions$early),
-        .visit(insertions$visit),
+        .completion(insertions$completion),
         .seed(insertions$seed),
         .solo(insertions$solo),
         .follow(insertions$follow),
@@ -4857,7 +4857,7 @@ module incircle_core_logic$engine(clock,reset,limits,deal,clears,arrival,arrived
         .push(pipeline$push),
         .position(pipeline$position),
         .is_issuing(pipeline$is_issuing),
-        .visit(pipeline$visit),
+        .completion(pipeline$completion),
         .early(pipeline$early),
         .read(pipeline$read),
         .read_out(pipeline$read_out),
@@ -4873,7 +4873,7 @@ module incircle_core_logic$engine(clock,reset,limits,deal,clears,arrival,arrived
         .reset(solo$reset),
         .start(solo$start),
         .records(solo$records),
-        .visit(solo$visit),
+        .completion(solo$completion),
         .push(solo$push),
         .write(solo$write),
         .progress(solo$progress)
@@ -4898,7 +4898,7 @@ module incircle_core_logic$engine(clock,reset,limits,deal,clears,arrival,arrived
         .reset(push_port$reset),
         .follow(push_port$follow),
         .start(push_port$start),
-        .is_alone(push_port$is_alone),
+        .solo_is_at_work(push_port$solo_is_at_work),
         .solo(push_port$solo),
         .push(push_port$push)
     );
@@ -4936,8 +4936,8 @@ module incircle_core_logic$engine(clock,reset,limits,deal,clears,arrival,arrived
         state[(64'h5)+:(15)] = insertions$records;
         read_out = pipeline$read_out;
         write = write_port$write;
-        visit = pipeline$visit;
-        verdict = pipeline$visit[(64'h9a)+:(20)];
+        completion = pipeline$completion;
+        verdict = pipeline$completion[(64'h9a)+:(20)];
         pipeline$infinite = limits[(64'h0)+:(15)];
         pipeline$records = insertions$records;
         pipeline$push = push_port$push;
@@ -4957,7 +4957,7 @@ module incircle_core_logic$engine(clock,reset,limits,deal,clears,arrival,arrived
         insertions$now = now;
         insertions$early = pipeline$early;
         insertions$early[(64'h0)+:(1)] = pipeline$early[(64'h0)+:(1)] & (~solo$progress[(64'h0)+:(1)]) & (~reset);
-        insertions$visit = visit;
+        insertions$completion = completion;
         insertions$seed = seeder$progress;
         insertions$solo = solo$progress;
         seeder$infinite = limits[(64'h0)+:(15)];
@@ -4968,10 +4968,10 @@ module incircle_core_logic$engine(clock,reset,limits,deal,clears,arrival,arrived
         seeder$verdict = verdict;
         solo$start = insertions$solo_start;
         solo$records = insertions$fresh;
-        solo$visit = visit;
+        solo$completion = completion;
         push_port$follow = insertions$follow;
         push_port$start = insertions$start;
-        push_port$is_alone = solo$progress[(64'h0)+:(1)];
+        push_port$solo_is_at_work = solo$progress[(64'h0)+:(1)];
         push_port$solo = solo$push;
         write_port$commit = insertions$write;
         write_port$solo = solo$write;
@@ -4984,7 +4984,7 @@ module incircle_core_logic$engine(clock,reset,limits,deal,clears,arrival,arrived
 endmodule // incircle_core_logic$engine
 
 
-module incircle_core_logic$engine$insertions(clock,reset,clears,limits,deal,arrived,came,now,early,visit,seed,solo,follow,start,looks,fetched,solo_start,write,records,fresh,clear,sweeps,is_quiet,stuck,events);
+module incircle_core_logic$engine$insertions(clock,reset,clears,limits,deal,arrived,came,now,early,completion,seed,solo,follow,start,looks,fetched,solo_start,write,records,fresh,clear,sweeps,is_quiet,stuck,events);
     
     // Module arguments
     input wire  clock;
@@ -4996,7 +4996,7 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,limits,deal,arri
     input wire  came;
     input wire  [21:0] now;
     input wire  [153:0] early;
-    input wire  [173:0] visit;
+    input wire  [173:0] completion;
     input wire  [2:0] seed;
     input wire  [4:0] solo;
     output reg  [94:0] follow;
@@ -5017,7 +5017,7 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,limits,deal,arri
     reg  dispatcher$clock;
     reg  dispatcher$reset;
     reg  dispatcher$clears;
-    reg  [23:0] dispatcher$all;
+    reg  [23:0] dispatcher$built_contexts;
     reg  [21:0] dispatcher$patience;
     reg  [12:0] dispatcher$deal;
     reg  [14:0] dispatcher$arrived;
@@ -5033,13 +5033,13 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,limits,deal,arri
     wire  [5:0] dispatcher$fetched;
     wire  [133:0] dispatcher$contexts;
     wire  [35:0] dispatcher$solo_start;
-    wire  dispatcher$takes_token;
+    wire  dispatcher$takes_priority;
     wire  dispatcher$is_quiet;
     wire  dispatcher$stuck;
     reg  attempts$clock;
-    reg  [6:0] attempts$ring;
+    reg  [6:0] attempts$ring_capacity;
     reg  [153:0] attempts$early;
-    reg  [173:0] attempts$visit;
+    reg  [173:0] attempts$completion;
     reg  attempts$seeded;
     reg  [133:0] attempts$contexts;
     reg  [36:0] attempts$start;
@@ -5083,7 +5083,7 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,limits,deal,arri
         .clock(dispatcher$clock),
         .reset(dispatcher$reset),
         .clears(dispatcher$clears),
-        .all(dispatcher$all),
+        .built_contexts(dispatcher$built_contexts),
         .patience(dispatcher$patience),
         .deal(dispatcher$deal),
         .arrived(dispatcher$arrived),
@@ -5099,15 +5099,15 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,limits,deal,arri
         .fetched(dispatcher$fetched),
         .contexts(dispatcher$contexts),
         .solo_start(dispatcher$solo_start),
-        .takes_token(dispatcher$takes_token),
+        .takes_priority(dispatcher$takes_priority),
         .is_quiet(dispatcher$is_quiet),
         .stuck(dispatcher$stuck)
     );
     incircle_core_logic$engine$insertions$attempts attempts(
         .clock(attempts$clock),
-        .ring(attempts$ring),
+        .ring_capacity(attempts$ring_capacity),
         .early(attempts$early),
-        .visit(attempts$visit),
+        .completion(attempts$completion),
         .seeded(attempts$seeded),
         .contexts(attempts$contexts),
         .start(attempts$start),
@@ -5154,16 +5154,16 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,limits,deal,arri
         dispatcher$clears = clears;
         commits$reset = reset;
         commits$clears = clears;
-        attempts$ring = limits[(64'hf)+:(7)];
+        attempts$ring_capacity = limits[(64'hf)+:(7)];
         attempts$early = early;
-        attempts$visit = visit;
+        attempts$completion = completion;
         attempts$seeded = seed[(64'h0)+:(1)];
         attempts$now = now;
         attempts$contexts = dispatcher$contexts;
         attempts$start = dispatcher$start;
         looks = attempts$looks;
         follow = attempts$follow;
-        dispatcher$all = limits[(64'h25)+:(24)];
+        dispatcher$built_contexts = limits[(64'h25)+:(24)];
         dispatcher$patience = limits[(64'h3d)+:(22)];
         dispatcher$deal = deal;
         dispatcher$arrived = arrived;
@@ -5196,7 +5196,7 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,limits,deal,arri
         visit_events = attempts$events;
         visit_events[(64'h2)+:(1)] = attempts$events[(64'h2)+:(1)] | solo[(64'h3)+:(1)];
         visit_events[(64'h5)+:(1)] = solo[(64'h4)+:(1)];
-        visit_events[(64'h8)+:(1)] = dispatcher$takes_token;
+        visit_events[(64'h8)+:(1)] = dispatcher$takes_priority;
         job = commits$committed[(64'h1)+:(56)];
         events[(64'h0)+:(17)] = visit_events;
         events[(64'h11)+:(1)] = seed[(64'h2)+:(1)];
@@ -5214,13 +5214,13 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,limits,deal,arri
 endmodule // incircle_core_logic$engine$insertions
 
 
-module incircle_core_logic$engine$insertions$attempts(clock,ring,early,visit,seeded,contexts,start,now,is_done,follow,outcome,looks,entry,inner,lock,commit,releases,events);
+module incircle_core_logic$engine$insertions$attempts(clock,ring_capacity,early,completion,seeded,contexts,start,now,is_done,follow,outcome,looks,entry,inner,lock,commit,releases,events);
     
     // Module arguments
     input wire  clock;
-    input wire  [6:0] ring;
+    input wire  [6:0] ring_capacity;
     input wire  [153:0] early;
-    input wire  [173:0] visit;
+    input wire  [173:0] completion;
     input wire  seeded;
     input wire  [133:0] contexts;
     input wire  [36:0] start;
@@ -5238,9 +5238,9 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,early,visit,see
     
     // Stub signals
     reg  store$clock;
-    reg  [6:0] store$ring;
-    reg  [54:0] store$early_token;
-    reg  [54:0] store$token;
+    reg  [6:0] store$ring_capacity;
+    reg  [54:0] store$early_visit;
+    reg  [54:0] store$visit;
     wire  [159:0] store$held;
     reg  [19:0] store$found;
     reg  [3:0] store$step;
@@ -5248,14 +5248,14 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,early,visit,see
     reg  points$clock;
     reg  [36:0] points$start;
     reg  [21:0] points$now;
-    reg  [4:0] points$owner;
-    wire  [14:0] points$p;
+    reg  [4:0] points$context_id;
+    wire  [14:0] points$vertex;
     wire  [21:0] points$since;
     reg  meaning$clock;
     reg  [153:0] meaning$early;
     reg  meaning$seeded;
     reg  meaning$is_busy;
-    reg  meaning$is_waiter;
+    reg  meaning$holds_priority;
     reg  [19:0] meaning$verdict;
     reg  meaning$drains;
     reg  meaning$is_full;
@@ -5266,13 +5266,13 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,early,visit,see
     wire  [92:0] step$after;
     wire  [3:0] step$step;
     reg  visits$clock;
-    reg  [54:0] visits$early_token;
+    reg  [54:0] visits$early_visit;
     reg  [97:0] visits$early_turned;
     reg  [19:0] visits$found;
     reg  [14:0] visits$walk_next;
     reg  [5:0] visits$entry;
     wire  [92:0] visits$bundle;
-    reg  [54:0] aftermath$token;
+    reg  [54:0] aftermath$visit;
     reg  [19:0] aftermath$found;
     reg  [3:0] aftermath$step;
     reg  [14:0] aftermath$walk_next;
@@ -5280,10 +5280,10 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,early,visit,see
     wire  [28:0] aftermath$outcome;
     wire  aftermath$fails;
     wire  aftermath$stops_at_root;
-    reg  [173:0] lists$visit;
+    reg  [173:0] lists$completion;
     reg  [92:0] lists$attempt;
     reg  [92:0] lists$after;
-    reg  [14:0] lists$p;
+    reg  [14:0] lists$vertex;
     reg  [21:0] lists$since;
     reg  [19:0] lists$found;
     reg  [3:0] lists$step;
@@ -5296,8 +5296,8 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,early,visit,see
     wire  [12:0] lists$releases;
     
     // Local signals
-    reg  [54:0] early_token;
-    reg  [54:0] token;
+    reg  [54:0] early_visit;
+    reg  [54:0] visit;
     reg  [97:0] turned;
     reg  [19:0] verdict;
     reg  [92:0] attempt;
@@ -5309,9 +5309,9 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,early,visit,see
     // Sub module instances
     incircle_core_logic$engine$insertions$attempts$store store(
         .clock(store$clock),
-        .ring(store$ring),
-        .early_token(store$early_token),
-        .token(store$token),
+        .ring_capacity(store$ring_capacity),
+        .early_visit(store$early_visit),
+        .visit(store$visit),
         .held(store$held),
         .found(store$found),
         .step(store$step),
@@ -5321,8 +5321,8 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,early,visit,see
         .clock(points$clock),
         .start(points$start),
         .now(points$now),
-        .owner(points$owner),
-        .p(points$p),
+        .context_id(points$context_id),
+        .vertex(points$vertex),
         .since(points$since)
     );
     incircle_core_logic$engine$insertions$attempts$meaning meaning(
@@ -5330,7 +5330,7 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,early,visit,see
         .early(meaning$early),
         .seeded(meaning$seeded),
         .is_busy(meaning$is_busy),
-        .is_waiter(meaning$is_waiter),
+        .holds_priority(meaning$holds_priority),
         .verdict(meaning$verdict),
         .drains(meaning$drains),
         .is_full(meaning$is_full),
@@ -5345,7 +5345,7 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,early,visit,see
     );
     incircle_core_logic$engine$insertions$attempts$visits visits(
         .clock(visits$clock),
-        .early_token(visits$early_token),
+        .early_visit(visits$early_visit),
         .early_turned(visits$early_turned),
         .found(visits$found),
         .walk_next(visits$walk_next),
@@ -5353,7 +5353,7 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,early,visit,see
         .bundle(visits$bundle)
     );
     incircle_core_logic$engine$insertions$attempts$aftermath aftermath(
-        .token(aftermath$token),
+        .visit(aftermath$visit),
         .found(aftermath$found),
         .step(aftermath$step),
         .walk_next(aftermath$walk_next),
@@ -5363,10 +5363,10 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,early,visit,see
         .stops_at_root(aftermath$stops_at_root)
     );
     incircle_core_logic$engine$insertions$attempts$lists lists(
-        .visit(lists$visit),
+        .completion(lists$completion),
         .attempt(lists$attempt),
         .after(lists$after),
-        .p(lists$p),
+        .vertex(lists$vertex),
         .since(lists$since),
         .found(lists$found),
         .step(lists$step),
@@ -5386,25 +5386,25 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,early,visit,see
         meaning$clock = clock;
         visits$clock = clock;
         two = 32'h2;
-        early_token = early[(64'h1)+:(55)];
-        token = visit[(64'h1)+:(55)];
-        turned = visit[(64'h38)+:(98)];
-        verdict = visit[(64'h9a)+:(20)];
-        store$ring = ring;
-        store$early_token = early_token;
-        store$token = token;
+        early_visit = early[(64'h1)+:(55)];
+        visit = completion[(64'h1)+:(55)];
+        turned = completion[(64'h38)+:(98)];
+        verdict = completion[(64'h9a)+:(20)];
+        store$ring_capacity = ring_capacity;
+        store$early_visit = early_visit;
+        store$visit = visit;
         attempt = store$held[(64'h0)+:(93)];
         count = attempt[(64'h8)+:(7)];
-        points$owner = token[(64'h0)+:(5)];
+        points$context_id = visit[(64'h0)+:(5)];
         points$start = start;
         points$now = now;
-        context_index = early_token[(64'h0)+:(5)];
+        context_index = early_visit[(64'h0)+:(5)];
         busy = contexts[(64'h30)+:(24)];
         meaning$early = early;
         meaning$verdict = verdict;
         meaning$seeded = seeded;
         meaning$is_busy = busy[context_index];
-        meaning$is_waiter = contexts[(64'h78)+:(1)] & (contexts[(64'h79)+:(5)] == early_token[(64'h0)+:(5)]);
+        meaning$holds_priority = contexts[(64'h78)+:(1)] & (contexts[(64'h79)+:(5)] == early_visit[(64'h0)+:(5)]);
         meaning$drains = attempt[(64'h0)+:(1)];
         meaning$is_full = store$held[(64'h5e)+:(1)];
         is_done = meaning$found[(64'h0)+:(1)];
@@ -5415,7 +5415,7 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,early,visit,see
         store$found = meaning$found;
         store$step = step$step;
         store$after = step$after;
-        visits$early_token = early_token;
+        visits$early_visit = early_visit;
         visits$early_turned = early[(64'h38)+:(98)];
         visits$found = meaning$found;
         visits$walk_next = verdict[(64'h5)+:(15)];
@@ -5423,16 +5423,16 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,early,visit,see
         follow[(64'h0)+:(1)] = meaning$found[(64'h12)+:(1)];
         follow[(64'h1)+:(1)] = meaning$found[(64'h13)+:(1)];
         follow[(64'h2)+:(93)] = visits$bundle;
-        aftermath$token = token;
+        aftermath$visit = visit;
         aftermath$found = meaning$found;
         aftermath$step = step$step;
         aftermath$walk_next = verdict[(64'h5)+:(15)];
         aftermath$hands_over = lists$commit[(64'h0)+:(1)] | lists$releases[(64'h0)+:(1)];
         outcome = aftermath$outcome;
-        lists$visit = visit;
+        lists$completion = completion;
         lists$attempt = attempt;
         lists$after = step$after;
-        lists$p = points$p;
+        lists$vertex = points$vertex;
         lists$since = points$since;
         lists$found = meaning$found;
         lists$step = step$step;
@@ -5459,10 +5459,10 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,early,visit,see
 endmodule // incircle_core_logic$engine$insertions$attempts
 
 
-module incircle_core_logic$engine$insertions$attempts$aftermath(token,found,step,walk_next,hands_over,outcome,fails,stops_at_root);
+module incircle_core_logic$engine$insertions$attempts$aftermath(visit,found,step,walk_next,hands_over,outcome,fails,stops_at_root);
     
     // Module arguments
-    input wire  [54:0] token;
+    input wire  [54:0] visit;
     input wire  [19:0] found;
     input wire  [3:0] step;
     input wire  [14:0] walk_next;
@@ -5483,7 +5483,7 @@ module incircle_core_logic$engine$insertions$attempts$aftermath(token,found,step
         ends_at_root = found[(64'h11)+:(1)] | found[(64'ha)+:(1)];
         fails = is_failure;
         stops_at_root = ends_at_root;
-        outcome[(64'h0)+:(5)] = token[(64'h0)+:(5)];
+        outcome[(64'h0)+:(5)] = visit[(64'h0)+:(5)];
         outcome[(64'h5)+:(1)] = found[(64'h4)+:(1)] | found[(64'h10)+:(1)] | found[(64'he)+:(1)] | ends_at_root | step[(64'h0)+:(1)];
         outcome[(64'h6)+:(1)] = found[(64'he)+:(1)] | found[(64'ha)+:(1)] | is_failure;
         outcome[(64'h7)+:(1)] = hands_over;
@@ -5493,7 +5493,7 @@ module incircle_core_logic$engine$insertions$attempts$aftermath(token,found,step
         outcome[(64'hb)+:(1)] = found[(64'hd)+:(1)];
         outcome[(64'hc)+:(1)] = is_duplicate;
         outcome[(64'hd)+:(1)] = found[(64'h2)+:(1)];
-        outcome[(64'he)+:(15)] = token[(64'h28)+:(15)];
+        outcome[(64'he)+:(15)] = visit[(64'h28)+:(15)];
         if (found[(64'ha)+:(1)]) begin
             outcome[(64'he)+:(15)] = walk_next;
         end
@@ -5502,13 +5502,13 @@ module incircle_core_logic$engine$insertions$attempts$aftermath(token,found,step
 endmodule // incircle_core_logic$engine$insertions$attempts$aftermath
 
 
-module incircle_core_logic$engine$insertions$attempts$lists(visit,attempt,after,p,since,found,step,fails,stops_at_root,entry,inner,lock,commit,releases);
+module incircle_core_logic$engine$insertions$attempts$lists(completion,attempt,after,vertex,since,found,step,fails,stops_at_root,entry,inner,lock,commit,releases);
     
     // Module arguments
-    input wire  [173:0] visit;
+    input wire  [173:0] completion;
     input wire  [92:0] attempt;
     input wire  [92:0] after;
-    input wire  [14:0] p;
+    input wire  [14:0] vertex;
     input wire  [21:0] since;
     input wire  [19:0] found;
     input wire  [3:0] step;
@@ -5521,7 +5521,7 @@ module incircle_core_logic$engine$insertions$attempts$lists(visit,attempt,after,
     output reg  [12:0] releases;
     
     // Local signals
-    reg  [54:0] token;
+    reg  [54:0] visit;
     reg  [97:0] turned;
     reg  [6:0] inners;
     reg  [52:0] boundary;
@@ -5530,37 +5530,37 @@ module incircle_core_logic$engine$insertions$attempts$lists(visit,attempt,after,
     
     // Update code
     always @(*) begin
-        token = visit[(64'h1)+:(55)];
-        turned = visit[(64'h38)+:(98)];
+        visit = completion[(64'h1)+:(55)];
+        turned = completion[(64'h38)+:(98)];
         inners = attempt[(64'hf)+:(7)];
         boundary[(64'h0)+:(15)] = turned[(64'h1e)+:(15)];
-        boundary[(64'hf)+:(15)] = token[(64'h28)+:(15)];
+        boundary[(64'hf)+:(15)] = visit[(64'h28)+:(15)];
         boundary[(64'h1e)+:(2)] = turned[(64'h5a)+:(2)];
-        boundary[(64'h20)+:(15)] = token[(64'h19)+:(15)];
-        boundary[(64'h2f)+:(6)] = token[(64'hd)+:(6)];
+        boundary[(64'h20)+:(15)] = visit[(64'h19)+:(15)];
+        boundary[(64'h2f)+:(6)] = visit[(64'hd)+:(6)];
         entry[(64'h0)+:(1)] = found[(64'hc)+:(1)];
-        entry[(64'h1)+:(5)] = token[(64'h0)+:(5)];
-        entry[(64'h6)+:(6)] = token[(64'h7)+:(6)];
+        entry[(64'h1)+:(5)] = visit[(64'h0)+:(5)];
+        entry[(64'h6)+:(6)] = visit[(64'h7)+:(6)];
         entry[(64'hc)+:(53)] = boundary;
         inner[(64'h0)+:(1)] = step[(64'h2)+:(1)];
-        inner[(64'h1)+:(5)] = token[(64'h0)+:(5)];
+        inner[(64'h1)+:(5)] = visit[(64'h0)+:(5)];
         inner[(64'h6)+:(6)] = inners[(32'h0)+:(6)];
-        inner[(64'hc)+:(15)] = token[(64'h19)+:(15)];
+        inner[(64'hc)+:(15)] = visit[(64'h19)+:(15)];
         lock[(64'h0)+:(1)] = found[(64'h0)+:(1)] & turned[(64'h5c)+:(1)];
-        lock[(64'h1)+:(5)] = token[(64'h0)+:(5)];
+        lock[(64'h1)+:(5)] = visit[(64'h0)+:(5)];
         lock[(64'h6)+:(7)] = attempt[(64'h16)+:(7)];
-        lock[(64'hd)+:(15)] = token[(64'h28)+:(15)];
+        lock[(64'hd)+:(15)] = visit[(64'h28)+:(15)];
         if (found[(64'h2)+:(1)]) begin
             lock[(64'h6)+:(7)] = 32'h0;
         end
-        ring[(64'h0)+:(5)] = token[(64'h0)+:(5)];
-        ring[(64'h5)+:(15)] = p;
+        ring[(64'h0)+:(5)] = visit[(64'h0)+:(5)];
+        ring[(64'h5)+:(15)] = vertex;
         ring[(64'h14)+:(7)] = inners;
         ring[(64'h1b)+:(7)] = after[(64'h16)+:(7)];
         ring[(64'h22)+:(22)] = since;
         commit[(64'h0)+:(1)] = step[(64'h1)+:(1)];
         commit[(64'h1)+:(56)] = ring;
-        locks[(64'h0)+:(5)] = token[(64'h0)+:(5)];
+        locks[(64'h0)+:(5)] = visit[(64'h0)+:(5)];
         locks[(64'h5)+:(7)] = after[(64'h16)+:(7)];
         if (stops_at_root) begin
             locks[(64'h5)+:(7)] = 32'h1;
@@ -5572,14 +5572,14 @@ module incircle_core_logic$engine$insertions$attempts$lists(visit,attempt,after,
 endmodule // incircle_core_logic$engine$insertions$attempts$lists
 
 
-module incircle_core_logic$engine$insertions$attempts$meaning(clock,early,seeded,is_busy,is_waiter,verdict,drains,is_full,found);
+module incircle_core_logic$engine$insertions$attempts$meaning(clock,early,seeded,is_busy,holds_priority,verdict,drains,is_full,found);
     
     // Module arguments
     input wire  clock;
     input wire  [153:0] early;
     input wire  seeded;
     input wire  is_busy;
-    input wire  is_waiter;
+    input wire  holds_priority;
     input wire  [19:0] verdict;
     input wire  drains;
     input wire  is_full;
@@ -5633,7 +5633,7 @@ module incircle_core_logic$engine$insertions$attempts$meaning(clock,early,seeded
     reg  may_ask_anyway$clock;
     
     // Local signals
-    reg  [54:0] token;
+    reg  [54:0] visit;
     reg  [97:0] turned;
     reg  walks;
     reg  visits_root;
@@ -5755,11 +5755,11 @@ module incircle_core_logic$engine$insertions$attempts$meaning(clock,early,seeded
         test_is_refused$d = test_is_refused$q;
         may_ask_anyway$d = may_ask_anyway$q;
         completed$d = completed$q;
-        token = early[(64'h1)+:(55)];
+        visit = early[(64'h1)+:(55)];
         turned = early[(64'h38)+:(98)];
-        walks = early[(64'h0)+:(1)] & (~token[(64'h5)+:(1)]) & (~token[(64'h6)+:(1)]);
-        visits_root = early[(64'h0)+:(1)] & (~token[(64'h5)+:(1)]) & token[(64'h6)+:(1)];
-        tests = early[(64'h0)+:(1)] & token[(64'h5)+:(1)];
+        walks = early[(64'h0)+:(1)] & (~visit[(64'h5)+:(1)]) & (~visit[(64'h6)+:(1)]);
+        visits_root = early[(64'h0)+:(1)] & (~visit[(64'h5)+:(1)]) & visit[(64'h6)+:(1)];
+        tests = early[(64'h0)+:(1)] & visit[(64'h5)+:(1)];
         foreign = turned[(64'h5d)+:(1)];
         looked$d = walks & (~seeded);
         walked$d = walks & seeded;
@@ -5768,13 +5768,13 @@ module incircle_core_logic$engine$insertions$attempts$meaning(clock,early,seeded
         context_is_busy$d = is_busy;
         rooted$d = visits_root;
         root_is_held$d = visits_root & (~foreign);
-        root_is_awaited$d = visits_root & foreign & is_waiter;
-        root_is_refused$d = visits_root & foreign & (~is_waiter);
+        root_is_awaited$d = visits_root & foreign & holds_priority;
+        root_is_refused$d = visits_root & foreign & (~holds_priority);
         tested$d = tests;
         test_counts$d = tests & (~foreign);
-        test_is_awaited$d = tests & foreign & is_waiter;
-        test_is_refused$d = tests & foreign & (~is_waiter);
-        may_ask_anyway$d = early[(64'h0)+:(1)] & ((~token[(64'h5)+:(1)]) | foreign);
+        test_is_awaited$d = tests & foreign & holds_priority;
+        test_is_refused$d = tests & foreign & (~holds_priority);
+        may_ask_anyway$d = early[(64'h0)+:(1)] & ((~visit[(64'h5)+:(1)]) | foreign);
         completed$d = early[(64'h0)+:(1)];
         found[(64'h0)+:(1)] = completed$q;
         found[(64'h1)+:(1)] = walked$q;
@@ -6092,14 +6092,14 @@ module incircle_core_logic$engine$insertions$attempts$meaning$walked(d,q,clock);
 endmodule // incircle_core_logic$engine$insertions$attempts$meaning$walked
 
 
-module incircle_core_logic$engine$insertions$attempts$points(clock,start,now,owner,p,since);
+module incircle_core_logic$engine$insertions$attempts$points(clock,start,now,context_id,vertex,since);
     
     // Module arguments
     input wire  clock;
     input wire  [36:0] start;
     input wire  [21:0] now;
-    input wire  [4:0] owner;
-    output reg  [14:0] p;
+    input wire  [4:0] context_id;
+    output reg  [14:0] vertex;
     output reg  [21:0] since;
     
     // Stub signals
@@ -6188,9 +6188,9 @@ module incircle_core_logic$engine$insertions$attempts$points(clock,start,now,own
         times$write_address = last_taker$q;
         times$write_data = taken_at$q;
         times$write_enable = has_taken$q;
-        points$read_address = owner;
-        times$read_address = owner;
-        p = points$read_data;
+        points$read_address = context_id;
+        times$read_address = context_id;
+        vertex = points$read_data;
         since = times$read_data;
     end
     
@@ -6389,13 +6389,13 @@ module incircle_core_logic$engine$insertions$attempts$step(held,took,found,after
 endmodule // incircle_core_logic$engine$insertions$attempts$step
 
 
-module incircle_core_logic$engine$insertions$attempts$store(clock,ring,early_token,token,held,found,step,after);
+module incircle_core_logic$engine$insertions$attempts$store(clock,ring_capacity,early_visit,visit,held,found,step,after);
     
     // Module arguments
     input wire  clock;
-    input wire  [6:0] ring;
-    input wire  [54:0] early_token;
-    input wire  [54:0] token;
+    input wire  [6:0] ring_capacity;
+    input wire  [54:0] early_visit;
+    input wire  [54:0] visit;
     output reg  [159:0] held;
     input wire  [19:0] found;
     input wire  [3:0] step;
@@ -6546,7 +6546,7 @@ module incircle_core_logic$engine$insertions$attempts$store(clock,ring,early_tok
         end
         outstanding = state$q[(64'h1)+:(7)];
         count = state$q[(64'h8)+:(7)];
-        before_full = ring - one;
+        before_full = ring_capacity - one;
         becomes_last = outstanding == two;
         becomes_full = flag_bits$q[32'h1];
         if (found[(64'h5)+:(1)]) begin
@@ -6567,7 +6567,7 @@ module incircle_core_logic$engine$insertions$attempts$store(clock,ring,early_tok
         flags_after = last_flag | full_flag;
         written = after;
         written_flags = flags_after;
-        opens_full = ring == three;
+        opens_full = ring_capacity == three;
         if (found[(64'h9)+:(1)]) begin
             written[(64'h0)+:(1)] = 1'b0;
             written[(64'h1)+:(7)] = 32'h3;
@@ -6581,28 +6581,28 @@ module incircle_core_logic$engine$insertions$attempts$store(clock,ring,early_tok
             end
         end
         written_bits = written;
-        states$write_address = token[(64'h0)+:(5)];
+        states$write_address = visit[(64'h0)+:(5)];
         states$write_data = written_bits;
         states$write_enable = found[(64'h3)+:(1)] | found[(64'h9)+:(1)];
-        states$read_address = early_token[(64'h0)+:(5)];
-        flags$write_address = token[(64'h0)+:(5)];
+        states$read_address = early_visit[(64'h0)+:(5)];
+        flags$write_address = visit[(64'h0)+:(5)];
         flags$write_data = written_flags;
         flags$write_enable = found[(64'h3)+:(1)] | found[(64'h9)+:(1)];
-        flags$read_address = early_token[(64'h0)+:(5)];
+        flags$read_address = early_visit[(64'h0)+:(5)];
         stored$bits = states$read_data;
-        entry = early_token[(64'h13)+:(6)];
+        entry = early_visit[(64'h13)+:(6)];
         first_bit = 32'h1;
-        wide_entry = ((early_token[(64'h13)+:(6)]) & 64'hffffffffffffffff);
+        wide_entry = ((early_visit[(64'h13)+:(6)]) & 64'hffffffffffffffff);
         named_entry$d = first_bit << wide_entry;
         held[(64'h60)+:(64)] = named_entry$q & all_entries;
         kept_edges = state$q[(64'h1d)+:(64)];
         stored_edges = stored$value[(64'h1d)+:(64)];
-        is_same_entry = early_token[(64'h13)+:(6)] == token[(64'h13)+:(6)];
-        is_second_entry = early_token[(64'h13)+:(6)] == second_entry;
+        is_same_entry = early_visit[(64'h13)+:(6)] == visit[(64'h13)+:(6)];
+        is_second_entry = early_visit[(64'h13)+:(6)] == second_entry;
         stored_passed$d = stored_edges[entry];
         kept_passed$d = kept_edges[entry] | (found[(64'hb)+:(1)] & is_same_entry) | (step[(64'h3)+:(1)] & is_second_entry);
         edges_after = after[(64'h1d)+:(64)];
-        goes_round = found[(64'h3)+:(1)] & (early_token[(64'h0)+:(5)] == token[(64'h0)+:(5)]);
+        goes_round = found[(64'h3)+:(1)] & (early_visit[(64'h0)+:(5)] == visit[(64'h0)+:(5)]);
         went_round$d = goes_round;
         state$d = stored$value;
         flag_bits$d = flags$read_data;
@@ -6788,11 +6788,11 @@ module incircle_core_logic$engine$insertions$attempts$store$went_round(d,q,clock
 endmodule // incircle_core_logic$engine$insertions$attempts$store$went_round
 
 
-module incircle_core_logic$engine$insertions$attempts$visits(clock,early_token,early_turned,found,walk_next,entry,bundle);
+module incircle_core_logic$engine$insertions$attempts$visits(clock,early_visit,early_turned,found,walk_next,entry,bundle);
     
     // Module arguments
     input wire  clock;
-    input wire  [54:0] early_token;
+    input wire  [54:0] early_visit;
     input wire  [97:0] early_turned;
     input wire  [19:0] found;
     input wire  [14:0] walk_next;
@@ -6829,30 +6829,30 @@ module incircle_core_logic$engine$insertions$attempts$visits(clock,early_token,e
         halves$clock = clock;
         prepared$d = prepared$q;
         halves$d = halves$q;
-        opens = (~early_token[(64'h5)+:(1)]) & early_token[(64'h6)+:(1)] & (~early_turned[(64'h5d)+:(1)]);
-        splits = early_token[(64'h5)+:(1)] & (~early_turned[(64'h5d)+:(1)]);
+        opens = (~early_visit[(64'h5)+:(1)]) & early_visit[(64'h6)+:(1)] & (~early_turned[(64'h5d)+:(1)]);
+        splits = early_visit[(64'h5)+:(1)] & (~early_turned[(64'h5d)+:(1)]);
         prepared$d[(64'h0)+:(1)] = opens | splits;
         prepared$d[(64'h1)+:(1)] = opens;
-        prepared$d[(64'h2)+:(5)] = early_token[(64'h0)+:(5)];
-        prepared$d[(64'h7)+:(1)] = early_token[(64'h5)+:(1)] | opens;
-        prepared$d[(64'h8)+:(1)] = early_token[(64'h6)+:(1)];
-        prepared$d[(64'h9)+:(6)] = early_token[(64'h7)+:(6)];
-        prepared$d[(64'hf)+:(6)] = early_token[(64'hd)+:(6)];
-        prepared$d[(64'h15)+:(6)] = early_token[(64'h13)+:(6)];
-        prepared$d[(64'h1b)+:(15)] = early_token[(64'h19)+:(15)];
-        prepared$d[(64'h2a)+:(15)] = early_token[(64'h28)+:(15)];
-        prepared$d[(64'h39)+:(6)] = early_token[(64'hd)+:(6)];
+        prepared$d[(64'h2)+:(5)] = early_visit[(64'h0)+:(5)];
+        prepared$d[(64'h7)+:(1)] = early_visit[(64'h5)+:(1)] | opens;
+        prepared$d[(64'h8)+:(1)] = early_visit[(64'h6)+:(1)];
+        prepared$d[(64'h9)+:(6)] = early_visit[(64'h7)+:(6)];
+        prepared$d[(64'hf)+:(6)] = early_visit[(64'hd)+:(6)];
+        prepared$d[(64'h15)+:(6)] = early_visit[(64'h13)+:(6)];
+        prepared$d[(64'h1b)+:(15)] = early_visit[(64'h19)+:(15)];
+        prepared$d[(64'h2a)+:(15)] = early_visit[(64'h28)+:(15)];
+        prepared$d[(64'h39)+:(6)] = early_visit[(64'hd)+:(6)];
         prepared$d[(64'h3f)+:(15)] = early_turned[(64'h4b)+:(15)];
         prepared$d[(64'h4e)+:(15)] = early_turned[(64'h4b)+:(15)];
         if (splits) begin
-            prepared$d[(64'h1b)+:(15)] = early_token[(64'h28)+:(15)];
+            prepared$d[(64'h1b)+:(15)] = early_visit[(64'h28)+:(15)];
             prepared$d[(64'h2a)+:(15)] = early_turned[(64'h3c)+:(15)];
         end
         if (opens) begin
             prepared$d[(64'h9)+:(6)] = 32'h0;
             prepared$d[(64'hf)+:(6)] = 32'h1;
             prepared$d[(64'h15)+:(6)] = 32'h0;
-            prepared$d[(64'h1b)+:(15)] = early_token[(64'h28)+:(15)];
+            prepared$d[(64'h1b)+:(15)] = early_visit[(64'h28)+:(15)];
             prepared$d[(64'h2a)+:(15)] = early_turned[(64'h2d)+:(15)];
             prepared$d[(64'h39)+:(6)] = 32'h2;
             prepared$d[(64'h3f)+:(15)] = early_turned[(64'h3c)+:(15)];
@@ -7326,10 +7326,10 @@ module incircle_core_logic$engine$insertions$commits$locks(clock,reset,last_id,l
     reg  log$write_enable;
     reg  [11:0] log$read_address;
     wire  [14:0] log$read_data;
-    reg  [4:0] write_at$owner;
+    reg  [4:0] write_at$context_id;
     reg  [6:0] write_at$place;
     wire  [11:0] write_at$address;
-    reg  [4:0] read_at$owner;
+    reg  [4:0] read_at$context_id;
     reg  [6:0] read_at$place;
     wire  [11:0] read_at$address;
     reg  works$d;
@@ -7356,18 +7356,18 @@ module incircle_core_logic$engine$insertions$commits$locks(clock,reset,last_id,l
     reg  array_is_last$d;
     wire  array_is_last$q;
     reg  array_is_last$clock;
-    reg  [4:0] array_owner$d;
-    wire  [4:0] array_owner$q;
-    reg  array_owner$clock;
+    reg  [4:0] array_context$d;
+    wire  [4:0] array_context$q;
+    reg  array_context$clock;
     reg  output_valid$d;
     wire  output_valid$q;
     reg  output_valid$clock;
     reg  output_is_last$d;
     wire  output_is_last$q;
     reg  output_is_last$clock;
-    reg  [4:0] output_owner$d;
-    wire  [4:0] output_owner$q;
-    reg  output_owner$clock;
+    reg  [4:0] output_context$d;
+    wire  [4:0] output_context$q;
+    reg  output_context$clock;
     reg  clears$d;
     wire  clears$q;
     reg  clears$clock;
@@ -7377,9 +7377,9 @@ module incircle_core_logic$engine$insertions$commits$locks(clock,reset,last_id,l
     reg  is_last$d;
     wire  is_last$q;
     reg  is_last$clock;
-    reg  [4:0] owner$d;
-    wire  [4:0] owner$q;
-    reg  owner$clock;
+    reg  [4:0] cleared_context$d;
+    wire  [4:0] cleared_context$q;
+    reg  cleared_context$clock;
     reg  sweeping$d;
     wire  sweeping$q;
     reg  sweeping$clock;
@@ -7433,12 +7433,12 @@ module incircle_core_logic$engine$insertions$commits$locks(clock,reset,last_id,l
         .read_data(log$read_data)
     );
     incircle_core_logic$engine$insertions$commits$locks$write_at write_at(
-        .owner(write_at$owner),
+        .context_id(write_at$context_id),
         .place(write_at$place),
         .address(write_at$address)
     );
     incircle_core_logic$engine$insertions$commits$locks$read_at read_at(
-        .owner(read_at$owner),
+        .context_id(read_at$context_id),
         .place(read_at$place),
         .address(read_at$address)
     );
@@ -7482,10 +7482,10 @@ module incircle_core_logic$engine$insertions$commits$locks(clock,reset,last_id,l
         .q(array_is_last$q),
         .clock(array_is_last$clock)
     );
-    incircle_core_logic$engine$insertions$commits$locks$array_owner array_owner(
-        .d(array_owner$d),
-        .q(array_owner$q),
-        .clock(array_owner$clock)
+    incircle_core_logic$engine$insertions$commits$locks$array_context array_context(
+        .d(array_context$d),
+        .q(array_context$q),
+        .clock(array_context$clock)
     );
     incircle_core_logic$engine$insertions$commits$locks$output_valid output_valid(
         .d(output_valid$d),
@@ -7497,10 +7497,10 @@ module incircle_core_logic$engine$insertions$commits$locks(clock,reset,last_id,l
         .q(output_is_last$q),
         .clock(output_is_last$clock)
     );
-    incircle_core_logic$engine$insertions$commits$locks$output_owner output_owner(
-        .d(output_owner$d),
-        .q(output_owner$q),
-        .clock(output_owner$clock)
+    incircle_core_logic$engine$insertions$commits$locks$output_context output_context(
+        .d(output_context$d),
+        .q(output_context$q),
+        .clock(output_context$clock)
     );
     incircle_core_logic$engine$insertions$commits$locks$clears clears(
         .d(clears$d),
@@ -7517,10 +7517,10 @@ module incircle_core_logic$engine$insertions$commits$locks(clock,reset,last_id,l
         .q(is_last$q),
         .clock(is_last$clock)
     );
-    incircle_core_logic$engine$insertions$commits$locks$owner owner(
-        .d(owner$d),
-        .q(owner$q),
-        .clock(owner$clock)
+    incircle_core_logic$engine$insertions$commits$locks$cleared_context cleared_context(
+        .d(cleared_context$d),
+        .q(cleared_context$q),
+        .clock(cleared_context$clock)
     );
     incircle_core_logic$engine$insertions$commits$locks$sweeping sweeping(
         .d(sweeping$d),
@@ -7541,28 +7541,28 @@ module incircle_core_logic$engine$insertions$commits$locks(clock,reset,last_id,l
         place$clock = clock;
         array_valid$clock = clock;
         array_is_last$clock = clock;
-        array_owner$clock = clock;
+        array_context$clock = clock;
         works$d = works$q;
         at_work$d = at_work$q;
         place$d = place$q;
         array_valid$d = array_valid$q;
         array_is_last$d = array_is_last$q;
-        array_owner$d = array_owner$q;
+        array_context$d = array_context$q;
         output_valid$clock = clock;
         output_is_last$clock = clock;
-        output_owner$clock = clock;
+        output_context$clock = clock;
         clears$clock = clock;
         cleared$clock = clock;
         is_last$clock = clock;
-        owner$clock = clock;
+        cleared_context$clock = clock;
         sweeping$clock = clock;
         output_valid$d = output_valid$q;
         output_is_last$d = output_is_last$q;
-        output_owner$d = output_owner$q;
+        output_context$d = output_context$q;
         clears$d = clears$q;
         cleared$d = cleared$q;
         is_last$d = is_last$q;
-        owner$d = owner$q;
+        cleared_context$d = cleared_context$q;
         sweeping$d = sweeping$q;
         commits$clock = clock;
         failures$clock = clock;
@@ -7575,13 +7575,13 @@ module incircle_core_logic$engine$insertions$commits$locks(clock,reset,last_id,l
         clear[(64'h0)+:(1)] = clears$q;
         clear[(64'h1)+:(15)] = cleared$q;
         released[(64'h0)+:(1)] = is_last$q;
-        released[(64'h1)+:(5)] = owner$q;
-        write_at$owner = lock[(64'h1)+:(5)];
+        released[(64'h1)+:(5)] = cleared_context$q;
+        write_at$context_id = lock[(64'h1)+:(5)];
         write_at$place = lock[(64'h6)+:(7)];
         log$write_address = write_at$address;
         log$write_data = lock[(64'hd)+:(15)];
         log$write_enable = lock[(64'h0)+:(1)];
-        read_at$owner = at_work$q[(64'h0)+:(5)];
+        read_at$context_id = at_work$q[(64'h0)+:(5)];
         read_at$place = place$q;
         log$read_address = read_at$address;
         after_place = place$q + one_place;
@@ -7619,14 +7619,14 @@ module incircle_core_logic$engine$insertions$commits$locks(clock,reset,last_id,l
         end
         array_valid$d = works$q;
         array_is_last$d = fetches_last;
-        array_owner$d = at_work$q[(64'h0)+:(5)];
+        array_context$d = at_work$q[(64'h0)+:(5)];
         output_valid$d = array_valid$q;
         output_is_last$d = array_is_last$q;
-        output_owner$d = array_owner$q;
+        output_context$d = array_context$q;
         clears$d = output_valid$q | sweeping$q;
         cleared$d = log$read_data;
         is_last$d = output_is_last$q;
-        owner$d = output_owner$q;
+        cleared_context$d = output_context$q;
         after_cleared = cleared$q + one;
         before_last = last_id - one;
         if (sweeping$q) begin
@@ -7649,6 +7649,25 @@ module incircle_core_logic$engine$insertions$commits$locks(clock,reset,last_id,l
 endmodule // incircle_core_logic$engine$insertions$commits$locks
 
 
+module incircle_core_logic$engine$insertions$commits$locks$array_context(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$locks$array_context
+
+
 module incircle_core_logic$engine$insertions$commits$locks$array_is_last(d,q,clock);
     
     // Module arguments
@@ -7666,25 +7685,6 @@ module incircle_core_logic$engine$insertions$commits$locks$array_is_last(d,q,clo
     end
           
 endmodule // incircle_core_logic$engine$insertions$commits$locks$array_is_last
-
-
-module incircle_core_logic$engine$insertions$commits$locks$array_owner(d,q,clock);
-    
-    // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 5'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$locks$array_owner
 
 
 module incircle_core_logic$engine$insertions$commits$locks$array_valid(d,q,clock);
@@ -7742,6 +7742,25 @@ module incircle_core_logic$engine$insertions$commits$locks$cleared(d,q,clock);
     end
           
 endmodule // incircle_core_logic$engine$insertions$commits$locks$cleared
+
+
+module incircle_core_logic$engine$insertions$commits$locks$cleared_context(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$locks$cleared_context
 
 
 module incircle_core_logic$engine$insertions$commits$locks$clears(d,q,clock);
@@ -8376,6 +8395,25 @@ module incircle_core_logic$engine$insertions$commits$locks$one_is_left(d,q,clock
 endmodule // incircle_core_logic$engine$insertions$commits$locks$one_is_left
 
 
+module incircle_core_logic$engine$insertions$commits$locks$output_context(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$locks$output_context
+
+
 module incircle_core_logic$engine$insertions$commits$locks$output_is_last(d,q,clock);
     
     // Module arguments
@@ -8393,25 +8431,6 @@ module incircle_core_logic$engine$insertions$commits$locks$output_is_last(d,q,cl
     end
           
 endmodule // incircle_core_logic$engine$insertions$commits$locks$output_is_last
-
-
-module incircle_core_logic$engine$insertions$commits$locks$output_owner(d,q,clock);
-    
-    // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 5'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$locks$output_owner
 
 
 module incircle_core_logic$engine$insertions$commits$locks$output_valid(d,q,clock);
@@ -8433,25 +8452,6 @@ module incircle_core_logic$engine$insertions$commits$locks$output_valid(d,q,cloc
 endmodule // incircle_core_logic$engine$insertions$commits$locks$output_valid
 
 
-module incircle_core_logic$engine$insertions$commits$locks$owner(d,q,clock);
-    
-    // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 5'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$locks$owner
-
-
 module incircle_core_logic$engine$insertions$commits$locks$place(d,q,clock);
     
     // Module arguments
@@ -8471,10 +8471,10 @@ module incircle_core_logic$engine$insertions$commits$locks$place(d,q,clock);
 endmodule // incircle_core_logic$engine$insertions$commits$locks$place
 
 
-module incircle_core_logic$engine$insertions$commits$locks$read_at(owner,place,address);
+module incircle_core_logic$engine$insertions$commits$locks$read_at(context_id,place,address);
     
     // Module arguments
-    input wire  [4:0] owner;
+    input wire  [4:0] context_id;
     input wire  [6:0] place;
     output reg  [11:0] address;
     
@@ -8482,15 +8482,15 @@ module incircle_core_logic$engine$insertions$commits$locks$read_at(owner,place,a
     localparam  place_bits = 12'h6;
     
     // Local signals
-    reg  [11:0] wide_owner;
+    reg  [11:0] wide_context;
     reg  [11:0] wide_place;
     reg  [11:0] base;
     
     // Update code
     always @(*) begin
-        wide_owner = ((owner) & 12'hfff);
+        wide_context = ((context_id) & 12'hfff);
         wide_place = ((place) & 12'hfff);
-        base = wide_owner << place_bits;
+        base = wide_context << place_bits;
         address = base | wide_place;
     end
     
@@ -8565,10 +8565,10 @@ module incircle_core_logic$engine$insertions$commits$locks$works(d,q,clock);
 endmodule // incircle_core_logic$engine$insertions$commits$locks$works
 
 
-module incircle_core_logic$engine$insertions$commits$locks$write_at(owner,place,address);
+module incircle_core_logic$engine$insertions$commits$locks$write_at(context_id,place,address);
     
     // Module arguments
-    input wire  [4:0] owner;
+    input wire  [4:0] context_id;
     input wire  [6:0] place;
     output reg  [11:0] address;
     
@@ -8576,15 +8576,15 @@ module incircle_core_logic$engine$insertions$commits$locks$write_at(owner,place,
     localparam  place_bits = 12'h6;
     
     // Local signals
-    reg  [11:0] wide_owner;
+    reg  [11:0] wide_context;
     reg  [11:0] wide_place;
     reg  [11:0] base;
     
     // Update code
     always @(*) begin
-        wide_owner = ((owner) & 12'hfff);
+        wide_context = ((context_id) & 12'hfff);
         wide_place = ((place) & 12'hfff);
-        base = wide_owner << place_bits;
+        base = wide_context << place_bits;
         address = base | wide_place;
     end
     
@@ -8700,9 +8700,9 @@ module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry,com
     reg  [52:0] last_entry$d;
     wire  [52:0] last_entry$q;
     reg  last_entry$clock;
-    reg  [14:0] first_f$d;
-    wire  [14:0] first_f$q;
-    reg  first_f$clock;
+    reg  [14:0] first_cavity_record$d;
+    wire  [14:0] first_cavity_record$q;
+    reg  first_cavity_record$clock;
     
     // Local signals
     reg  [55:0] job;
@@ -8714,7 +8714,7 @@ module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry,com
     reg  shares_with_first;
     reg  [5:0] first_place;
     reg  [23:0] first_bit;
-    reg  [23:0] wide_owner;
+    reg  [23:0] wide_context;
     reg  [23:0] oldest_bit;
     
     // Sub module instances
@@ -8842,10 +8842,10 @@ module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry,com
         .q(last_entry$q),
         .clock(last_entry$clock)
     );
-    incircle_core_logic$engine$insertions$commits$rings$first_f first_f(
-        .d(first_f$d),
-        .q(first_f$q),
-        .clock(first_f$clock)
+    incircle_core_logic$engine$insertions$commits$rings$first_cavity_record first_cavity_record(
+        .d(first_cavity_record$d),
+        .q(first_cavity_record$q),
+        .clock(first_cavity_record$clock)
     );
     
     // Update code
@@ -8886,12 +8886,12 @@ module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry,com
         entry_is_last$clock = clock;
         entry_shares$clock = clock;
         last_entry$clock = clock;
-        first_f$clock = clock;
+        first_cavity_record$clock = clock;
         entry_valid$d = entry_valid$q;
         entry_is_last$d = entry_is_last$q;
         entry_shares$d = entry_shares$q;
         last_entry$d = last_entry$q;
-        first_f$d = first_f$q;
+        first_cavity_record$d = first_cavity_record$q;
         rings$clock = clock;
         list$clock = clock;
         first_place = 32'h0;
@@ -8916,10 +8916,10 @@ module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry,com
         rings$takes = moves & ring_is_through;
         oldest$bits = rings$head;
         first_bit = 32'h1;
-        wide_owner = ((oldest$value[(64'h0)+:(5)]) & 24'hffffff);
-        oldest_bit = first_bit << wide_owner;
+        wide_context = ((oldest$value[(64'h0)+:(5)]) & 24'hffffff);
+        oldest_bit = first_bit << wide_context;
         shares_with_last = arrival$q[(64'h20)+:(15)] == last_entry$q[(64'h20)+:(15)];
-        shares_with_first = arrival$q[(64'h20)+:(15)] == first_f$q;
+        shares_with_first = arrival$q[(64'h20)+:(15)] == first_cavity_record$q;
         if (moves) begin
             pointer_is_first$d = ring_is_through;
             if (ring_is_through) begin
@@ -8949,7 +8949,7 @@ module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry,com
             entry_shares$d = (~arrival_is_first$q) & (shares_with_last | shares_with_first);
             last_entry$d = arrival$q;
             if (arrival_is_first$q) begin
-                first_f$d = arrival$q[(64'h20)+:(15)];
+                first_cavity_record$d = arrival$q[(64'h20)+:(15)];
             end
         end
         if (reset) begin
@@ -9154,7 +9154,7 @@ module incircle_core_logic$engine$insertions$commits$rings$entry_valid(d,q,clock
 endmodule // incircle_core_logic$engine$insertions$commits$rings$entry_valid
 
 
-module incircle_core_logic$engine$insertions$commits$rings$first_f(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$rings$first_cavity_record(d,q,clock);
     
     // Module arguments
     input wire  [14:0] d;
@@ -9170,7 +9170,7 @@ module incircle_core_logic$engine$insertions$commits$rings$first_f(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$rings$first_f
+endmodule // incircle_core_logic$engine$insertions$commits$rings$first_cavity_record
 
 
 module incircle_core_logic$engine$insertions$commits$rings$last_entry(d,q,clock);
@@ -9224,10 +9224,10 @@ module incircle_core_logic$engine$insertions$commits$rings$list(clock,entry,read
     reg  [10:0] edges$read_address;
     reg  edges$read_enable;
     wire  [52:0] edges$read_data;
-    reg  [4:0] write_at$owner;
+    reg  [4:0] write_at$context_id;
     reg  [5:0] write_at$place;
     wire  [10:0] write_at$address;
-    reg  [4:0] read_at$owner;
+    reg  [4:0] read_at$context_id;
     reg  [5:0] read_at$place;
     wire  [10:0] read_at$address;
     reg  [52:0] read_entry$bits;
@@ -9268,12 +9268,12 @@ module incircle_core_logic$engine$insertions$commits$rings$list(clock,entry,read
         .read_data(edges$read_data)
     );
     incircle_core_logic$engine$insertions$commits$rings$list$write_at write_at(
-        .owner(write_at$owner),
+        .context_id(write_at$context_id),
         .place(write_at$place),
         .address(write_at$address)
     );
     incircle_core_logic$engine$insertions$commits$rings$list$read_at read_at(
-        .owner(read_at$owner),
+        .context_id(read_at$context_id),
         .place(read_at$place),
         .address(read_at$address)
     );
@@ -9291,7 +9291,7 @@ module incircle_core_logic$engine$insertions$commits$rings$list(clock,entry,read
         first_place = 32'h0;
         written$d = entry;
         written_entry = written$q[(64'hc)+:(53)];
-        write_at$owner = written$q[(64'h1)+:(5)];
+        write_at$context_id = written$q[(64'h1)+:(5)];
         write_at$place = written$q[(64'h6)+:(6)];
         entry_bits = written_entry;
         one = 32'h1;
@@ -9308,7 +9308,7 @@ module incircle_core_logic$engine$insertions$commits$rings$list(clock,entry,read
         edges$write_address = write_at$address;
         edges$write_data = entry_bits;
         edges$write_enable = written$q[(64'h0)+:(1)];
-        read_at$owner = reader;
+        read_at$context_id = reader;
         read_at$place = read_place;
         followers$read_banks = reader_bit;
         followers$read_address = read_place;
@@ -9439,10 +9439,10 @@ module incircle_core_logic$engine$insertions$commits$rings$list$followers(clock,
 endmodule // incircle_core_logic$engine$insertions$commits$rings$list$followers
 
 
-module incircle_core_logic$engine$insertions$commits$rings$list$read_at(owner,place,address);
+module incircle_core_logic$engine$insertions$commits$rings$list$read_at(context_id,place,address);
     
     // Module arguments
-    input wire  [4:0] owner;
+    input wire  [4:0] context_id;
     input wire  [5:0] place;
     output reg  [10:0] address;
     
@@ -9450,15 +9450,15 @@ module incircle_core_logic$engine$insertions$commits$rings$list$read_at(owner,pl
     localparam  place_bits = 11'b101;
     
     // Local signals
-    reg  [10:0] wide_owner;
+    reg  [10:0] wide_context;
     reg  [10:0] wide_place;
     reg  [10:0] base;
     
     // Update code
     always @(*) begin
-        wide_owner = ((owner) & 11'h7ff);
+        wide_context = ((context_id) & 11'h7ff);
         wide_place = ((place) & 11'h7ff);
-        base = wide_owner << place_bits;
+        base = wide_context << place_bits;
         address = base | wide_place;
     end
     
@@ -9476,10 +9476,10 @@ module incircle_core_logic$engine$insertions$commits$rings$list$read_entry(bits,
 endmodule // incircle_core_logic$engine$insertions$commits$rings$list$read_entry
 
 
-module incircle_core_logic$engine$insertions$commits$rings$list$write_at(owner,place,address);
+module incircle_core_logic$engine$insertions$commits$rings$list$write_at(context_id,place,address);
     
     // Module arguments
-    input wire  [4:0] owner;
+    input wire  [4:0] context_id;
     input wire  [5:0] place;
     output reg  [10:0] address;
     
@@ -9487,15 +9487,15 @@ module incircle_core_logic$engine$insertions$commits$rings$list$write_at(owner,p
     localparam  place_bits = 11'b101;
     
     // Local signals
-    reg  [10:0] wide_owner;
+    reg  [10:0] wide_context;
     reg  [10:0] wide_place;
     reg  [10:0] base;
     
     // Update code
     always @(*) begin
-        wide_owner = ((owner) & 11'h7ff);
+        wide_context = ((context_id) & 11'h7ff);
         wide_place = ((place) & 11'h7ff);
-        base = wide_owner << place_bits;
+        base = wide_context << place_bits;
         address = base | wide_place;
     end
     
@@ -9979,15 +9979,15 @@ module incircle_core_logic$engine$insertions$commits$star(clock,reset,head,head_
     reg  [14:0] before_id$d;
     wire  [14:0] before_id$q;
     reg  before_id$clock;
-    reg  [14:0] second_a$d;
-    wire  [14:0] second_a$q;
-    reg  second_a$clock;
+    reg  [14:0] second_vertex$d;
+    wire  [14:0] second_vertex$q;
+    reg  second_vertex$clock;
     reg  [14:0] second_id$d;
     wire  [14:0] second_id$q;
     reg  second_id$clock;
-    reg  [14:0] link_u$d;
-    wire  [14:0] link_u$q;
-    reg  link_u$clock;
+    reg  [14:0] link_record$d;
+    wire  [14:0] link_record$q;
+    reg  link_record$clock;
     reg  [1:0] link_slot$d;
     wire  [1:0] link_slot$q;
     reg  link_slot$clock;
@@ -10068,20 +10068,20 @@ module incircle_core_logic$engine$insertions$commits$star(clock,reset,head,head_
         .q(before_id$q),
         .clock(before_id$clock)
     );
-    incircle_core_logic$engine$insertions$commits$star$second_a second_a(
-        .d(second_a$d),
-        .q(second_a$q),
-        .clock(second_a$clock)
+    incircle_core_logic$engine$insertions$commits$star$second_vertex second_vertex(
+        .d(second_vertex$d),
+        .q(second_vertex$q),
+        .clock(second_vertex$clock)
     );
     incircle_core_logic$engine$insertions$commits$star$second_id second_id(
         .d(second_id$d),
         .q(second_id$q),
         .clock(second_id$clock)
     );
-    incircle_core_logic$engine$insertions$commits$star$link_u link_u(
-        .d(link_u$d),
-        .q(link_u$q),
-        .clock(link_u$clock)
+    incircle_core_logic$engine$insertions$commits$star$link_record link_record(
+        .d(link_record$d),
+        .q(link_record$q),
+        .clock(link_record$clock)
     );
     incircle_core_logic$engine$insertions$commits$star$link_slot link_slot(
         .d(link_slot$d),
@@ -10155,19 +10155,19 @@ module incircle_core_logic$engine$insertions$commits$star(clock,reset,head,head_
         current$clock = clock;
         current_id$clock = clock;
         before_id$clock = clock;
-        second_a$clock = clock;
+        second_vertex$clock = clock;
         second_id$clock = clock;
         ring$d = ring$q;
         first$d = first$q;
         current$d = current$q;
         current_id$d = current_id$q;
         before_id$d = before_id$q;
-        second_a$d = second_a$q;
+        second_vertex$d = second_vertex$q;
         second_id$d = second_id$q;
-        link_u$clock = clock;
+        link_record$clock = clock;
         link_slot$clock = clock;
         request$clock = clock;
-        link_u$d = link_u$q;
+        link_record$d = link_record$q;
         link_slot$d = link_slot$q;
         request$d = request$q;
         steps$clock = clock;
@@ -10203,10 +10203,10 @@ module incircle_core_logic$engine$insertions$commits$star(clock,reset,head,head_
         record$n1 = star_id$id;
         record$n2 = before_id$q;
         if (steps$is_close) begin
-            record$v2 = second_a$q;
+            record$v2 = second_vertex$q;
             record$n1 = second_id$q;
         end
-        link$id = link_u$q;
+        link$id = link_record$q;
         link$slot = link_slot$q;
         link$value = before_id$q;
         request$d = record$write;
@@ -10216,10 +10216,10 @@ module incircle_core_logic$engine$insertions$commits$star(clock,reset,head,head_
         end
         if (steps$advances) begin
             if (steps$opens) begin
-                second_a$d = star_id$ahead[(64'h0)+:(15)];
+                second_vertex$d = star_id$ahead[(64'h0)+:(15)];
                 second_id$d = star_id$id;
             end
-            link_u$d = current$q[(64'hf)+:(15)];
+            link_record$d = current$q[(64'hf)+:(15)];
             link_slot$d = current$q[(64'h1e)+:(2)];
             before_id$d = current_id$q;
             current$d = star_id$ahead;
@@ -10338,9 +10338,9 @@ module incircle_core_logic$engine$insertions$commits$star$inner_list(clock,inner
     reg  [26:0] written$d;
     wire  [26:0] written$q;
     reg  written$clock;
-    reg  [4:0] list_owner$d;
-    wire  [4:0] list_owner$q;
-    reg  list_owner$clock;
+    reg  [4:0] list_context$d;
+    wire  [4:0] list_context$q;
+    reg  list_context$clock;
     reg  [6:0] list_inners$d;
     wire  [6:0] list_inners$q;
     reg  list_inners$clock;
@@ -10365,10 +10365,10 @@ module incircle_core_logic$engine$insertions$commits$star$inner_list(clock,inner
     reg  [14:0] arrival$d;
     wire  [14:0] arrival$q;
     reg  arrival$clock;
-    reg  [4:0] write_at$owner;
+    reg  [4:0] write_at$context_id;
     reg  [5:0] write_at$place;
     wire  [10:0] write_at$address;
-    reg  [4:0] read_at$owner;
+    reg  [4:0] read_at$context_id;
     reg  [5:0] read_at$place;
     wire  [10:0] read_at$address;
     
@@ -10391,10 +10391,10 @@ module incircle_core_logic$engine$insertions$commits$star$inner_list(clock,inner
         .q(written$q),
         .clock(written$clock)
     );
-    incircle_core_logic$engine$insertions$commits$star$inner_list$list_owner list_owner(
-        .d(list_owner$d),
-        .q(list_owner$q),
-        .clock(list_owner$clock)
+    incircle_core_logic$engine$insertions$commits$star$inner_list$list_context list_context(
+        .d(list_context$d),
+        .q(list_context$q),
+        .clock(list_context$clock)
     );
     incircle_core_logic$engine$insertions$commits$star$inner_list$list_inners list_inners(
         .d(list_inners$d),
@@ -10437,12 +10437,12 @@ module incircle_core_logic$engine$insertions$commits$star$inner_list(clock,inner
         .clock(arrival$clock)
     );
     incircle_core_logic$engine$insertions$commits$star$inner_list$write_at write_at(
-        .owner(write_at$owner),
+        .context_id(write_at$context_id),
         .place(write_at$place),
         .address(write_at$address)
     );
     incircle_core_logic$engine$insertions$commits$star$inner_list$read_at read_at(
-        .owner(read_at$owner),
+        .context_id(read_at$context_id),
         .place(read_at$place),
         .address(read_at$address)
     );
@@ -10450,10 +10450,10 @@ module incircle_core_logic$engine$insertions$commits$star$inner_list(clock,inner
     // Update code
     always @(*) begin
         written$clock = clock;
-        list_owner$clock = clock;
+        list_context$clock = clock;
         list_inners$clock = clock;
         written$d = written$q;
-        list_owner$d = list_owner$q;
+        list_context$d = list_context$q;
         list_inners$d = list_inners$q;
         index$clock = clock;
         one_is_left$clock = clock;
@@ -10473,12 +10473,12 @@ module incircle_core_logic$engine$insertions$commits$star$inner_list(clock,inner
         one = 32'h1;
         first_place = 32'h0;
         written$d = inner;
-        write_at$owner = written$q[(64'h1)+:(5)];
+        write_at$context_id = written$q[(64'h1)+:(5)];
         write_at$place = written$q[(64'h6)+:(6)];
         memory$write_address = write_at$address;
         memory$write_data = written$q[(64'hc)+:(15)];
         memory$write_enable = written$q[(64'h0)+:(1)];
-        read_at$owner = list_owner$q;
+        read_at$context_id = list_context$q;
         read_at$place = index$q[(32'h0)+:(6)];
         memory$read_address = read_at$address;
         arrival$d = memory$read_data;
@@ -10497,7 +10497,7 @@ module incircle_core_logic$engine$insertions$commits$star$inner_list(clock,inner
         end
         if (restarts) begin
             index$d = first_place;
-            list_owner$d = reader;
+            list_context$d = reader;
             list_inners$d = inners;
             used_up$d = inners == first_place;
             awaited$d = inners != first_place;
@@ -10568,6 +10568,25 @@ module incircle_core_logic$engine$insertions$commits$star$inner_list$index(d,q,c
 endmodule // incircle_core_logic$engine$insertions$commits$star$inner_list$index
 
 
+module incircle_core_logic$engine$insertions$commits$star$inner_list$list_context(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$inner_list$list_context
+
+
 module incircle_core_logic$engine$insertions$commits$star$inner_list$list_inners(d,q,clock);
     
     // Module arguments
@@ -10585,25 +10604,6 @@ module incircle_core_logic$engine$insertions$commits$star$inner_list$list_inners
     end
           
 endmodule // incircle_core_logic$engine$insertions$commits$star$inner_list$list_inners
-
-
-module incircle_core_logic$engine$insertions$commits$star$inner_list$list_owner(d,q,clock);
-    
-    // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 5'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$star$inner_list$list_owner
 
 
 module incircle_core_logic$engine$insertions$commits$star$inner_list$memory(clock,write_address,write_data,write_enable,read_address,read_data);
@@ -10691,10 +10691,10 @@ module incircle_core_logic$engine$insertions$commits$star$inner_list$one_is_left
 endmodule // incircle_core_logic$engine$insertions$commits$star$inner_list$one_is_left
 
 
-module incircle_core_logic$engine$insertions$commits$star$inner_list$read_at(owner,place,address);
+module incircle_core_logic$engine$insertions$commits$star$inner_list$read_at(context_id,place,address);
     
     // Module arguments
-    input wire  [4:0] owner;
+    input wire  [4:0] context_id;
     input wire  [5:0] place;
     output reg  [10:0] address;
     
@@ -10702,15 +10702,15 @@ module incircle_core_logic$engine$insertions$commits$star$inner_list$read_at(own
     localparam  place_bits = 11'b101;
     
     // Local signals
-    reg  [10:0] wide_owner;
+    reg  [10:0] wide_context;
     reg  [10:0] wide_place;
     reg  [10:0] base;
     
     // Update code
     always @(*) begin
-        wide_owner = ((owner) & 11'h7ff);
+        wide_context = ((context_id) & 11'h7ff);
         wide_place = ((place) & 11'h7ff);
-        base = wide_owner << place_bits;
+        base = wide_context << place_bits;
         address = base | wide_place;
     end
     
@@ -10774,10 +10774,10 @@ module incircle_core_logic$engine$insertions$commits$star$inner_list$used_up(d,q
 endmodule // incircle_core_logic$engine$insertions$commits$star$inner_list$used_up
 
 
-module incircle_core_logic$engine$insertions$commits$star$inner_list$write_at(owner,place,address);
+module incircle_core_logic$engine$insertions$commits$star$inner_list$write_at(context_id,place,address);
     
     // Module arguments
-    input wire  [4:0] owner;
+    input wire  [4:0] context_id;
     input wire  [5:0] place;
     output reg  [10:0] address;
     
@@ -10785,15 +10785,15 @@ module incircle_core_logic$engine$insertions$commits$star$inner_list$write_at(ow
     localparam  place_bits = 11'b101;
     
     // Local signals
-    reg  [10:0] wide_owner;
+    reg  [10:0] wide_context;
     reg  [10:0] wide_place;
     reg  [10:0] base;
     
     // Update code
     always @(*) begin
-        wide_owner = ((owner) & 11'h7ff);
+        wide_context = ((context_id) & 11'h7ff);
         wide_place = ((place) & 11'h7ff);
-        base = wide_owner << place_bits;
+        base = wide_context << place_bits;
         address = base | wide_place;
     end
     
@@ -10854,6 +10854,25 @@ module incircle_core_logic$engine$insertions$commits$star$link(id,slot,value,wri
 endmodule // incircle_core_logic$engine$insertions$commits$star$link
 
 
+module incircle_core_logic$engine$insertions$commits$star$link_record(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$link_record
+
+
 module incircle_core_logic$engine$insertions$commits$star$link_slot(d,q,clock);
     
     // Module arguments
@@ -10871,25 +10890,6 @@ module incircle_core_logic$engine$insertions$commits$star$link_slot(d,q,clock);
     end
           
 endmodule // incircle_core_logic$engine$insertions$commits$star$link_slot
-
-
-module incircle_core_logic$engine$insertions$commits$star$link_u(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$star$link_u
 
 
 module incircle_core_logic$engine$insertions$commits$star$record(id,v0,v1,v2,n0,n1,n2,write);
@@ -10961,25 +10961,6 @@ module incircle_core_logic$engine$insertions$commits$star$ring(d,q,clock);
 endmodule // incircle_core_logic$engine$insertions$commits$star$ring
 
 
-module incircle_core_logic$engine$insertions$commits$star$second_a(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$star$second_a
-
-
 module incircle_core_logic$engine$insertions$commits$star$second_id(d,q,clock);
     
     // Module arguments
@@ -10997,6 +10978,25 @@ module incircle_core_logic$engine$insertions$commits$star$second_id(d,q,clock);
     end
           
 endmodule // incircle_core_logic$engine$insertions$commits$star$second_id
+
+
+module incircle_core_logic$engine$insertions$commits$star$second_vertex(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$second_vertex
 
 
 module incircle_core_logic$engine$insertions$commits$star$star_id(head,first,current_is_last,inner_id,inner_is_used_up,fresh,ahead,id,is_inner,is_fresh);
@@ -11318,13 +11318,13 @@ module incircle_core_logic$engine$insertions$commits$star$steps$wants(d,q,clock)
 endmodule // incircle_core_logic$engine$insertions$commits$star$steps$wants
 
 
-module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,patience,deal,arrived,came,seed,is_done,outcome,may_ask,committed,released,solo,start,fetched,contexts,solo_start,takes_token,is_quiet,stuck);
+module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,built_contexts,patience,deal,arrived,came,seed,is_done,outcome,may_ask,committed,released,solo,start,fetched,contexts,solo_start,takes_priority,is_quiet,stuck);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  clears;
-    input wire  [23:0] all;
+    input wire  [23:0] built_contexts;
     input wire  [21:0] patience;
     input wire  [12:0] deal;
     input wire  [14:0] arrived;
@@ -11340,7 +11340,7 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
     output reg  [5:0] fetched;
     output reg  [133:0] contexts;
     output reg  [35:0] solo_start;
-    output reg  takes_token;
+    output reg  takes_priority;
     output reg  is_quiet;
     output reg  stuck;
     
@@ -11363,14 +11363,14 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
     reg  flags$clock;
     reg  flags$reset;
     reg  flags$clears;
-    reg  [23:0] flags$all;
+    reg  [23:0] flags$built_contexts;
     reg  [28:0] flags$outcome;
     reg  [36:0] flags$start;
     reg  [5:0] flags$released;
     reg  [71:0] flags$committed;
     reg  flags$solo_ends;
     wire  [133:0] flags$contexts;
-    wire  flags$takes_token;
+    wire  flags$takes_priority;
     reg  starter$clock;
     reg  starter$reset;
     reg  starter$clears;
@@ -11386,18 +11386,18 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
     reg  [71:0] starter$committed;
     wire  [36:0] starter$start;
     wire  [35:0] starter$solo_start;
-    reg  progress$clock;
-    reg  progress$reset;
-    reg  progress$clears;
-    reg  [14:0] progress$arrived;
-    reg  progress$seeds;
-    reg  progress$commit_ends;
-    reg  progress$solo_ends;
-    reg  progress$duplicate;
-    reg  progress$has_no_start;
-    reg  progress$all_rest;
-    wire  progress$is_quiet;
-    wire  progress$finishes;
+    reg  finished_points$clock;
+    reg  finished_points$reset;
+    reg  finished_points$clears;
+    reg  [14:0] finished_points$arrived;
+    reg  finished_points$seeds;
+    reg  finished_points$commit_ends;
+    reg  finished_points$solo_ends;
+    reg  finished_points$duplicate;
+    reg  finished_points$has_no_start;
+    reg  finished_points$all_rest;
+    wire  finished_points$is_quiet;
+    wire  finished_points$finishes;
     reg  watchdog$clock;
     reg  watchdog$reset;
     reg  watchdog$finishes;
@@ -11435,14 +11435,14 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
         .clock(flags$clock),
         .reset(flags$reset),
         .clears(flags$clears),
-        .all(flags$all),
+        .built_contexts(flags$built_contexts),
         .outcome(flags$outcome),
         .start(flags$start),
         .released(flags$released),
         .committed(flags$committed),
         .solo_ends(flags$solo_ends),
         .contexts(flags$contexts),
-        .takes_token(flags$takes_token)
+        .takes_priority(flags$takes_priority)
     );
     incircle_core_logic$engine$insertions$dispatcher$starter starter(
         .clock(starter$clock),
@@ -11461,19 +11461,19 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
         .start(starter$start),
         .solo_start(starter$solo_start)
     );
-    incircle_core_logic$engine$insertions$dispatcher$progress progress(
-        .clock(progress$clock),
-        .reset(progress$reset),
-        .clears(progress$clears),
-        .arrived(progress$arrived),
-        .seeds(progress$seeds),
-        .commit_ends(progress$commit_ends),
-        .solo_ends(progress$solo_ends),
-        .duplicate(progress$duplicate),
-        .has_no_start(progress$has_no_start),
-        .all_rest(progress$all_rest),
-        .is_quiet(progress$is_quiet),
-        .finishes(progress$finishes)
+    incircle_core_logic$engine$insertions$dispatcher$finished_points finished_points(
+        .clock(finished_points$clock),
+        .reset(finished_points$reset),
+        .clears(finished_points$clears),
+        .arrived(finished_points$arrived),
+        .seeds(finished_points$seeds),
+        .commit_ends(finished_points$commit_ends),
+        .solo_ends(finished_points$solo_ends),
+        .duplicate(finished_points$duplicate),
+        .has_no_start(finished_points$has_no_start),
+        .all_rest(finished_points$all_rest),
+        .is_quiet(finished_points$is_quiet),
+        .finishes(finished_points$finishes)
     );
     incircle_core_logic$engine$insertions$dispatcher$watchdog watchdog(
         .clock(watchdog$clock),
@@ -11498,15 +11498,15 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
         taker2$d = taker2$q;
         flags$clock = clock;
         starter$clock = clock;
-        progress$clock = clock;
+        finished_points$clock = clock;
         watchdog$clock = clock;
         flags$reset = reset;
         starter$reset = reset;
-        progress$reset = reset;
+        finished_points$reset = reset;
         watchdog$reset = reset;
         flags$clears = clears;
         starter$clears = clears;
-        progress$clears = clears;
+        finished_points$clears = clears;
         found$d = outcome;
         if (reset) begin
             found$d[(64'h5)+:(1)] = 1'b0;
@@ -11518,14 +11518,14 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
             found$d[(64'hb)+:(1)] = 1'b0;
             found$d[(64'hc)+:(1)] = 1'b0;
         end
-        flags$all = all;
+        flags$built_contexts = built_contexts;
         flags$outcome = found$q;
         flags$start = starter$start;
         flags$released = released;
         flags$committed = committed;
         flags$solo_ends = solo[(64'h1)+:(1)];
         contexts = flags$contexts;
-        takes_token = flags$takes_token;
+        takes_priority = flags$takes_priority;
         starter$deal = deal;
         starter$arrived = arrived;
         starter$came = came;
@@ -11544,37 +11544,178 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
         taker2$d = taker1$q;
         fetched[(64'h0)+:(1)] = taken2$q;
         fetched[(64'h1)+:(5)] = taker2$q;
-        progress$arrived = arrived;
-        progress$seeds = seed[(64'h2)+:(1)];
-        progress$commit_ends = committed[(64'h0)+:(1)];
-        progress$solo_ends = solo[(64'h1)+:(1)];
-        progress$duplicate = found$q[(64'hc)+:(1)];
-        progress$has_no_start = seed[(64'h1)+:(1)];
-        progress$all_rest = flags$contexts[(64'h85)+:(1)];
-        is_quiet = progress$is_quiet;
+        finished_points$arrived = arrived;
+        finished_points$seeds = seed[(64'h2)+:(1)];
+        finished_points$commit_ends = committed[(64'h0)+:(1)];
+        finished_points$solo_ends = solo[(64'h1)+:(1)];
+        finished_points$duplicate = found$q[(64'hc)+:(1)];
+        finished_points$has_no_start = seed[(64'h1)+:(1)];
+        finished_points$all_rest = flags$contexts[(64'h85)+:(1)];
+        is_quiet = finished_points$is_quiet;
         watchdog$patience = patience;
-        watchdog$finishes = progress$finishes;
-        watchdog$is_quiet = progress$is_quiet;
+        watchdog$finishes = finished_points$finishes;
+        watchdog$is_quiet = finished_points$is_quiet;
         stuck = watchdog$stuck;
     end
     
 endmodule // incircle_core_logic$engine$insertions$dispatcher
 
 
-module incircle_core_logic$engine$insertions$dispatcher$flags(clock,reset,clears,all,outcome,start,released,committed,solo_ends,contexts,takes_token);
+module incircle_core_logic$engine$insertions$dispatcher$finished_points(clock,reset,clears,arrived,seeds,commit_ends,solo_ends,duplicate,has_no_start,all_rest,is_quiet,finishes);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  clears;
-    input wire  [23:0] all;
+    input wire  [14:0] arrived;
+    input wire  seeds;
+    input wire  commit_ends;
+    input wire  solo_ends;
+    input wire  duplicate;
+    input wire  has_no_start;
+    input wire  all_rest;
+    output reg  is_quiet;
+    output reg  finishes;
+    
+    // Stub signals
+    reg  [14:0] finished$d;
+    wire  [14:0] finished$q;
+    reg  finished$clock;
+    reg  [1:0] more$d;
+    wire  [1:0] more$q;
+    reg  more$clock;
+    reg  is_behind$d;
+    wire  is_behind$q;
+    reg  is_behind$clock;
+    
+    // Local signals
+    reg  inserts;
+    reg  [14:0] wide_more;
+    
+    // Sub module instances
+    incircle_core_logic$engine$insertions$dispatcher$finished_points$finished finished(
+        .d(finished$d),
+        .q(finished$q),
+        .clock(finished$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$finished_points$more more(
+        .d(more$d),
+        .q(more$q),
+        .clock(more$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$finished_points$is_behind is_behind(
+        .d(is_behind$d),
+        .q(is_behind$q),
+        .clock(is_behind$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        finished$clock = clock;
+        more$clock = clock;
+        is_behind$clock = clock;
+        finished$d = finished$q;
+        more$d = more$q;
+        is_behind$d = is_behind$q;
+        inserts = commit_ends | solo_ends;
+        finishes = inserts | duplicate | seeds;
+        is_behind$d = finished$q != arrived;
+        is_quiet = ((~is_behind$q) | has_no_start) & all_rest;
+        more$d = 32'h0;
+        if (inserts | duplicate) begin
+            more$d = 32'h1;
+        end
+        if (inserts & duplicate) begin
+            more$d = 32'h2;
+        end
+        if (seeds) begin
+            more$d = 32'h3;
+        end
+        wide_more = ((more$q) & 15'h7fff);
+        finished$d = finished$q + wide_more;
+        if (reset | clears) begin
+            more$d = 32'h0;
+            finished$d = 32'h0;
+        end
+        if (reset) begin
+            is_behind$d = 1'b0;
+        end
+    end
+    
+endmodule // incircle_core_logic$engine$insertions$dispatcher$finished_points
+
+
+module incircle_core_logic$engine$insertions$dispatcher$finished_points$finished(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$finished_points$finished
+
+
+module incircle_core_logic$engine$insertions$dispatcher$finished_points$is_behind(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$finished_points$is_behind
+
+
+module incircle_core_logic$engine$insertions$dispatcher$finished_points$more(d,q,clock);
+    
+    // Module arguments
+    input wire  [1:0] d;
+    output reg  [1:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 2'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$finished_points$more
+
+
+module incircle_core_logic$engine$insertions$dispatcher$flags(clock,reset,clears,built_contexts,outcome,start,released,committed,solo_ends,contexts,takes_priority);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  clears;
+    input wire  [23:0] built_contexts;
     input wire  [28:0] outcome;
     input wire  [36:0] start;
     input wire  [5:0] released;
     input wire  [71:0] committed;
     input wire  solo_ends;
     output reg  [133:0] contexts;
-    output reg  takes_token;
+    output reg  takes_priority;
     
     // Stub signals
     reg  [133:0] state$d;
@@ -11588,12 +11729,12 @@ module incircle_core_logic$engine$insertions$dispatcher$flags(clock,reset,clears
     reg  [55:0] job;
     reg  [23:0] sleeping;
     reg  [23:0] due;
-    reg  [23:0] owner_bit;
+    reg  [23:0] context_bit;
     reg  [23:0] starter_bit;
     reg  [23:0] released_bit;
     reg  [23:0] commit_bit;
     reg  [23:0] solo_bit;
-    reg  [23:0] wide_owner;
+    reg  [23:0] wide_context;
     reg  [23:0] wide_starter;
     reg  [23:0] wide_released;
     reg  [23:0] wide_commit;
@@ -11604,7 +11745,7 @@ module incircle_core_logic$engine$insertions$dispatcher$flags(clock,reset,clears
     reg  [23:0] starting;
     reg  [23:0] freed;
     reg  [23:0] had_commit;
-    reg  [23:0] alone_ended;
+    reg  [23:0] solo_ended;
     reg  takes;
     reg  is_holder;
     reg  has_waited_long;
@@ -11637,13 +11778,13 @@ module incircle_core_logic$engine$insertions$dispatcher$flags(clock,reset,clears
         sleeping = state$q[(64'h0)+:(24)];
         due = state$q[(64'h30)+:(24)];
         job = committed[(64'h1)+:(56)];
-        state$d[(64'h85)+:(1)] = (sleeping == all) & (due == none) & (~start[(64'h0)+:(1)]);
-        wide_owner = ((outcome[(64'h0)+:(5)]) & 24'hffffff);
+        state$d[(64'h85)+:(1)] = (sleeping == built_contexts) & (due == none) & (~start[(64'h0)+:(1)]);
+        wide_context = ((outcome[(64'h0)+:(5)]) & 24'hffffff);
         wide_starter = ((start[(64'h1)+:(5)]) & 24'hffffff);
         wide_released = ((released[(64'h1)+:(5)]) & 24'hffffff);
         wide_commit = ((job[(64'h0)+:(5)]) & 24'hffffff);
         wide_solo = ((state$q[(64'h80)+:(5)]) & 24'hffffff);
-        owner_bit = one << wide_owner;
+        context_bit = one << wide_context;
         starter_bit = one << wide_starter;
         released_bit = one << wide_released;
         commit_bit = one << wide_commit;
@@ -11654,35 +11795,35 @@ module incircle_core_logic$engine$insertions$dispatcher$flags(clock,reset,clears
         starting = 32'h0;
         freed = 32'h0;
         had_commit = 32'h0;
-        alone_ended = 32'h0;
+        solo_ended = 32'h0;
         if (outcome[(64'h5)+:(1)]) begin
-            falls_asleep = owner_bit & all;
+            falls_asleep = context_bit & built_contexts;
         end
         if (outcome[(64'h6)+:(1)]) begin
-            tries = owner_bit & all;
+            tries = context_bit & built_contexts;
         end
         if (outcome[(64'h7)+:(1)]) begin
-            becomes_due = owner_bit & all;
+            becomes_due = context_bit & built_contexts;
         end
         if (start[(64'h0)+:(1)]) begin
-            starting = starter_bit & all;
+            starting = starter_bit & built_contexts;
         end
         if (released[(64'h0)+:(1)]) begin
             freed = released_bit;
         end
         if (committed[(64'h0)+:(1)]) begin
-            had_commit = commit_bit & all;
+            had_commit = commit_bit & built_contexts;
         end
         if (solo_ends) begin
-            alone_ended = solo_bit;
+            solo_ended = solo_bit;
         end
         state$d[(64'h0)+:(24)] = (sleeping | falls_asleep) & (~starting);
-        state$d[(64'h18)+:(24)] = (state$q[(64'h18)+:(24)] | tries) & (~(starting | alone_ended));
+        state$d[(64'h18)+:(24)] = (state$q[(64'h18)+:(24)] | tries) & (~(starting | solo_ended));
         state$d[(64'h30)+:(24)] = (due | becomes_due) & (~freed);
         state$d[(64'h48)+:(24)] = state$q[(64'h48)+:(24)] | starting;
         state$d[(64'h60)+:(24)] = state$q[(64'h60)+:(24)] | had_commit;
         takes = outcome[(64'h8)+:(1)] & (~state$q[(64'h78)+:(1)]);
-        takes_token = takes;
+        takes_priority = takes;
         is_holder = (outcome[(64'ha)+:(1)] & (state$q[(64'h79)+:(5)] == outcome[(64'h0)+:(5)])) | (solo_ends & (state$q[(64'h79)+:(5)] == state$q[(64'h80)+:(5)]));
         if (takes) begin
             state$d[(64'h78)+:(1)] = 1'b1;
@@ -11707,7 +11848,7 @@ module incircle_core_logic$engine$insertions$dispatcher$flags(clock,reset,clears
             state$d[(64'h7f)+:(1)] = 1'b0;
         end
         if (reset | clears) begin
-            state$d[(64'h0)+:(24)] = all;
+            state$d[(64'h0)+:(24)] = built_contexts;
             state$d[(64'h18)+:(24)] = 32'h0;
             state$d[(64'h30)+:(24)] = 32'h0;
             state$d[(64'h48)+:(24)] = 32'h0;
@@ -11776,147 +11917,6 @@ module incircle_core_logic$engine$insertions$dispatcher$found(d,q,clock);
     end
           
 endmodule // incircle_core_logic$engine$insertions$dispatcher$found
-
-
-module incircle_core_logic$engine$insertions$dispatcher$progress(clock,reset,clears,arrived,seeds,commit_ends,solo_ends,duplicate,has_no_start,all_rest,is_quiet,finishes);
-    
-    // Module arguments
-    input wire  clock;
-    input wire  reset;
-    input wire  clears;
-    input wire  [14:0] arrived;
-    input wire  seeds;
-    input wire  commit_ends;
-    input wire  solo_ends;
-    input wire  duplicate;
-    input wire  has_no_start;
-    input wire  all_rest;
-    output reg  is_quiet;
-    output reg  finishes;
-    
-    // Stub signals
-    reg  [14:0] finished$d;
-    wire  [14:0] finished$q;
-    reg  finished$clock;
-    reg  [1:0] more$d;
-    wire  [1:0] more$q;
-    reg  more$clock;
-    reg  is_behind$d;
-    wire  is_behind$q;
-    reg  is_behind$clock;
-    
-    // Local signals
-    reg  inserts;
-    reg  [14:0] wide_more;
-    
-    // Sub module instances
-    incircle_core_logic$engine$insertions$dispatcher$progress$finished finished(
-        .d(finished$d),
-        .q(finished$q),
-        .clock(finished$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$progress$more more(
-        .d(more$d),
-        .q(more$q),
-        .clock(more$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$progress$is_behind is_behind(
-        .d(is_behind$d),
-        .q(is_behind$q),
-        .clock(is_behind$clock)
-    );
-    
-    // Update code
-    always @(*) begin
-        finished$clock = clock;
-        more$clock = clock;
-        is_behind$clock = clock;
-        finished$d = finished$q;
-        more$d = more$q;
-        is_behind$d = is_behind$q;
-        inserts = commit_ends | solo_ends;
-        finishes = inserts | duplicate | seeds;
-        is_behind$d = finished$q != arrived;
-        is_quiet = ((~is_behind$q) | has_no_start) & all_rest;
-        more$d = 32'h0;
-        if (inserts | duplicate) begin
-            more$d = 32'h1;
-        end
-        if (inserts & duplicate) begin
-            more$d = 32'h2;
-        end
-        if (seeds) begin
-            more$d = 32'h3;
-        end
-        wide_more = ((more$q) & 15'h7fff);
-        finished$d = finished$q + wide_more;
-        if (reset | clears) begin
-            more$d = 32'h0;
-            finished$d = 32'h0;
-        end
-        if (reset) begin
-            is_behind$d = 1'b0;
-        end
-    end
-    
-endmodule // incircle_core_logic$engine$insertions$dispatcher$progress
-
-
-module incircle_core_logic$engine$insertions$dispatcher$progress$finished(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$progress$finished
-
-
-module incircle_core_logic$engine$insertions$dispatcher$progress$is_behind(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$progress$is_behind
-
-
-module incircle_core_logic$engine$insertions$dispatcher$progress$more(d,q,clock);
-    
-    // Module arguments
-    input wire  [1:0] d;
-    output reg  [1:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 2'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$progress$more
 
 
 module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clears,deal,arrived,came,seeded,contexts,solo_is_at_work,is_done,is_blocked,outcome,committed,start,solo_start);
@@ -12267,12 +12267,12 @@ module incircle_core_logic$engine$insertions$dispatcher$starter$check(contexts,p
     // Local signals
     reg  [4:0] index;
     reg  [23:0] asleep;
-    reg  [23:0] keeping;
+    reg  [23:0] retrying;
     reg  [23:0] busy;
     reg  [23:0] began;
     reg  [23:0] hinted;
     reg  is_asleep;
-    reg  keeps;
+    reg  will_retry;
     reg  is_rested;
     reg  may_try;
     reg  may_work;
@@ -12285,23 +12285,23 @@ module incircle_core_logic$engine$insertions$dispatcher$starter$check(contexts,p
         first_context = 32'h0;
         index = passed[(64'h0)+:(5)];
         asleep = contexts[(64'h0)+:(24)];
-        keeping = contexts[(64'h18)+:(24)];
+        retrying = contexts[(64'h18)+:(24)];
         busy = contexts[(64'h30)+:(24)];
         began = contexts[(64'h48)+:(24)];
         hinted = contexts[(64'h60)+:(24)];
         is_barred = contexts[(64'h7f)+:(1)] | may_be_starting;
         is_asleep = asleep[index] & (~is_barred);
-        keeps = keeping[index];
+        will_retry = retrying[index];
         is_rested = (~busy[index]) & rests_over;
         may_try = (~contexts[(64'h7e)+:(1)]) | (passed[(64'h0)+:(5)] == contexts[(64'h79)+:(5)]);
-        wants_again = is_asleep & keeps & is_rested & may_try;
+        wants_again = is_asleep & will_retry & is_rested & may_try;
         may_work = all_work;
         if (passed[(64'h0)+:(5)] == first_context) begin
             may_work = seeded | (~began[32'h0]);
         end
         is_there = is_planned & (passed[(64'h5)+:(15)] < arrived);
-        wants_new = is_asleep & (~keeps) & is_there & may_work;
-        tries_again = keeps;
+        wants_new = is_asleep & (~will_retry) & is_there & may_work;
+        tries_again = will_retry;
         is_hinted = hinted[index];
     end
     
@@ -13010,7 +13010,7 @@ module incircle_core_logic$engine$insertions$dispatcher$watchdog$rests(d,q,clock
 endmodule // incircle_core_logic$engine$insertions$dispatcher$watchdog$rests
 
 
-module incircle_core_logic$engine$pipeline(clock,reset,infinite,records,push,position,is_issuing,visit,early,read,read_out,write,enables,arrival,fetch_id,fetched,clear);
+module incircle_core_logic$engine$pipeline(clock,reset,infinite,records,push,position,is_issuing,completion,early,read,read_out,write,enables,arrival,fetch_id,fetched,clear);
     
     // Module arguments
     input wire  clock;
@@ -13020,7 +13020,7 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,records,push,pos
     input wire  [93:0] push;
     input wire  [37:0] position;
     output reg  is_issuing;
-    output reg  [173:0] visit;
+    output reg  [173:0] completion;
     output reg  [153:0] early;
     input wire  [15:0] read;
     output reg  [91:0] read_out;
@@ -13036,8 +13036,8 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,records,push,pos
     reg  issue$reset;
     reg  [93:0] issue$push;
     reg  [15:0] issue$read;
-    wire  issue$token_valid;
-    wire  [54:0] issue$token;
+    wire  issue$visit_valid;
+    wire  [54:0] issue$visit;
     wire  [14:0] issue$vertices_id;
     wire  [14:0] issue$links_id;
     wire  issue$read_valid;
@@ -13048,7 +13048,7 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,records,push,pos
     reg  [14:0] triangles$vertices_id;
     reg  [14:0] triangles$links_id;
     reg  triangles$read_locks;
-    reg  [4:0] triangles$owner;
+    reg  [4:0] triangles$context_id;
     wire  [90:0] triangles$record;
     wire  triangles$took;
     wire  triangles$foreign;
@@ -13063,14 +13063,14 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,records,push,pos
     wire  [31:0] vertices$fetched;
     reg  reader$clock;
     reg  [14:0] reader$infinite;
-    reg  [54:0] reader$token;
+    reg  [54:0] reader$visit;
     reg  [90:0] reader$record;
     reg  reader$again;
     reg  reader$took;
     reg  reader$foreign;
     reg  [95:0] reader$stored_corners;
     wire  [97:0] reader$turned;
-    wire  [54:0] reader$token_at_record;
+    wire  [54:0] reader$visit_at_record;
     wire  [95:0] reader$corners;
     reg  judge$clock;
     reg  [95:0] judge$corners;
@@ -13089,20 +13089,20 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,records,push,pos
     reg  again2$d;
     wire  again2$q;
     reg  again2$clock;
-    reg  [4:0] owner3$d;
-    wire  [4:0] owner3$q;
-    reg  owner3$clock;
-    reg  [4:0] owner4$d;
-    wire  [4:0] owner4$q;
-    reg  owner4$clock;
-    reg  token_delay$clock;
-    reg  [54:0] token_delay$data_in;
-    wire  [54:0] token_delay$data_out;
+    reg  [4:0] context3$d;
+    wire  [4:0] context3$q;
+    reg  context3$clock;
+    reg  [4:0] context4$d;
+    wire  [4:0] context4$q;
+    reg  context4$clock;
+    reg  visit_delay$clock;
+    reg  [54:0] visit_delay$data_in;
+    wire  [54:0] visit_delay$data_out;
     reg  turned_delay$clock;
     reg  [97:0] turned_delay$data_in;
     wire  [97:0] turned_delay$data_out;
-    reg  [54:0] delayed_token$bits;
-    wire  [54:0] delayed_token$value;
+    reg  [54:0] delayed_visit$bits;
+    wire  [54:0] delayed_visit$value;
     reg  [97:0] delayed_turned$bits;
     wire  [97:0] delayed_turned$value;
     reg  [97:0] judged$d;
@@ -13127,7 +13127,7 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,records,push,pos
     // Local signals
     reg  is_written;
     reg  is_torn;
-    reg  [54:0] token_bits;
+    reg  [54:0] visit_bits;
     reg  [97:0] turned_bits;
     reg  [14:0] shifted;
     reg  [14:0] one;
@@ -13138,8 +13138,8 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,records,push,pos
         .reset(issue$reset),
         .push(issue$push),
         .read(issue$read),
-        .token_valid(issue$token_valid),
-        .token(issue$token),
+        .visit_valid(issue$visit_valid),
+        .visit(issue$visit),
         .vertices_id(issue$vertices_id),
         .links_id(issue$links_id),
         .read_valid(issue$read_valid)
@@ -13152,7 +13152,7 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,records,push,pos
         .vertices_id(triangles$vertices_id),
         .links_id(triangles$links_id),
         .read_locks(triangles$read_locks),
-        .owner(triangles$owner),
+        .context_id(triangles$context_id),
         .record(triangles$record),
         .took(triangles$took),
         .foreign(triangles$foreign),
@@ -13171,14 +13171,14 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,records,push,pos
     incircle_core_logic$engine$pipeline$reader reader(
         .clock(reader$clock),
         .infinite(reader$infinite),
-        .token(reader$token),
+        .visit(reader$visit),
         .record(reader$record),
         .again(reader$again),
         .took(reader$took),
         .foreign(reader$foreign),
         .stored_corners(reader$stored_corners),
         .turned(reader$turned),
-        .token_at_record(reader$token_at_record),
+        .visit_at_record(reader$visit_at_record),
         .corners(reader$corners)
     );
     incircle_core_logic$engine$pipeline$judge judge(
@@ -13206,29 +13206,29 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,records,push,pos
         .q(again2$q),
         .clock(again2$clock)
     );
-    incircle_core_logic$engine$pipeline$owner3 owner3(
-        .d(owner3$d),
-        .q(owner3$q),
-        .clock(owner3$clock)
+    incircle_core_logic$engine$pipeline$context3 context3(
+        .d(context3$d),
+        .q(context3$q),
+        .clock(context3$clock)
     );
-    incircle_core_logic$engine$pipeline$owner4 owner4(
-        .d(owner4$d),
-        .q(owner4$q),
-        .clock(owner4$clock)
+    incircle_core_logic$engine$pipeline$context4 context4(
+        .d(context4$d),
+        .q(context4$q),
+        .clock(context4$clock)
     );
-    incircle_core_logic$engine$pipeline$token_delay token_delay(
-        .clock(token_delay$clock),
-        .data_in(token_delay$data_in),
-        .data_out(token_delay$data_out)
+    incircle_core_logic$engine$pipeline$visit_delay visit_delay(
+        .clock(visit_delay$clock),
+        .data_in(visit_delay$data_in),
+        .data_out(visit_delay$data_out)
     );
     incircle_core_logic$engine$pipeline$turned_delay turned_delay(
         .clock(turned_delay$clock),
         .data_in(turned_delay$data_in),
         .data_out(turned_delay$data_out)
     );
-    incircle_core_logic$engine$pipeline$delayed_token delayed_token(
-        .bits(delayed_token$bits),
-        .value(delayed_token$value)
+    incircle_core_logic$engine$pipeline$delayed_visit delayed_visit(
+        .bits(delayed_visit$bits),
+        .value(delayed_visit$value)
     );
     incircle_core_logic$engine$pipeline$delayed_turned delayed_turned(
         .bits(delayed_turned$bits),
@@ -13269,16 +13269,16 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,records,push,pos
     always @(*) begin
         again1$clock = clock;
         again2$clock = clock;
-        owner3$clock = clock;
-        owner4$clock = clock;
+        context3$clock = clock;
+        context4$clock = clock;
         point$clock = clock;
         valid$clock = clock;
         read_valid1$clock = clock;
         read_valid2$clock = clock;
         again1$d = again1$q;
         again2$d = again2$q;
-        owner3$d = owner3$q;
-        owner4$d = owner4$q;
+        context3$d = context3$q;
+        context4$d = context4$q;
         point$d = point$q;
         valid$d = valid$q;
         read_valid1$d = read_valid1$q;
@@ -13293,27 +13293,27 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,records,push,pos
         reader$clock = clock;
         positions$clock = clock;
         judge$clock = clock;
-        token_delay$clock = clock;
+        visit_delay$clock = clock;
         turned_delay$clock = clock;
         one = 32'h1;
         reader$infinite = infinite;
         issue$reset = reset;
         issue$push = push;
         issue$read = read;
-        is_issuing = issue$token_valid;
-        is_written = issue$token[(64'h28)+:(15)] < records;
-        is_torn = write[(64'h0)+:(1)] & (write[(64'h1)+:(15)] == issue$token[(64'h28)+:(15)]);
+        is_issuing = issue$visit_valid;
+        is_written = issue$visit[(64'h28)+:(15)] < records;
+        is_torn = write[(64'h0)+:(1)] & (write[(64'h1)+:(15)] == issue$visit[(64'h28)+:(15)]);
         again1$d = is_torn | (~is_written);
         again2$d = again1$q;
-        triangles$read_id = issue$token[(64'h28)+:(15)];
+        triangles$read_id = issue$visit[(64'h28)+:(15)];
         triangles$vertices_id = issue$vertices_id;
         triangles$links_id = issue$links_id;
-        triangles$read_locks = issue$token_valid & issue$token[(64'h6)+:(1)];
-        triangles$owner = issue$token[(64'h0)+:(5)];
+        triangles$read_locks = issue$visit_valid & issue$visit[(64'h6)+:(1)];
+        triangles$context_id = issue$visit[(64'h0)+:(5)];
         triangles$write = write;
         triangles$enables = enables;
         triangles$clear = clear;
-        reader$token = issue$token;
+        reader$visit = issue$visit;
         reader$record = triangles$record;
         reader$took = triangles$took;
         reader$foreign = triangles$foreign;
@@ -13329,34 +13329,34 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,records,push,pos
         reader$stored_corners = vertices$corners;
         vertices$fetch_id = fetch_id;
         fetched = vertices$fetched;
-        owner3$d = reader$token_at_record[(64'h0)+:(5)];
-        owner4$d = owner3$q;
+        context3$d = reader$visit_at_record[(64'h0)+:(5)];
+        context4$d = context3$q;
         positions$write_address = position[(64'h1)+:(5)];
         positions$write_data = position[(64'h6)+:(32)];
         positions$write_enable = position[(64'h0)+:(1)];
-        positions$read_address = owner4$q;
+        positions$read_address = context4$q;
         point$d = positions$read_data;
         judge$corners = reader$corners;
         judge$p = point$q;
-        token_bits = reader$token_at_record;
-        token_delay$data_in = token_bits;
-        delayed_token$bits = token_delay$data_out;
+        visit_bits = reader$visit_at_record;
+        visit_delay$data_in = visit_bits;
+        delayed_visit$bits = visit_delay$data_out;
         turned_bits = reader$turned;
         turned_delay$data_in = turned_bits;
         delayed_turned$bits = turned_delay$data_out;
         judged$d = delayed_turned$value;
         judge$turned = judged$q;
         early[(64'h0)+:(1)] = valid$q[32'he];
-        early[(64'h1)+:(55)] = delayed_token$value;
+        early[(64'h1)+:(55)] = delayed_visit$value;
         early[(64'h38)+:(98)] = judged$q;
         completes$d[(64'h0)+:(1)] = valid$q[32'he] & (~reset);
-        completes$d[(64'h1)+:(55)] = delayed_token$value;
+        completes$d[(64'h1)+:(55)] = delayed_visit$value;
         completes$d[(64'h38)+:(98)] = judged$q;
         completes$d[(64'h9a)+:(20)] = judge$verdict;
-        visit = completes$q;
+        completion = completes$q;
         shifted = valid$q << one;
         valid$d = shifted;
-        if (issue$token_valid) begin
+        if (issue$visit_valid) begin
             valid$d = shifted | one;
         end
         if (reset) begin
@@ -13426,15 +13426,42 @@ module incircle_core_logic$engine$pipeline$completes(d,q,clock);
 endmodule // incircle_core_logic$engine$pipeline$completes
 
 
-module incircle_core_logic$engine$pipeline$delayed_token(bits,value);
+module incircle_core_logic$engine$pipeline$context3(d,q,clock);
     
     // Module arguments
-    input wire  [54:0] bits;
-    output reg  [54:0] value;
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
     
     // Update code (custom)
-    always @(*) value = bits;
-endmodule // incircle_core_logic$engine$pipeline$delayed_token
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$context3
+
+
+module incircle_core_logic$engine$pipeline$context4(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$context4
 
 
 module incircle_core_logic$engine$pipeline$delayed_turned(bits,value);
@@ -13448,15 +13475,26 @@ module incircle_core_logic$engine$pipeline$delayed_turned(bits,value);
 endmodule // incircle_core_logic$engine$pipeline$delayed_turned
 
 
-module incircle_core_logic$engine$pipeline$issue(clock,reset,push,read,token_valid,token,vertices_id,links_id,read_valid);
+module incircle_core_logic$engine$pipeline$delayed_visit(bits,value);
+    
+    // Module arguments
+    input wire  [54:0] bits;
+    output reg  [54:0] value;
+    
+    // Update code (custom)
+    always @(*) value = bits;
+endmodule // incircle_core_logic$engine$pipeline$delayed_visit
+
+
+module incircle_core_logic$engine$pipeline$issue(clock,reset,push,read,visit_valid,visit,vertices_id,links_id,read_valid);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  [93:0] push;
     input wire  [15:0] read;
-    output reg  token_valid;
-    output reg  [54:0] token;
+    output reg  visit_valid;
+    output reg  [54:0] visit;
     output reg  [14:0] vertices_id;
     output reg  [14:0] links_id;
     output reg  read_valid;
@@ -13575,8 +13613,8 @@ module incircle_core_logic$engine$pipeline$issue(clock,reset,push,read,token_val
         bundle_bits = pushed;
         queue$push_data = bundle_bits;
         head$bits = queue$data;
-        token = issued$q;
-        token_valid = issued_valid$q;
+        visit = issued$q;
+        visit_valid = issued_valid$q;
         vertices_id = vertices_copy$q;
         links_id = links_copy$q;
         read_valid = issued_read$q;
@@ -18066,44 +18104,6 @@ module incircle_core_logic$engine$pipeline$judged(d,q,clock);
 endmodule // incircle_core_logic$engine$pipeline$judged
 
 
-module incircle_core_logic$engine$pipeline$owner3(d,q,clock);
-    
-    // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 5'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$pipeline$owner3
-
-
-module incircle_core_logic$engine$pipeline$owner4(d,q,clock);
-    
-    // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 5'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$pipeline$owner4
-
-
 module incircle_core_logic$engine$pipeline$point(d,q,clock);
     
     // Module arguments
@@ -18184,31 +18184,31 @@ module incircle_core_logic$engine$pipeline$read_valid2(d,q,clock);
 endmodule // incircle_core_logic$engine$pipeline$read_valid2
 
 
-module incircle_core_logic$engine$pipeline$reader(clock,infinite,token,record,again,took,foreign,stored_corners,turned,token_at_record,corners);
+module incircle_core_logic$engine$pipeline$reader(clock,infinite,visit,record,again,took,foreign,stored_corners,turned,visit_at_record,corners);
     
     // Module arguments
     input wire  clock;
     input wire  [14:0] infinite;
-    input wire  [54:0] token;
+    input wire  [54:0] visit;
     input wire  [90:0] record;
     input wire  again;
     input wire  took;
     input wire  foreign;
     input wire  [95:0] stored_corners;
     output reg  [97:0] turned;
-    output reg  [54:0] token_at_record;
+    output reg  [54:0] visit_at_record;
     output reg  [95:0] corners;
     
     // Stub signals
-    reg  [54:0] token1$d;
-    wire  [54:0] token1$q;
-    reg  token1$clock;
-    reg  [54:0] token2$d;
-    wire  [54:0] token2$q;
-    reg  token2$clock;
-    reg  [54:0] token3$d;
-    wire  [54:0] token3$q;
-    reg  token3$clock;
+    reg  [54:0] visit1$d;
+    wire  [54:0] visit1$q;
+    reg  visit1$clock;
+    reg  [54:0] visit2$d;
+    wire  [54:0] visit2$q;
+    reg  visit2$clock;
+    reg  [54:0] visit3$d;
+    wire  [54:0] visit3$q;
+    reg  visit3$clock;
     reg  [97:0] stored$d;
     wire  [97:0] stored$q;
     reg  stored$clock;
@@ -18228,20 +18228,20 @@ module incircle_core_logic$engine$pipeline$reader(clock,infinite,token,record,ag
     reg  [1:0] third_slot;
     
     // Sub module instances
-    incircle_core_logic$engine$pipeline$reader$token1 token1(
-        .d(token1$d),
-        .q(token1$q),
-        .clock(token1$clock)
+    incircle_core_logic$engine$pipeline$reader$visit1 visit1(
+        .d(visit1$d),
+        .q(visit1$q),
+        .clock(visit1$clock)
     );
-    incircle_core_logic$engine$pipeline$reader$token2 token2(
-        .d(token2$d),
-        .q(token2$q),
-        .clock(token2$clock)
+    incircle_core_logic$engine$pipeline$reader$visit2 visit2(
+        .d(visit2$d),
+        .q(visit2$q),
+        .clock(visit2$clock)
     );
-    incircle_core_logic$engine$pipeline$reader$token3 token3(
-        .d(token3$d),
-        .q(token3$q),
-        .clock(token3$clock)
+    incircle_core_logic$engine$pipeline$reader$visit3 visit3(
+        .d(visit3$d),
+        .q(visit3$q),
+        .clock(visit3$clock)
     );
     incircle_core_logic$engine$pipeline$reader$stored stored(
         .d(stored$d),
@@ -18266,16 +18266,16 @@ module incircle_core_logic$engine$pipeline$reader(clock,infinite,token,record,ag
     
     // Update code
     always @(*) begin
-        token1$clock = clock;
-        token2$clock = clock;
-        token3$clock = clock;
+        visit1$clock = clock;
+        visit2$clock = clock;
+        visit3$clock = clock;
         stored$clock = clock;
         found$clock = clock;
         rotated$clock = clock;
         kept_corners$clock = clock;
-        token1$d = token1$q;
-        token2$d = token2$q;
-        token3$d = token3$q;
+        visit1$d = visit1$q;
+        visit2$d = visit2$q;
+        visit3$d = visit3$q;
         stored$d = stored$q;
         found$d = found$q;
         rotated$d = rotated$q;
@@ -18283,10 +18283,10 @@ module incircle_core_logic$engine$pipeline$reader(clock,infinite,token,record,ag
         first_slot = 32'h0;
         second_slot = 32'h1;
         third_slot = 32'h2;
-        token1$d = token;
-        token2$d = token1$q;
-        token_at_record = token2$q;
-        token3$d = token2$q;
+        visit1$d = visit;
+        visit2$d = visit1$q;
+        visit_at_record = visit2$q;
+        visit3$d = visit2$q;
         stored$d[(64'h0)+:(15)] = record[(64'h0)+:(15)];
         stored$d[(64'hf)+:(15)] = record[(64'hf)+:(15)];
         stored$d[(64'h1e)+:(15)] = record[(64'h1e)+:(15)];
@@ -18301,10 +18301,10 @@ module incircle_core_logic$engine$pipeline$reader(clock,infinite,token,record,ag
         found$d[(64'h60)+:(1)] = stored$q[(64'hf)+:(15)] == infinite;
         found$d[(64'h61)+:(1)] = stored$q[(64'h1e)+:(15)] == infinite;
         found$d[(64'h5a)+:(2)] = first_slot;
-        if (token3$q[(64'h5)+:(1)] & (stored$q[(64'h3c)+:(15)] == token3$q[(64'h19)+:(15)])) begin
+        if (visit3$q[(64'h5)+:(1)] & (stored$q[(64'h3c)+:(15)] == visit3$q[(64'h19)+:(15)])) begin
             found$d[(64'h5a)+:(2)] = second_slot;
         end
-        if (token3$q[(64'h5)+:(1)] & (stored$q[(64'h4b)+:(15)] == token3$q[(64'h19)+:(15)])) begin
+        if (visit3$q[(64'h5)+:(1)] & (stored$q[(64'h4b)+:(15)] == visit3$q[(64'h19)+:(15)])) begin
             found$d[(64'h5a)+:(2)] = third_slot;
         end
         rotated$d = found$q;
@@ -18414,7 +18414,7 @@ module incircle_core_logic$engine$pipeline$reader$stored(d,q,clock);
 endmodule // incircle_core_logic$engine$pipeline$reader$stored
 
 
-module incircle_core_logic$engine$pipeline$reader$token1(d,q,clock);
+module incircle_core_logic$engine$pipeline$reader$visit1(d,q,clock);
     
     // Module arguments
     input wire  [54:0] d;
@@ -18430,10 +18430,10 @@ module incircle_core_logic$engine$pipeline$reader$token1(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$pipeline$reader$token1
+endmodule // incircle_core_logic$engine$pipeline$reader$visit1
 
 
-module incircle_core_logic$engine$pipeline$reader$token2(d,q,clock);
+module incircle_core_logic$engine$pipeline$reader$visit2(d,q,clock);
     
     // Module arguments
     input wire  [54:0] d;
@@ -18449,10 +18449,10 @@ module incircle_core_logic$engine$pipeline$reader$token2(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$pipeline$reader$token2
+endmodule // incircle_core_logic$engine$pipeline$reader$visit2
 
 
-module incircle_core_logic$engine$pipeline$reader$token3(d,q,clock);
+module incircle_core_logic$engine$pipeline$reader$visit3(d,q,clock);
     
     // Module arguments
     input wire  [54:0] d;
@@ -18468,165 +18468,10 @@ module incircle_core_logic$engine$pipeline$reader$token3(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$pipeline$reader$token3
+endmodule // incircle_core_logic$engine$pipeline$reader$visit3
 
 
-module incircle_core_logic$engine$pipeline$token_delay(clock,data_in,data_out);
-    
-    // Module arguments
-    input wire  clock;
-    input wire  [54:0] data_in;
-    output reg  [54:0] data_out;
-    
-    // Constant declarations
-    localparam  one = 6'b1;
-    localparam  distance_before = 6'b1011;
-    
-    // Stub signals
-    reg  ring$clock;
-    reg  [5:0] ring$write_address;
-    reg  [54:0] ring$write_data;
-    reg  ring$write_enable;
-    reg  [5:0] ring$read_address;
-    wire  [54:0] ring$read_data;
-    reg  [5:0] position$d;
-    wire  [5:0] position$q;
-    reg  position$clock;
-    reg  [5:0] oldest$d;
-    wire  [5:0] oldest$q;
-    reg  oldest$clock;
-    reg  [54:0] delayed$d;
-    wire  [54:0] delayed$q;
-    reg  delayed$clock;
-    
-    // Sub module instances
-    incircle_core_logic$engine$pipeline$token_delay$ring ring(
-        .clock(ring$clock),
-        .write_address(ring$write_address),
-        .write_data(ring$write_data),
-        .write_enable(ring$write_enable),
-        .read_address(ring$read_address),
-        .read_data(ring$read_data)
-    );
-    incircle_core_logic$engine$pipeline$token_delay$position position(
-        .d(position$d),
-        .q(position$q),
-        .clock(position$clock)
-    );
-    incircle_core_logic$engine$pipeline$token_delay$oldest oldest(
-        .d(oldest$d),
-        .q(oldest$q),
-        .clock(oldest$clock)
-    );
-    incircle_core_logic$engine$pipeline$token_delay$delayed delayed(
-        .d(delayed$d),
-        .q(delayed$q),
-        .clock(delayed$clock)
-    );
-    
-    // Update code
-    always @(*) begin
-        position$clock = clock;
-        oldest$clock = clock;
-        delayed$clock = clock;
-        position$d = position$q;
-        oldest$d = oldest$q;
-        delayed$d = delayed$q;
-        ring$clock = clock;
-        position$d = position$q + one;
-        oldest$d = position$q - distance_before;
-        ring$write_address = position$q;
-        ring$write_data = data_in;
-        ring$write_enable = 1'b1;
-        ring$read_address = oldest$q;
-        delayed$d = ring$read_data;
-        data_out = delayed$q;
-    end
-    
-endmodule // incircle_core_logic$engine$pipeline$token_delay
-
-
-module incircle_core_logic$engine$pipeline$token_delay$delayed(d,q,clock);
-    
-    // Module arguments
-    input wire  [54:0] d;
-    output reg  [54:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 55'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$pipeline$token_delay$delayed
-
-
-module incircle_core_logic$engine$pipeline$token_delay$oldest(d,q,clock);
-    
-    // Module arguments
-    input wire  [5:0] d;
-    output reg  [5:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 6'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$pipeline$token_delay$oldest
-
-
-module incircle_core_logic$engine$pipeline$token_delay$position(d,q,clock);
-    
-    // Module arguments
-    input wire  [5:0] d;
-    output reg  [5:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 6'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$pipeline$token_delay$position
-
-
-module incircle_core_logic$engine$pipeline$token_delay$ring(clock,write_address,write_data,write_enable,read_address,read_data);
-    
-    // Module arguments
-    input wire  clock;
-    input wire  [5:0] write_address;
-    input wire  [54:0] write_data;
-    input wire  write_enable;
-    input wire  [5:0] read_address;
-    output reg  [54:0] read_data;
-    
-    // Update code (custom)
-    wire unused_write_address = &{1'b0, write_address[5:4]};
-    wire unused_read_address = &{1'b0, read_address[5:4]};
-    (* ram_style = "distributed" *)
-    reg [54:0] memory [0:15];
-    wire [54:0] word = memory[read_address[3:0]];
-    always @(posedge clock) begin
-        if (write_enable) memory[write_address[3:0]] <= write_data;
-    end
-    always @(*) read_data = word;
-endmodule // incircle_core_logic$engine$pipeline$token_delay$ring
-
-
-module incircle_core_logic$engine$pipeline$triangles(clock,write,enables,read_id,vertices_id,links_id,read_locks,owner,record,took,foreign,clear);
+module incircle_core_logic$engine$pipeline$triangles(clock,write,enables,read_id,vertices_id,links_id,read_locks,context_id,record,took,foreign,clear);
     
     // Module arguments
     input wire  clock;
@@ -18636,7 +18481,7 @@ module incircle_core_logic$engine$pipeline$triangles(clock,write,enables,read_id
     input wire  [14:0] vertices_id;
     input wire  [14:0] links_id;
     input wire  read_locks;
-    input wire  [4:0] owner;
+    input wire  [4:0] context_id;
     output reg  [90:0] record;
     output reg  took;
     output reg  foreign;
@@ -18681,7 +18526,7 @@ module incircle_core_logic$engine$pipeline$triangles(clock,write,enables,read_id
     wire  [14:0] links$2$read_data;
     reg  locks$clock;
     reg  [14:0] locks$id;
-    reg  [4:0] locks$owner;
+    reg  [4:0] locks$context_id;
     reg  locks$takes;
     wire  locks$took;
     wire  locks$foreign;
@@ -18740,7 +18585,7 @@ module incircle_core_logic$engine$pipeline$triangles(clock,write,enables,read_id
     incircle_core_logic$engine$pipeline$triangles$locks locks(
         .clock(locks$clock),
         .id(locks$id),
-        .owner(locks$owner),
+        .context_id(locks$context_id),
         .takes(locks$takes),
         .took(locks$took),
         .foreign(locks$foreign),
@@ -18790,7 +18635,7 @@ module incircle_core_logic$engine$pipeline$triangles(clock,write,enables,read_id
         locks$clock = clock;
         locks$id = read_id;
         locks$takes = read_locks;
-        locks$owner = owner;
+        locks$context_id = context_id;
         locks$clear = clear;
         took = locks$took;
         foreign = locks$foreign;
@@ -19000,12 +18845,12 @@ module incircle_core_logic$engine$pipeline$triangles$links$2(clock,write_address
 endmodule // incircle_core_logic$engine$pipeline$triangles$links$2
 
 
-module incircle_core_logic$engine$pipeline$triangles$locks(clock,id,owner,takes,took,foreign,was_set,clear);
+module incircle_core_logic$engine$pipeline$triangles$locks(clock,id,context_id,takes,took,foreign,was_set,clear);
     
     // Module arguments
     input wire  clock;
     input wire  [14:0] id;
-    input wire  [4:0] owner;
+    input wire  [4:0] context_id;
     input wire  takes;
     output reg  took;
     output reg  foreign;
@@ -19014,7 +18859,7 @@ module incircle_core_logic$engine$pipeline$triangles$locks(clock,id,owner,takes,
     
     // Constant declarations
     localparam  kept_id_bits = 15'b11111111111;
-    localparam  kept_owner_bits = 5'b11;
+    localparam  kept_context_bits = 5'b11;
     
     // Stub signals
     reg  locks$clock;
@@ -19023,12 +18868,12 @@ module incircle_core_logic$engine$pipeline$triangles$locks(clock,id,owner,takes,
     wire  locks$was_set;
     reg  [14:0] locks$clear_address;
     reg  locks$clear_enable;
-    reg  owners$clock;
-    reg  [14:0] owners$write_address;
-    reg  [4:0] owners$write_data;
-    reg  owners$write_enable;
-    reg  [14:0] owners$read_address;
-    wire  [4:0] owners$read_data;
+    reg  holders$clock;
+    reg  [14:0] holders$write_address;
+    reg  [4:0] holders$write_data;
+    reg  holders$write_enable;
+    reg  [14:0] holders$read_address;
+    wire  [4:0] holders$read_data;
     reg  [14:0] id1$d;
     wire  [14:0] id1$q;
     reg  id1$clock;
@@ -19041,18 +18886,18 @@ module incircle_core_logic$engine$pipeline$triangles$locks(clock,id,owner,takes,
     reg  [14:0] id4$d;
     wire  [14:0] id4$q;
     reg  id4$clock;
-    reg  [4:0] owner1$d;
-    wire  [4:0] owner1$q;
-    reg  owner1$clock;
-    reg  [4:0] owner2$d;
-    wire  [4:0] owner2$q;
-    reg  owner2$clock;
-    reg  [4:0] owner3$d;
-    wire  [4:0] owner3$q;
-    reg  owner3$clock;
-    reg  [4:0] owner4$d;
-    wire  [4:0] owner4$q;
-    reg  owner4$clock;
+    reg  [4:0] context1$d;
+    wire  [4:0] context1$q;
+    reg  context1$clock;
+    reg  [4:0] context2$d;
+    wire  [4:0] context2$q;
+    reg  context2$clock;
+    reg  [4:0] context3$d;
+    wire  [4:0] context3$q;
+    reg  context3$clock;
+    reg  [4:0] context4$d;
+    wire  [4:0] context4$q;
+    reg  context4$clock;
     reg  takes1$d;
     wire  takes1$q;
     reg  takes1$clock;
@@ -19080,27 +18925,27 @@ module incircle_core_logic$engine$pipeline$triangles$locks(clock,id,owner,takes,
     reg  is_lock_before3$d;
     wire  is_lock_before3$q;
     reg  is_lock_before3$clock;
-    reg  is_owner_before1$d;
-    wire  is_owner_before1$q;
-    reg  is_owner_before1$clock;
-    reg  is_owner_before2$d;
-    wire  is_owner_before2$q;
-    reg  is_owner_before2$clock;
-    reg  is_owner_before3$d;
-    wire  is_owner_before3$q;
-    reg  is_owner_before3$clock;
+    reg  is_context_before1$d;
+    wire  is_context_before1$q;
+    reg  is_context_before1$clock;
+    reg  is_context_before2$d;
+    wire  is_context_before2$q;
+    reg  is_context_before2$clock;
+    reg  is_context_before3$d;
+    wire  is_context_before3$q;
+    reg  is_context_before3$clock;
     reg  found_set$d;
     wire  found_set$q;
     reg  found_set$clock;
-    reg  [4:0] found_owner$d;
-    wire  [4:0] found_owner$q;
-    reg  found_owner$clock;
+    reg  [4:0] found_holder$d;
+    wire  [4:0] found_holder$q;
+    reg  found_holder$clock;
     reg  is_told$d;
     wire  is_told$q;
     reg  is_told$clock;
-    reg  told_is_owner$d;
-    wire  told_is_owner$q;
-    reg  told_is_owner$clock;
+    reg  told_is_own$d;
+    wire  told_is_own$q;
+    reg  told_is_own$clock;
     reg  took4$d;
     wire  took4$q;
     reg  took4$clock;
@@ -19111,13 +18956,13 @@ module incircle_core_logic$engine$pipeline$triangles$locks(clock,id,owner,takes,
     // Local signals
     reg  [14:0] lock;
     reg  [14:0] cleared;
-    reg  [4:0] visitor;
+    reg  [4:0] kept_context;
     reg  meets_clear;
     reg  takes_lock;
     reg  was_taken1;
     reg  was_taken2;
     reg  was_taken3;
-    reg  holder_is_owner;
+    reg  holder_is_own;
     
     // Sub module instances
     incircle_core_logic$engine$pipeline$triangles$locks$locks locks(
@@ -19128,13 +18973,13 @@ module incircle_core_logic$engine$pipeline$triangles$locks(clock,id,owner,takes,
         .clear_address(locks$clear_address),
         .clear_enable(locks$clear_enable)
     );
-    incircle_core_logic$engine$pipeline$triangles$locks$owners owners(
-        .clock(owners$clock),
-        .write_address(owners$write_address),
-        .write_data(owners$write_data),
-        .write_enable(owners$write_enable),
-        .read_address(owners$read_address),
-        .read_data(owners$read_data)
+    incircle_core_logic$engine$pipeline$triangles$locks$holders holders(
+        .clock(holders$clock),
+        .write_address(holders$write_address),
+        .write_data(holders$write_data),
+        .write_enable(holders$write_enable),
+        .read_address(holders$read_address),
+        .read_data(holders$read_data)
     );
     incircle_core_logic$engine$pipeline$triangles$locks$id1 id1(
         .d(id1$d),
@@ -19156,25 +19001,25 @@ module incircle_core_logic$engine$pipeline$triangles$locks(clock,id,owner,takes,
         .q(id4$q),
         .clock(id4$clock)
     );
-    incircle_core_logic$engine$pipeline$triangles$locks$owner1 owner1(
-        .d(owner1$d),
-        .q(owner1$q),
-        .clock(owner1$clock)
+    incircle_core_logic$engine$pipeline$triangles$locks$context1 context1(
+        .d(context1$d),
+        .q(context1$q),
+        .clock(context1$clock)
     );
-    incircle_core_logic$engine$pipeline$triangles$locks$owner2 owner2(
-        .d(owner2$d),
-        .q(owner2$q),
-        .clock(owner2$clock)
+    incircle_core_logic$engine$pipeline$triangles$locks$context2 context2(
+        .d(context2$d),
+        .q(context2$q),
+        .clock(context2$clock)
     );
-    incircle_core_logic$engine$pipeline$triangles$locks$owner3 owner3(
-        .d(owner3$d),
-        .q(owner3$q),
-        .clock(owner3$clock)
+    incircle_core_logic$engine$pipeline$triangles$locks$context3 context3(
+        .d(context3$d),
+        .q(context3$q),
+        .clock(context3$clock)
     );
-    incircle_core_logic$engine$pipeline$triangles$locks$owner4 owner4(
-        .d(owner4$d),
-        .q(owner4$q),
-        .clock(owner4$clock)
+    incircle_core_logic$engine$pipeline$triangles$locks$context4 context4(
+        .d(context4$d),
+        .q(context4$q),
+        .clock(context4$clock)
     );
     incircle_core_logic$engine$pipeline$triangles$locks$takes1 takes1(
         .d(takes1$d),
@@ -19221,40 +19066,40 @@ module incircle_core_logic$engine$pipeline$triangles$locks(clock,id,owner,takes,
         .q(is_lock_before3$q),
         .clock(is_lock_before3$clock)
     );
-    incircle_core_logic$engine$pipeline$triangles$locks$is_owner_before1 is_owner_before1(
-        .d(is_owner_before1$d),
-        .q(is_owner_before1$q),
-        .clock(is_owner_before1$clock)
+    incircle_core_logic$engine$pipeline$triangles$locks$is_context_before1 is_context_before1(
+        .d(is_context_before1$d),
+        .q(is_context_before1$q),
+        .clock(is_context_before1$clock)
     );
-    incircle_core_logic$engine$pipeline$triangles$locks$is_owner_before2 is_owner_before2(
-        .d(is_owner_before2$d),
-        .q(is_owner_before2$q),
-        .clock(is_owner_before2$clock)
+    incircle_core_logic$engine$pipeline$triangles$locks$is_context_before2 is_context_before2(
+        .d(is_context_before2$d),
+        .q(is_context_before2$q),
+        .clock(is_context_before2$clock)
     );
-    incircle_core_logic$engine$pipeline$triangles$locks$is_owner_before3 is_owner_before3(
-        .d(is_owner_before3$d),
-        .q(is_owner_before3$q),
-        .clock(is_owner_before3$clock)
+    incircle_core_logic$engine$pipeline$triangles$locks$is_context_before3 is_context_before3(
+        .d(is_context_before3$d),
+        .q(is_context_before3$q),
+        .clock(is_context_before3$clock)
     );
     incircle_core_logic$engine$pipeline$triangles$locks$found_set found_set(
         .d(found_set$d),
         .q(found_set$q),
         .clock(found_set$clock)
     );
-    incircle_core_logic$engine$pipeline$triangles$locks$found_owner found_owner(
-        .d(found_owner$d),
-        .q(found_owner$q),
-        .clock(found_owner$clock)
+    incircle_core_logic$engine$pipeline$triangles$locks$found_holder found_holder(
+        .d(found_holder$d),
+        .q(found_holder$q),
+        .clock(found_holder$clock)
     );
     incircle_core_logic$engine$pipeline$triangles$locks$is_told is_told(
         .d(is_told$d),
         .q(is_told$q),
         .clock(is_told$clock)
     );
-    incircle_core_logic$engine$pipeline$triangles$locks$told_is_owner told_is_owner(
-        .d(told_is_owner$d),
-        .q(told_is_owner$q),
-        .clock(told_is_owner$clock)
+    incircle_core_logic$engine$pipeline$triangles$locks$told_is_own told_is_own(
+        .d(told_is_own$d),
+        .q(told_is_own$q),
+        .clock(told_is_own$clock)
     );
     incircle_core_logic$engine$pipeline$triangles$locks$took4 took4(
         .d(took4$d),
@@ -19273,18 +19118,18 @@ module incircle_core_logic$engine$pipeline$triangles$locks(clock,id,owner,takes,
         id2$clock = clock;
         id3$clock = clock;
         id4$clock = clock;
-        owner1$clock = clock;
-        owner2$clock = clock;
-        owner3$clock = clock;
-        owner4$clock = clock;
+        context1$clock = clock;
+        context2$clock = clock;
+        context3$clock = clock;
+        context4$clock = clock;
         id1$d = id1$q;
         id2$d = id2$q;
         id3$d = id3$q;
         id4$d = id4$q;
-        owner1$d = owner1$q;
-        owner2$d = owner2$q;
-        owner3$d = owner3$q;
-        owner4$d = owner4$q;
+        context1$d = context1$q;
+        context2$d = context2$q;
+        context3$d = context3$q;
+        context4$d = context4$q;
         takes1$clock = clock;
         takes2$clock = clock;
         takes3$clock = clock;
@@ -19303,53 +19148,53 @@ module incircle_core_logic$engine$pipeline$triangles$locks(clock,id,owner,takes,
         is_lock_before1$d = is_lock_before1$q;
         is_lock_before2$d = is_lock_before2$q;
         is_lock_before3$d = is_lock_before3$q;
-        is_owner_before1$clock = clock;
-        is_owner_before2$clock = clock;
-        is_owner_before3$clock = clock;
-        is_owner_before1$d = is_owner_before1$q;
-        is_owner_before2$d = is_owner_before2$q;
-        is_owner_before3$d = is_owner_before3$q;
+        is_context_before1$clock = clock;
+        is_context_before2$clock = clock;
+        is_context_before3$clock = clock;
+        is_context_before1$d = is_context_before1$q;
+        is_context_before2$d = is_context_before2$q;
+        is_context_before3$d = is_context_before3$q;
         found_set$clock = clock;
-        found_owner$clock = clock;
+        found_holder$clock = clock;
         is_told$clock = clock;
-        told_is_owner$clock = clock;
+        told_is_own$clock = clock;
         took4$clock = clock;
         took5$clock = clock;
         found_set$d = found_set$q;
-        found_owner$d = found_owner$q;
+        found_holder$d = found_holder$q;
         is_told$d = is_told$q;
-        told_is_owner$d = told_is_owner$q;
+        told_is_own$d = told_is_own$q;
         took4$d = took4$q;
         took5$d = took5$q;
         locks$clock = clock;
-        owners$clock = clock;
+        holders$clock = clock;
         lock = id & kept_id_bits;
         cleared = clear[(64'h1)+:(15)] & kept_id_bits;
-        visitor = owner & kept_owner_bits;
+        kept_context = context_id & kept_context_bits;
         meets_clear = clear[(64'h0)+:(1)] & (lock == cleared);
         locks$test_address = lock;
         locks$test_set = takes & (~meets_clear);
         locks$clear_address = cleared;
         locks$clear_enable = clear[(64'h0)+:(1)];
-        owners$read_address = lock;
+        holders$read_address = lock;
         id1$d = lock;
-        owner1$d = visitor;
+        context1$d = kept_context;
         takes1$d = locks$test_set;
         met_clear1$d = takes & meets_clear;
         id2$d = id1$q;
-        owner2$d = owner1$q;
+        context2$d = context1$q;
         takes2$d = takes1$q;
         met_clear2$d = met_clear1$q;
         is_lock_before1$d = id1$q == id2$q;
         is_lock_before2$d = id1$q == id3$q;
         is_lock_before3$d = id1$q == id4$q;
-        is_owner_before1$d = owner1$q == owner2$q;
-        is_owner_before2$d = owner1$q == owner3$q;
-        is_owner_before3$d = owner1$q == owner4$q;
+        is_context_before1$d = context1$q == context2$q;
+        is_context_before2$d = context1$q == context3$q;
+        is_context_before3$d = context1$q == context4$q;
         id3$d = id2$q;
-        owner3$d = owner2$q;
+        context3$d = context2$q;
         found_set$d = locks$was_set;
-        found_owner$d = owners$read_data;
+        found_holder$d = holders$read_data;
         takes3$d = takes2$q;
         met_clear3$d = met_clear2$q;
         was_set = locks$was_set;
@@ -19358,32 +19203,32 @@ module incircle_core_logic$engine$pipeline$triangles$locks(clock,id,owner,takes,
         was_taken2 = is_lock_before2$q & took4$q;
         was_taken3 = is_lock_before3$q & took5$q;
         is_told$d = was_taken1 | was_taken2 | was_taken3;
-        told_is_owner$d = is_owner_before3$q;
+        told_is_own$d = is_context_before3$q;
         if (was_taken2) begin
-            told_is_owner$d = is_owner_before2$q;
+            told_is_own$d = is_context_before2$q;
         end
         if (was_taken1) begin
-            told_is_owner$d = is_owner_before1$q;
+            told_is_own$d = is_context_before1$q;
         end
         id4$d = id3$q;
-        owner4$d = owner3$q;
+        context4$d = context3$q;
         took4$d = takes_lock;
         took5$d = took4$q;
-        owners$write_address = id3$q;
-        owners$write_data = owner3$q;
-        owners$write_enable = takes_lock;
-        holder_is_owner = found_owner$q == owner3$q;
+        holders$write_address = id3$q;
+        holders$write_data = context3$q;
+        holders$write_enable = takes_lock;
+        holder_is_own = found_holder$q == context3$q;
         if (is_told$q) begin
-            holder_is_owner = told_is_owner$q;
+            holder_is_own = told_is_own$q;
         end
         took = takes_lock;
-        foreign = met_clear3$q | (takes3$q & found_set$q & (~holder_is_owner));
+        foreign = met_clear3$q | (takes3$q & found_set$q & (~holder_is_own));
     end
     
 endmodule // incircle_core_logic$engine$pipeline$triangles$locks
 
 
-module incircle_core_logic$engine$pipeline$triangles$locks$found_owner(d,q,clock);
+module incircle_core_logic$engine$pipeline$triangles$locks$context1(d,q,clock);
     
     // Module arguments
     input wire  [4:0] d;
@@ -19399,7 +19244,83 @@ module incircle_core_logic$engine$pipeline$triangles$locks$found_owner(d,q,clock
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$pipeline$triangles$locks$found_owner
+endmodule // incircle_core_logic$engine$pipeline$triangles$locks$context1
+
+
+module incircle_core_logic$engine$pipeline$triangles$locks$context2(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$triangles$locks$context2
+
+
+module incircle_core_logic$engine$pipeline$triangles$locks$context3(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$triangles$locks$context3
+
+
+module incircle_core_logic$engine$pipeline$triangles$locks$context4(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$triangles$locks$context4
+
+
+module incircle_core_logic$engine$pipeline$triangles$locks$found_holder(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$triangles$locks$found_holder
 
 
 module incircle_core_logic$engine$pipeline$triangles$locks$found_set(d,q,clock);
@@ -19419,6 +19340,73 @@ module incircle_core_logic$engine$pipeline$triangles$locks$found_set(d,q,clock);
     end
           
 endmodule // incircle_core_logic$engine$pipeline$triangles$locks$found_set
+
+
+module incircle_core_logic$engine$pipeline$triangles$locks$holders(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [14:0] write_address;
+    input wire  [4:0] write_data;
+    input wire  write_enable;
+    input wire  [14:0] read_address;
+    output reg  [4:0] read_data;
+    
+    // Update code (custom)
+    wire unused_write_address = &{1'b0, write_address[14:11]};
+    wire unused_read_address = &{1'b0, read_address[14:11]};
+    wire unused_write_data = &{1'b0, write_data[4:2]};
+    `ifdef INCIRCLE_ECP5
+    wire [13:0] write_pins = {write_address[10:0], 3'b000};
+    wire [13:0] read_pins = {read_address[10:0], 3'b000};
+    wire [17:0] nothing = 18'b0;
+    wire [8:0] all_taken = {{7{1'b0}}, write_data[1:0]};
+    wire [8:0] all_given;
+    wire [1:0] word = all_given[1:0];
+    genvar slice;
+    generate for (slice = 0; slice < 1; slice = slice + 1) begin : slices
+    wire [17:0] taken = {9'b0, all_taken[slice*9 +: 9]};
+    wire [17:0] given;
+    assign all_given[slice*9 +: 9] = given[8:0];
+    DP16KD #(
+        .DATA_WIDTH_A(9), .DATA_WIDTH_B(9), .REGMODE_A("OUTREG"), .REGMODE_B("OUTREG"),
+        .WRITEMODE_A("NORMAL"), .WRITEMODE_B("NORMAL"), .RESETMODE("SYNC"), .GSR("AUTO"),
+        .CSDECODE_A("0b000"), .CSDECODE_B("0b000")
+    ) block_ram (
+    .CLKA(clock), .CEA(1'b1), .OCEA(1'b1), .WEA(write_enable), .RSTA(1'b0),
+        .CSA0(1'b0), .CSA1(1'b0), .CSA2(1'b0),
+        .ADA0(write_pins[0]), .ADA1(write_pins[1]), .ADA2(write_pins[2]), .ADA3(write_pins[3]), .ADA4(write_pins[4]), .ADA5(write_pins[5]), .ADA6(write_pins[6]), .ADA7(write_pins[7]),
+        .ADA8(write_pins[8]), .ADA9(write_pins[9]), .ADA10(write_pins[10]), .ADA11(write_pins[11]), .ADA12(write_pins[12]), .ADA13(write_pins[13]),
+        .DIA0(taken[0]), .DIA1(taken[1]), .DIA2(taken[2]), .DIA3(taken[3]), .DIA4(taken[4]), .DIA5(taken[5]), .DIA6(taken[6]), .DIA7(taken[7]),
+        .DIA8(taken[8]), .DIA9(taken[9]), .DIA10(taken[10]), .DIA11(taken[11]), .DIA12(taken[12]), .DIA13(taken[13]), .DIA14(taken[14]), .DIA15(taken[15]),
+        .DIA16(taken[16]), .DIA17(taken[17]),
+        .DOA0(), .DOA1(), .DOA2(), .DOA3(), .DOA4(), .DOA5(), .DOA6(), .DOA7(),
+        .DOA8(), .DOA9(), .DOA10(), .DOA11(), .DOA12(), .DOA13(), .DOA14(), .DOA15(),
+        .DOA16(), .DOA17(),
+    .CLKB(clock), .CEB(1'b1), .OCEB(1'b1), .WEB(1'b0), .RSTB(1'b0),
+        .CSB0(1'b0), .CSB1(1'b0), .CSB2(1'b0),
+        .ADB0(read_pins[0]), .ADB1(read_pins[1]), .ADB2(read_pins[2]), .ADB3(read_pins[3]), .ADB4(read_pins[4]), .ADB5(read_pins[5]), .ADB6(read_pins[6]), .ADB7(read_pins[7]),
+        .ADB8(read_pins[8]), .ADB9(read_pins[9]), .ADB10(read_pins[10]), .ADB11(read_pins[11]), .ADB12(read_pins[12]), .ADB13(read_pins[13]),
+        .DIB0(nothing[0]), .DIB1(nothing[1]), .DIB2(nothing[2]), .DIB3(nothing[3]), .DIB4(nothing[4]), .DIB5(nothing[5]), .DIB6(nothing[6]), .DIB7(nothing[7]),
+        .DIB8(nothing[8]), .DIB9(nothing[9]), .DIB10(nothing[10]), .DIB11(nothing[11]), .DIB12(nothing[12]), .DIB13(nothing[13]), .DIB14(nothing[14]), .DIB15(nothing[15]),
+        .DIB16(nothing[16]), .DIB17(nothing[17]),
+        .DOB0(given[0]), .DOB1(given[1]), .DOB2(given[2]), .DOB3(given[3]), .DOB4(given[4]), .DOB5(given[5]), .DOB6(given[6]), .DOB7(given[7]),
+        .DOB8(given[8]), .DOB9(given[9]), .DOB10(given[10]), .DOB11(given[11]), .DOB12(given[12]), .DOB13(given[13]), .DOB14(given[14]), .DOB15(given[15]),
+        .DOB16(given[16]), .DOB17(given[17])
+    );
+    end endgenerate
+    always @(*) read_data = {{3{1'b0}}, word};
+    `else
+    (* ram_style = "block", no_rw_check *)
+    reg [1:0] memory [0:2047];
+    reg [1:0] word;
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address[10:0]] <= write_data[1:0];
+        word <= memory[read_address[10:0]];
+        read_data <= {{3{1'b0}}, word};
+    end
+    `endif
+endmodule // incircle_core_logic$engine$pipeline$triangles$locks$holders
 
 
 module incircle_core_logic$engine$pipeline$triangles$locks$id1(d,q,clock);
@@ -19497,6 +19485,63 @@ module incircle_core_logic$engine$pipeline$triangles$locks$id4(d,q,clock);
 endmodule // incircle_core_logic$engine$pipeline$triangles$locks$id4
 
 
+module incircle_core_logic$engine$pipeline$triangles$locks$is_context_before1(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$triangles$locks$is_context_before1
+
+
+module incircle_core_logic$engine$pipeline$triangles$locks$is_context_before2(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$triangles$locks$is_context_before2
+
+
+module incircle_core_logic$engine$pipeline$triangles$locks$is_context_before3(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$triangles$locks$is_context_before3
+
+
 module incircle_core_logic$engine$pipeline$triangles$locks$is_lock_before1(d,q,clock);
     
     // Module arguments
@@ -19552,63 +19597,6 @@ module incircle_core_logic$engine$pipeline$triangles$locks$is_lock_before3(d,q,c
     end
           
 endmodule // incircle_core_logic$engine$pipeline$triangles$locks$is_lock_before3
-
-
-module incircle_core_logic$engine$pipeline$triangles$locks$is_owner_before1(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$pipeline$triangles$locks$is_owner_before1
-
-
-module incircle_core_logic$engine$pipeline$triangles$locks$is_owner_before2(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$pipeline$triangles$locks$is_owner_before2
-
-
-module incircle_core_logic$engine$pipeline$triangles$locks$is_owner_before3(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$pipeline$triangles$locks$is_owner_before3
 
 
 module incircle_core_logic$engine$pipeline$triangles$locks$is_told(d,q,clock);
@@ -19753,149 +19741,6 @@ module incircle_core_logic$engine$pipeline$triangles$locks$met_clear3(d,q,clock)
 endmodule // incircle_core_logic$engine$pipeline$triangles$locks$met_clear3
 
 
-module incircle_core_logic$engine$pipeline$triangles$locks$owner1(d,q,clock);
-    
-    // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 5'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$pipeline$triangles$locks$owner1
-
-
-module incircle_core_logic$engine$pipeline$triangles$locks$owner2(d,q,clock);
-    
-    // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 5'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$pipeline$triangles$locks$owner2
-
-
-module incircle_core_logic$engine$pipeline$triangles$locks$owner3(d,q,clock);
-    
-    // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 5'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$pipeline$triangles$locks$owner3
-
-
-module incircle_core_logic$engine$pipeline$triangles$locks$owner4(d,q,clock);
-    
-    // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 5'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$pipeline$triangles$locks$owner4
-
-
-module incircle_core_logic$engine$pipeline$triangles$locks$owners(clock,write_address,write_data,write_enable,read_address,read_data);
-    
-    // Module arguments
-    input wire  clock;
-    input wire  [14:0] write_address;
-    input wire  [4:0] write_data;
-    input wire  write_enable;
-    input wire  [14:0] read_address;
-    output reg  [4:0] read_data;
-    
-    // Update code (custom)
-    wire unused_write_address = &{1'b0, write_address[14:11]};
-    wire unused_read_address = &{1'b0, read_address[14:11]};
-    wire unused_write_data = &{1'b0, write_data[4:2]};
-    `ifdef INCIRCLE_ECP5
-    wire [13:0] write_pins = {write_address[10:0], 3'b000};
-    wire [13:0] read_pins = {read_address[10:0], 3'b000};
-    wire [17:0] nothing = 18'b0;
-    wire [8:0] all_taken = {{7{1'b0}}, write_data[1:0]};
-    wire [8:0] all_given;
-    wire [1:0] word = all_given[1:0];
-    genvar slice;
-    generate for (slice = 0; slice < 1; slice = slice + 1) begin : slices
-    wire [17:0] taken = {9'b0, all_taken[slice*9 +: 9]};
-    wire [17:0] given;
-    assign all_given[slice*9 +: 9] = given[8:0];
-    DP16KD #(
-        .DATA_WIDTH_A(9), .DATA_WIDTH_B(9), .REGMODE_A("OUTREG"), .REGMODE_B("OUTREG"),
-        .WRITEMODE_A("NORMAL"), .WRITEMODE_B("NORMAL"), .RESETMODE("SYNC"), .GSR("AUTO"),
-        .CSDECODE_A("0b000"), .CSDECODE_B("0b000")
-    ) block_ram (
-    .CLKA(clock), .CEA(1'b1), .OCEA(1'b1), .WEA(write_enable), .RSTA(1'b0),
-        .CSA0(1'b0), .CSA1(1'b0), .CSA2(1'b0),
-        .ADA0(write_pins[0]), .ADA1(write_pins[1]), .ADA2(write_pins[2]), .ADA3(write_pins[3]), .ADA4(write_pins[4]), .ADA5(write_pins[5]), .ADA6(write_pins[6]), .ADA7(write_pins[7]),
-        .ADA8(write_pins[8]), .ADA9(write_pins[9]), .ADA10(write_pins[10]), .ADA11(write_pins[11]), .ADA12(write_pins[12]), .ADA13(write_pins[13]),
-        .DIA0(taken[0]), .DIA1(taken[1]), .DIA2(taken[2]), .DIA3(taken[3]), .DIA4(taken[4]), .DIA5(taken[5]), .DIA6(taken[6]), .DIA7(taken[7]),
-        .DIA8(taken[8]), .DIA9(taken[9]), .DIA10(taken[10]), .DIA11(taken[11]), .DIA12(taken[12]), .DIA13(taken[13]), .DIA14(taken[14]), .DIA15(taken[15]),
-        .DIA16(taken[16]), .DIA17(taken[17]),
-        .DOA0(), .DOA1(), .DOA2(), .DOA3(), .DOA4(), .DOA5(), .DOA6(), .DOA7(),
-        .DOA8(), .DOA9(), .DOA10(), .DOA11(), .DOA12(), .DOA13(), .DOA14(), .DOA15(),
-        .DOA16(), .DOA17(),
-    .CLKB(clock), .CEB(1'b1), .OCEB(1'b1), .WEB(1'b0), .RSTB(1'b0),
-        .CSB0(1'b0), .CSB1(1'b0), .CSB2(1'b0),
-        .ADB0(read_pins[0]), .ADB1(read_pins[1]), .ADB2(read_pins[2]), .ADB3(read_pins[3]), .ADB4(read_pins[4]), .ADB5(read_pins[5]), .ADB6(read_pins[6]), .ADB7(read_pins[7]),
-        .ADB8(read_pins[8]), .ADB9(read_pins[9]), .ADB10(read_pins[10]), .ADB11(read_pins[11]), .ADB12(read_pins[12]), .ADB13(read_pins[13]),
-        .DIB0(nothing[0]), .DIB1(nothing[1]), .DIB2(nothing[2]), .DIB3(nothing[3]), .DIB4(nothing[4]), .DIB5(nothing[5]), .DIB6(nothing[6]), .DIB7(nothing[7]),
-        .DIB8(nothing[8]), .DIB9(nothing[9]), .DIB10(nothing[10]), .DIB11(nothing[11]), .DIB12(nothing[12]), .DIB13(nothing[13]), .DIB14(nothing[14]), .DIB15(nothing[15]),
-        .DIB16(nothing[16]), .DIB17(nothing[17]),
-        .DOB0(given[0]), .DOB1(given[1]), .DOB2(given[2]), .DOB3(given[3]), .DOB4(given[4]), .DOB5(given[5]), .DOB6(given[6]), .DOB7(given[7]),
-        .DOB8(given[8]), .DOB9(given[9]), .DOB10(given[10]), .DOB11(given[11]), .DOB12(given[12]), .DOB13(given[13]), .DOB14(given[14]), .DOB15(given[15]),
-        .DOB16(given[16]), .DOB17(given[17])
-    );
-    end endgenerate
-    always @(*) read_data = {{3{1'b0}}, word};
-    `else
-    (* ram_style = "block", no_rw_check *)
-    reg [1:0] memory [0:2047];
-    reg [1:0] word;
-    always @(posedge clock) begin
-        if (write_enable) memory[write_address[10:0]] <= write_data[1:0];
-        word <= memory[read_address[10:0]];
-        read_data <= {{3{1'b0}}, word};
-    end
-    `endif
-endmodule // incircle_core_logic$engine$pipeline$triangles$locks$owners
-
-
 module incircle_core_logic$engine$pipeline$triangles$locks$takes1(d,q,clock);
     
     // Module arguments
@@ -19953,7 +19798,7 @@ module incircle_core_logic$engine$pipeline$triangles$locks$takes3(d,q,clock);
 endmodule // incircle_core_logic$engine$pipeline$triangles$locks$takes3
 
 
-module incircle_core_logic$engine$pipeline$triangles$locks$told_is_owner(d,q,clock);
+module incircle_core_logic$engine$pipeline$triangles$locks$told_is_own(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -19969,7 +19814,7 @@ module incircle_core_logic$engine$pipeline$triangles$locks$told_is_owner(d,q,clo
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$pipeline$triangles$locks$told_is_owner
+endmodule // incircle_core_logic$engine$pipeline$triangles$locks$told_is_own
 
 
 module incircle_core_logic$engine$pipeline$triangles$locks$took4(d,q,clock);
@@ -20683,14 +20528,169 @@ module incircle_core_logic$engine$pipeline$vertices$first_copy(clock,read_addres
 endmodule // incircle_core_logic$engine$pipeline$vertices$first_copy
 
 
-module incircle_core_logic$engine$push_port(clock,reset,follow,start,is_alone,solo,push);
+module incircle_core_logic$engine$pipeline$visit_delay(clock,data_in,data_out);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [54:0] data_in;
+    output reg  [54:0] data_out;
+    
+    // Constant declarations
+    localparam  one = 6'b1;
+    localparam  distance_before = 6'b1011;
+    
+    // Stub signals
+    reg  ring$clock;
+    reg  [5:0] ring$write_address;
+    reg  [54:0] ring$write_data;
+    reg  ring$write_enable;
+    reg  [5:0] ring$read_address;
+    wire  [54:0] ring$read_data;
+    reg  [5:0] position$d;
+    wire  [5:0] position$q;
+    reg  position$clock;
+    reg  [5:0] oldest$d;
+    wire  [5:0] oldest$q;
+    reg  oldest$clock;
+    reg  [54:0] delayed$d;
+    wire  [54:0] delayed$q;
+    reg  delayed$clock;
+    
+    // Sub module instances
+    incircle_core_logic$engine$pipeline$visit_delay$ring ring(
+        .clock(ring$clock),
+        .write_address(ring$write_address),
+        .write_data(ring$write_data),
+        .write_enable(ring$write_enable),
+        .read_address(ring$read_address),
+        .read_data(ring$read_data)
+    );
+    incircle_core_logic$engine$pipeline$visit_delay$position position(
+        .d(position$d),
+        .q(position$q),
+        .clock(position$clock)
+    );
+    incircle_core_logic$engine$pipeline$visit_delay$oldest oldest(
+        .d(oldest$d),
+        .q(oldest$q),
+        .clock(oldest$clock)
+    );
+    incircle_core_logic$engine$pipeline$visit_delay$delayed delayed(
+        .d(delayed$d),
+        .q(delayed$q),
+        .clock(delayed$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        position$clock = clock;
+        oldest$clock = clock;
+        delayed$clock = clock;
+        position$d = position$q;
+        oldest$d = oldest$q;
+        delayed$d = delayed$q;
+        ring$clock = clock;
+        position$d = position$q + one;
+        oldest$d = position$q - distance_before;
+        ring$write_address = position$q;
+        ring$write_data = data_in;
+        ring$write_enable = 1'b1;
+        ring$read_address = oldest$q;
+        delayed$d = ring$read_data;
+        data_out = delayed$q;
+    end
+    
+endmodule // incircle_core_logic$engine$pipeline$visit_delay
+
+
+module incircle_core_logic$engine$pipeline$visit_delay$delayed(d,q,clock);
+    
+    // Module arguments
+    input wire  [54:0] d;
+    output reg  [54:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 55'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$visit_delay$delayed
+
+
+module incircle_core_logic$engine$pipeline$visit_delay$oldest(d,q,clock);
+    
+    // Module arguments
+    input wire  [5:0] d;
+    output reg  [5:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 6'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$visit_delay$oldest
+
+
+module incircle_core_logic$engine$pipeline$visit_delay$position(d,q,clock);
+    
+    // Module arguments
+    input wire  [5:0] d;
+    output reg  [5:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 6'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$visit_delay$position
+
+
+module incircle_core_logic$engine$pipeline$visit_delay$ring(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [5:0] write_address;
+    input wire  [54:0] write_data;
+    input wire  write_enable;
+    input wire  [5:0] read_address;
+    output reg  [54:0] read_data;
+    
+    // Update code (custom)
+    wire unused_write_address = &{1'b0, write_address[5:4]};
+    wire unused_read_address = &{1'b0, read_address[5:4]};
+    (* ram_style = "distributed" *)
+    reg [54:0] memory [0:15];
+    wire [54:0] word = memory[read_address[3:0]];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address[3:0]] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_core_logic$engine$pipeline$visit_delay$ring
+
+
+module incircle_core_logic$engine$push_port(clock,reset,follow,start,solo_is_at_work,solo,push);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  [94:0] follow;
     input wire  [36:0] start;
-    input wire  is_alone;
+    input wire  solo_is_at_work;
     input wire  [93:0] solo;
     output reg  [93:0] push;
     
@@ -20732,7 +20732,7 @@ module incircle_core_logic$engine$push_port(clock,reset,follow,start,is_alone,so
             pushed$d[(64'h8)+:(1)] = 1'b0;
             pushed$d[(64'h2a)+:(15)] = start[(64'h6)+:(15)];
         end
-        if (is_alone) begin
+        if (solo_is_at_work) begin
             pushed$d = solo[(64'h1)+:(93)];
         end
         if (reset) begin
@@ -21334,14 +21334,14 @@ module incircle_core_logic$engine$seeder$writes$record(id,v0,v1,v2,n0,n1,n2,writ
 endmodule // incircle_core_logic$engine$seeder$writes$record
 
 
-module incircle_core_logic$engine$solo(clock,reset,start,records,visit,push,write,progress);
+module incircle_core_logic$engine$solo(clock,reset,start,records,completion,push,write,progress);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  [35:0] start;
     input wire  [14:0] records;
-    input wire  [173:0] visit;
+    input wire  [173:0] completion;
     output reg  [93:0] push;
     output reg  [109:0] write;
     output reg  [4:0] progress;
@@ -21389,12 +21389,12 @@ module incircle_core_logic$engine$solo(clock,reset,start,records,visit,push,writ
     reg  star$reset;
     reg  [5:0] star$phase;
     reg  [1:0] star$step;
-    reg  [4:0] star$owner;
-    reg  [14:0] star$p;
+    reg  [4:0] star$context_id;
+    reg  [14:0] star$vertex;
     reg  [14:0] star$records;
     reg  [14:0] star$root_id;
     reg  [97:0] star$root;
-    reg  [173:0] star$visit;
+    reg  [173:0] star$completion;
     wire  [92:0] star$bundle;
     wire  star$tests;
     wire  star$flips;
@@ -21469,12 +21469,12 @@ module incircle_core_logic$engine$solo(clock,reset,start,records,visit,push,writ
         .reset(star$reset),
         .phase(star$phase),
         .step(star$step),
-        .owner(star$owner),
-        .p(star$p),
+        .context_id(star$context_id),
+        .vertex(star$vertex),
         .records(star$records),
         .root_id(star$root_id),
         .root(star$root),
-        .visit(star$visit),
+        .completion(star$completion),
         .bundle(star$bundle),
         .tests(star$tests),
         .flips(star$flips),
@@ -21504,26 +21504,26 @@ module incircle_core_logic$engine$solo(clock,reset,start,records,visit,push,writ
         inserted$d = inserted$q;
         steps$clock = clock;
         star$clock = clock;
-        verdict = visit[(64'h9a)+:(20)];
+        verdict = completion[(64'h9a)+:(20)];
         steps$reset = reset;
         steps$starts = start[(64'h0)+:(1)];
-        steps$done = visit[(64'h0)+:(1)];
+        steps$done = completion[(64'h0)+:(1)];
         steps$verdict = verdict;
         steps$is_round = star$is_round;
         works$d = (~steps$is_idle) & (~reset);
         star$reset = reset;
-        star$owner = at_work_for$q;
+        star$context_id = at_work_for$q;
         star$phase = steps$phase;
         star$step = steps$step;
-        star$p = vertex$q;
+        star$vertex = vertex$q;
         star$records = records;
         star$root_id = root_id$q;
         star$root = root$q;
-        star$visit = visit;
+        star$completion = completion;
         write = star$write;
         is_visiting = steps$phase[(64'h0)+:(1)] | steps$phase[(64'h2)+:(1)] | steps$phase[(64'h3)+:(1)] | steps$phase[(64'h4)+:(1)];
         asks$d = is_visiting & (~awaits$q) & (~reset);
-        awaits$d = is_visiting & (~visit[(64'h0)+:(1)]) & (~reset);
+        awaits$d = is_visiting & (~completion[(64'h0)+:(1)]) & (~reset);
         push[(64'h0)+:(1)] = asks$q;
         push[(64'h1)+:(93)] = star$bundle;
         inserted$d = steps$inserts & (~reset);
@@ -21538,8 +21538,8 @@ module incircle_core_logic$engine$solo(clock,reset,start,records,visit,push,writ
             vertex$d = start[(64'h6)+:(15)];
             root_id$d = start[(64'h15)+:(15)];
         end
-        if (steps$phase[(64'h0)+:(1)] & visit[(64'h0)+:(1)]) begin
-            root$d = visit[(64'h38)+:(98)];
+        if (steps$phase[(64'h0)+:(1)] & completion[(64'h0)+:(1)]) begin
+            root$d = completion[(64'h38)+:(98)];
             if (~verdict[(64'h1)+:(1)]) begin
                 root_id$d = verdict[(64'h5)+:(15)];
             end
@@ -21682,19 +21682,19 @@ module incircle_core_logic$engine$solo$root_id(d,q,clock);
 endmodule // incircle_core_logic$engine$solo$root_id
 
 
-module incircle_core_logic$engine$solo$star(clock,reset,phase,step,owner,p,records,root_id,root,visit,bundle,tests,flips,is_round,write);
+module incircle_core_logic$engine$solo$star(clock,reset,phase,step,context_id,vertex,records,root_id,root,completion,bundle,tests,flips,is_round,write);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  [5:0] phase;
     input wire  [1:0] step;
-    input wire  [4:0] owner;
-    input wire  [14:0] p;
+    input wire  [4:0] context_id;
+    input wire  [14:0] vertex;
     input wire  [14:0] records;
     input wire  [14:0] root_id;
     input wire  [97:0] root;
-    input wire  [173:0] visit;
+    input wire  [173:0] completion;
     output reg  [92:0] bundle;
     output reg  tests;
     output reg  flips;
@@ -21738,7 +21738,7 @@ module incircle_core_logic$engine$solo$star(clock,reset,phase,step,owner,p,recor
     reg  [14:0] third$d;
     wire  [14:0] third$q;
     reg  third$clock;
-    reg  [4:0] visits$owner;
+    reg  [4:0] visits$context_id;
     reg  [5:0] visits$phase;
     reg  visits$is_second;
     reg  [14:0] visits$root_id;
@@ -21747,7 +21747,7 @@ module incircle_core_logic$engine$solo$star(clock,reset,phase,step,owner,p,recor
     wire  [92:0] visits$bundle;
     reg  [6:0] writes$turn;
     reg  writes$is_test;
-    reg  [14:0] writes$p;
+    reg  [14:0] writes$vertex;
     reg  [14:0] writes$second;
     reg  [14:0] writes$third;
     reg  [14:0] writes$root_id;
@@ -21759,7 +21759,7 @@ module incircle_core_logic$engine$solo$star(clock,reset,phase,step,owner,p,recor
     wire  [109:0] writes$write;
     
     // Local signals
-    reg  [54:0] token;
+    reg  [54:0] visit;
     reg  [19:0] verdict;
     reg  rests;
     reg  is_flipped;
@@ -21833,7 +21833,7 @@ module incircle_core_logic$engine$solo$star(clock,reset,phase,step,owner,p,recor
         .clock(third$clock)
     );
     incircle_core_logic$engine$solo$star$visits visits(
-        .owner(visits$owner),
+        .context_id(visits$context_id),
         .phase(visits$phase),
         .is_second(visits$is_second),
         .root_id(visits$root_id),
@@ -21844,7 +21844,7 @@ module incircle_core_logic$engine$solo$star(clock,reset,phase,step,owner,p,recor
     incircle_core_logic$engine$solo$star$writes writes(
         .turn(writes$turn),
         .is_test(writes$is_test),
-        .p(writes$p),
+        .vertex(writes$vertex),
         .second(writes$second),
         .third(writes$third),
         .root_id(writes$root_id),
@@ -21886,8 +21886,8 @@ module incircle_core_logic$engine$solo$star(clock,reset,phase,step,owner,p,recor
         one = 32'h1;
         last_write = 32'h2;
         one_more = 32'h1;
-        token = visit[(64'h1)+:(55)];
-        verdict = visit[(64'h9a)+:(20)];
+        visit = completion[(64'h1)+:(55)];
+        verdict = completion[(64'h9a)+:(20)];
         is_last$d = triangle$q[(64'h1e)+:(15)] == root[(64'hf)+:(15)];
         third$d = records + one_more;
         is_round = is_last$q;
@@ -21904,13 +21904,13 @@ module incircle_core_logic$engine$solo$star(clock,reset,phase,step,owner,p,recor
         turn$d[(64'h5)+:(1)] = phase[(64'h2)+:(1)] & is_first;
         turn$d[(64'h6)+:(1)] = phase[(64'h2)+:(1)] & is_second;
         ends_flip$d = phase[(64'h5)+:(1)] & is_last_write & (~reset);
-        comes$d = visit[(64'h0)+:(1)];
-        visited$d = token[(64'h28)+:(15)];
-        found$d = visit[(64'h38)+:(98)];
+        comes$d = completion[(64'h0)+:(1)];
+        visited$d = visit[(64'h28)+:(15)];
+        found$d = completion[(64'h38)+:(98)];
         is_conflict$d = verdict[(64'h0)+:(1)];
         tests = done_phase$q[(64'h4)+:(1)] & comes$q;
         flips = ends_flip$q;
-        visits$owner = owner;
+        visits$context_id = context_id;
         visits$phase = done_phase$q;
         visits$is_second = turn$q[(64'h6)+:(1)];
         visits$root_id = root_id;
@@ -21919,7 +21919,7 @@ module incircle_core_logic$engine$solo$star(clock,reset,phase,step,owner,p,recor
         bundle = visits$bundle;
         writes$turn = turn$q;
         writes$is_test = done_phase$q[(64'h4)+:(1)];
-        writes$p = p;
+        writes$vertex = vertex;
         writes$second = records;
         writes$third = third$q;
         writes$root_id = root_id;
@@ -22199,10 +22199,10 @@ module incircle_core_logic$engine$solo$star$visited(d,q,clock);
 endmodule // incircle_core_logic$engine$solo$star$visited
 
 
-module incircle_core_logic$engine$solo$star$visits(owner,phase,is_second,root_id,root,triangle,bundle);
+module incircle_core_logic$engine$solo$star$visits(context_id,phase,is_second,root_id,root,triangle,bundle);
     
     // Module arguments
-    input wire  [4:0] owner;
+    input wire  [4:0] context_id;
     input wire  [5:0] phase;
     input wire  is_second;
     input wire  [14:0] root_id;
@@ -22214,7 +22214,7 @@ module incircle_core_logic$engine$solo$star$visits(owner,phase,is_second,root_id
     always @(*) begin
         bundle[(64'h0)+:(1)] = 1'b0;
         bundle[(64'h1)+:(1)] = 1'b0;
-        bundle[(64'h2)+:(5)] = owner;
+        bundle[(64'h2)+:(5)] = context_id;
         bundle[(64'h7)+:(1)] = (~phase[(64'h3)+:(1)]) & (~phase[(64'h0)+:(1)]);
         bundle[(64'h8)+:(1)] = 1'b0;
         bundle[(64'h9)+:(6)] = 32'h0;
@@ -22245,12 +22245,12 @@ module incircle_core_logic$engine$solo$star$visits(owner,phase,is_second,root_id
 endmodule // incircle_core_logic$engine$solo$star$visits
 
 
-module incircle_core_logic$engine$solo$star$writes(turn,is_test,p,second,third,root_id,root,triangle,beyond,visited,slot,write);
+module incircle_core_logic$engine$solo$star$writes(turn,is_test,vertex,second,third,root_id,root,triangle,beyond,visited,slot,write);
     
     // Module arguments
     input wire  [6:0] turn;
     input wire  is_test;
-    input wire  [14:0] p;
+    input wire  [14:0] vertex;
     input wire  [14:0] second;
     input wire  [14:0] third;
     input wire  [14:0] root_id;
@@ -22296,7 +22296,7 @@ module incircle_core_logic$engine$solo$star$writes(turn,is_test,p,second,third,r
     // Update code
     always @(*) begin
         record$id = third;
-        record$v0 = p;
+        record$v0 = vertex;
         record$v1 = root[(64'h0)+:(15)];
         record$v2 = root[(64'hf)+:(15)];
         record$n0 = root[(64'h4b)+:(15)];

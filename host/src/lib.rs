@@ -1,8 +1,14 @@
 //! Exact canonical Delaunay triangulation of integer points, in hardware or software.
 //!
-//! For a set of distinct grid points there is exactly one answer, and every device gives it: the fast engine in this
-//! process, the software model, the simulated core, a board. Where four or more points lie on one empty circle, the
-//! diagonal takes the lexicographically smallest of them.
+//! Use this library when a triangulation must be *right* and *reproducible*: coordinates are integers, every predicate
+//! is exact, and a set of points has one answer. Every back end gives that answer byte for byte: the CPU triangulator,
+//! the software model, the simulated core, a board at a serial port, a card in a PCIe slot. Duplicates, collinear
+//! points and fewer than three points are no errors. Where four or more points lie on one empty circle, the diagonal
+//! ends at the lexicographically smallest of them.
+//!
+//! # In one call
+//!
+//! [`triangulate`] needs no device and no choices. Start here; most programs need nothing else.
 //!
 //! ```
 //! let mesh = incircle::triangulate(&[(0, 0), (4, 0), (4, 4), (0, 4), (4, 0)])?;
@@ -13,7 +19,15 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! With a device that stays open, and choices for the job:
+//! The result is a [`Mesh`]: triangles and hull as indices into the points, and the list of duplicates.
+//! [`Mesh::neighbors`] and [`Mesh::halfedges`] give the adjacency; [`Mesh::verify`] proves the mesh with a validator
+//! that shares no code with any back end.
+//!
+//! # With a device
+//!
+//! Open a [`Device`] when you want hardware, a model of it, another number of threads, or figures about the job. A
+//! [`Session`] on it takes any number of jobs, each with [`Options`], and answers each with a [`Solution`]: the mesh
+//! and a [`Report`] of times and counters.
 //!
 //! ```
 //! use incircle::{Device, Options, Order, Point, Solution};
@@ -29,7 +43,28 @@
 //! # Ok::<(), incircle::Error>(())
 //! ```
 //!
-//! Floating-point values pass [`quantize()`] first, which reports what it did.
+//! # Which to reach for
+//!
+//! | you have | reach for |
+//! |---|---|
+//! | a set of integer points | [`triangulate`] |
+//! | floating-point values | [`quantize()`] first; its report says what rounding did |
+//! | a board, a card or a model | [`Device::open`] with an address from [`DeviceAddress`], then [`Device::session`] |
+//! | a time limit, a progress bar, a cancel button | [`Options`] with [`Session::triangulate_with`] |
+//! | many small sets | [`Session::triangulate_batch`]: a device works on them side by side |
+//! | points that need not be copied | [`Session::triangulate_owned`] |
+//! | a mesh from elsewhere | [`verify()`] |
+//! | a simulator or a link of your own | [`Transport`] with [`Device::from_transport`] |
+//!
+//! # Cost and limits
+//!
+//! The CPU triangulator takes O(n log n) time and, at a million points of 16 bits, at most 200 bytes a point beyond the
+//! points themselves. Coordinates are whole numbers from 0 to 2^31 - 1 on the CPU; a device has its own number of bits,
+//! 16 for the standard cores. A job may have up to [`MAX_POINTS`] points; a device holds as many distinct ones as its
+//! [`Identity`] says. There are no constraint edges, no deletion and no insertion into a finished mesh.
+//!
+//! Nothing panics on bad input or on a faulty device: every failure is an [`Error`], whose [`ErrorKind`]
+//! says whose fault it is.
 #![warn(missing_docs)]
 
 mod commands;
@@ -49,19 +84,29 @@ pub use job::{Counters, Latencies, Options, Progress, ProgressListener, Report, 
 pub use quantize::{quantize, Quantization, Quantize};
 pub use transports::{pcie, serial, Transport};
 
-/// Orders of insertion: the same set always gives the same order, whatever the order of the input. The orders by name
-/// are [`Order`].
+/// Orders of insertion, for programs that compare them.
+///
+/// A session chooses an order by its name, [`Order`], so most programs need none of these functions. The same set
+/// always gets the same order, whatever the order of the input.
 pub mod order {
     pub use crate::job::deal::{brio_hilbert_dealt, deal};
     pub use incircle_geometry::order::{brio_hilbert, hilbert, random, Order, Rounds, UnknownOrder};
 }
 
-/// Triangulates in this process with the fast engine: coordinates up to 31 bits, default [`Options`], all processors
-/// for large sets.
+/// Triangulates a set of points with the CPU triangulator, on all processors if the set is large.
+///
+/// Points may be [`Point`]s, pairs `(u32, u32)`, or anything else that converts into a [`Point`]; coordinates have up
+/// to 31 bits. For another number of threads, a time limit or progress, open a [`Device`] instead. O(n log n).
+///
+/// ```
+/// let mesh = incircle::triangulate(&[(0, 0), (9, 0), (3, 5), (9, 9)])?;
+/// assert_eq!(mesh.triangles, [[0, 1, 2], [1, 3, 2]]);
+/// # Ok::<(), incircle::Error>(())
+/// ```
 ///
 /// # Errors
-/// A coordinate of more than 31 bits, more than [`MAX_POINTS`] points, or a job that takes longer than
-/// [`Options::default_timeout`].
+/// [`Error::CoordinateOutOfRange`] for a coordinate of more than 31 bits, [`Error::TooManyPoints`] beyond
+/// [`MAX_POINTS`], and [`Error::Timeout`] for a job that takes longer than [`Options::default_timeout`].
 pub fn triangulate<P: Into<Point> + Copy>(points: &(impl AsRef<[P]> + ?Sized)) -> Result<Mesh, Error> {
     Device::cpu(None).session()?.triangulate(points).map(|solution| solution.mesh)
 }

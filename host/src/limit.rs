@@ -1,4 +1,4 @@
-//! What bounds a job: time, points, bits of a coordinate.
+//! Limits of a job: its deadline, and the bits of a coordinate.
 
 use std::time::{Duration, Instant};
 
@@ -6,7 +6,7 @@ use incircle_protocol::{MAX_COORD_BITS, MIN_COORD_BITS};
 
 use crate::error::Error;
 
-/// Coordinate bits must be possible.
+/// Refuses a number of coordinate bits outside 1 to 31.
 pub(crate) fn check_coord_bits(coord_bits: u32) -> Result<(), Error> {
     if (MIN_COORD_BITS..=MAX_COORD_BITS).contains(&coord_bits) {
         Ok(())
@@ -15,7 +15,7 @@ pub(crate) fn check_coord_bits(coord_bits: u32) -> Result<(), Error> {
     }
 }
 
-/// Until when a job may run, and how long that was at its start.
+/// The deadline of a job, with the time that it was given for messages.
 #[derive(Clone, Copy)]
 pub(crate) struct Limit {
     deadline: Instant,
@@ -23,30 +23,29 @@ pub(crate) struct Limit {
 }
 
 impl Limit {
-    /// From now on for `timeout`, or for a year if that is longer: no clock overflows.
+    /// A limit that ends `timeout` from now, or in a year if that is sooner: a longer one might overflow the clock.
     pub(crate) fn of(timeout: Duration) -> Self {
         const YEAR: Duration = Duration::from_secs(365 * 24 * 3600);
         let timeout = timeout.min(YEAR);
         Self { deadline: Instant::now() + timeout, timeout }
     }
 
-    /// Until when.
     pub(crate) fn deadline(self) -> Instant {
         self.deadline
     }
 
-    /// How long that was at the start.
+    /// The whole time that the job was given, for messages.
     pub(crate) fn timeout(self) -> Duration {
         self.timeout
     }
 
-    /// For so much longer.
+    /// The same limit, `time` later.
     pub(crate) fn longer(self, time: Duration) -> Self {
         let more = Self::of(time).timeout;
         Self { deadline: self.deadline + more, timeout: self.timeout + more }
     }
 
-    /// An error once the deadline has passed.
+    /// Fails with [`Error::Timeout`] once the deadline has passed.
     pub(crate) fn check(&self, device: &str, during: &'static str) -> Result<(), Error> {
         if Instant::now() <= self.deadline {
             return Ok(());

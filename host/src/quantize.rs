@@ -1,15 +1,21 @@
-//! From floating-point values to grid points: one named step that reports what it did. Nothing is rounded silently.
+//! From floating-point values to grid points, in one step that reports what it did.
+//!
+//! The triangulation itself never rounds, so values with fractions must be laid onto the integer grid first.
+//! [`integers`] takes values that already are grid coordinates and refuses all others; [`quantize`] scales and rounds,
+//! and says by how much. Nothing is rounded silently.
 
 use crate::error::Error;
 use crate::limit::check_coord_bits;
 use incircle_geometry::{Point, MAX_POINTS};
 
-/// How values are laid onto the grid.
+/// The scale by which values are laid onto the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Quantize {
-    /// The bounding box fills the grid: one uniform scale, the longer side spans 0 to 2^`coord_bits` - 1.
+    /// Scale the bounding box to fill the grid: the longer side spans 0 to 2^`coord_bits` - 1, both axes alike. The
+    /// best resolution for one set, but another set gets another scale.
     Fit,
-    /// `grid = round((value - offset) * scale)`; values that fall outside the grid are refused.
+    /// Use a given scale, `grid = round((value - offset) * scale)`, and refuse values that fall outside the grid.
+    /// Several sets can share one grid this way.
     Scale {
         /// Grid units per input unit; positive and finite.
         scale: f64,
@@ -18,14 +24,14 @@ pub enum Quantize {
     },
 }
 
-/// What quantisation did: `grid = round((value - offset) * scale)`, halves to even.
+/// Report of a quantisation: `grid = round((value - offset) * scale)`, halves to even.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantization {
     /// Grid units per input unit.
     pub scale: f64,
     /// The input point that falls on the grid's origin.
     pub offset: [f64; 2],
-    /// Largest distance, in input units and along one axis, between a value and the grid line it was moved to.
+    /// Largest distance along one axis, in input units, between a value and the grid line that it was moved to.
     pub largest_error: f64,
     /// Distinct input points that fell onto another distinct input point.
     pub merged: usize,
@@ -40,13 +46,22 @@ impl Quantization {
     }
 }
 
-/// Takes values that are integers of the grid as they are.
+/// Converts values that already are grid coordinates, and refuses all others.
+///
+/// Use this for data that is known to be integral but comes as floating point, as from a file. O(n).
+///
+/// ```
+/// use incircle::{quantize::integers, Error, Point};
+/// assert_eq!(integers(&[[3.0, 255.0]], 8)?, [Point::new(3, 255)]);
+/// assert!(matches!(integers(&[[3.5, 0.0]], 8), Err(Error::NotInteger { index: 0, axis: 'x', .. })));
+/// # Ok::<(), incircle::Error>(())
+/// ```
 ///
 /// # Errors
-/// The first value that is not finite ([`Error::NotFinite`]); else the first that has a fraction
-/// ([`Error::NotInteger`]); else the first outside 0 to 2^`coord_bits` - 1 ([`Error::OutOfGrid`]). So a set that could
-/// be quantised and one that is plainly wrong can be told apart. [`Error::CoordBits`] outside 1 to 31,
-/// [`Error::TooManyPoints`] beyond [`MAX_POINTS`].
+/// [`Error::NotFinite`] for the first value that is not finite; else [`Error::NotInteger`] for the first one with a
+/// fraction; else [`Error::OutOfGrid`] for the first one outside 0 to 2^`coord_bits` - 1. In this order a caller
+/// can tell a set that could be quantised from one that is plainly wrong. [`Error::CoordBits`] for bits outside 1
+/// to 31, and [`Error::TooManyPoints`] beyond [`MAX_POINTS`].
 pub fn integers(points: &[[f64; 2]], coord_bits: u32) -> Result<Vec<Point>, Error> {
     check_coord_bits(coord_bits)?;
     check_count(points)?;
@@ -61,7 +76,7 @@ pub fn integers(points: &[[f64; 2]], coord_bits: u32) -> Result<Vec<Point>, Erro
     Ok(points.iter().map(|&[x, y]| Point::new(x as u32, y as u32)).collect())
 }
 
-/// Lays values onto the grid and reports scale, offset, largest error and how many points fell together.
+/// Lays values onto the grid, and reports scale, offset, largest error and how many points fell together. O(n log n).
 ///
 /// ```
 /// use incircle::quantize::{quantize, Quantize};
@@ -72,9 +87,11 @@ pub fn integers(points: &[[f64; 2]], coord_bits: u32) -> Result<Vec<Point>, Erro
 /// ```
 ///
 /// # Errors
-/// [`Error::NotFinite`] with the first value that is NaN or infinite, [`Error::Extent`] if the box is too large or too
-/// small for a scale, [`Error::Scale`] and [`Error::OutOfGrid`] with [`Quantize::Scale`], [`Error::CoordBits`] outside
-/// 1 to 31, [`Error::TooManyPoints`] beyond [`MAX_POINTS`].
+/// - [`Error::NotFinite`] for the first value that is NaN or infinite.
+/// - With [`Quantize::Fit`]: [`Error::Extent`] if the bounding box is too large or too small for a scale.
+/// - With [`Quantize::Scale`]: [`Error::Scale`] for a scale that is not positive and finite, and [`Error::OutOfGrid`]
+///   for the first value that falls outside the grid.
+/// - [`Error::CoordBits`] for bits outside 1 to 31, and [`Error::TooManyPoints`] beyond [`MAX_POINTS`].
 pub fn quantize(points: &[[f64; 2]], coord_bits: u32, how: Quantize) -> Result<(Vec<Point>, Quantization), Error> {
     check_coord_bits(coord_bits)?;
     check_count(points)?;
@@ -98,7 +115,7 @@ pub fn quantize(points: &[[f64; 2]], coord_bits: u32, how: Quantize) -> Result<(
 }
 
 impl Quantization {
-    /// The grid point of `point`. When the scale was fitted, only rounding can leave the grid, so it is held inside.
+    /// The grid point of `point`. With a fitted scale only rounding can leave the grid, so the result is clamped.
     fn place(&self, index: usize, point: [f64; 2], fitted: bool) -> Result<Point, Error> {
         let max = largest_coordinate(self.coord_bits);
         let line = |k: usize| ((point[k] - self.offset[k]) * self.scale).round_ties_even();
@@ -115,7 +132,7 @@ impl Quantization {
     }
 }
 
-/// 2^`coord_bits` - 1.
+/// The largest coordinate of the grid, 2^`coord_bits` - 1.
 fn largest_coordinate(coord_bits: u32) -> f64 {
     ((1u64 << coord_bits) - 1) as f64
 }
@@ -149,7 +166,7 @@ fn check_scale(scale: f64, offset: [f64; 2]) -> Result<(f64, [f64; 2]), Error> {
     }
 }
 
-/// Scale and offset that make the bounding box fill the grid; a single place keeps scale 1.
+/// Scale and offset that make the bounding box fill the grid. If all points are in one place, the scale is 1.
 fn fit(points: &[[f64; 2]], coord_bits: u32) -> Result<(f64, [f64; 2]), Error> {
     let Some(&first) = points.first() else {
         return Ok((1.0, [0.0, 0.0]));
@@ -173,9 +190,9 @@ fn fit(points: &[[f64; 2]], coord_bits: u32) -> Result<(f64, [f64; 2]), Error> {
     }
 }
 
-/// Distinct input points less distinct grid points.
+/// Number of distinct input points minus the number of distinct grid points.
 fn count_merged(points: &[[f64; 2]], grid: &[Point]) -> usize {
-    // Adding zero makes the two zeros one value, so that equal values have equal bits.
+    // Bits are compared in place of values. Adding zero turns -0.0 into 0.0, so that equal values have equal bits.
     let bits = |index: u32| points[index as usize].map(|value| (value + 0.0).to_bits());
     let place = |index: u32| grid[index as usize];
     let mut sorted: Vec<u32> = (0..grid.len() as u32).collect();

@@ -1,10 +1,11 @@
-//! Peak memory of a large job, model included. Alone in its file, so that it has a process of its own.
+//! Peak memory of a large job, with the CPU triangulator and the mesh. This test has a program of its own, since the
+//! peak is that of the whole process.
 #![cfg(target_os = "linux")]
 
 use incircle::Point;
 use incircle_testkit::SplitMix64;
 
-/// The highest resident memory of this process so far, in bytes.
+/// The peak of the resident memory of this process so far, in bytes.
 fn peak_memory() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").expect("Linux tells");
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));

@@ -1,40 +1,41 @@
-//! Commands, how they are written as words and read from them, and what their answers begin with.
+//! Commands: how they are written as words, how they are read from words, and how long their answers are.
 
 use crate::counters::{COUNTER_WORDS, LATENCY_BUCKETS};
 use crate::layout::{Layout, IDENTITY_WORDS, INSERT_REPORT_WORDS};
 use crate::status::Status;
 
-/// The number of a command. The opcode stands in the top byte of a command word; the rest is zero but where said.
+/// The number of a command, in the top byte of its first word. The other bits of that word are zero unless the
+/// command's own entry says otherwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Opcode {
-    /// Who are you? No arguments; answered with an [`Identity`](crate::Identity).
+    /// Ask the device for its [`Identity`](crate::Identity). No arguments.
     Hello = 1,
     /// Forget all points, triangles and counters. The low byte of the command word is the number of contexts that work
-    /// from now on, 0 for all; see [`clear_word`]. With [`CLEAR_BATCH`] each of them works on a mesh of its own; see
-    /// [`batch_word`]. No arguments, no payload. O(1).
+    /// from now on, 0 for all; see [`clear_word`]. With [`CLEAR_BATCH`] each of these contexts works on a mesh of its
+    /// own; see [`batch_word`]. No arguments, no payload. The time does not depend on what the device holds.
     Clear = 2,
-    /// Insert points: a word with their number, then the points. Answered, when the last point is in, with
-    /// an [`InsertReport`](crate::InsertReport).
+    /// Insert points. The arguments are the number of points and the points themselves. The answer, an
+    /// [`InsertReport`](crate::InsertReport), comes when the last point is in.
     Insert = 3,
-    /// Read triangle records: a word with the first id, a word with their number. Answered with the records, or with
-    /// [`Status::BadRange`](crate::Status::BadRange) and no payload if the range passes the last record.
+    /// Read triangle records. The arguments are the first id and the number of records. The answer has the records, or
+    /// [`Status::BadRange`](crate::Status::BadRange) and no payload if the range goes beyond the last record.
     Read = 4,
-    /// Read the counters. No arguments; answered with [`COUNTER_WORDS`](crate::COUNTER_WORDS) words.
+    /// Read the counters. No arguments; the answer has [`COUNTER_WORDS`](crate::COUNTER_WORDS) words.
     Counters = 5,
-    /// Read the histogram of insertion latencies. No arguments; answered with
-    /// [`LATENCY_BUCKETS`](crate::LATENCY_BUCKETS) words.
+    /// Read the histogram of insertion latencies. No arguments; the answer has one word for each of the
+    /// [`LATENCY_BUCKETS`](crate::LATENCY_BUCKETS) buckets.
     Latencies = 6,
-    /// Read the vertices of triangle records without their links: arguments as of [`Opcode::Read`]. Answered with the
-    /// ids as [`Layout::triangles_words`](crate::Layout::triangles_words) packs them.
+    /// Read the vertices of triangle records without their neighbours. The arguments are those of [`Opcode::Read`]; the
+    /// answer has the ids as [`Layout::triangles_words`](crate::Layout::triangles_words) packs them.
     Triangles = 7,
 }
 
-/// A command word that asks for nothing and is not answered: links with wide beats fill them with it.
+/// A command word that does nothing and has no answer. Links whose beats hold several words fill the last beat with it.
 pub const PADDING: u32 = 0;
 
 impl Opcode {
-    /// The opcode with this number.
+    /// The opcode of this number, if there is one.
     pub const fn from_u8(value: u8) -> Option<Self> {
         Some(match value {
             1 => Self::Hello,
@@ -49,14 +50,14 @@ impl Opcode {
     }
 }
 
-/// The word that starts a command.
+/// The first word of a command, without the bits that only `Clear` uses.
 pub const fn command_word(opcode: Opcode) -> u32 {
     (opcode as u32) << 24
 }
 
-/// The word of a [`Clear`](Opcode::Clear) for this many contexts; 0 is all the device has.
+/// The word of a [`Clear`](Opcode::Clear) for this many contexts; 0 stands for all that the device has.
 ///
-/// At most 255 contexts can be named; more are named as 255, which every device refuses.
+/// The word can name at most 255 contexts. A larger number becomes 255, which every device refuses.
 pub const fn clear_word(contexts: u32) -> u32 {
     command_word(Opcode::Clear) | if contexts > 255 { 255 } else { contexts }
 }
@@ -64,90 +65,81 @@ pub const fn clear_word(contexts: u32) -> u32 {
 /// The bit of a [`Clear`](Opcode::Clear) that starts a batch.
 pub const CLEAR_BATCH: u32 = 1 << 8;
 
-/// The word of a [`Clear`](Opcode::Clear) for a batch: from then on each of this many contexts works alone on a mesh of
-/// its own.
+/// The word of a [`Clear`](Opcode::Clear) for a batch: from then on each of this many contexts works on a
+/// mesh of its own.
 pub const fn batch_word(contexts: u32) -> u32 {
     clear_word(contexts) | CLEAR_BATCH
 }
 
-/// A `Clear` starts a batch.
+/// Whether a `Clear` starts a batch.
 pub const fn command_starts_batch(word: u32) -> bool {
     word & CLEAR_BATCH != 0
 }
 
-/// The contexts that a `Clear` names.
+/// The number of contexts in the word of a `Clear`.
 pub const fn command_contexts(word: u32) -> u32 {
     word & 0xff
 }
 
-/// The opcode byte of a command word.
+/// The opcode byte of a command word, known or not.
 pub const fn command_opcode(word: u32) -> u8 {
     (word >> 24) as u8
 }
 
-/// The first word of an answer: opcode in the top byte, status in the next, zeros below.
-/// An unknown opcode is echoed as it came.
+/// The first word of an answer: the opcode in the top byte, the status in the next, zeros below. For an unknown opcode
+/// the device sends the byte back as it came.
 pub const fn answer_header(opcode: u8, status: crate::status::Status) -> u32 {
     (opcode as u32) << 24 | (status as u32) << 16
 }
 
-/// The opcode an answer belongs to.
+/// The opcode byte in the header of an answer.
 pub const fn answer_opcode(header: u32) -> u8 {
     (header >> 24) as u8
 }
 
-/// The status byte of an answer.
+/// The status byte in the header of an answer.
 pub const fn answer_status(header: u32) -> u8 {
     (header >> 16) as u8
 }
 
-/// Words in front of the payload of an answer: its header, and the number of payload words.
+/// Number of words in front of an answer's payload: the header, and the count of payload words.
 pub const ANSWER_HEAD_WORDS: usize = 2;
 
-/// Most words of a command in front of its points.
+/// Largest number of words that a command has in front of its points.
 pub const COMMAND_HEAD_WORDS: usize = 3;
 
-/// A command with its arguments. `P` is what holds the points of an `Insert`: a slice or a list of words, as
-/// [`Layout::point_to_words`] packs them, or `()` where they are elsewhere.
+/// A command with its arguments; each variant is described at the [`Opcode`] of its name. `P` holds the
+/// points of an `Insert`: a slice or a list of words as [`Layout::point_to_words`] packs them, or `()` if the
+/// points are kept elsewhere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Command<P> {
-    /// [`Opcode::Hello`].
     Hello,
-    /// [`Opcode::Clear`].
     Clear {
-        /// Contexts that work from now on; 0 is all the device has.
+        /// Number of contexts that work from now on; 0 stands for all that the device has.
         contexts: u32,
-        /// Each of them works on a mesh of its own.
+        /// Whether each context works on a mesh of its own.
         is_batch: bool,
     },
-    /// [`Opcode::Insert`].
     Insert {
-        /// How many points.
         count: u32,
-        /// The words of the points.
         points: P,
     },
-    /// [`Opcode::Read`].
     Read(RecordRange),
-    /// [`Opcode::Counters`].
     Counters,
-    /// [`Opcode::Latencies`].
     Latencies,
-    /// [`Opcode::Triangles`].
     Triangles(RecordRange),
 }
 
-/// Triangle records that follow each other.
+/// A range of triangle records with consecutive ids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RecordRange {
-    /// The first record.
+    /// Id of the first record.
     pub first: u32,
-    /// How many records.
     pub count: u32,
 }
 
 impl<P> Command<P> {
-    /// The number of the command.
+    /// The opcode of the command.
     pub const fn opcode(&self) -> Opcode {
         match self {
             Self::Hello => Opcode::Hello,
@@ -173,7 +165,7 @@ impl<P> Command<P> {
         }
     }
 
-    /// The same command with its points in another form.
+    /// The same command with its points converted by `form`.
     pub fn map<Q>(self, form: impl FnOnce(P) -> Q) -> Command<Q> {
         match self {
             Self::Hello => Command::Hello,
@@ -186,7 +178,7 @@ impl<P> Command<P> {
         }
     }
 
-    /// The words in front of the points, and how many there are.
+    /// The words in front of the points, and how many of them the command uses.
     pub const fn head(&self) -> ([u32; COMMAND_HEAD_WORDS], usize) {
         let word = command_word(self.opcode());
         match self {
@@ -198,7 +190,7 @@ impl<P> Command<P> {
         }
     }
 
-    /// Words of points that belong behind the head.
+    /// Number of words of points that follow the head.
     pub const fn point_words(&self, layout: Layout) -> u64 {
         match self {
             Self::Insert { count, .. } => *count as u64 * layout.point_words as u64,
@@ -206,8 +198,8 @@ impl<P> Command<P> {
         }
     }
 
-    /// Words of the payload of the answer, if the device does what it is asked for. Other answers have none, or that of
-    /// `Insert`.
+    /// Number of payload words in the answer, if the device does what the command asks. An answer with an error status
+    /// has no payload, or that of an `Insert`.
     pub const fn payload_words(&self, layout: Layout) -> u64 {
         match self {
             Self::Hello => IDENTITY_WORDS as u64,
@@ -222,19 +214,19 @@ impl<P> Command<P> {
 }
 
 impl<P: AsRef<[u32]>> Command<P> {
-    /// An `Insert` of the points in these words, which must be whole points of this layout: their count is in the head,
-    /// and the device takes words left over for its next command.
+    /// An `Insert` of the points in these words. The words must be whole points of this layout: the head counts points,
+    /// so the device would take words left over for its next command.
     pub fn insert(points: P, layout: Layout) -> Self {
         debug_assert!(points.as_ref().len().is_multiple_of(layout.point_words), "the words are whole points");
         Self::Insert { count: (points.as_ref().len() / layout.point_words) as u32, points }
     }
 
-    /// The same command, whose points stay where they are.
+    /// The same command, borrowing the points of this one.
     pub fn borrowed(&self) -> Command<&[u32]> {
         self.bare().map(|()| self.points())
     }
 
-    /// The words of the points.
+    /// The words of the points; empty for every command but `Insert`.
     pub fn points(&self) -> &[u32] {
         match self {
             Self::Insert { points, .. } => points.as_ref(),
@@ -242,7 +234,7 @@ impl<P: AsRef<[u32]>> Command<P> {
         }
     }
 
-    /// Words of the whole command.
+    /// Number of words of the whole command.
     pub fn words(&self) -> usize {
         self.head().1 + self.points().len()
     }
@@ -255,13 +247,13 @@ impl<P: AsRef<[u32]>> Command<P> {
     }
 }
 
-/// What an answer begins with that is no error: the header, and the number of payload words.
+/// The first words of an answer with the status `Ok`: the header, and the number of payload words.
 pub const fn answer_head(opcode: Opcode, payload_words: u32) -> [u32; ANSWER_HEAD_WORDS] {
     [answer_header(opcode as u8, Status::Ok), payload_words]
 }
 
-/// Reads the heads of commands from a stream, word by word. Whoever reads an `Insert` takes its points from the stream
-/// before the next word comes here.
+/// Reads the heads of commands from a stream, word by word. After the head of an `Insert`, the caller takes the points
+/// from the stream itself before it hands over the next word.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CommandReader {
     words: [u32; COMMAND_HEAD_WORDS],
@@ -269,8 +261,8 @@ pub struct CommandReader {
 }
 
 impl CommandReader {
-    /// Takes the next word. Gives a command when its head is whole; an opcode that is none is an error, and the next
-    /// word begins a command.
+    /// Takes the next word, and returns a command when its head is complete. An unknown opcode is returned as an error;
+    /// the next word then begins a command.
     pub fn take(&mut self, word: u32) -> Option<Result<Command<()>, u8>> {
         if self.count == 0 && word == PADDING {
             return None;

@@ -1,79 +1,79 @@
-//! Parameters of a core, and the named configurations.
+//! The parameters of a core, and the named configurations.
 
-/// What a core is built for.
+/// The numbers with which a core is built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Config {
-    /// Name used in files, messages and on the command line.
+    /// Name of the configuration in files, messages and on the command line.
     pub name: &'static str,
-    /// Points it holds.
+    /// Number of points that the memory holds.
     pub points: u32,
-    /// Boundary edges of one cavity that the list of a context holds.
+    /// Number of boundary edges that the list of a context holds.
     pub ring: u32,
-    /// Contexts: insertions in flight at once.
+    /// Number of contexts, which is the number of insertions in progress at a time.
     pub contexts: u32,
 }
 
-/// For tests and drawings: a wave fits a page, and boundary lists overflow often.
+/// A core for tests and drawings: a wave fits on a page, and boundary lists overflow often.
 pub const TINY: Config = Config { name: "tiny", points: 8, ring: 6, contexts: 2 };
-/// For a small board.
+/// A core for a small board.
 pub const SMALL: Config = Config { name: "small", points: 1024, ring: 32, contexts: 4 };
-/// For an ECP5-85F.
+/// A core for an ECP5-85F.
 pub const FULL: Config = Config { name: "full", points: 8192, ring: 32, contexts: 16 };
-/// The largest that ids of 15 bits allow; for simulation.
+/// The largest core that ids of 15 bits allow, for simulation.
 pub const LARGE: Config = Config { name: "large", points: 16384, ring: 32, contexts: 24 };
 /// All named configurations, smallest first.
 pub const NAMED: [Config; 4] = [TINY, SMALL, FULL, LARGE];
 
-/// Most points a core can be built for: a triangle id must fit 15 bits.
+/// Largest number of points of a core: a triangle id must fit into 15 bits.
 pub const MAX_POINTS: u32 = 16384;
-/// Most points any implementation may hold, the software model too: twice as many record ids fit 31 bits.
+/// Largest number of points of any device, the software model included: twice as many record ids must fit into 31 bits.
 pub const MAX_MODEL_POINTS: u32 = (1 << 30) - 1;
-/// Fewest points: two records fit a memory of one address bit, but a mesh wants three points and ids two bits.
+/// Smallest number of points of a core. One address bit would do for a memory of two records, but a mesh needs three
+/// points, and ids need two bits.
 pub const MIN_POINTS: u32 = 4;
-/// Most boundary edges: an entry number must fit 6 bits.
+/// Largest number of boundary edges in a list: the number of an entry must fit into 6 bits.
 pub const MAX_RING: u32 = 64;
-/// Fewest boundary edges: the three of the located triangle.
+/// Smallest number of boundary edges in a list: the three edges of the root.
 pub const MIN_RING: u32 = 3;
 
-/// Most contexts: more of them stand in each other's way on any mesh that fits.
+/// Largest number of contexts: more would only hinder each other in any mesh that fits.
 pub const MAX_CONTEXTS: u32 = 24;
-/// Fewest contexts.
+/// Smallest number of contexts.
 pub const MIN_CONTEXTS: u32 = 1;
-/// Points that context 0 inserts alone, the first three included: a smaller mesh has no room for many insertions at once. Point
-/// `j` from here on belongs to context `(j - FIRST_ROUND) mod contexts`.
+/// Number of points that context 0 inserts on its own, the first three included, because a smaller mesh has no room for
+/// many insertions at once. From here on, point `j` belongs to context `(j - FIRST_ROUND) mod contexts`.
 pub const FIRST_ROUND: u32 = 16;
 
-/// Clocks without a finished point after which a core of this capacity calls itself stuck.
+/// Number of clocks without the end of an insertion after which a core of this capacity reports `Stuck`.
 ///
-/// The longest insertion is one done alone that flips every triangle: three visits of under 24 clocks for each of `points` flips,
-/// and as much again for walks and whatever else was in flight.
+/// The longest insertion is a solo insertion that flips every triangle. Each of its `points` flips takes three visits
+/// of fewer than 24 clocks. As much again is allowed for walks and for all other insertions that were in progress.
 pub const fn patience(points: u32) -> u32 {
     160 * points + 65_536
 }
 
-/// A parameter that no core can be built with.
+/// A parameter with which no core can be built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ConfigError {
-    /// Not a power of two in `MIN_POINTS..=MAX_POINTS`.
+    /// The number of points is not a power of two in `MIN_POINTS..=MAX_POINTS`.
     Points(u32),
-    /// Outside `MIN_RING..=MAX_RING`.
+    /// The length of the boundary lists is outside `MIN_RING..=MAX_RING`.
     Ring(u32),
-    /// Outside `MIN_CONTEXTS..=MAX_CONTEXTS`.
+    /// The number of contexts is outside `MIN_CONTEXTS..=MAX_CONTEXTS`.
     Contexts(u32),
 }
 
 impl core::fmt::Display for ConfigError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
-            Self::Points(given) => write!(
-                f,
-                "a core holds a power of two of points, {MIN_POINTS} to {MAX_POINTS}, not {given}: choose the next larger one"
-            ),
+            Self::Points(given) => {
+                write!(f, "a core cannot hold {given} points: choose a power of two from {MIN_POINTS} to {MAX_POINTS}")
+            }
             Self::Ring(given) => {
-                write!(f, "a boundary list holds {MIN_RING} to {MAX_RING} edges, not {given}: choose a number between them")
+                write!(f, "a boundary list cannot hold {given} edges: choose a number from {MIN_RING} to {MAX_RING}")
             }
             Self::Contexts(given) => {
-                write!(f, "a core has {MIN_CONTEXTS} to {MAX_CONTEXTS} contexts, not {given}: choose a number between them")
+                write!(f, "a core cannot have {given} contexts: choose a number from {MIN_CONTEXTS} to {MAX_CONTEXTS}")
             }
         }
     }
@@ -82,12 +82,12 @@ impl core::fmt::Display for ConfigError {
 impl core::error::Error for ConfigError {}
 
 impl Config {
-    /// The named configuration.
+    /// The configuration of this name, if there is one.
     pub fn named(name: &str) -> Option<Self> {
         NAMED.into_iter().find(|config| config.name == name)
     }
 
-    /// Checks every parameter.
+    /// Checks every parameter, and returns the configuration if all are valid.
     pub const fn check(self) -> Result<Self, ConfigError> {
         if self.points < MIN_POINTS || self.points > MAX_POINTS || !self.points.is_power_of_two() {
             return Err(ConfigError::Points(self.points));

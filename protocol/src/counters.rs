@@ -1,68 +1,70 @@
-//! Event counters, cleared by reset and by `Clear`.
+//! The event counters of a core. A reset and `Clear` set them to zero.
 
-/// One counter; its value is the index of its word in the answer to `Counters`.
+/// An event counter. The value is the index of the counter's first word in the answer to `Counters`.
 ///
-/// All count modulo 2^32; the three cycle counts are 64 bits wide, low word first. The software model counts
-/// events; its cycle counts are zero.
+/// All counters count modulo 2^32, except the three cycle counts, which have 64 bits, low word first. The model by
+/// commands counts events only; its cycle counts are zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(usize)]
 pub enum Counter {
-    /// Clock cycles from a job's first point accepted to its last lock released, summed over jobs (2 words).
+    /// Clocks from the acceptance of a job's first point to the release of its last lock, summed over jobs (2 words).
     InsertCycles = 0,
-    /// Those of them in which the engine had no work because no point had come (2 words).
+    /// The part of `InsertCycles` in which the insertion engine was idle because no point had come (2 words).
     WaitCycles = 2,
-    /// Clock cycles from a `Read` or `Triangles` accepted to its last word taken (2 words).
+    /// Clocks from the acceptance of a `Read` or `Triangles` until its last word was taken (2 words).
     ReadCycles = 4,
-    /// Points inserted into the mesh (the first three included).
+    /// Points inserted into the mesh, the first three included.
     Insertions = 6,
-    /// Points that fell onto an earlier one.
+    /// Points equal to an earlier one.
     Duplicates = 7,
-    /// Points refused: past the capacity, or after a collinear start.
+    /// Points refused: beyond the capacity, or after a collinear start.
     Refused = 8,
-    /// Triangles visited by walks, the located one included.
+    /// Triangles visited by walks, the last of each walk included.
     WalkVisits = 9,
-    /// Conflict tests: cavity tests and those of insertions done alone.
+    /// Tests for conflict, in cavities and in solo insertions.
     Tests = 10,
-    /// Triangles removed by cavities (insertions that overflowed not included).
+    /// Triangles that cavities removed. Insertions whose list overflowed are not counted.
     CavityTriangles = 11,
-    /// Insertions whose boundary list overflowed; they were done alone, by flips.
+    /// Insertions whose boundary list overflowed, and which became solo insertions.
     Overflows = 12,
-    /// Flips of insertions done alone.
+    /// Flips of solo insertions.
     Flips = 13,
-    /// Visits that lock the located triangle and look at it again.
+    /// Root visits: visits that read the root again, under its lock.
     RootVisits = 14,
-    /// Visits made once more: a record being written, a lock waited for, the own commit not finished.
+    /// Visits that were repeated because the record was being written, its lock was held, or the context's own
+    /// commit had not finished.
     Revisits = 15,
-    /// Attempts given up because another context held a lock.
+    /// Attempts that aborted because another context held a lock.
     Aborts = 16,
-    /// Located triangles that no longer held the point when they were locked.
+    /// Roots that no longer held the point when they were locked.
     RootRetries = 17,
-    /// Times a context took the waiting token.
-    WaitingTokens = 18,
-    /// Clocks in which a visit was issued: the read port of the triangle memory.
+    /// Times that a context acquired the priority.
+    PrioritiesTaken = 18,
+    /// Clocks in which a visit was issued, each of which uses the read port of the triangle memory.
     IssueCycles = 19,
-    /// Clocks in which a record or a link was written: the write port.
+    /// Clocks in which the write port of the triangle memory wrote a record or a neighbour.
     WriteCycles = 20,
-    /// Clocks in which a commit was at work.
+    /// Clocks in which a commit was in progress.
     CommitCycles = 21,
     /// Clocks in which a lock was released.
     ReleaseCycles = 22,
-    /// Fewest and most clocks from a point taken by its context to its last record written. Points inserted alone and the first
-    /// three are left out; 0 if there is no other.
+    /// Shortest latency in clocks, from the time when a context takes a point to the write of its last record. Solo
+    /// insertions and the first three points do not count; 0 if there was no other insertion.
     LatencyMin = 23,
-    /// See `LatencyMin`.
+    /// Longest latency, counted as for `LatencyMin`.
     LatencyMax = 24,
 }
 
-/// Words in the answer to `Counters`.
+/// Number of words in the answer to `Counters`.
 pub const COUNTER_WORDS: usize = 25;
 
-/// Bits of a latency: it counts modulo 2^22, more than [`patience`](crate::patience) allows.
+/// Bits of a latency. Latencies count modulo 2^22, which is more than [`patience`](crate::patience) allows.
 pub const LATENCY_BITS: u32 = 22;
-/// Buckets of the histogram of latencies.
+/// Number of buckets in the histogram of latencies.
 pub const LATENCY_BUCKETS: usize = 128;
 
-/// The bucket of a latency in clocks: eight to an octave from 16 clocks on; the first takes all below 18, the last all from 2^20 - 2^16 on.
+/// The bucket of a latency in clocks. From 16 clocks on, every octave has eight buckets. The first bucket takes all
+/// latencies below 18, the last all from 2^20 - 2^16 on.
 pub const fn latency_bucket(clocks: u32) -> usize {
     if clocks < 16 {
         return 0;
@@ -76,7 +78,7 @@ pub const fn latency_bucket(clocks: u32) -> usize {
     }
 }
 
-/// The fewest clocks of a bucket.
+/// The shortest latency of a bucket, in clocks.
 pub const fn latency_of_bucket(bucket: usize) -> u32 {
     (8 + (bucket as u32 & 7)) << (bucket as u32 / 8 + 1)
 }

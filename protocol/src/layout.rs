@@ -1,29 +1,30 @@
-//! How identities, points, records and reports are laid out in words.
+//! The layout of identities, points, records and reports in 32-bit words.
 
-/// Words of an [`Identity`].
+/// Number of words of an [`Identity`].
 pub const IDENTITY_WORDS: usize = 7;
 
-/// What an implementation says of itself, in the order of its words.
+/// The properties that a device reports, in the order of their words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Identity {
-    /// [`MAGIC`](crate::MAGIC).
+    /// The letters `inCi`, [`MAGIC`](crate::MAGIC).
     pub magic: u32,
-    /// [`PROTOCOL_VERSION`](crate::PROTOCOL_VERSION).
+    /// Version of the protocol, as [`PROTOCOL_VERSION`](crate::PROTOCOL_VERSION) packs it.
     pub protocol_version: u32,
-    /// Version of the implementation, `major << 16 | minor << 8 | patch`.
+    /// Version of the core or model, `major << 16 | minor << 8 | patch`.
     pub core_version: u32,
-    /// Bits of a coordinate, 1 to 31.
+    /// Bits of one coordinate, 1 to 31.
     pub coord_bits: u32,
-    /// Points it holds.
+    /// Number of points that the memory holds.
     pub capacity: u32,
-    /// Insertions it works on at once.
+    /// Number of contexts, which is the number of insertions in progress at a time.
     pub contexts: u32,
-    /// Boundary edges of a cavity it keeps; larger cavities are done by flips.
+    /// Number of boundary edges that a context's list holds. A point with a longer boundary becomes a
+    /// solo insertion, by flips.
     pub ring_capacity: u32,
 }
 
 impl Identity {
-    /// As words on the link.
+    /// The identity as words, in the order of the fields.
     pub const fn to_words(self) -> [u32; IDENTITY_WORDS] {
         [
             self.magic,
@@ -36,7 +37,7 @@ impl Identity {
         ]
     }
 
-    /// From words on the link; nothing is checked.
+    /// The identity from words in the order of the fields. No value is checked.
     pub const fn from_words(words: [u32; IDENTITY_WORDS]) -> Self {
         Self {
             magic: words[0],
@@ -50,60 +51,60 @@ impl Identity {
     }
 }
 
-/// Words of an [`InsertReport`].
+/// Number of words of an [`InsertReport`].
 pub const INSERT_REPORT_WORDS: usize = 5;
 
-/// The payload of an `Insert` answer: totals since the last `Clear`.
+/// The payload of the answer to `Insert`: totals since the last `Clear`.
 ///
-/// A point's vertex id is its arrival number since the last `Clear`, duplicates counted.
+/// The vertex id of a point is its number in the order of arrival since the last `Clear`; duplicates count as well.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct InsertReport {
-    /// Points that arrived and were given a vertex id.
+    /// Points that arrived and got a vertex id.
     pub arrived: u32,
     /// Points that are vertices of the mesh.
     pub inserted: u32,
-    /// Points that fell onto an earlier one.
+    /// Points equal to an earlier one.
     pub duplicates: u32,
-    /// Points refused.
+    /// Points that the device refused: beyond its capacity, or after a collinear start.
     pub refused: u32,
-    /// Triangle records, ghosts included: `2 * inserted - 2`, or 0 with fewer than three points.
+    /// Triangle records, ghost triangles included: `2 * inserted - 2`, or 0 with fewer than three points.
     pub records: u32,
 }
 
 impl InsertReport {
-    /// As words on the link.
+    /// The report as words, in the order of the fields.
     pub const fn to_words(self) -> [u32; INSERT_REPORT_WORDS] {
         [self.arrived, self.inserted, self.duplicates, self.refused, self.records]
     }
 
-    /// From words on the link; nothing is checked.
+    /// The report from words in the order of the fields. No value is checked.
     pub const fn from_words(words: [u32; INSERT_REPORT_WORDS]) -> Self {
         Self { arrived: words[0], inserted: words[1], duplicates: words[2], refused: words[3], records: words[4] }
     }
 }
 
-/// Word layout of points and records, which follows from the identity.
+/// Layout of points and records in words, which follows from the identity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layout {
-    /// Words of a point. 1: `x | y << 16` (coordinates up to 16 bits). 2: `x`, `y`.
+    /// Words of a point. 1: `x | y << 16`, for coordinates of up to 16 bits. 2: `x`, `y`.
     pub point_words: usize,
-    /// Words of a triangle record. 3: word `k` is `v[k] | n[k] << 15`, bit 31 of word 0 is the lock bit
-    /// (ids up to 15 bits, bit 30 unused). 6: `v[0]`, `v[1]`, `v[2]`, `n[0]`, `n[1]`, `n[2]`.
+    /// Words of a record. 3: word `k` is `v[k] | n[k] << 15`, for ids of up to 15 bits; bit 31 of word 0 is the lock
+    /// bit, and bit 30 is unused. 6: `v[0]`, `v[1]`, `v[2]`, `n[0]`, `n[1]`, `n[2]`.
     pub record_words: usize,
 }
 
-/// Bits of an id in a three-word record.
+/// Bits of an id in a record of three words.
 pub const NARROW_ID_BITS: u32 = 15;
 
 impl Layout {
-    /// The layout of an implementation with these coordinate bits and this capacity.
+    /// The layout of a device with these coordinate bits and this capacity.
     pub const fn of(coord_bits: u32, capacity: u32) -> Self {
         let narrow =
             crate::triangle_id_bits(capacity) <= NARROW_ID_BITS && crate::vertex_id_bits(capacity) <= NARROW_ID_BITS;
         Self { point_words: if coord_bits <= 16 { 1 } else { 2 }, record_words: if narrow { 3 } else { 6 } }
     }
 
-    /// A point as words; the second counts only where `point_words` is 2.
+    /// A point as words. The second word counts only if `point_words` is 2.
     pub const fn point_to_words(self, x: u32, y: u32) -> [u32; 2] {
         if self.point_words == 1 {
             [x | y << 16, 0]
@@ -112,7 +113,7 @@ impl Layout {
         }
     }
 
-    /// A record (`v`, `n`) from `record_words` words.
+    /// The vertices and neighbours of a record, from its `record_words` words.
     #[inline]
     pub fn record_from_words(self, words: &[u32]) -> ([u32; 3], [u32; 3]) {
         if self.record_words == 3 {
@@ -124,8 +125,9 @@ impl Layout {
         }
     }
 
-    /// Words of the payload of a `Triangles` answer for this many records, if 32 bits can say it. Narrow: ids of 16 bits without gaps, the
-    /// low half of a word first; an odd last half is zero. Wide: a word an id.
+    /// Number of payload words in the answer to `Triangles` for this many records, or `None` if the number exceeds 32
+    /// bits. With narrow records the ids take 16 bits each without gaps, low half of a word first, and an odd last half
+    /// is zero. With wide records an id takes a word.
     pub const fn triangles_words(self, records: u32) -> Option<u32> {
         let words = self.packed_words(records);
         if words <= u32::MAX as u64 {
@@ -135,7 +137,7 @@ impl Layout {
         }
     }
 
-    /// The same, also where 32 bits cannot say it.
+    /// The result of [`Layout::triangles_words`] in 64 bits, which hold every number.
     pub(crate) const fn packed_words(self, records: u32) -> u64 {
         let ids = 3 * records as u64;
         if self.record_words == 3 {
@@ -145,7 +147,7 @@ impl Layout {
         }
     }
 
-    /// The vertices of a record of such a payload.
+    /// The vertices of a record in the payload of a `Triangles` answer.
     #[inline]
     pub fn vertices_from_words(self, words: &[u32], record: usize) -> [u32; 3] {
         let place = 3 * record;
@@ -157,7 +159,7 @@ impl Layout {
         }
     }
 
-    /// Puts the vertices of a record into such a payload, which was zero there.
+    /// Puts the vertices of a record into the payload of a `Triangles` answer. The words must have been zero there.
     #[inline]
     pub fn vertices_to_words(self, v: [u32; 3], words: &mut [u32], record: usize) {
         for (place, id) in (3 * record..).zip(v) {
@@ -169,7 +171,8 @@ impl Layout {
         }
     }
 
-    /// The first three or all six words of a record on the link; `locked` has a place in the narrow form only.
+    /// The words of a record, of which a narrow layout uses the first three. Only the narrow layout has
+    /// a place for `locked`.
     pub const fn record_to_words(self, v: [u32; 3], n: [u32; 3], locked: bool) -> [u32; 6] {
         if self.record_words == 3 {
             let mut words = [0; 6];

@@ -1,11 +1,11 @@
-//! What the core and its host both know: commands, answers, status codes, word layouts and limits.
+//! The knowledge that the core and its host share: commands, answers, status codes, word layouts and limits.
 //!
-//! The link between them is two streams of 32-bit words. A command is one word, its arguments follow.
-//! Every command is answered by a header word, a word that counts the payload words, and the payload.
-//! `protocol/README.md` describes the same in prose with an example exchange.
+//! Host and core talk through two streams of 32-bit words. A command is one word, followed by its arguments. The answer
+//! to every command is a header word, a word that counts the payload words, and the payload. `protocol/README.md`
+//! describes the same in prose, with an example exchange.
 //!
-//! This crate has no dependencies and holds no logic beyond packing and unpacking words: a [`Command`] knows its words and the length of
-//! its answer, and what a device does with it stands elsewhere.
+//! This crate has no dependencies, and no logic beyond packing and unpacking words: a [`Command`] knows its words and
+//! the length of its answer, but not what a device does with it.
 #![no_std]
 
 mod command;
@@ -42,23 +42,25 @@ pub use stream::{
 
 /// First word of the identity: the letters `inCi`.
 pub const MAGIC: u32 = 0x696e_4369;
-/// Version of the protocol, `major << 16 | minor`. A host refuses a device of another major version.
+/// Version of the protocol, `major << 16 | minor`. A host refuses a device with another major version.
 pub const PROTOCOL_VERSION: u32 = 1 << 16 | 2;
-/// Bits of one coordinate in the standard core.
+/// Bits of one coordinate in the core.
 pub const CORE_COORD_BITS: u32 = 16;
-/// Largest coordinate width that any implementation (the software model) takes.
+/// Largest coordinate width that any device takes; only the software model goes beyond [`CORE_COORD_BITS`].
 pub const MAX_COORD_BITS: u32 = 31;
-/// Smallest coordinate width an implementation may be configured for.
+/// Smallest coordinate width that any device takes.
 pub const MIN_COORD_BITS: u32 = 1;
 
-/// Triangles held for `points` points: exactly `2n - 2`, ghosts included, once there are three.
+/// Number of triangle records that a device with a capacity of `points` has room for. A mesh of `n` points, three or
+/// more, has exactly `2n - 2` records, ghost triangles included.
 ///
-/// Euler on the sphere that the infinite vertex closes: `n + 1` vertices, `2(n + 1) - 4` faces.
+/// Reason: with the infinite vertex the mesh is a triangulated sphere of `n + 1` vertices, and by Euler's formula such
+/// a sphere has `2(n + 1) - 4` faces.
 pub const fn triangle_capacity(points: u32) -> u32 {
     2 * points
 }
 
-/// Bits of a vertex id for a capacity of `points`: one value, all ones, is the infinite vertex.
+/// Bits of a vertex id for a capacity of `points`. The value of all ones is the infinite vertex.
 pub const fn vertex_id_bits(points: u32) -> u32 {
     u32::BITS - points.leading_zeros()
 }
@@ -73,5 +75,5 @@ pub const fn infinite_vertex(points: u32) -> u32 {
     (((1u64) << vertex_id_bits(points)) - 1) as u32
 }
 
-/// Version of the core and of the model that predicts it, `major << 16 | minor << 8 | patch`.
+/// Version of the core, and of the model that predicts it: `major << 16 | minor << 8 | patch`.
 pub const CORE_VERSION: u32 = 2 << 8;

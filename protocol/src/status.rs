@@ -1,28 +1,28 @@
-//! How a command ended.
+//! The status codes of answers.
 
-/// Status byte of an answer.
+/// Status byte of an answer: how the command ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Status {
-    /// Done.
+    /// The command was done.
     Ok = 0,
-    /// The opcode is not known; nothing was done. Words that follow are taken as new commands.
+    /// The opcode is unknown, and nothing was done. The device reads the words that follow as new commands.
     UnknownOpcode = 1,
-    /// The range passes the last record; nothing was sent.
+    /// The range goes beyond the last record, and the answer has no payload.
     BadRange = 2,
-    /// The first three points lie on one line (or fall together); nothing was inserted. Every later
-    /// [`Insert`](crate::Opcode::Insert) is answered the same until a [`Clear`](crate::Opcode::Clear).
+    /// The first three points are collinear, or two of them are equal. The mesh stays empty, and every later
+    /// [`Insert`](crate::Opcode::Insert) gets the same status until a [`Clear`](crate::Opcode::Clear).
     Collinear = 3,
-    /// The memory is full: the points past the capacity were refused, all others are in and the mesh is valid.
+    /// The memory is full. Points beyond the capacity were refused; all others are in, and the mesh is valid.
     Full = 4,
-    /// A [`Clear`](crate::Opcode::Clear) asked for more contexts than the core has; nothing was cleared.
+    /// A [`Clear`](crate::Opcode::Clear) named more contexts than the core has, and nothing was cleared.
     BadContexts = 5,
-    /// No point was finished for longer than any insertion takes: a fault in the device. It must be reset.
+    /// No insertion ended for longer than the longest one can take: the device has a fault and must be reset.
     Stuck = 6,
 }
 
 impl Status {
-    /// The status with this number.
+    /// The status of this number, if there is one.
     pub const fn from_u8(value: u8) -> Option<Self> {
         Some(match value {
             0 => Self::Ok,

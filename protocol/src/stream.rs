@@ -1,59 +1,60 @@
-//! The stream link's registers; `protocol/STREAM.md` says what they mean.
+//! The registers of the stream link. `protocol/STREAM.md` says how a host uses them.
 
-/// Version of the stream link, `major << 16 | minor`. A host refuses a device of another major version, or of an older minor one.
+/// Version of the stream link, `major << 16 | minor`. A host refuses a device with another major version, or with
+/// an older minor version.
 pub const STREAM_VERSION: u32 = 1 << 16;
-/// Beats that each FIFO holds.
+/// Number of beats that each of the two FIFOs holds.
 pub const STREAM_FIFO_BEATS: u32 = 512;
-/// Bits of a beat that a stream can be built with.
+/// Widths of a beat in bits with which a stream link can be built.
 pub const BEAT_BITS: [u32; 2] = [64, 128];
-/// Bytes of the register space.
+/// Size of the register space in bytes.
 pub const REGISTER_SPACE: u32 = 4096;
 
-/// A register; its value is its byte offset.
+/// A register of the stream link. The value is the register's byte offset.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u32)]
 pub enum StreamRegister {
-    /// [`MAGIC`](crate::MAGIC).
+    /// The letters `inCi`, [`MAGIC`](crate::MAGIC).
     Magic = 0x00,
-    /// [`STREAM_VERSION`].
+    /// Version of the stream link, as [`STREAM_VERSION`] packs it.
     StreamVersion = 0x04,
-    /// As in the identity, like the next five.
+    /// Version of the protocol. The register and the next five repeat the core's [`Identity`](crate::Identity).
     ProtocolVersion = 0x08,
-    /// Version of the core.
+    /// Version of the core, `major << 16 | minor << 8 | patch`.
     CoreVersion = 0x0c,
-    /// Bits of a coordinate.
+    /// Bits of one coordinate.
     CoordBits = 0x10,
-    /// Points it holds.
+    /// Number of points that the memory holds.
     Capacity = 0x14,
-    /// Insertions it works on at once.
+    /// Number of contexts of the core.
     Contexts = 0x18,
-    /// Boundary edges of a cavity it keeps.
+    /// Number of boundary edges that a context's list holds.
     Ring = 0x1c,
-    /// Bits of a beat.
+    /// Bits of a beat, one of [`BEAT_BITS`].
     BeatBits = 0x20,
-    /// [`STREAM_FIFO_BEATS`].
+    /// Number of beats that each FIFO holds, [`STREAM_FIFO_BEATS`].
     FifoBeats = 0x24,
-    /// Writing [`CONTROL_RESET`] resets; reads as that until the reset has ended.
+    /// Writing [`CONTROL_RESET`] starts a reset. The register reads as [`CONTROL_RESET`] until the reset has ended.
     Control = 0x40,
-    /// What the device is at: `STREAM_STATUS_...`.
+    /// State of the device, in the bits `STREAM_STATUS_...`.
     Status = 0x44,
-    /// `ERROR_...`; writing a 1 clears a bit.
+    /// Errors so far, in the bits `ERROR_...`. Writing a 1 clears the bit.
     Errors = 0x48,
-    /// Header of the last answer with a status other than `Ok`.
+    /// Header of the last answer that had a status other than `Ok`.
     Fault = 0x4c,
-    /// Clocks of the bus; reading keeps the high half.
+    /// Low half of the count of bus clocks. Reading it stores the high half for `ClocksHigh`.
     ClocksLow = 0x80,
-    /// The high half that was kept.
+    /// High half of the count of bus clocks, as stored when the low half was read.
     ClocksHigh = 0x84,
-    /// Command beats taken.
+    /// Number of command beats that the device took.
     CommandBeats = 0x88,
-    /// Answer beats taken.
+    /// Number of answer beats that the host took.
     AnswerBeats = 0x8c,
-    /// Answers taken to their last beat.
+    /// Number of answers that the host took to their last beat.
     Answers = 0x90,
-    /// Clocks that a command beat waited.
+    /// Number of clocks in which a command beat waited.
     CommandWaits = 0x94,
-    /// Clocks that an answer beat waited.
+    /// Number of clocks in which an answer beat waited.
     AnswerWaits = 0x98,
 }
 
@@ -83,23 +84,23 @@ impl StreamRegister {
         Self::AnswerWaits,
     ];
 
-    /// Its byte offset.
+    /// Byte offset of the register.
     pub const fn offset(self) -> u32 {
         self as u32
     }
 }
 
-/// Bit of `Control`: reset the core and both FIFOs.
+/// Bit of `Control`: resets the core and both FIFOs.
 pub const CONTROL_RESET: u32 = 1;
-/// Bit of `Status`: the core's clock runs, and no reset is under way.
+/// Bit of `Status`: the clock of the core runs, and no reset is in progress.
 pub const STREAM_STATUS_RUNS: u32 = 1;
-/// Bit of `Status`: beats are held, or a command has not been answered to its end.
+/// Bit of `Status`: a FIFO holds beats, or a command has not been answered to its end.
 pub const STREAM_STATUS_BUSY: u32 = 1 << 1;
-/// Bit of `Status`: a reset is under way.
+/// Bit of `Status`: a reset is in progress.
 pub const STREAM_STATUS_RESETTING: u32 = 1 << 2;
 /// Bit of `Status`: some bit of `Errors` is set.
 pub const STREAM_STATUS_ERROR: u32 = 1 << 3;
-/// Bit of `Errors`: a beat without all its bytes was dropped.
+/// Bit of `Errors`: a command beat came without all its bytes and was dropped.
 pub const ERROR_PARTIAL_BEAT: u32 = 1;
 /// Bit of `Errors`: an answer had a status other than `Ok`.
 pub const ERROR_ANSWER_STATUS: u32 = 1 << 1;

@@ -1,4 +1,4 @@
-//! A core behind its two streams.
+//! A Verilated core behind its two streams of words, driven clock by clock.
 
 use std::collections::VecDeque;
 use std::path::Path;
@@ -9,25 +9,26 @@ use verilated::{Model, ModelDescription, PortId};
 use crate::error::{Awaited, SimError};
 use crate::models;
 
-/// Clocks that reset is held: one is enough for registers, more flush what has no reset.
+/// Number of clocks for which reset is held. One is enough for registers; the others flush what has no reset.
 pub(crate) const RESET_CLOCKS: u32 = 4;
 
-/// What the build script puts before the name of a configuration.
+/// Prefix that the build script puts before the name of a configuration.
 const CORE: &str = "core_";
 
 /// A simulated core, started and reset.
 ///
-/// Time passes only inside [`SimDevice::send`] and [`SimDevice::receive`]. Answers are taken from the core as they come, also
-/// while words are sent, and kept until asked for; so no order of calls can block the core.
+/// Time passes only inside [`SimDevice::send`] and [`SimDevice::receive`]. The device takes answers from the
+/// core as they come, also while it sends words, and keeps them until they are asked for; so no order of calls
+/// can block the core.
 #[derive(Debug)]
 pub struct SimDevice {
     model: Model,
     ports: Ports,
-    /// Words that have not been received, each with the clock that ended when it came.
+    /// Answer words that have not been received yet, each with the number of the clock that ended when the word came.
     answers: VecDeque<(u32, u64)>,
-    /// That of the word that was received last.
+    /// Clock of the word that was received last.
     answer_clock: Option<u64>,
-    /// The command word that the core is offered.
+    /// The command word that the core is currently offered.
     offered: Option<u32>,
     /// The command word that the last [`SimDevice::send`] left offered. The core may have taken it since.
     left: Option<u32>,
@@ -45,15 +46,16 @@ struct Ports {
 }
 
 impl SimDevice {
-    /// A core of this configuration.
+    /// A simulated core of this configuration.
     ///
     /// # Errors
-    /// It is not one of [`incircle_protocol::NAMED`]: others were not translated when this crate was built.
+    /// The configuration is not one of [`incircle_protocol::NAMED`]: others were not translated when
+    /// this crate was built.
     pub fn new(config: Config) -> Result<Self, SimError> {
         Self::of(description(config)?)
     }
 
-    /// Any model that has the two streams.
+    /// A device around any model that has the two streams.
     pub(crate) fn of(description: &'static ModelDescription) -> Result<Self, SimError> {
         let mut model = Model::new(description);
         let ports = Ports {
@@ -78,12 +80,13 @@ impl SimDevice {
         Ok(Self { model, ports, answers: VecDeque::new(), answer_clock: None, offered: None, left: None, clocks })
     }
 
-    /// Hands all `words` to the core, within `max_clocks` clocks.
+    /// Sends all `words` to the core, within `max_clocks` clocks.
     ///
     /// # Errors
-    /// [`SimError::Timeout`]: the core did not take them all; the first `done` words are with it. To resume, call again with the words
-    /// from `done` on. The first of those stays offered until the core takes it, as the protocol demands, so it may be taken during
-    /// [`SimDevice::receive`]; the call that resumes knows, and sends it once. Words that start with another are sent after it.
+    /// [`SimError::Timeout`]: the core took only the first `done` words. To resume, call again with the words from
+    /// `done` on. The first of those stays offered until the core takes it, as the protocol demands, so the core may
+    /// take it during [`SimDevice::receive`]; the call that resumes knows this and does not send it twice. If the next
+    /// call begins with another word, its words follow the one that stayed offered.
     pub fn send(&mut self, words: &[u32], max_clocks: u64) -> Result<(), SimError> {
         let start = self.clocks;
         let end = start.saturating_add(max_clocks);
@@ -110,7 +113,8 @@ impl SimDevice {
     /// Fills `words` with the next words of the core, within `max_clocks` clocks.
     ///
     /// # Errors
-    /// [`SimError::Timeout`]: the core has not given so many. Those it gave are kept for the next call, and `words` is as before.
+    /// [`SimError::Timeout`]: the core has not given that many words. The words it gave are kept for the next call,
+    /// and `words` is unchanged.
     pub fn receive(&mut self, words: &mut [u32], max_clocks: u64) -> Result<(), SimError> {
         let start = self.clocks;
         while self.answers.len() < words.len() {
@@ -130,26 +134,27 @@ impl SimDevice {
         self.keep_waveform()
     }
 
-    /// Clocks since the device was made, reset included.
+    /// Number of clocks since the device was made, reset included.
     pub fn clocks(&self) -> u64 {
         self.clocks
     }
 
-    /// The clock, counted as [`SimDevice::clocks`] does, that ended when the word came that was received last. None before the first.
+    /// The clock, counted as [`SimDevice::clocks`] does, that ended when the last received word came;
+    /// `None` before the first.
     pub fn answer_clock(&self) -> Option<u64> {
         self.answer_clock
     }
 
-    /// Writes a VCD waveform of all signals from now on; dropping the device completes the file. Slows the
-    /// simulation manyfold.
+    /// Writes a VCD waveform of all signals from now on, which makes the simulation many times slower. Dropping the
+    /// device completes the file.
     ///
     /// # Errors
-    /// [`SimError::Trace`]: the file cannot be made. When the disk fills later, `send` and `receive` say so.
+    /// [`SimError::Trace`]: the file cannot be created. If the disk fills later, `send` and `receive` return the error.
     pub fn trace_to(&mut self, path: impl AsRef<Path>) -> Result<(), SimError> {
         Ok(self.model.trace_to(path)?)
     }
 
-    /// Holds that the waveform, if one is written, is complete so far.
+    /// Flushes the waveform, if one is written, so that the file is complete up to this clock.
     fn keep_waveform(&mut self) -> Result<(), SimError> {
         Ok(self.model.trace_flush()?)
     }
@@ -167,7 +172,8 @@ impl SimDevice {
         self.model.eval();
     }
 
-    /// Offers a word until the core takes it or the clock is `end`; true if it is taken. The word is offered afterwards as well.
+    /// Offers a word until the core takes it or the clock `end` is reached, and returns whether it was taken.
+    /// The word stays offered.
     fn hand_over(&mut self, word: u32, end: u64) -> bool {
         self.offer(Some(word));
         while self.clocks < end {
@@ -178,7 +184,8 @@ impl SimDevice {
         false
     }
 
-    /// One clock; an answer that the core offers is taken. True if the core takes the word it is offered.
+    /// Simulates one clock and takes the answer that the core offers. Returns whether the core takes
+    /// the offered command word.
     fn clock(&mut self) -> bool {
         let is_taken = self.offered.is_some() && self.model.get(self.ports.command_ready) != 0;
         if self.model.get(self.ports.response_valid) != 0 {

@@ -1,13 +1,13 @@
-//! What can go wrong with a simulated core.
+//! The errors of a simulated core.
 
 use verilated::{PortError, TraceError};
 
-/// What a device did not do in time.
+/// The part of an exchange that a device did not finish in time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Awaited {
-    /// Take command words.
+    /// The device was to take command words.
     CommandWords,
-    /// Give answer words.
+    /// The device was to give answer words.
     AnswerWords,
 }
 
@@ -20,60 +20,64 @@ impl std::fmt::Display for Awaited {
     }
 }
 
-/// Why a simulated core did not do what was asked.
+/// The reason why a simulated core did not do what was asked.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SimError {
-    /// Not one of the configurations this program was built with.
+    /// The configuration is none of those with which this program was built.
     #[error(
-        "there is no simulated core {name:?} of {points} points with {contexts} contexts and {ring} boundary edges: choose one of {built}"
+        "there is no simulated core {name:?} of {points} points with {contexts} contexts and {ring} boundary edges: \
+         choose one of {built}"
     )]
     NotBuilt {
-        /// Name asked for.
+        /// Name that was asked for.
         name: &'static str,
-        /// Points asked for.
+        /// Number of points that was asked for.
         points: u32,
-        /// Contexts asked for.
+        /// Number of contexts that was asked for.
         contexts: u32,
-        /// Boundary edges asked for.
+        /// Length of the boundary lists that was asked for.
         ring: u32,
-        /// The names there are.
+        /// Names of the configurations that were built.
         built: String,
     },
     /// No board of this configuration was built.
     #[error("there is no simulated board {name:?}: choose one of {built}")]
     NoBoard {
-        /// Name asked for.
+        /// Name that was asked for.
         name: &'static str,
-        /// The names there are.
+        /// Names of the configurations that were built.
         built: String,
     },
-    /// No card of this configuration was built, or it does not start.
+    /// No card of this configuration was built, or the card does not start.
     #[error("there is no simulated card {name:?} that starts: choose one of {built}, or the software model (--fast)")]
     NoCard {
-        /// Configuration and bits of a beat.
+        /// Name of the configuration and bits of a beat.
         name: String,
-        /// The names there are.
+        /// Names of the cards that were built.
         built: String,
     },
-    /// The clocks allowed have passed.
-    #[error("the simulated core {awaited} {done} of {wanted} words in {clocks} clocks, {total} since its start: allow more clocks, or look at a waveform if it stands still")]
+    /// The allowed clocks have passed.
+    #[error(
+        "the simulated core {awaited} {done} of {wanted} words in {clocks} clocks, {total} since its start: allow more \
+         clocks, or record a waveform to see why it stands still"
+    )]
     Timeout {
-        /// What it should have done.
+        /// The part of the exchange that was not finished.
         awaited: Awaited,
-        /// Words that it did.
+        /// Number of words that passed.
         done: usize,
-        /// Words that it should have.
+        /// Number of words that should have passed.
         wanted: usize,
-        /// Clocks of this call.
+        /// Number of clocks of this call.
         clocks: u64,
-        /// Clocks since the device was made.
+        /// Number of clocks since the device was made.
         total: u64,
     },
-    /// The model lacks a port of the two streams.
+    /// The model has no port of the expected name.
     #[error(transparent)]
     Port(#[from] PortError),
-    /// No waveform can be written.
+    /// The waveform cannot be written.
     #[error(transparent)]
     Trace(#[from] TraceError),
 }

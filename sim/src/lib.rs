@@ -1,9 +1,12 @@
-//! The incircle core in Verilator, as a device that takes and gives words.
+//! The incircle core in Verilator, as a device that takes and returns words.
 //!
-//! The Verilog of every named configuration ([`incircle_protocol::NAMED`]) is exported and translated when this crate is built.
-//! [`SimDevice`] drives the two streams at its root: `command_{valid,ready,data}` and `response_{valid,ready,data,both}`.
-//! [`serial`] has whole boards with such a core, behind their serial line; [`faults`] spoils that line, and [`serve`] puts a board behind a
-//! pseudo-terminal. [`pcie`] has cards behind the files of their driver, in a directory. The program `incircle-sim` does both.
+//! The build of this crate exports the Verilog of every named configuration ([`incircle_protocol::NAMED`]) and
+//! translates it. [`SimDevice`] drives the two streams of the core: `command_{valid,ready,data}` and
+//! `response_{valid,ready,data,both}`. [`serial`] has whole boards with such a core behind a serial line; [`faults`]
+//! disturbs that line, and [`serve`] puts a board behind a pseudo-terminal. [`pcie`] has cards behind the files of
+//! their driver, in a directory. The program `incircle-sim` serves boards and cards.
+//!
+//! The software twin of the simulated core is `incircle_model`, which this crate uses where no pins are needed.
 //!
 //! ```no_run
 //! use incircle_protocol::{command_word, Opcode, SMALL};
@@ -27,7 +30,7 @@ mod tests;
 pub use device::SimDevice;
 pub use error::{Awaited, SimError};
 
-/// The models that the build script made.
+/// The models that the build script translated and compiled.
 mod models {
     verilated::include_models!();
 }

@@ -1,4 +1,5 @@
-//! `incircle-sim`: a simulated board for programs that open serial ports, and a simulated card for those that open PCIe cards.
+//! `incircle-sim`: a simulated board for programs that open serial ports, and a simulated card for programs
+//! that open PCIe cards.
 
 use std::error::Error;
 use std::io::Write;
@@ -16,18 +17,18 @@ use incircle_sim::pcie::{Beats, Card, CardDirectory, CardFaultSpec, CardFigures,
 use incircle_sim::serial::{board_link, Board, PinBoard, QuickBoard};
 use incircle_sim::serve::{serve, Figures, Service};
 
-/// Clocks that are run to learn how slow the simulation is.
+/// Number of clocks of the trial run, which measures how slow the simulation is.
 const TRIAL: u64 = 200_000;
-/// How much slower than at its trial the simulation may become, for other programs run as well: in halves.
+/// Ratio by which the simulation may become slower than in its trial because other programs run, in halves.
 const MARGIN_HALVES: f64 = 3.0;
-/// Between two looks whether a card is to end.
+/// Time between two checks whether the program must end.
 const LOOK: Duration = Duration::from_millis(50);
-/// How slow a board without bits is run.
+/// Ratio of real time to simulated time of a board without bits.
 const QUICK_SLOW: u32 = 50;
 
 /// The incircle core on a simulated board or card.
 #[derive(Parser)]
-#[command(version)]
+#[command(version, after_help = "Example:\n  incircle-sim serve --link /tmp/board --config full")]
 struct Arguments {
     #[command(subcommand)]
     command: Task,
@@ -35,42 +36,45 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Task {
-    /// Puts a board behind a pseudo-terminal, until the program is ended by SIGTERM or SIGINT.
+    /// Put a board behind a pseudo-terminal, until SIGTERM or SIGINT ends the program.
+    #[command(after_help = "Example:\n  incircle-sim serve --link /tmp/board")]
     Serve {
-        /// The symbolic link that is to lead to the terminal.
+        /// Symbolic link to make, which leads to the terminal.
         #[arg(long, value_name = "PATH")]
         link: PathBuf,
-        /// The core on the board.
+        /// Core on the board.
         #[arg(long, value_enum, default_value = "small")]
         config: Core,
-        /// Faults of the line, separated by commas, such as `ber=1e-5,drop-frame=0.01,seed=3`; `help=` tells all.
+        /// Faults of the line, separated by commas, such as `ber=1e-5,drop-frame=0.01,seed=3`; `help=` lists them all.
         #[arg(long, value_name = "SPEC", default_value = "")]
         fault: FaultSpec,
-        /// Skips the bits of the line: the model of the link around the Verilated core.
+        /// Leave out the bits of the line: run the model of the serial link around the Verilated core.
         #[arg(long)]
         fast: bool,
-        /// Real time over the board's time, at least; else it is measured.
+        /// Smallest ratio of real time to the board's time; by default it is measured, or 50 with `--fast`.
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
         slow: Option<u32>,
     },
-    /// Puts the files of a PCIe card into a directory, until the program is ended by SIGTERM or SIGINT.
+    /// Put the files of a PCIe card into a directory, until SIGTERM or SIGINT ends the program.
+    #[command(after_help = "Example:\n  incircle-sim serve-pcie --dir /tmp/card")]
     ServePcie {
-        /// The directory, which is made if there is none.
+        /// Directory for the files; made if it does not exist.
         #[arg(long, value_name = "DIR")]
         dir: PathBuf,
-        /// The core on the card.
+        /// Core on the card.
         #[arg(long, value_enum, default_value = "small")]
         config: Core,
-        /// Faults of the card, separated by commas, such as `short-read=0.1,eio=4096,seed=3`; `help=` tells all.
+        /// Faults of the card, separated by commas, such as `short-read=0.1,eio=4096,seed=3`; `help=` lists them all.
         #[arg(long, value_name = "SPEC", default_value = "")]
         fault: CardFaultSpec,
-        /// Bits of a beat.
-        #[arg(long, value_name = "BITS", default_value = "64", value_parser = clap::builder::PossibleValuesParser::new(["64", "128"]))]
+        /// Width of a beat in bits.
+        #[arg(long, value_name = "BITS", default_value = "64")]
+        #[arg(value_parser = clap::builder::PossibleValuesParser::new(["64", "128"]))]
         width: String,
-        /// Skips the pins: the software model, which has one context and no clock.
+        /// Leave out the pins: run the software model, which has one context and no clock.
         #[arg(long)]
         fast: bool,
-        /// A device that does nothing, to measure drivers: its read-outs are zeros.
+        /// Serve a device that does nothing, to measure drivers: its read-outs are zeros.
         #[arg(long, conflicts_with = "fast")]
         null: bool,
     },
@@ -82,7 +86,7 @@ enum Core {
     Full,
 }
 
-/// What is behind the files of a card.
+/// The device behind the files of a card.
 #[derive(Clone, Copy)]
 enum CardKind {
     Pins,
@@ -122,7 +126,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Set by SIGTERM and SIGINT.
+/// A flag that SIGTERM and SIGINT set.
 fn stops() -> Result<Arc<AtomicBool>, ctrlc::Error> {
     let stops = Arc::new(AtomicBool::new(false));
     let raised = Arc::clone(&stops);
@@ -130,7 +134,8 @@ fn stops() -> Result<Arc<AtomicBool>, ctrlc::Error> {
     Ok(stops)
 }
 
-/// Says that all is ready. Whoever waits for the line reads it through a pipe; if nobody does any more, that is no reason to end.
+/// Prints that all is ready. A program that waits for this line reads it through a pipe. If the pipe is closed by now,
+/// the service goes on all the same.
 fn say_ready(line: &str) {
     let mut out = std::io::stdout();
     let _ = writeln!(out, "ready: {line}").and_then(|()| out.flush());
@@ -194,7 +199,7 @@ fn run(
     Ok(())
 }
 
-/// How slow the simulation is here and now, with a margin, rounded up to a number that is easily typed.
+/// Ratio of real time to simulated time on this machine, with a margin, rounded up to a number that is easy to type.
 fn trial(board: &mut dyn Board) -> u32 {
     let begun = Instant::now();
     board.run(TRIAL);
@@ -206,7 +211,7 @@ fn trial(board: &mut dyn Board) -> u32 {
         .unwrap_or(10_000)
 }
 
-/// What was served, for a reader; scripts have no use for it.
+/// Prints the figures of a service on standard error, for a human reader.
 fn report(figures: &Figures) {
     let Figures { to_board, to_host, faults, slow_down } = figures;
     let slow_down =

@@ -38,7 +38,7 @@ fn every_word_has_the_clock_in_which_it_came() {
     let mut device = echo();
     assert_eq!(device.answer_clock(), None);
     device.send(&[1, 2, 3], 100).unwrap();
-    // Words wait here and keep their clocks.
+    // The answers wait in the device, and keep the clocks at which they came.
     device.receive(&mut [0; 6], 100).unwrap();
     let last = device.answer_clock().unwrap();
     assert!(last <= device.clocks());
@@ -90,7 +90,7 @@ fn sending_in_slices_of_any_length_loses_and_doubles_nothing() {
                     Err(error) => panic!("{error}"),
                 }
                 if listens {
-                    // Far more answers than come: clocks pass, and the word offered may be taken.
+                    // The call asks for far more answers than come, so clocks pass, and the offered word may be taken.
                     device.receive(&mut [0; 100], slice / 2).unwrap_err();
                 }
             }
@@ -169,7 +169,7 @@ fn a_full_disk_ends_a_waveform_with_an_error() {
 fn every_named_configuration_says_who_it_is() {
     for config in NAMED {
         let mut device = SimDevice::new(config).unwrap();
-        // A core clears its memories after reset, a triangle a clock.
+        // After a reset a core clears its memories, one triangle in each clock.
         device.send(&[command_word(Opcode::Hello)], 100_000).unwrap();
         let mut answer = [0; 2 + IDENTITY_WORDS];
         device.receive(&mut answer, 100).unwrap();

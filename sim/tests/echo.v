@@ -1,5 +1,5 @@
-// A device that answers every word w with w + 1, twice, at once or one after the other, and refuses each word in its first clock. After the word
-// ffffffff it answers nothing and takes nothing until reset.
+// A device that answers every word w with w + 1, twice, at once or one after the other, and refuses each word in its
+// first clock. After the word ffffffff it answers nothing and takes nothing until reset.
 module echo(
     input wire clock,
     input wire reset,

@@ -1,6 +1,6 @@
-//! Compiles Verilator's runtime for the run side, and the models of this crate's own tests.
+//! Compiles Verilator's runtime for the run side of this crate, and the models of this crate's own tests.
 
-// A package cannot be its own build dependency, so the build side comes in as source. Not all of it is used here.
+// A package cannot be its own build dependency, so the build side comes in as source. The script uses a part of it.
 #[allow(dead_code)]
 #[path = "src/build/mod.rs"]
 pub mod build;
@@ -24,6 +24,6 @@ fn compile() -> Result<(), BuildError> {
     let adder = ModelSource::file("wide_adder", "wide_adder", tests)?;
     let counter = ModelSource::file("counter", "counter", tests)?;
     Builder::new().model(adder).model(counter.trace(true).random_initial_state(true)).compile();
-    // After the models: what they need stands behind them for the linker.
+    // The runtime comes after the models, since a linker looks for symbols only in what follows.
     build::compile_runtime(&Verilator::locate()?)
 }

@@ -1,8 +1,11 @@
-//! The whole job beside two well-known libraries: uniform points of 16 bits, one thread, fresh points each time. 16,384 of them, and as
-//! many as in the one paper on an FPGA before: `testbench/cycles.md` has the core's cycles for the same counts.
+//! Measures a whole job beside two well-known libraries, on one thread: uniform points of 16 bits, fresh ones for every
+//! iteration. The counts are 16,384 and those at which the survey of Elshakhs et al. reports the speed of another core
+//! in an FPGA; `testbench/cycles.md` cites the survey and has the cycles of our core for the same counts.
 //!
-//! `incircle/cpu` is the one-call door: duplicates, order, the engine on the processor, canonical triangles. `spade/bulk` builds its half-edge structure, `delaunator` its three arrays; both take
-//! doubles and decide ties their own way. Criterion counts points, so `1e9 / thrpt` is nanoseconds per point.
+//! `incircle/cpu` is the call `triangulate` of the library: it removes duplicates, orders the points, runs the
+//! CPU triangulator and returns canonical triangles. `spade/bulk` builds a half-edge structure and `delaunator`
+//! three arrays; both take doubles and decide ties in their own way. Criterion counts points, so `1e9 / thrpt` is
+//! the number of nanoseconds per point.
 //!
 //! ```text
 //! cargo bench -p incircle-testbench --bench triangulate

@@ -1,4 +1,4 @@
-//! The tops of the boards with a tiny device behind a quick link, so that their pins can be tried.
+//! Models of the boards' tops around a tiny device with a quick link, so that tests can drive the pins.
 
 use std::fs;
 
@@ -7,12 +7,12 @@ use incircle_hdl::board::BOARDS;
 use incircle_hdl::export;
 use incircle_protocol::TINY;
 
-/// Name of the module around each top, which gives all boards the same pins; lamps are 1 when lit.
+/// Name of the module around each top. The module gives all boards the same pins; a lamp is 1 when lit.
 pub const NAME: &str = "board_under_test";
 
 const PORTS: &str = "input wire clock, input wire rx, input wire button, output wire tx, output wire [2:0] lamps";
 
-/// What stands in that module, by the board's top.
+/// The Verilog inside that module, by the name of the board's top.
 const INSIDE: [(&str, &str); 3] = [
     (
         "ulx3s_85f",
@@ -27,12 +27,13 @@ const INSIDE: [(&str, &str); 3] = [
     (
         "ecpix_5",
         "wire [2:0] dark;
-        ecpix_5 board (.clk_100mhz(clock), .uart_rx(rx), .uart_tx(tx), .ld5_g(dark[0]), .ld6_b(dark[1]), .ld7_r(dark[2]));
+        ecpix_5 board (.clk_100mhz(clock), .uart_rx(rx), .uart_tx(tx), \
+         .ld5_g(dark[0]), .ld6_b(dark[1]), .ld7_r(dark[2]));
         assign lamps = ~dark;",
     ),
 ];
 
-/// Clock and reset alone.
+/// A module with the clock and the reset of a board and nothing else.
 const CLOCK: &str = "module board_under_test (input wire clock, input wire asks_reset, output wire reset);
     wire through;
     clock_and_reset #(1, 25, 5) clock_and_reset (
@@ -41,10 +42,10 @@ const CLOCK: &str = "module board_under_test (input wire clock, input wire asks_
 endmodule
 ";
 
-/// Pins of the PLL are left open.
+/// The tops leave pins of the PLL open.
 const OPEN_PINS: &str = "/* verilator lint_off PINMISSING */\n";
 
-/// The models' names and texts; all have the root module [`NAME`].
+/// Name and Verilog of each model; all have the root module [`NAME`].
 pub fn all() -> Vec<(String, String)> {
     let read = |path: &str| fs::read_to_string(path).unwrap_or_else(|error| panic!("{path}: {error}"));
     let clock = OPEN_PINS.to_string() + &read("cells/EHXPLLL.v") + &read("../constraints/ecp5/clock.v");

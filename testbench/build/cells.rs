@@ -1,14 +1,16 @@
-//! Blocks with the primitives of the ECP5 instead of the neutral Verilog.
+//! Blocks that use the primitives of the ECP5 instead of the neutral Verilog.
 
 use std::fs;
 
-/// What the models of the primitives are called.
+/// Primitives that have a model in the folder `cells`.
 const CELLS: [&str; 2] = ["DP16KD", "MULT18X18D"];
 
-/// Blocks that are run in both forms: the leaves that instantiate primitives, in every shape that is exported.
+/// Blocks that run in both forms, by the start of their names: the leaves that instantiate primitives,
+/// in every shape that is exported.
 const LEAVES: [&str; 5] = ["multiplier", "block_memory_", "paced_memory_", "shared_memory_", "lock_memory_"];
 
-/// The block with the primitives, and with models of them, so that it runs; nothing if it is not one that is run so.
+/// Returns the block with the primitives and the models of these, or `None` for a block that
+/// runs in the neutral form only.
 pub fn with_primitives(name: &str, verilog: &str) -> Option<String> {
     if !LEAVES.iter().any(|leaf| name.starts_with(leaf)) {
         return None;

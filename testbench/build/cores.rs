@@ -10,7 +10,7 @@ const ONE_CONTEXT: Config = Config { contexts: 1, ..SMALL };
 const ONE_CONTEXT_LONG_LIST: Config = Config { ring: 64, contexts: 1, ..SMALL };
 const SIXTEEN_CONTEXTS: Config = Config { contexts: 16, ..SMALL };
 
-/// Every core, with the probe.
+/// Name and Verilog of every core; each has the probe.
 pub fn all() -> Vec<(&'static str, String)> {
     let ring9 = Config { ring: 9, ..SMALL };
     let ring64 = Config { ring: 64, ..SMALL };
@@ -34,7 +34,7 @@ fn core(config: Config) -> String {
     export::core(config, true).unwrap_or_else(|error| panic!("core {}: {error}", config.name))
 }
 
-/// A core with all faults in it, each behind its switch: a bit of the port `faults` of the root module.
+/// A core with every fault in its Verilog, each behind a switch: one bit of the port `faults` of the root module.
 fn with_switches(config: Config) -> String {
     let replaced = |text: &str, what: &str, place: &str, new: &str| {
         let places = text.matches(place).count();

@@ -1,13 +1,14 @@
-//! Flip-flops without their initial values.
+//! Takes the initial values of flip-flops out of the exported Verilog.
 //!
-//! Each flip-flop of the exported Verilog says `initial q = 0`: so it starts in an FPGA. It overrides the random start of a Verilated model,
-//! which then would not notice a block without its reset. So models are built without it; the committed Verilog keeps it.
+//! Each flip-flop of the exported Verilog says `initial q = 0`, the value it has when an FPGA starts. In a Verilated
+//! model that value would override the random start, and a block that lacks its reset would go unnoticed. Models are
+//! therefore built without the initial values; the committed Verilog keeps them.
 
-/// The initial value of a flip-flop, as rust-hdl writes it: the line before the value, and the one after it.
+/// The line before and the line after the initial value of a flip-flop, as rust-hdl writes them.
 const BEFORE: &str = "initial begin";
 const AFTER: &str = "end";
 
-/// The Verilog without the initial values of its flip-flops.
+/// Returns the Verilog without the initial values of its flip-flops.
 pub fn without_initial_values(verilog: &str) -> String {
     let mut lines = verilog.lines();
     let mut kept = String::with_capacity(verilog.len());

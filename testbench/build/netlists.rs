@@ -1,4 +1,4 @@
-//! Cores after synthesis for the ECP5, as cells, with models of the cells, so that lock-step runs what is placed.
+//! Cores as netlists of ECP5 cells, with models of the cells: lock-step runs what placement gets.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,22 +9,22 @@ use incircle_hdl::export;
 use incircle_hdl::top::CORE_NAME;
 use incircle_protocol::{Config, SMALL};
 
-/// Models of the cells that synthesis maps to.
+/// Cells that synthesis maps to; each has a model.
 const CELLS: [&str; 8] = ["CCU2C", "DP16KD", "L6MUX21", "LUT4", "MULT18X18D", "PFUMX", "TRELLIS_DPR16X4", "TRELLIS_FF"];
 
-/// The passes: those of the boards. Nets that only have a name are dropped: they would be simulated too.
+/// The passes of the boards. Nets that have a name and no use are dropped, as they would be simulated too.
 fn passes() -> String {
     let mapping = mapping(CORE_NAME);
     format!("read_verilog -D INCIRCLE_ECP5 design.v; {mapping}; opt_clean -purge; write_verilog -noattr netlist.v")
 }
 
-/// Synthesis leaves pins of cells open that a mode does not use.
+/// Synthesis leaves open the pins that a cell does not need in its mode.
 const OPEN_PINS: &str = "/* verilator lint_off PINMISSING */\n";
 
-/// Cores that are simulated as netlists.
+/// Name and configuration of each core that is simulated as a netlist.
 const NETLISTS: [(&str, Config); 1] = [("netlist_small", SMALL)];
 
-/// Every netlist, with the probe.
+/// Name and Verilog of every netlist; each has the probe.
 pub fn all() -> Vec<(&'static str, String)> {
     NETLISTS.map(|(name, config)| (name, netlist(name, config))).into()
 }
@@ -39,7 +39,7 @@ fn netlist(name: &str, config: Config) -> String {
     text
 }
 
-/// The netlist of a design; from the last build, if the design and yosys are the same.
+/// Synthesises a design, or returns the netlist of the last build if the design and the version of yosys are the same.
 fn synthesised(name: &str, design: &str) -> String {
     let folder = PathBuf::from(std::env::var_os("OUT_DIR").expect("cargo sets it")).join("netlists").join(name);
     let key = [&yosys(&["-V"], Path::new(".")), &passes(), design].join("\n");
@@ -58,12 +58,12 @@ fn synthesised(name: &str, design: &str) -> String {
     write(&design_file, design);
     yosys(&["-q", "-p", &passes()], &folder);
     let netlist = read(&netlist_file).unwrap_or_else(|| panic!("yosys has left no {}", netlist_file.display()));
-    // Last, so that a build that was cut short is not taken for a whole one.
+    // The key is written last: a build that was cut short leaves none, and its netlist is not taken for a whole one.
     write(&key_file, &key);
     netlist
 }
 
-/// What yosys prints.
+/// Runs yosys and returns all that it prints.
 fn yosys(arguments: &[&str], folder: &Path) -> String {
     let output = Command::new("yosys").args(arguments).current_dir(folder).output();
     let output =

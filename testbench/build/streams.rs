@@ -1,4 +1,4 @@
-//! Cores behind stream links, with one context: what they answer is then what the software model answers.
+//! Cores behind stream links, with one context: their answers are then those of the model by commands.
 
 use incircle_hdl::export;
 use incircle_protocol::{Config, SMALL, TINY};
@@ -8,7 +8,7 @@ const TOPS: [(&str, Config, u32); 2] = [
     ("stream_small_128", Config { contexts: 1, ..SMALL }, 128),
 ];
 
-/// Every device.
+/// Name and Verilog of every device.
 pub fn all() -> Vec<(&'static str, String)> {
     TOPS.map(|(name, config, beat_bits)| {
         let verilog = export::stream_top(config, beat_bits, false);

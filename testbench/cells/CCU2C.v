@@ -1,8 +1,8 @@
 // Behaviour of the ECP5's carry cell, two bits of a chain, for simulation.
 //
-// Written from the description in: Lattice, ECP5 and ECP5-5G Family Data Sheet, and FPGA Libraries Reference Guide. In each bit the table
-// says whether a carry passes (its output is 1) or is made anew, and then its lower quarter, of A and B alone, says as what. INJECT1
-// cuts the bit off from the carry: its sum is the table's output.
+// Written from: Lattice, ECP5 and ECP5-5G Family Data Sheet, and FPGA Libraries Reference Guide. In each bit the table
+// says whether the carry passes (output 1) or is made anew. The lower quarter of the table, of A and B alone, gives the
+// new carry. INJECT1 cuts the bit off from the carry: its sum is the output of the table.
 `default_nettype none
 module CCU2C (
     input wire CIN, A0, B0, C0, D0, A1, B1, C1, D1,

@@ -1,11 +1,11 @@
 // Behaviour of the ECP5 block RAM in the modes that incircle uses, for simulation; anything else is an error.
 //
-// Written from the description in: Lattice, ECP5 and ECP5-5G Memory Usage Guide. Two ports of equal width, both on one rising
-// clock, output registers on, no reset and no chip select. Port B writes without reading (NORMAL); port A does so too or reads the
-// old word first (READBEFOREWRITE).
+// Written from: Lattice, ECP5 and ECP5-5G Memory Usage Guide. The model has two ports of equal width, both on one
+// rising clock, with output registers, without reset and chip select. Port B writes without reading (NORMAL). Port A
+// does the same, or reads the old word first (READBEFOREWRITE).
 //
-// What silicon leaves undefined is made visible: a read that meets a write of the other port, and the output of a port that writes in
-// mode NORMAL, are the complement of the old word.
+// The model makes visible what silicon leaves undefined. A read that meets a write of the other port, and the output of
+// a port that writes in mode NORMAL, give the complement of the old word.
 `default_nettype none
 module DP16KD (
     input wire DIA17, DIA16, DIA15, DIA14, DIA13, DIA12, DIA11, DIA10, DIA9, DIA8, DIA7, DIA6, DIA5, DIA4, DIA3, DIA2, DIA1, DIA0,
@@ -17,7 +17,7 @@ module DP16KD (
     input wire CEB, OCEB, CLKB, WEB, RSTB, CSB2, CSB1, CSB0,
     output wire DOB17, DOB16, DOB15, DOB14, DOB13, DOB12, DOB11, DOB10, DOB9, DOB8, DOB7, DOB6, DOB5, DOB4, DOB3, DOB2, DOB1, DOB0
 );
-    // The defaults are those of the primitive, so a mode that is not stated is seen too.
+    // The defaults are those of the primitive, so that a mode that an instance does not state is checked, too.
     parameter DATA_WIDTH_A = 18;
     parameter DATA_WIDTH_B = 18;
     parameter REGMODE_A = "NOREG";
@@ -29,7 +29,7 @@ module DP16KD (
     parameter WRITEMODE_B = "NORMAL";
     parameter GSR = "ENABLED";
 
-    // Address pins below the word. With words of 18 bits the lowest two enable bytes.
+    // Number of address pins below the word. With words of 18 bits the lowest two pins enable bytes.
     localparam LOW = DATA_WIDTH_A == 18 ? 4 : DATA_WIDTH_A == 9 ? 3 : DATA_WIDTH_A == 4 ? 2 : DATA_WIDTH_A == 2 ? 1 : 0;
     localparam WORDS = 1 << (14 - LOW);
     localparam READS_FIRST = WRITEMODE_A == "READBEFOREWRITE";
@@ -43,7 +43,7 @@ module DP16KD (
         if (CSDECODE_A != "0b000" || CSDECODE_B != "0b000") $error("DP16KD: this CSDECODE is not modelled");
         if (WRITEMODE_A != "NORMAL" && WRITEMODE_A != "READBEFOREWRITE") $error("DP16KD: this WRITEMODE_A is not modelled");
         if (WRITEMODE_B != "NORMAL") $error("DP16KD: this WRITEMODE_B is not modelled");
-        // Synthesis replaces AUTO, which is what the sources ask for, since nothing here uses a global reset.
+        // The sources ask for AUTO. Synthesis replaces it, because nothing here uses a global reset.
         if (GSR != "AUTO" && GSR != "DISABLED") $error("DP16KD: this GSR is not modelled");
     endgenerate
 
@@ -62,7 +62,7 @@ module DP16KD (
     wire writes_b = CEB && WEB;
     wire meets = address_a == address_b;
 
-    // A bitstream loads zeros where it states nothing.
+    // A bitstream loads zeros where it states no contents.
     integer word;
     initial for (word = 0; word < WORDS; word = word + 1) memory[word] = 0;
 
@@ -95,7 +95,7 @@ module DP16KD (
         if (writes_b) memory[address_b] <= taken_b[DATA_WIDTH_A-1:0];
     end
 
-    // One process for both ports, so both must have one clock.
+    // Both ports stand in one process, so both must have the same clock.
     always @(CLKA or CLKB) if (CLKA != CLKB) begin
         $display("DP16KD: ports on different clocks are not modelled");
         $stop;

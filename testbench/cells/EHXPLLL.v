@@ -1,7 +1,8 @@
 // Behaviour of the ECP5's PLL as incircle's boards use it, for simulation; anything else is an error.
 //
-// Written from the description in: Lattice, ECP5 and ECP5-5G sysCLOCK PLL/DLL Design and Usage Guide. Feedback from CLKOP through the
-// fabric, the clock on CLKOS, nothing dynamic. Frequencies are not modelled: CLKOS is CLKI, and LOCK rises after 100 clocks of it.
+// Written from: Lattice, ECP5 and ECP5-5G sysCLOCK PLL/DLL Design and Usage Guide. Feedback comes from CLKOP through
+// the fabric, the clock is on CLKOS, and nothing is dynamic. Frequencies are not modelled: CLKOS is CLKI, and LOCK
+// rises after 100 clocks of it.
 `default_nettype none
 module EHXPLLL (
     input wire CLKI, CLKFB, PHASESEL1, PHASESEL0, PHASEDIR, PHASESTEP, PHASELOADREG, STDBY, PLLWAKESYNC, RST,

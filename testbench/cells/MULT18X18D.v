@@ -1,7 +1,7 @@
 // Behaviour of the ECP5 multiplier in the mode that incircle uses, for simulation; anything else is an error.
 //
-// Written from the description in: Lattice, ECP5 and ECP5-5G sysDSP Usage Guide. Signed 18 x 18 bits, all three register ranks on
-// clock 0, no reset, clock enables high, factors from the general inputs.
+// Written from: Lattice, ECP5 and ECP5-5G sysDSP Usage Guide. The mode is signed, 18 x 18 bits, with all three register
+// ranks on clock 0, without reset, with clock enables high and factors from the general inputs.
 `default_nettype none
 module MULT18X18D (
     input wire A17, A16, A15, A14, A13, A12, A11, A10, A9, A8, A7, A6, A5, A4, A3, A2, A1, A0,
@@ -11,7 +11,7 @@ module MULT18X18D (
     output wire P35, P34, P33, P32, P31, P30, P29, P28, P27, P26, P25, P24, P23, P22, P21, P20, P19, P18,
                 P17, P16, P15, P14, P13, P12, P11, P10, P9, P8, P7, P6, P5, P4, P3, P2, P1, P0
 );
-    // The defaults are those of the primitive, so a mode that is not stated is seen too.
+    // The defaults are those of the primitive, so that a mode that an instance does not state is checked, too.
     parameter REG_INPUTA_CLK = "NONE";
     parameter REG_INPUTB_CLK = "NONE";
     parameter REG_INPUTC_CLK = "NONE";

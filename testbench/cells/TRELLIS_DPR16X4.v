@@ -1,6 +1,7 @@
-// Behaviour of the ECP5's distributed memory of 16 words of 4 bits, for simulation; modes that incircle does not use are errors.
+// Behaviour of the ECP5's distributed memory of 16 words of 4 bits, for simulation; modes that incircle does not use
+// are errors.
 //
-// Written from the description in: Lattice, ECP5 and ECP5-5G Memory Usage Guide. Written with the rising clock, read without one.
+// Written from: Lattice, ECP5 and ECP5-5G Memory Usage Guide. Writes take the rising clock, reads take none.
 `default_nettype none
 module TRELLIS_DPR16X4 (
     input wire [3:0] DI, WAD, RAD,
@@ -9,7 +10,7 @@ module TRELLIS_DPR16X4 (
 );
     parameter WCKMUX = "WCK";
     parameter WREMUX = "WRE";
-    // Synthesis states no contents: every design writes a word before it counts on it.
+    // Synthesis states no contents: a design writes each word before it relies on it.
     parameter [63:0] INITVAL = 64'h0;
 
     generate

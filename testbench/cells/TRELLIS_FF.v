@@ -1,13 +1,13 @@
 // Behaviour of the ECP5's flip-flop in the modes that incircle uses, for simulation; anything else is an error.
 //
-// Written from the description in: Lattice, ECP5 and ECP5-5G Family Data Sheet, and FPGA Libraries Reference Guide. Rising clock, data
-// from DI, set or reset with the clock and before the enable, no global reset.
+// Written from: Lattice, ECP5 and ECP5-5G Family Data Sheet, and FPGA Libraries Reference Guide. The modes are: rising
+// clock, data from DI, set or reset with the clock and before the enable, no global reset.
 //
-// What is held is the difference from the value that configuration gives: so a simulator that starts with zeros starts as the device
-// does, and one that starts at random starts at random.
+// The register holds the difference from the value that configuration gives. So a simulator that starts with zeros
+// starts as the device does, and one that starts at random gives the cell a random value.
 `default_nettype none
 module TRELLIS_FF (input wire CLK, LSR, CE, DI, M, output wire Q);
-    // The defaults are those of the cell, so a mode that is not stated is seen too.
+    // The defaults are those of the cell, so that a mode that an instance does not state is checked, too.
     parameter GSR = "ENABLED";
     parameter CEMUX = "1";
     parameter CLKMUX = "CLK";

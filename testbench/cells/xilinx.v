@@ -1,5 +1,5 @@
-// Ports of what AMD's tool brings to the Acorn's top: enough for lint, no behaviour. The bridge has the ports that its configuration in
-// constraints/acorn-cle-215/build.tcl gives it.
+// The modules that AMD's tool brings to the Acorn's top, with ports and without behaviour: enough for lint. The bridge
+// has the ports that its configuration in constraints/acorn-cle-215/build.tcl gives it.
 `default_nettype none
 /* verilator lint_off UNUSED */
 /* verilator lint_off UNDRIVEN */

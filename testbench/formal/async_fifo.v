@@ -1,10 +1,11 @@
-// What the FIFO between two clocks promises, and why it keeps it: put into its module by tests/it/gates/proofs.rs, which
-// says how many bits a pointer has, P. The memory holds DEPTH entries.
+// The promises of the FIFO between two clocks, and why it keeps them. tests/it/gates/proofs.rs puts this text into the
+// FIFO's module and says how many bits a pointer has, P. The memory holds DEPTH entries.
 //
-// Pointers are taken as numbers, and compared by how far one is behind another, round the clock of twice DEPTH. The writer is at w; the
-// reader's two cells hold older values of it, w1 and w2; the reader is behind those, at r; the writer's cells hold older values of that, r1 and r2.
+// Pointers are taken as numbers, and compared by how far one is behind another, modulo twice DEPTH. The writer is at w.
+// The reader's two cells hold older values of w, w1 and w2. The reader is behind those, at r. The writer's two cells
+// hold older values of r, r1 and r2.
 localparam DEPTH = 1 << (P - 1);
-// Numbers of Gray codes.
+// The number that a Gray code stands for.
 function [P-1:0] number(input [P-1:0] code);
     integer place;
     begin
@@ -12,7 +13,7 @@ function [P-1:0] number(input [P-1:0] code);
         for (place = P - 2; place >= 0; place = place - 1) number[place] = number[place + 1] ^ code[place];
     end
 endfunction
-// Resets at the start only, until either side has seen four edges with both in reset.
+// Reset comes at the start only, and lasts until each side has seen four edges with both in reset.
 reg write_began = 0, read_began = 0;
 reg [1:0] write_edges = 0, read_edges = 0;
 wire both_began = write_began && read_began;
@@ -30,13 +31,13 @@ always @(*) begin
     assume (read_reset == is_reset);
     assume (!pop || valid);
 end
-// The entry of some number, as it was pushed.
+// One entry, chosen freely by its number, as it was pushed.
 reg [P-1:0] chosen_before;
 always @($global_clock) chosen_before <= chosen;
 always @(*) assume (chosen == chosen_before);
 reg [1:0] entry;
 always @(posedge write_clock) if (push && !is_full && write_count$q == chosen) entry <= push_data;
-// Entries that were popped.
+// Number of entries that were popped.
 reg [P-1:0] popped = 0;
 always @(posedge read_clock) popped <= read_reset ? 0 : popped + pop;
 
@@ -48,13 +49,13 @@ wire [P-1:0] w_r = w - r, r_r1 = r - r1, r1_r2 = r1 - r2, w_r2 = w - r2;
 wire [P-1:0] ahead = chosen - r;
 wire [P-1:0] in_array = r - 1, in_output = r - 1 - fetched$q;
 always @(*) begin
-    // What the user relies on.
+    // The promises to the user: entries come out as they went in, in their order, and none is lost.
     if (!is_reset) begin
         assert (in_output + 1'd1 - shown$q == popped);
         if (valid && in_output == chosen) assert (data == entry);
         assert (w_r <= DEPTH);
     end
-    // Why it is so.
+    // The invariants that make the promises inductive.
     if (is_reset) begin
         if (write_began) assert (w == 0 && write_gray$q == 0 && full$q);
         if (read_began) assert (r == 0 && read_gray$q == 0 && empty$q && !fetched$q && !shown$q && popped == 0);

@@ -1,9 +1,9 @@
-// What the AXI4-Lite port promises: put into its module, `stream_register_port`, by tests/it/gates/proofs.rs.
+// The promises of the AXI4-Lite port. tests/it/gates/proofs.rs puts this text into its module, `stream_register_port`.
 reg has_started = 0;
 always @(posedge clock) has_started <= 1;
 always @(*) assume (reset || has_started);
 
-// What came before.
+// The state one clock earlier.
 reg was_reset, b_was_offered, r_was_offered, could_write, could_read;
 reg [1:0] bresp_before, rresp_before;
 reg [31:0] rdata_before;
@@ -17,7 +17,7 @@ always @(posedge clock) begin
     could_write <= has_address$q && has_data$q && !s_axi$bvalid;
     could_read <= has_read$q && !s_axi$rvalid;
 end
-// What was asked for, and what must be answered.
+// A count of requests and answers, and the last request of each kind.
 reg [2:0] addresses, words, writes_done, write_answers, asked, reads_done, read_answers;
 reg [11:0] last_address, last_read;
 reg [31:0] last_word, last_value;
@@ -37,7 +37,7 @@ always @(posedge clock) begin
     end
 end
 always @(*) if (has_started) begin
-    // What the master relies on.
+    // The promises to the master: an answer stays as it is until it is taken.
     if (was_reset) assert (!s_axi$bvalid && !s_axi$rvalid);
     else begin
         if (b_was_offered) assert (s_axi$bvalid && s_axi$bresp == bresp_before);
@@ -46,11 +46,11 @@ always @(*) if (has_started) begin
         if (could_write) assert (s_axi$bvalid);
         if (could_read) assert (s_axi$rvalid);
     end
-    // One write and one answer for each pair, one read and one answer for each last_address.
+    // One write and one answer for each pair, one read and one answer for each address.
     assert (addresses == writes_done + {2'b0, !s_axi$awready} && words == writes_done + {2'b0, !s_axi$wready});
     assert (writes_done == write_answers + {2'b0, s_axi$bvalid});
     assert (asked == reads_done + {2'b0, !s_axi$arready} && reads_done == read_answers + {2'b0, s_axi$rvalid});
-    // Of what was asked, and what was found.
+    // Each access is that of the last request, and each answer tells what the access found.
     if (write_enable) assert (write_address == last_address && write_data == last_word && write_bytes == word_bytes);
     if (!s_axi$awready) assert (write_address == last_address);
     if (!s_axi$wready) assert (write_data == last_word && write_bytes == word_bytes);

@@ -1,5 +1,5 @@
-// What the clocks of the counters promise, though no simulation gets to their high half: put into `stream_register_block$traffic` by
-// tests/it/gates/proofs.rs.
+// The promises of the clock counter, whose high half no simulation reaches. tests/it/gates/proofs.rs puts this text
+// into the module `stream_register_block$traffic`.
 reg has_started = 0, was_reset, was_kept;
 reg [63:0] clocks_before;
 reg [31:0] high_before;

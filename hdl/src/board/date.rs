@@ -1,19 +1,20 @@
-//! The date of a report.
+//! Computes the date of a report.
 
 use std::time::{SystemTime, UNIX_EPOCH};
 
-/// Days of 400 years, after which the calendar repeats.
+/// Days in 400 years, after which the calendar repeats.
 const DAYS_OF_CYCLE: u64 = 146_097;
 /// Days from 1 March 0000 to 1 January 1970.
 const DAYS_BEFORE_EPOCH: u64 = 719_468;
 
-/// Today, as year-month-day in UTC.
+/// Date of today in UTC, as year-month-day.
 pub(super) fn today() -> String {
     let seconds = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
     date_of(seconds / 86_400)
 }
 
-/// The date so many days after 1 January 1970. Years are counted from March, so that the leap day is their last.
+/// The date `days` days after 1 January 1970. Years are counted from March, so that the leap day is the last
+/// day of a year.
 fn date_of(days: u64) -> String {
     let days = days + DAYS_BEFORE_EPOCH;
     let (cycles, day) = (days / DAYS_OF_CYCLE, days % DAYS_OF_CYCLE);

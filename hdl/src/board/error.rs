@@ -1,87 +1,78 @@
-//! Why there is no bitstream.
+//! The errors of a build for a board.
 
 use crate::export::ExportError;
 use std::path::PathBuf;
 
-/// Why there is no bitstream, or no table.
+/// The reason why there is no bitstream or no table.
 #[derive(Debug, thiserror::Error)]
 pub enum BoardError {
-    /// The device is not fit for export.
+    /// The design is not fit for export.
     #[error("{0}")]
     Export(#[from] ExportError),
     /// A file cannot be read or written.
     #[error("cannot use {}: {source}", path.display())]
-    File {
-        /// The file or folder.
-        path: PathBuf,
-        /// What the system says.
-        source: std::io::Error,
-    },
+    File { path: PathBuf, source: std::io::Error },
     /// A tool cannot be started.
     #[error("cannot start {program} ({source}): {remedy}")]
     Missing {
-        /// The program.
         program: String,
-        /// What the system says.
         source: std::io::Error,
-        /// What to do.
+        /// Advice to the user.
         remedy: &'static str,
     },
-    /// A tool ended with an error.
+    /// A tool has ended with an error.
     #[error("{program} ends with {status}, the end of {} being\n{tail}", log.display())]
     Failed {
-        /// The program.
         program: String,
-        /// Its exit status.
         status: std::process::ExitStatus,
-        /// All it printed.
+        /// The file with all output of the tool.
         log: PathBuf,
-        /// The end of that.
+        /// The last lines of that output.
         tail: String,
     },
     /// The tools cannot be fetched.
     #[error("the tools cannot be installed, which needs python3 with venv and a network, the first time: {0}")]
     Install(Box<BoardError>),
-    /// A tool ended well and warned of what nobody has judged.
-    #[error("{program} warns, see {}: judge these warnings and change the source, or the list of those accepted\n{warnings}", log.display())]
+    /// A tool has ended well but printed warnings that nobody has judged yet.
+    #[error(
+        "{program} warns, see {}: judge these warnings and change the source, or the list of those \
+         accepted\n{warnings}",
+        log.display()
+    )]
     Warned {
-        /// The program.
         program: String,
-        /// All it printed.
+        /// The file with all output of the tool.
         log: PathBuf,
-        /// The warnings.
         warnings: String,
     },
     /// The result cannot be printed.
     #[error("cannot write to standard output: {0}")]
     Print(std::io::Error),
-    /// A folder that the command would empty, and did not make.
+    /// The folder for the output exists, and another program made it, so the command does not empty it.
     #[error("{} is not of this command, which would empty it: choose another folder for --out", .0.display())]
     Foreign(PathBuf),
-    /// Two runs at once.
+    /// Another run of the command works in the same folder.
     #[error("another run works in {}: wait for it, or choose another folder for --out", .0.display())]
     Busy(PathBuf),
-    /// A file of a tool, or of the repository, is not in the form known.
+    /// A file of a tool or of the repository does not have the form that the command knows.
     #[error("{} cannot be understood: {reason}", path.display())]
     Form {
-        /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The part that is wrong.
         reason: String,
     },
-    /// A clock that the board's PLL cannot make, or that is not tried.
+    /// The board's PLL cannot make this clock, or the clock is outside the range that the board is tried at.
     #[error("{board} has no clock of {clock_mhz} MHz: choose a multiple of 5 from {least_mhz} to {most_mhz}")]
     Clock {
-        /// The board.
         board: &'static str,
-        /// What was asked for.
+        /// The clock that the user asked for, in MHz.
         clock_mhz: u32,
-        /// The smallest clock possible.
+        /// The smallest clock that the board is tried at, in MHz.
         least_mhz: u32,
-        /// The largest.
+        /// The largest clock that the board is tried at, in MHz.
         most_mhz: u32,
     },
-    /// No clock asked for is met.
+    /// The board meets none of the clocks that were tried.
     #[error(
         "{board} does not meet {clock_mhz} MHz: the median of {} reaches {:.1} MHz; {} says more, and {}",
         seeds_in_words(*seeds),
@@ -90,39 +81,38 @@ pub enum BoardError {
         within_reach(*possible_mhz)
     )]
     Timing {
-        /// The board.
         board: &'static str,
-        /// The clock that is missed.
+        /// The clock that the board misses, in MHz.
         clock_mhz: u32,
-        /// Seeds placed.
+        /// Number of seeds placed.
         seeds: usize,
-        /// What their median reaches.
+        /// The median of the clocks that the seeds reach, in MHz.
         median_mhz: f64,
-        /// The largest clock of the board that is met.
+        /// The largest clock in MHz that the board meets, if there is one.
         possible_mhz: Option<u32>,
-        /// The report.
+        /// The file of the report.
         report: PathBuf,
     },
 }
 
-/// How many seeds.
+/// A number of seeds in words, such as "1 seed".
 pub(super) fn seeds_in_words(count: usize) -> String {
     format!("{count} {}", if count == 1 { "seed" } else { "seeds" })
 }
 
-/// What a missed clock leaves to try.
+/// The end of the message about a missed clock: which clock to try instead.
 fn within_reach(possible_mhz: Option<u32>) -> String {
     possible_mhz.map_or("no clock of the board is within reach".into(), |mhz| format!("--clock {mhz} is within reach"))
 }
 
 impl BoardError {
-    /// A file that cannot be read or written.
+    /// The error of a file that cannot be read or written.
     pub(super) fn file(path: impl Into<PathBuf>) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.into();
         |source| Self::File { path, source }
     }
 
-    /// A file that is not in the form known.
+    /// The error of a file that does not have the known form.
     pub(super) fn form(path: impl Into<PathBuf>, reason: impl ToString) -> Self {
         Self::Form { path: path.into(), reason: reason.to_string() }
     }

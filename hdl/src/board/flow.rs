@@ -1,70 +1,56 @@
-//! Export, synthesis, place and route with several seeds, bitstream, report.
+//! Makes a bitstream and its report: export, synthesis, place and route with several seeds, packing.
 //!
-//! The clock is the board's usual one, if the median of the seeds meets that. A clock that is missed says what is within reach, so the
-//! next one tried is the largest of the board's list below that.
+//! The clock is the board's usual one if the median of the seeds meets it. If the median misses a clock, the median
+//! tells what is within reach, so the next clock tried is the largest one of the board's list that the median meets.
 
-use super::constraints;
-use super::date;
 use super::error::BoardError;
 use super::mapping::{mapping, placer, FLOORPLAN};
-use super::readings;
-use super::report::dividers;
-use super::report::Attempt;
-use super::report::Bitstream;
-use super::report::Cells;
-use super::report::Parts;
-use super::report::Report;
-use super::report::Seed;
-use super::report::Serial;
-use super::report::Summary;
-use super::report::Versions;
+use super::report::{dividers, Attempt, Bitstream, Cells, Parts, Report, Seed, Serial, Summary, Versions};
 use super::tools::{run_strictly, Origin, Tools};
-use super::workshop;
-use super::Board;
+use super::{constraints, date, readings, workshop, Board};
 use crate::export;
 use crate::files::replace;
 use incircle_protocol::Config;
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 
-/// Where the core is in the synthesised board: its instance is called `core`.
+/// Pattern of the core's cells in the synthesised board: the instance is called `core`.
 const CORE: &str = "c:device.*.core.*";
 
-/// Name of the report's file.
+/// Name of the file with the report.
 const REPORT: &str = "report.json";
 
-/// Which clocks are tried.
+/// The choice of the clocks to try.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Clock {
-    /// The board's usual one, and lower ones while it is missed.
+    /// The board's usual clock, and lower ones while it is missed.
     UsualOrLess,
-    /// The board's usual one, and no other.
+    /// The board's usual clock, and no other.
     Usual,
-    /// The largest the board may be asked for, and lower ones while it is missed.
+    /// The largest clock that a user may ask of the board, and lower ones while it is missed.
     Largest,
-    /// This one, in MHz, and no other.
+    /// Only this clock, in MHz.
     Exactly(u32),
 }
 
-/// What the bitstream is made of.
+/// All that a build needs to know.
 pub struct Request<'a> {
-    /// The board.
     pub board: Board,
     /// Configuration of the core.
     pub config: Config,
-    /// Seeds of the placer, from 1 on.
+    /// Number of seeds for the placer; the seeds are 1, 2 and so on.
     pub seeds: u32,
-    /// Which clocks are tried.
+    /// The clocks to try.
     pub clock: Clock,
-    /// Folder for the bitstream, the report, and the folder `work` with all the tools say.
+    /// Folder for the bitstream, the report, and the folder `work` with the output of the tools.
     pub out: &'a Path,
-    /// Where the tools come from.
+    /// Source of the tools.
     pub tools: Origin,
-    /// Told what is being done.
+    /// Called with a line for the user at each step.
     pub say: &'a dyn Fn(&str),
 }
 
-/// One clock, placed with every seed.
+/// The result of placing a design for one clock with every seed.
 struct Placed {
     clock_mhz: u32,
     seeds: Vec<Seed>,
@@ -85,10 +71,10 @@ impl Placed {
     }
 }
 
-/// Makes the bitstream and its report in the folder.
+/// Makes the bitstream and its report in the folder `request.out`.
 ///
 /// # Errors
-/// A tool fails or warns, or no clock asked for is met; then the report is there all the same.
+/// If a tool fails or warns, or none of the clocks is met; in the last case the report is written all the same.
 pub fn build(request: &Request) -> Result<Report, BoardError> {
     let clocks = clocks(request)?;
     let (work, _lock) = workshop::take(request.out)?;
@@ -99,10 +85,11 @@ pub fn build(request: &Request) -> Result<Report, BoardError> {
     let mut rest = clocks.as_slice();
     loop {
         let [clock_mhz, lower @ ..] = rest else {
-            // The list of clocks is never empty, and the loop ends with its last.
+            // Not reached: the list of clocks is never empty, and the loop ends with its last clock.
             return Err(BoardError::form(&work, "no clock is left to try"));
         };
-        // A folder for each clock: what a tool leaves out is missing then, and not of the clock before.
+        // Each clock has its own folder, so that a file a tool did not write is missing and not that
+        // of the clock before.
         let work = work.join(format!("{clock_mhz}-mhz"));
         std::fs::create_dir(&work).map_err(BoardError::file(&work))?;
         let placed = place(request, &tools, &work, *clock_mhz)?;
@@ -116,7 +103,7 @@ pub fn build(request: &Request) -> Result<Report, BoardError> {
     }
 }
 
-/// Nothing of an earlier run stays: nobody shall flash it for this one.
+/// Removes the report and the bitstream of an earlier run, so that nobody flashes them for those of this run.
 fn forget_earlier(request: &Request) -> Result<(), BoardError> {
     for file in [request.out.join(REPORT), request.out.join(bitstream(request.board))] {
         if file.exists() {
@@ -126,12 +113,12 @@ fn forget_earlier(request: &Request) -> Result<(), BoardError> {
     Ok(())
 }
 
-/// Name of the bitstream's file.
+/// Name of the file with the bitstream.
 fn bitstream(board: Board) -> String {
     format!("{}.bit", board.name)
 }
 
-/// The clocks to try, largest first.
+/// The clocks to try, the largest one first.
 fn clocks(request: &Request) -> Result<Vec<u32>, BoardError> {
     let board = request.board;
     match request.clock {
@@ -160,7 +147,7 @@ fn place(request: &Request, tools: &Tools, work: &Path, clock_mhz: u32) -> Resul
         let seed_text = seed.to_string();
         let mut arguments: Vec<_> = board.chip.into_iter().chain(placer()).collect();
         arguments.extend(["--json", "netlist.json", "--lpf", "pins.lpf", "--textcfg", &config, "--report", &report]);
-        // Whether the clock is met is judged here, over all seeds.
+        // A single seed may miss the clock: the median of all seeds decides.
         arguments.extend(["--seed", &seed_text, "--timing-allow-fail"]);
         run_strictly(&tools.nextpnr, &arguments, work, &format!("place-{seed}.log"))?;
         let report = work.join(report);
@@ -178,7 +165,7 @@ fn place(request: &Request, tools: &Tools, work: &Path, clock_mhz: u32) -> Resul
     Ok(Placed { clock_mhz, seeds, cells: Parts { core, shell, placed, available } })
 }
 
-/// Exports the device and maps the board's top; the cells of the core, and all.
+/// Exports the device and maps the board's top module; returns the cells of the core and of the whole design.
 fn synthesise(request: &Request, tools: &Tools, work: &Path, clock_mhz: u32) -> Result<(Cells, Cells), BoardError> {
     let board = request.board;
     let pll = board.pll(clock_mhz).ok_or_else(|| BoardError::form(work, "the PLL cannot make this clock"))?;
@@ -214,7 +201,7 @@ fn synthesise(request: &Request, tools: &Tools, work: &Path, clock_mhz: u32) -> 
     readings::counts(&counts)
 }
 
-/// Packs the fastest seed if the clock is met, and writes the report in any case.
+/// Packs the fastest seed if the clock is met, and writes the report in either case.
 fn finish(
     request: &Request,
     tools: &Tools,
@@ -228,7 +215,7 @@ fn finish(
     let report = Report { picked_seed, bitstream, missed, ..described };
     let file = request.out.join(REPORT);
     if let Err(error) = report.write(&file) {
-        // A bitstream without its report is none; that it cannot be removed changes nothing.
+        // A bitstream must not stay without its report. If it cannot be removed, the first error still says more.
         let _ = forget_earlier(request);
         return Err(error);
     }
@@ -250,7 +237,7 @@ fn finish(
     })
 }
 
-/// All but the bitstream and the clocks that were missed.
+/// The report without the bitstream and the clocks that were missed.
 fn describe(request: &Request, placed: &Placed, tools: Versions) -> Report {
     let Placed { clock_mhz, cells, .. } = *placed;
     let (board, config) = (request.board, request.config);
@@ -281,7 +268,7 @@ fn describe(request: &Request, placed: &Placed, tools: Versions) -> Report {
     }
 }
 
-/// Makes the bitstream of a placed seed.
+/// Makes the bitstream from a placed seed.
 fn pack(request: &Request, tools: &Tools, work: &Path, seed: u32) -> Result<Bitstream, BoardError> {
     let file = bitstream(request.board);
     let config = format!("seed-{seed}.config");

@@ -1,26 +1,27 @@
-//! How the tools map a design to the ECP5 and place it: what `constraints/ecp5` says, which `constraints/ecp5/timing` reads as well.
+//! The mapping of a design to the ECP5 and its placement, in the words of the files in `constraints/ecp5`.
+//! `constraints/ecp5/timing` reads the same files.
 
-/// The passes of yosys, with a placeholder for the root module.
+/// The passes of yosys, with the placeholder TOP for the root module.
 const PASSES: &str = include_str!("../../../constraints/ecp5/mapping.ys");
 
-/// Options of nextpnr.
+/// Options of nextpnr, one or more a line.
 const PLACER: &str = include_str!("../../../constraints/ecp5/placer.txt");
 
-/// The file that gives places to block RAMs of `full` in the largest devices.
+/// The file that fixes the places of block RAMs of the configuration `full` in the largest devices.
 pub(super) const FLOORPLAN: &str = "floorplan.ys";
 
-/// The passes from a design that has been read to its cells, `top` being its root module.
+/// The passes that turn a design that yosys has read into cells; `top` is its root module.
 pub fn mapping(top: &str) -> String {
     let passes: Vec<_> = lines(PASSES).map(|pass| pass.replace("TOP", top)).collect();
     passes.join("; ")
 }
 
-/// Options of nextpnr besides those that name files and device.
+/// Options of nextpnr, except those that name files and the device.
 pub(super) fn placer() -> impl Iterator<Item = &'static str> {
     lines(PLACER).flat_map(str::split_whitespace)
 }
 
-/// Lines that say something.
+/// The lines that are neither empty nor comments.
 fn lines(text: &str) -> impl Iterator<Item = &str> {
     text.lines().filter(|line| !line.is_empty() && !line.starts_with('#'))
 }

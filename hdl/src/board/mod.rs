@@ -1,8 +1,8 @@
-//! Boards: from the source to a bitstream that meets its clock, and the table of what was measured.
+//! Boards: makes a bitstream that meets its clock from the source, and the tables of the measurements.
 //!
-//! A board is a folder under `constraints/` with its pins (`pins.lpf`), a thin top (`top.v`), a README and the report of the last
-//! measurement (`report.json`); [`BOARDS`] holds what the command must know besides. [`build`] makes a bitstream, [`renew_tables`]
-//! writes the tables of the documents from the reports.
+//! A board is a folder under `constraints/` with its pins (`pins.lpf`), a thin top module (`top.v`), a README and the
+//! report of the last measurement (`report.json`). [`BOARDS`] holds what the command must know besides. [`build`] makes
+//! a bitstream, and [`renew_tables`] writes the tables of the documents from the reports.
 
 mod date;
 mod error;
@@ -26,41 +26,41 @@ pub use tools::Origin;
 use incircle_protocol::{Config, LinkConfig, FULL, SILENCE_MS, SMALL};
 use std::path::{Path, PathBuf};
 
-/// MHz between two clocks that are tried.
+/// Difference between two clocks that are tried, in MHz.
 const CLOCK_STEP: u32 = 5;
 
-/// A board that a bitstream can be made for.
+/// A board for which the command can make a bitstream.
 #[derive(Clone, Copy, Debug)]
 pub struct Board {
-    /// Name of its folder under `constraints/`.
+    /// Name of the board's folder under `constraints/`.
     pub name: &'static str,
-    /// What its makers call it.
+    /// Name that the makers of the board use.
     pub title: &'static str,
-    /// The FPGA, with speed grade and package.
+    /// The FPGA with its speed grade and package.
     pub device: &'static str,
-    /// Module of its `top.v`.
+    /// Name of the module in the board's `top.v`.
     pub top: &'static str,
     /// Options of nextpnr that name the FPGA.
     pub chip: [&'static str; 5],
-    /// Its oscillator in Hz.
+    /// Frequency of the oscillator in Hz.
     pub oscillator_hz: u32,
-    /// The largest clock that may be asked for, in MHz.
+    /// The largest clock that a user may ask for, in MHz.
     pub most_mhz: u32,
-    /// The clock that is tried unless another is asked for, in MHz: what its last report met.
+    /// The clock in MHz that the command tries unless the user asks for another: the clock that the last report met.
     pub usual_mhz: u32,
-    /// The smallest clock that is tried, in MHz; below it the command fails.
+    /// The smallest clock that the command tries, in MHz; if the board misses this clock, the command fails.
     pub least_mhz: u32,
-    /// Configuration of the core, unless another is asked for.
+    /// Configuration of the core, unless the user asks for another.
     pub config: Config,
-    /// Bytes of the link's receive FIFO.
+    /// Size of the link's receive FIFO in bytes.
     pub fifo_bytes: u32,
-    /// What the serial line goes to.
+    /// The chip or probe at the other end of the serial line.
     pub bridge: &'static str,
-    /// Most bits per second of that.
+    /// The highest rate of that chip or probe, in bits per second.
     pub bridge_rate: u32,
 }
 
-/// All boards, the reference first.
+/// All boards; the first one is the reference.
 pub const BOARDS: [Board; 3] = [
     Board {
         name: "ulx3s-85f",
@@ -110,44 +110,45 @@ pub const BOARDS: [Board; 3] = [
 ];
 
 impl Board {
-    /// The board of this name.
+    /// The board with this name, if there is one.
     pub fn named(name: &str) -> Option<Self> {
         BOARDS.into_iter().find(|board| board.name == name)
     }
 
-    /// Its folder.
+    /// The folder of the board.
     pub fn folder(&self) -> PathBuf {
         constraints().join(self.name)
     }
 
-    /// The clocks that are tried from `most_mhz` down, in MHz: multiples of [`CLOCK_STEP`] that the PLL makes exactly.
+    /// The clocks to try from `most_mhz` down, in MHz: multiples of [`CLOCK_STEP`] that the PLL makes exactly.
     pub fn clocks(&self, most_mhz: u32) -> Vec<u32> {
         let multiples = (self.least_mhz.div_ceil(CLOCK_STEP)..=most_mhz / CLOCK_STEP).rev();
         multiples.map(|multiple| multiple * CLOCK_STEP).filter(|&mhz| self.pll(mhz).is_some()).collect()
     }
 
-    /// The PLL's settings for a clock, if it can make that exactly.
+    /// The settings of the PLL for a clock, if the PLL can make the clock exactly.
     pub fn pll(&self, clock_mhz: u32) -> Option<Pll> {
         Pll::new(self.oscillator_hz, clock_mhz * MHZ)
     }
 
-    /// Whether the floorplan in `constraints/ecp5` is for it: one of the largest devices, with the full core.
+    /// Whether the floorplan in `constraints/ecp5` fits: the board has one of the largest devices, and
+    /// the core is `full`.
     pub fn has_floorplan(&self, config: Config) -> bool {
         self.chip[0].ends_with("85k") && config == FULL
     }
 
-    /// The serial link at a clock.
+    /// The parameters of the serial link at a clock.
     pub fn link(&self, clock_mhz: u32) -> LinkConfig {
         LinkConfig { clock_hz: clock_mhz * MHZ, fifo_bytes: self.fifo_bytes, silence_ms: SILENCE_MS }
     }
 }
 
-/// The root of the repository.
+/// The root folder of the repository.
 fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// The folder of the boards.
+/// The folder that holds a folder for each board.
 fn constraints() -> PathBuf {
     repository().join("constraints")
 }

@@ -1,8 +1,9 @@
-//! Settings of the ECP5's PLL.
+//! Finds settings of the ECP5's PLL for a clock.
 //!
-//! Limits: Lattice, ECP5 and ECP5-5G Family Data Sheet, sysCLOCK PLL timing. `constraints/ecp5/clock.v` says what the dividers do.
+//! Source of the limits: Lattice, ECP5 and ECP5-5G Family Data Sheet, sysCLOCK PLL timing. `constraints/ecp5/clock.v`
+//! says what the dividers do.
 
-/// Hz in a MHz.
+/// Number of Hz in a MHz.
 pub const MHZ: u32 = 1_000_000;
 
 const LEAST_COMPARED_HZ: u64 = 10 * MHZ as u64;
@@ -10,20 +11,20 @@ const LEAST_VCO_HZ: u64 = 400 * MHZ as u64;
 const MOST_VCO_HZ: u64 = 800 * MHZ as u64;
 const MOST_DIVIDER: u64 = 128;
 
-/// The three dividers; see `constraints/ecp5/clock.v`.
+/// The three dividers of the PLL; see `constraints/ecp5/clock.v`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pll {
-    /// Between the oscillator and the phase detector.
+    /// Divider between the oscillator and the phase detector.
     pub input_divider: u32,
-    /// Between the VCO and the phase detector.
+    /// Divider between the VCO and the phase detector.
     pub loop_divider: u32,
-    /// Between the VCO and the clock.
+    /// Divider between the VCO and the clock.
     pub output_divider: u32,
 }
 
 impl Pll {
-    /// The settings that make `clock_hz` of `oscillator_hz` exactly: the phases compared as often as possible, and of those the VCO
-    /// nearest to the middle of its range. None if there are none.
+    /// The settings that make exactly `clock_hz` from `oscillator_hz`, or `None`. Among several, those with the highest
+    /// frequency at the phase detector win, and among these the ones with the VCO nearest to the middle of its range.
     pub fn new(oscillator_hz: u32, clock_hz: u32) -> Option<Self> {
         let (oscillator, clock) = (u64::from(oscillator_hz), u64::from(clock_hz));
         let input_dividers = 1..=(oscillator / LEAST_COMPARED_HZ).min(MOST_DIVIDER);
@@ -44,7 +45,7 @@ impl Pll {
         Some(Self { input_divider: divider(input)?, loop_divider: divider(looped)?, output_divider: divider(output)? })
     }
 
-    /// The macro that hands the settings to a board's top.
+    /// The Verilog macro that passes the settings to the top module of a board.
     pub fn define(self) -> String {
         format!("BOARD_PLL={},{},{}", self.input_divider, self.loop_divider, self.output_divider)
     }

@@ -1,36 +1,43 @@
-//! What the tools' reports say.
+//! Reads the figures in the reports of the tools.
 
 use super::error::BoardError;
 use super::report::Cells;
 use serde_json::Value;
 use std::path::Path;
 
-/// No device has such a clock.
+/// A limit that no device reaches, in MHz; a figure above it is no measurement.
 const MOST_MHZ: f64 = 1e5;
 
-/// Cells that are counted after synthesis.
+/// The cells that synthesis counts.
 pub(super) const COUNTED: [&str; 6] = ["LUT4", "CCU2C", "TRELLIS_DPR16X4", "TRELLIS_FF", "MULT18X18D", "DP16KD"];
 
-/// The counts that synthesis wrote: of the core, and of all.
+/// The counts in the file that synthesis wrote: of the core alone, and of the whole design.
 pub(super) fn counts(path: &Path) -> Result<(Cells, Cells), BoardError> {
     let text = std::fs::read_to_string(path).map_err(BoardError::file(path))?;
     counts_of(&text).map_err(|reason| BoardError::form(path, reason))
 }
 
-/// For each of [`COUNTED`] a line with all, and one with those of the core.
+/// The counts in a text that has, for each of [`COUNTED`], a line with all cells and a line with those of the core.
 fn counts_of(text: &str) -> Result<(Cells, Cells), String> {
-    // No device has as many cells as 32 bits count.
+    // No device has more cells than fit in 32 bits.
     let count = |line: &str| line.strip_suffix(" objects.")?.trim().parse::<u32>().ok();
     let counts: Vec<u64> = text.lines().filter_map(count).map(u64::from).collect();
-    let [luts, core_luts, carries, core_carries, memories, core_memories, ffs, core_ffs, dsps, core_dsps, ebrs, core_ebrs] =
-        counts[..]
-    else {
-        return Err(format!("it holds {} counts, not {}", counts.len(), 2 * COUNTED.len()));
+    // For each kind of cell all, then those of the core.
+    let [luts, carries, memories, ffs, dsps, ebrs] = match counts.as_chunks::<2>() {
+        (pairs, []) if pairs.len() == 6 => [0, 1, 2, 3, 4, 5].map(|kind| pairs[kind]),
+        _ => {
+            return Err(format!("it holds {} counts, not {}", counts.len(), 2 * COUNTED.len()));
+        }
     };
-    // A carry cell has two tables, a distributed memory keeps its bits in two.
+    // A carry cell takes two look-up tables, and a distributed memory keeps its bits in two.
     let lut = |luts: u64, carries: u64, memories: u64| luts + 2 * carries + 2 * memories;
-    let core = Cells { lut: lut(core_luts, core_carries, core_memories), ff: core_ffs, dsp: core_dsps, ebr: core_ebrs };
-    let all = Cells { lut: lut(luts, carries, memories), ff: ffs, dsp: dsps, ebr: ebrs };
+    let cells = |side: usize| Cells {
+        lut: lut(luts[side], carries[side], memories[side]),
+        ff: ffs[side],
+        dsp: dsps[side],
+        ebr: ebrs[side],
+    };
+    let (all, core) = (cells(0), cells(1));
     if !core.is_within(all) {
         return Err(format!("the core has more cells than there are: {core:?}, {all:?}"));
     }
@@ -42,12 +49,13 @@ fn json(path: &Path) -> Result<Value, BoardError> {
     serde_json::from_str(&text).map_err(|error| BoardError::form(path, error))
 }
 
-/// What the one clock of the board reaches, in MHz.
+/// The highest frequency of the board's one clock, in MHz.
 pub(super) fn fmax(path: &Path, clock_mhz: u32) -> Result<f64, BoardError> {
     fmax_of(&json(path)?, clock_mhz).map_err(|reason| BoardError::form(path, reason))
 }
 
-/// The clock must be meant to be `clock_mhz`, by what nextpnr derives from the pins and the PLL.
+/// The highest frequency in a report, whose constraint must be `clock_mhz`: nextpnr derives the constraint from the
+/// pins and the PLL.
 fn fmax_of(report: &Value, clock_mhz: u32) -> Result<f64, String> {
     let clocks = report.get("fmax").and_then(Value::as_object).ok_or("it has no fmax")?;
     let mut clocks = clocks.values();
@@ -56,7 +64,7 @@ fn fmax_of(report: &Value, clock_mhz: u32) -> Result<f64, String> {
     };
     let number = |key: &str| clock.get(key).and_then(Value::as_f64);
     let constraint = number("constraint").ok_or("its clock has no constraint")?;
-    // nextpnr counts in whole picoseconds.
+    // nextpnr counts in whole picoseconds, so the constraint differs a little.
     if (constraint / f64::from(clock_mhz) - 1.0).abs() > 1e-3 {
         return Err(format!("the clock is to be {clock_mhz} MHz, and is {constraint} MHz"));
     }
@@ -67,7 +75,7 @@ fn fmax_of(report: &Value, clock_mhz: u32) -> Result<f64, String> {
     Ok(achieved)
 }
 
-/// Cells after placement, and those of the device.
+/// Cells used after placement, and cells that the device has.
 pub(super) fn cells(path: &Path) -> Result<(Cells, Cells), BoardError> {
     cells_of(&json(path)?).ok_or_else(|| BoardError::form(path, "it does not say what is used"))
 }

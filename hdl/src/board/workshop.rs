@@ -1,16 +1,18 @@
-//! The folder in which the tools work.
+//! Provides the folder in which the tools work, emptied and locked.
 
 use super::error::BoardError;
 use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 
-/// What shows that a folder is of this command: whoever has one of this name and without it loses nothing.
+/// File that marks the folder as made by this command. A user's own folder with the same name has no such file
+/// and is not emptied.
 const MARK: &str = ".incircle-board";
 
-/// The folder `work`, emptied, which no other run has until the file is closed.
+/// Empties and returns the folder `work`. The returned file is a lock: no other run can have the folder until
+/// the file is closed.
 ///
 /// # Errors
-/// There is one that is not of this command, or another run works in it, or it cannot be made.
+/// If a folder of this name exists that the command did not make, another run works in it, or it cannot be made.
 pub(super) fn take(out: &Path) -> Result<(PathBuf, File), BoardError> {
     let work = out.join("work");
     let mark = work.join(MARK);

@@ -1,13 +1,17 @@
-//! The insertion engine: points in, triangle records kept, many insertions in flight on one pipeline.
+//! The insertion engine: accepts points, keeps the triangle records, and has many insertions in flight on one pipeline.
 //!
 //! ```text
-//!                 +------------------- visits, one to three a push -----------------------------+
-//!                 v                                                                            |
-//! points -> VisitPipeline -> completion -> Insertions: Dispatcher (who starts) -- Attempts (what follows) -- CommitPath
-//!                 ^               |                                                                 |      |
-//!                 |               +-> Seeder (the first triangle), Solo (alone) -> WritePort <------+      | locks
-//!                 +---------------------------------------------------------------------+  <--------------+
+//!                 +------- PushPort <-----+--------------+
+//!                 v                       | visits       | visits
+//!  points -> VisitPipeline -+-------> Insertions       Solo <-+
+//!                 ^         |             | stars        |    |
+//!                 |         +-> Seeder    |              |    | completed visits
+//!                 |         |     | first triangles      |    |
+//!                 |         +-----|-------|--------------|----+
+//!                 |               v       v              v
+//!                 +------------ WritePort: one record or one link in each clock
 //! ```
+//! Only `Insertions` sets and clears locks: by its visits, and by `clear` into `VisitPipeline`.
 
 use super::insertions::Insertions;
 use super::seed::Seeder;
@@ -21,29 +25,29 @@ use crate::mesh::ReadRecord;
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 
-/// The engine; see the top of this file.
+/// The insertion engine; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct InsertionEngine {
     pub clock: Signal<In, Clock>,
-    /// Reset forgets everything but the memories, and sweeps the locks.
+    /// Reset forgets everything except the memories, and starts the sweep that clears all locks.
     pub reset: Signal<In, Bit>,
     pub limits: Signal<In, Limits>,
-    /// Contexts that work, and which points are theirs; changes only with `clears`.
+    /// The rule by which points belong to contexts; changes only together with `clears`.
     pub deal: Signal<In, Deal>,
-    /// Forget the mesh at this edge; only while quiet.
+    /// The mesh is forgotten at this edge; only while the engine is quiet.
     pub clears: Signal<In, Bit>,
-    /// A point is stored at this edge; points that have come.
+    /// A point that is stored at this edge, and the number of points that have come.
     pub arrival: Signal<In, Arrival>,
     pub arrived: Signal<In, VertexId>,
-    /// Read-out of a record; only while quiet.
+    /// A record that the read-out wants, only while the engine is quiet; and the record that has been read.
     pub read: Signal<In, RecordRead>,
     pub read_out: Signal<Out, ReadRecord>,
-    /// The time.
+    /// The clock count, from which latencies are taken.
     pub now: Signal<In, Clocks>,
     pub state: Signal<Out, EngineState>,
-    /// The write port of the triangle memory.
+    /// The write port of the triangle memory, for those who watch the mesh from outside.
     pub write: Signal<Out, Write>,
-    /// What happens at this edge, for the counters.
+    /// The events of this edge, for the counters.
     pub events: Signal<Out, Events>,
     insertions: Insertions,
     pipeline: VisitPipeline,
@@ -51,12 +55,12 @@ pub struct InsertionEngine {
     seeder: Seeder,
     push_port: PushPort,
     write_port: WritePort,
-    visit: Signal<Local, Completion>,
+    completion: Signal<Local, Completion>,
     verdict: Signal<Local, Verdict>,
 }
 
 impl InsertionEngine {
-    /// The engine of a configuration, which must be a valid one.
+    /// Builds the engine of a configuration, which must be a valid one.
     pub fn new(config: Config) -> Self {
         Self { insertions: Insertions::new(config), pipeline: VisitPipeline::new(config), ..Self::default() }
     }
@@ -75,7 +79,6 @@ impl Logic for InsertionEngine {
         self.insertions.clears.next = self.clears.val();
         self.seeder.clears.next = self.clears.val();
 
-        // What the link sees.
         self.state.next.start_is_open = self.seeder.start_is_open.val();
         self.state.next.collinear = self.seeder.collinear.val();
         self.state.next.is_quiet = self.insertions.is_quiet.val();
@@ -85,14 +88,13 @@ impl Logic for InsertionEngine {
         self.read_out.next = self.pipeline.read_out.val();
         self.write.next = self.write_port.write.val();
 
-        // The visits.
-        self.visit.next = self.pipeline.visit.val();
-        self.verdict.next = self.pipeline.visit.val().verdict;
+        self.completion.next = self.pipeline.completion.val();
+        self.verdict.next = self.pipeline.completion.val().verdict;
         self.pipeline.infinite.next = self.limits.val().infinite;
         self.pipeline.records.next = self.insertions.records.val();
         self.pipeline.push.next = self.push_port.push.val();
         self.pipeline.position.next.valid = self.insertions.fetched.val().valid;
-        self.pipeline.position.next.owner = self.insertions.fetched.val().owner;
+        self.pipeline.position.next.context = self.insertions.fetched.val().context;
         self.pipeline.position.next.point = self.pipeline.fetched.val();
         self.pipeline.read.next = self.read.val();
         self.pipeline.write.next = self.write_port.write.val();
@@ -101,7 +103,7 @@ impl Logic for InsertionEngine {
         self.pipeline.fetch_id.next = self.insertions.start.val().id;
         self.pipeline.clear.next = self.insertions.clear.val();
 
-        // The insertions in flight. No visit is out when an insertion alone starts or ends, so a clock earlier makes no difference.
+        // A solo insertion starts and ends only while no visit is out. So its progress may hide visits a clock ahead.
         self.insertions.limits.next = self.limits.val();
         self.insertions.deal.next = self.deal.val();
         self.insertions.arrived.next = self.arrived.val();
@@ -110,11 +112,10 @@ impl Logic for InsertionEngine {
         self.insertions.early.next = self.pipeline.early.val();
         self.insertions.early.next.done =
             self.pipeline.early.val().done & (!self.solo.progress.val().is_at_work) & (!self.reset.val());
-        self.insertions.visit.next = self.visit.val();
+        self.insertions.completion.next = self.completion.val();
         self.insertions.seed.next = self.seeder.progress.val();
         self.insertions.solo.next = self.solo.progress.val();
 
-        // The first triangle, and an insertion alone.
         self.seeder.infinite.next = self.limits.val().infinite;
         self.seeder.deal.next = self.deal.val();
         self.seeder.arrival.next = self.arrival.val();
@@ -123,12 +124,11 @@ impl Logic for InsertionEngine {
         self.seeder.verdict.next = self.verdict.val();
         self.solo.start.next = self.insertions.solo_start.val();
         self.solo.records.next = self.insertions.fresh.val();
-        self.solo.visit.next = self.visit.val();
+        self.solo.completion.next = self.completion.val();
 
-        // Who pushes visits, and who writes.
         self.push_port.follow.next = self.insertions.follow.val();
         self.push_port.start.next = self.insertions.start.val();
-        self.push_port.is_alone.next = self.solo.progress.val().is_at_work;
+        self.push_port.solo_is_at_work.next = self.solo.progress.val().is_at_work;
         self.push_port.solo.next = self.solo.push.val();
         self.write_port.commit.next = self.insertions.write.val();
         self.write_port.solo.next = self.solo.write.val();

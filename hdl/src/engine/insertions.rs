@@ -1,4 +1,5 @@
-//! The contexts and what their visits lead to: who starts, what follows a visit, stars written, locks released.
+//! The contexts and the effects of their visits: which context starts, which visits follow, which stars are written,
+//! and which locks are released. The rooms `dispatch`, `attempt` and `commit` meet here.
 
 use super::attempt::Attempts;
 use super::commit::CommitPath;
@@ -10,45 +11,46 @@ use super::types::{
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 
-/// Insertions in flight; see the top of this file.
+/// The insertions in flight; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Insertions {
     pub clock: Signal<In, Clock>,
-    /// Reset drops everything at work; clear forgets the mesh.
+    /// Reset drops all work; clear forgets the mesh.
     pub reset: Signal<In, Bit>,
     pub clears: Signal<In, Bit>,
     pub limits: Signal<In, Limits>,
-    /// Contexts that work, and which points are theirs.
+    /// The rule by which points belong to contexts.
     pub deal: Signal<In, Deal>,
-    /// Points that have come; one is being stored; the time.
+    /// The number of points that have come; a point is being stored at this edge (`came`); the clock count.
     pub arrived: Signal<In, VertexId>,
     pub came: Signal<In, Bit>,
     pub now: Signal<In, Clocks>,
-    /// The visit that completes in the next clock, none while an insertion alone is at work, and the one that completes.
+    /// The visit that completes in the next clock, none while a solo insertion is at work; and the visit that
+    /// completes in this clock.
     pub early: Signal<In, Upcoming>,
-    pub visit: Signal<In, Completion>,
+    pub completion: Signal<In, Completion>,
     pub seed: Signal<In, SeedProgress>,
     pub solo: Signal<In, SoloProgress>,
-    /// The visits that follow the one that completes.
+    /// The visits that follow the completed visit.
     pub follow: Signal<Out, Follow>,
-    /// A context starts to walk, while nobody may ask.
+    /// A context starts to walk; never in a clock in which a completed visit may ask for visits.
     pub start: Signal<Out, Start>,
-    /// The visit that completes is the look at the first three points.
+    /// The completed visit is the look at the first three points.
     pub looks: Signal<Out, Bit>,
     pub fetched: Signal<Out, Fetched>,
     pub solo_start: Signal<Out, SoloStart>,
-    /// A record or a link.
+    /// A record or a link that a commit writes.
     pub write: Signal<Out, Write>,
-    /// Records from this id on are not written yet; the next new id.
+    /// Records from `records` on are not written yet; `fresh` is the next new id.
     pub records: Signal<Out, TriangleId>,
     pub fresh: Signal<Out, TriangleId>,
     pub clear: Signal<Out, LockClear>,
     /// The lock memory is being cleared after reset.
     pub sweeps: Signal<Out, Bit>,
-    /// Every point is finished; nothing is finished any more.
+    /// Every point is finished; or the watchdog has reported (`stuck`).
     pub is_quiet: Signal<Out, Bit>,
     pub stuck: Signal<Out, Bit>,
-    /// What happens at this edge, but for what others know.
+    /// The events of this edge, except those that only the rest of the engine knows.
     pub events: Signal<Out, Events>,
     dispatcher: Dispatcher,
     attempts: Attempts,
@@ -58,7 +60,7 @@ pub struct Insertions {
 }
 
 impl Insertions {
-    /// The insertions of a configuration.
+    /// Builds the insertions of a configuration.
     pub fn new(config: Config) -> Self {
         Self {
             dispatcher: Dispatcher::new(config),
@@ -78,10 +80,9 @@ impl Logic for Insertions {
         self.commits.reset.next = self.reset.val();
         self.commits.clears.next = self.clears.val();
 
-        // A visit completes.
-        self.attempts.ring.next = self.limits.val().ring;
+        self.attempts.ring_capacity.next = self.limits.val().ring_capacity;
         self.attempts.early.next = self.early.val();
-        self.attempts.visit.next = self.visit.val();
+        self.attempts.completion.next = self.completion.val();
         self.attempts.seeded.next = self.seed.val().seeded;
         self.attempts.now.next = self.now.val();
         self.attempts.contexts.next = self.dispatcher.contexts.val();
@@ -89,8 +90,7 @@ impl Logic for Insertions {
         self.looks.next = self.attempts.looks.val();
         self.follow.next = self.attempts.follow.val();
 
-        // Who starts, and what is finished.
-        self.dispatcher.all.next = self.limits.val().all;
+        self.dispatcher.built_contexts.next = self.limits.val().built_contexts;
         self.dispatcher.patience.next = self.limits.val().patience;
         self.dispatcher.deal.next = self.deal.val();
         self.dispatcher.arrived.next = self.arrived.val();
@@ -108,7 +108,6 @@ impl Logic for Insertions {
         self.is_quiet.next = self.dispatcher.is_quiet.val();
         self.stuck.next = self.dispatcher.stuck.val();
 
-        // The star and the locks.
         self.commits.last_id.next = self.limits.val().last_id;
         self.commits.seeds.next = self.seed.val().seeds;
         self.commits.solo_inserts.next = self.solo.val().inserts;
@@ -123,11 +122,11 @@ impl Logic for Insertions {
         self.clear.next = self.commits.clear.val();
         self.sweeps.next = self.commits.sweeps.val();
 
-        // For the counters; the rest is filled in where it is known.
+        // `Attempts` leaves the events of other blocks low; each event is filled in where it is known.
         self.visit_events.next = self.attempts.events.val();
         self.visit_events.next.test = self.attempts.events.val().test | self.solo.val().tests;
         self.visit_events.next.flip = self.solo.val().flips;
-        self.visit_events.next.takes_token = self.dispatcher.takes_token.val();
+        self.visit_events.next.takes_priority = self.dispatcher.takes_priority.val();
         self.job.next = self.commits.committed.val().job;
         self.events.next.visits = self.visit_events.val();
         self.events.next.seeds = self.seed.val().seeds;

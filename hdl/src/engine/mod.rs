@@ -1,4 +1,4 @@
-//! The insertion engine: points in, triangle records kept, up to 24 insertions in flight on one pipeline.
+//! The insertion engine: points come in, triangle records are kept, and up to 24 insertions share one pipeline.
 //!
 //! ```text
 //!                        +---------------------- up to three visits -----------------------+
@@ -8,15 +8,16 @@
 //!              |           | locks, records           |  +-----------------------|-|-------+
 //!              |           +------- write <-----------|--------------------------+ |
 //!              |                      ^               |                            |
-//!              +--- sleeps, fails ----|---------------+                            |
+//!              +--- asleep, aborted --|---------------+                            |
 //!              +--- finished, released|--------------------------------------------+
 //!                                     |
 //!                               seed, solo        count: what happened
 //! ```
-//! The folder is the instance tree: [`InsertionEngine`] holds the blocks of the rooms `visit`, `solo`, `seed` and `write`, and
-//! [`Insertions`], which holds those of `dispatch`, `attempt` and `commit`. The core (`top/core.rs`) holds `count` beside the engine.
-//! `types` is what travels between rooms. Each room's page draws its blocks and names the lock rules L1 to L9 of `docs/engine.md`
-//! that it implements; the code cites a rule where it carries it out.
+//! The folder is the instance tree. [`InsertionEngine`] holds the blocks of the rooms `visit`, `solo`, `seed` and
+//! `write`, and [`Insertions`], which holds those of `dispatch`, `attempt` and `commit`. The core (`top/core.rs`) holds
+//! `count` beside the engine. The structs of `types` travel between the rooms. Each room's page draws its blocks and
+//! names the rules L1 to L9 of `docs/engine.md` that the room carries out; the code cites a rule where it
+//! carries the rule out.
 
 mod attempt;
 mod commit;

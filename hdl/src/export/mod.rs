@@ -1,4 +1,4 @@
-//! Export to Verilog.
+//! Exports blocks, the core and whole devices to Verilog.
 
 use std::fmt;
 
@@ -12,7 +12,7 @@ use crate::top::{
     serial_wrapper, stream_wrapper, wrapper, Core, SerialTop, StreamTop, CORE_NAME, SERIAL_TOP_NAME, STREAM_TOP_NAME,
 };
 
-/// A design that cannot become Verilog.
+/// The reason why a design cannot become Verilog.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ExportError {
     /// Signals that nothing drives.
@@ -21,11 +21,11 @@ pub enum ExportError {
     LogicLoops(Vec<String>),
     /// Inputs that the block itself drives.
     DrivenInputs(Vec<String>),
-    /// A parameter that no core can be built with.
+    /// A parameter with which no core can be built.
     Config(ConfigError),
-    /// A parameter that no serial link can be built with.
+    /// A parameter with which no serial link can be built.
     Link(LinkConfigError),
-    /// A width of beats that no stream link can be built with.
+    /// A width of beats with which no stream link can be built.
     BeatBits(u32),
 }
 
@@ -79,10 +79,10 @@ impl From<CheckError> for ExportError {
     }
 }
 
-/// The Verilog of a block, whose root module is called `name`.
+/// The Verilog of a block whose root module is called `name`.
 ///
-/// `connect_all` must have been called on it. Undeclared nets are errors in the text (`default_nettype none`), because synthesis
-/// would otherwise invent them.
+/// The caller must have called `connect_all` on the block. The text makes undeclared nets errors (`default_nettype
+/// none`), because synthesis would otherwise invent them.
 ///
 /// # Errors
 /// If a signal is open, in a loop, or an input is driven from inside.
@@ -108,8 +108,8 @@ pub fn core(config: Config, with_probe: bool) -> Result<String, ExportError> {
     })
 }
 
-/// The whole Verilog of a core behind a serial link: the device and the ANSI wrapper
-/// [`SERIAL_TOP_NAME`](crate::top::SERIAL_TOP_NAME) around it.
+/// The whole Verilog of a core behind a serial link: the device, and around it
+/// the ANSI wrapper [`SERIAL_TOP_NAME`](crate::top::SERIAL_TOP_NAME).
 ///
 /// `with_probe` adds the write port of the triangle memory to the wrapper's ports, for simulation.
 ///
@@ -124,8 +124,8 @@ pub fn serial_top(config: Config, link: LinkConfig, with_probe: bool) -> Result<
     })
 }
 
-/// The whole Verilog of a core behind a stream link with beats of 64 or 128 bits: the device and the ANSI wrapper
-/// [`STREAM_TOP_NAME`](crate::top::STREAM_TOP_NAME) around it.
+/// The whole Verilog of a core behind a stream link with beats of 64 or 128 bits: the device, and around it
+/// the ANSI wrapper [`STREAM_TOP_NAME`](crate::top::STREAM_TOP_NAME).
 ///
 /// `with_probe` adds the write port of the triangle memory to the wrapper's ports, for simulation.
 ///
@@ -143,8 +143,8 @@ pub fn stream_top(config: Config, beat_bits: u32, with_probe: bool) -> Result<St
     })
 }
 
-/// Runs this in a thread with room for a whole device, which is built by value: several copies of 300 kB, too much for the usual stack
-/// of a thread. Where no thread can be had, the caller's stack must do.
+/// Runs `work` in a thread with a large stack: a device is built by value, in several copies of 300 kB, too much for
+/// the usual stack of a thread. If the system will not start a thread, the caller's stack must do.
 fn on_large_stack<T: Send>(work: impl Fn() -> T + Sync) -> T {
     const STACK_BYTES: usize = 16 << 20;
     std::thread::scope(|scope| match std::thread::Builder::new().stack_size(STACK_BYTES).spawn_scoped(scope, &work) {
@@ -153,17 +153,17 @@ fn on_large_stack<T: Send>(work: impl Fn() -> T + Sync) -> T {
     })
 }
 
-/// The Verilog of a serial link alone, as the root module `name`.
+/// The Verilog of a serial link alone, with the root module `name`.
 ///
 /// # Errors
-/// As [`serial_top`].
+/// The errors of [`serial_top`].
 pub fn serial_link(config: Config, link: LinkConfig, name: &str) -> Result<String, ExportError> {
     let mut uut = SerialLink::new(config, link)?;
     uut.connect_all();
     verilog(&uut, name)
 }
 
-/// The Verilog of a stream link alone, with beats of so many bits, as the root module `name`.
+/// The Verilog of a stream link alone with beats of `beat_bits` bits, with the root module `name`.
 ///
 /// # Errors
 /// If a parameter is out of range, or the design is not fit for export.
@@ -175,7 +175,7 @@ pub fn stream_link(config: Config, beat_bits: u32, name: &str) -> Result<String,
     }
 }
 
-/// Connects a block and gives its Verilog.
+/// Connects a block and returns its Verilog.
 fn connected<U: Block>(mut uut: U, name: &str) -> Result<String, ExportError> {
     uut.connect_all();
     verilog(&uut, name)

@@ -1,15 +1,16 @@
-//! A small memory in LUTs with a bank of words for each of many users: one write port, and a read port that answers at once. The bank
-//! to read is named by a bit each.
+//! A small memory in LUTs with a bank of words for each of many users: one write port, and one read port without
+//! latency. The read port names its bank by one bit per bank.
 //!
-//! 1. `read_data` follows `read_banks` and `read_address` without a clock; a word written at an edge is seen right after it.
-//! 2. Only the low `banks` bits of `read_banks`, the low `address_bits` of an address and the low `stored_bits` of a word count. A write
-//!    into a bank that is not there is lost.
-//! 3. Contents are arbitrary until written.
+//! 1. `read_data` follows `read_banks` and `read_address` without a clock. A word written at an edge can be read
+//!    right after that edge.
+//! 2. Only the low `banks` bits of `read_banks`, the low `address_bits` of an address and the low `stored_bits` of a
+//!    word count. A write to a bank that does not exist is lost.
+//! 3. A word is arbitrary until it is written.
 //!
-//! Latency: none (combinational read).
+//! Latency: none (combinational) from address to data.
 //!
-//! Source: distributed RAM. A bank is let through by its bit and all are joined by an OR, which takes three levels of LUTs for 16 banks
-//! of 32 words; choosing one word of 512 by its address takes five.
+//! Source: distributed RAM. Each bank's word is masked with the bank's bit and all are joined by OR, which takes three
+//! levels of LUTs for 16 banks of 32 words; choosing one of 512 words by its address takes five.
 
 use super::memory_shape::{assert_shape, low_part, unused_part, zero_extended, MAX_ADDRESS_BITS};
 use rust_hdl_core::prelude::*;
@@ -17,20 +18,20 @@ use rust_hdl_core::prelude::*;
 /// A memory with banks; see the top of this file.
 #[derive(LogicBlock)]
 pub struct BankedMemory<const M: usize, const B: usize, const A: usize, const D: usize> {
-    /// Writes happen at its rising edge.
+    /// Clock of the writes, which happen at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// Word to write.
+    /// Bank and address of the word to write.
     pub write_bank: Signal<In, Bits<B>>,
     pub write_address: Signal<In, Bits<A>>,
-    /// Its new value.
+    /// New value of that word.
     pub write_data: Signal<In, Bits<D>>,
-    /// Write at this edge.
+    /// Write the word at this edge.
     pub write_enable: Signal<In, Bit>,
-    /// Bit `b`: bank `b` is read; at most one is high.
+    /// Bit `b` reads bank `b`; at most one bit is high.
     pub read_banks: Signal<In, Bits<M>>,
-    /// Word to read.
+    /// Address of the word to read.
     pub read_address: Signal<In, Bits<A>>,
-    /// Its value, zero above the stored bits; zero if no bank is named.
+    /// Value of the word read, zero above the stored bits; zero if no bank is named.
     pub read_data: Signal<Out, Bits<D>>,
     _banks: usize,
     _address_bits: usize,
@@ -40,7 +41,7 @@ pub struct BankedMemory<const M: usize, const B: usize, const A: usize, const D:
 }
 
 impl<const M: usize, const B: usize, const A: usize, const D: usize> BankedMemory<M, B, A, D> {
-    /// Edges from address to data.
+    /// Number of clock edges from an address to its data.
     pub const LATENCY: usize = 0;
 
     /// A memory of `banks` times `2^address_bits` words of `stored_bits` bits.
@@ -67,7 +68,7 @@ impl<const M: usize, const B: usize, const A: usize, const D: usize> BankedMemor
         }
     }
 
-    /// Where a word stands.
+    /// Index of a word in the simulated memory.
     fn place(&self, bank: usize, address: usize) -> usize {
         bank << self._address_bits | address & ((1 << self._address_bits) - 1)
     }

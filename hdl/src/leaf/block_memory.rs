@@ -2,17 +2,18 @@
 //!
 //! 1. One write and one read can happen at every edge.
 //! 2. Only the low `address_bits` of an address and the low `stored_bits` of a word count.
-//! 3. Reading and writing one word at the same edge is undefined in silicon. The design never uses such a read; simulation in
-//!    Rust answers it with a fixed pattern of alternating bits.
-//! 4. Contents are arbitrary until written.
+//! 3. In silicon, reading and writing one word at the same edge gives an undefined value. The design never uses such a
+//!    read; simulation in Rust answers it with a fixed pattern of alternating bits.
+//! 4. A word is arbitrary until it is written.
 //!
-//! Latency: an address that stands before edge 1 is data after edge 2 (array, output register). What is written at an edge is
-//! seen by every address from the next edge on.
+//! Latency: an address that is valid before edge 1 gives its data after edge 2 (array, output register). A word written
+//! at an edge can be read from the next edge on.
 //!
 //! Source: ECP5 block RAM with output register; `no_rw_check` keeps synthesis from adding bypass logic for rule 3.
 //!
-//! With `INCIRCLE_ECP5` defined, the Verilog instantiates DP16KD with its output registers, as many as leave no multiplexer behind
-//! them, for up to 14 address bits; otherwise, and without it, it is plain Verilog that any tool maps to its block memories.
+//! With `INCIRCLE_ECP5` defined and up to 14 address bits, the Verilog instantiates DP16KD with its output registers,
+//! as many of them side by side as are needed to leave out a multiplexer. Otherwise the Verilog is plain, and any tool
+//! maps it to its block memories.
 
 use super::memory_shape::{assert_shape, low_part, unused_part, zero_extended, MAX_ADDRESS_BITS};
 use rust_hdl_core::prelude::*;
@@ -23,15 +24,15 @@ use super::ecp5;
 #[derive(LogicBlock)]
 pub struct BlockMemory<const A: usize, const D: usize> {
     pub clock: Signal<In, Clock>,
-    /// Word to write.
+    /// Address of the word to write.
     pub write_address: Signal<In, Bits<A>>,
-    /// Its new value.
+    /// New value of that word.
     pub write_data: Signal<In, Bits<D>>,
-    /// Write at this edge.
+    /// Write the word at this edge.
     pub write_enable: Signal<In, Bit>,
-    /// Word to read.
+    /// Address of the word to read.
     pub read_address: Signal<In, Bits<A>>,
-    /// Its value, zero above the stored bits.
+    /// Value of the word read, zero above the stored bits.
     pub read_data: Signal<Out, Bits<D>>,
     _address_bits: usize,
     _stored_bits: usize,
@@ -41,7 +42,7 @@ pub struct BlockMemory<const A: usize, const D: usize> {
 }
 
 impl<const A: usize, const D: usize> BlockMemory<A, D> {
-    /// Edges from address to data.
+    /// Number of clock edges from an address to its data.
     pub const LATENCY: usize = 2;
 
     /// A memory of `2^address_bits` words of `stored_bits` bits.
@@ -65,7 +66,7 @@ impl<const A: usize, const D: usize> BlockMemory<A, D> {
         }
     }
 
-    /// What a read that meets a write of the same word gives in simulation.
+    /// The word that simulation gives for a read that meets a write of the same word.
     fn poison(&self) -> Bits<D> {
         (0..D).step_by(2).fold(Bits::default(), |word: Bits<D>, bit| word.replace_bit(bit, true)) & self._stored_mask
     }

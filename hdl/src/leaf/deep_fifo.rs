@@ -1,48 +1,49 @@
-//! A [`Fifo`](super::Fifo) that is deep: seen from outside the same, with its entries in block RAM.
+//! A deep [`Fifo`](super::Fifo): the same from outside, but with its entries in block RAM.
 //!
-//! 1. Empty: `valid = push` and `data = push_data` in the same cycle. Otherwise `data` is the oldest entry.
-//! 2. `pop` only while `valid`. Without it `valid` stays and `data` is held.
-//! 3. Push and pop at one edge are allowed in every state; on an empty buffer the entry passes.
+//! 1. While empty, `valid = push` and `data = push_data` in the same cycle. Otherwise `data` is the oldest entry.
+//! 2. `pop` may be high only while `valid` is high. Without `pop`, `valid` and `data` stay.
+//! 3. Push and pop at one edge are allowed in every state; if the FIFO is empty, the entry passes.
 //! 4. The user never holds more than `2^address_bits` entries: there is no full flag and no check.
 //!
-//! Latency: none from push to output when empty.
+//! Latency: none (combinational) from push to output while empty.
 //!
-//! The oldest entry stands in a register, so that little is computed between it and what the user makes of it. Every other one has a
-//! place in a ring in block RAM. A window of the 16 oldest of these stands in LUTs as well, where it can be seen without a clock. A
-//! new entry goes straight into the window if it falls into it; otherwise it is spilled, and fetched as soon as the window has moved on:
+//! The oldest entry stands in a register, so that few levels of logic lie between it and what its user computes from
+//! it. All others have places in a ring in block RAM. A window of the 16 oldest of these stands in LUTs as well, where
+//! it can be read without a clock. A new entry goes straight into the window if it falls into the window. Otherwise it
+//! is spilled into the ring, and fetched as soon as the window has moved on:
 //! ```text
 //!           after_first           fetched             newest
 //!                v                   v                   v
 //!      first     [ window, up to 16  |      spilled      )-------
 //! ```
-//! A fetch takes three clocks. It begins only with 15 entries in the window before it, and the window never holds fewer while anything
-//! is spilled, since a clock that takes one away fetches another; so an entry is there long before it is the oldest. A fetched and a new
-//! entry may enter the window at one edge, hence two banks of it, and a bit per place that tells which bank counts.
+//! A fetch takes three clocks. It begins only with 15 entries in the window before it, and the window never holds fewer
+//! while anything is spilled, because a clock that removes one entry fetches another; so a fetched entry is there long
+//! before it is the oldest. A fetched entry and a new one may enter the window at one edge. The window has two banks
+//! for that, and a bit per place tells which bank counts.
 //!
-//! An entry that is pushed behind the first and takes its place at the same edge is stored, too, and its place is given up at once: `pop`
-//! often follows from the entry itself, so it comes late and moves nothing but the register and the end of the window.
+//! An entry that is pushed behind the oldest and replaces it at the same edge is stored too, and its place is free
+//! again at once. `pop` often depends on the oldest entry itself, so it comes late in a clock, and moves nothing but
+//! the register and the end of the window.
 //!
 //! Source: [`Fifo`](super::Fifo) around a [`BlockMemory`](super::BlockMemory).
 
 use super::lut_memory::LutMemory;
 use super::memory_shape::MAX_ADDRESS_BITS;
 use super::spill_ring::SpillRing;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
-/// A deep buffer; see the top of this file.
+/// A deep FIFO; see the top of this file.
 #[derive(LogicBlock)]
 pub struct DeepFifo<const A: usize, const D: usize> {
     pub clock: Signal<In, Clock>,
-    /// Empty the buffer at this edge.
+    /// Empty the FIFO at this edge.
     pub reset: Signal<In, Bit>,
-    /// Take `push_data`.
+    /// Take `push_data` as a new entry at this edge.
     pub push: Signal<In, Bit>,
-    /// New entry.
     pub push_data: Signal<In, Bits<D>>,
     /// Remove the entry on the output at this edge.
     pub pop: Signal<In, Bit>,
-    /// There is an entry on the output.
+    /// The output holds an entry.
     pub valid: Signal<Out, Bit>,
     /// The oldest entry, zero above the stored bits.
     pub data: Signal<Out, Bits<D>>,
@@ -51,7 +52,7 @@ pub struct DeepFifo<const A: usize, const D: usize> {
     fetched_bank: LutMemory<4, D>,
     was_fetched: LutMemory<4, 1>,
     holds_first: DFF<Bit>,
-    /// It does not: the same once more, for the data.
+    /// The FIFO does not hold an oldest entry: a copy of the inverted `holds_first` that drives the data alone.
     passes: DFF<Bit>,
     first: DFF<Bits<D>>,
     holds_more: DFF<Bit>,
@@ -82,10 +83,10 @@ pub struct DeepFifo<const A: usize, const D: usize> {
 }
 
 impl<const A: usize, const D: usize> DeepFifo<A, D> {
-    /// Address bits of the window in LUTs: a buffer no deeper than this is a [`Fifo`](super::Fifo).
+    /// Address bits of the window in LUTs; a FIFO no deeper than the window is a [`Fifo`](super::Fifo).
     pub const WINDOW_BITS: usize = 4;
 
-    /// A buffer of `2^address_bits` entries of `stored_bits` bits.
+    /// A FIFO of `2^address_bits` entries of `stored_bits` bits.
     ///
     /// # Panics
     /// If `address_bits` is not in `5..=A` (and at most 20) or `stored_bits` not in `1..=D`.
@@ -161,7 +162,7 @@ impl<const A: usize, const D: usize> Logic for DeepFifo<A, D> {
             self.data.next = self.kept_data.val();
         }
 
-        // The first entry: what follows it takes its place.
+        // On every pop the register of the oldest entry takes the successor, even one that is only just pushed.
         self.new_bank.read_address.next = self.after_first.q.val();
         self.fetched_bank.read_address.next = self.after_first.q.val();
         self.was_fetched.read_address.next = self.after_first.q.val();
@@ -179,7 +180,7 @@ impl<const A: usize, const D: usize> Logic for DeepFifo<A, D> {
             self.holds_first.d.next = self.holds_first.q.val() & (self.holds_more.q.val() | self.push.val());
         }
 
-        // What happens behind it at this edge, whatever is popped.
+        // The input `pop` comes late, so only the last of these decisions depends on it.
         self.joins.next = self.push.val() & self.holds_first.q.val();
         self.spills.next = self.joins.val() & (self.holds_spilled.q.val() | self.window_is_full.q.val());
         self.enters.next = self.joins.val() & (!self.spills.val());
@@ -198,7 +199,7 @@ impl<const A: usize, const D: usize> Logic for DeepFifo<A, D> {
         self.fetched_bank.write_data.next = self.ring.fetched_data.val();
         self.fetched_bank.write_enable.next = self.ring.fetched.val();
 
-        // The window: at most one entry is added at an edge, a new one or one that is fetched.
+        // A fetch marks its place in the window at once; the data follow two clocks later, in the other bank.
         self.new_bank.write_address.next = self.place.val();
         self.new_bank.write_data.next = self.push_data.val();
         self.new_bank.write_enable.next = self.enters.val();

@@ -1,26 +1,26 @@
-//! Data delayed by a few clocks, kept in a ring buffer of LUTs.
+//! Delays data by a fixed number of clocks in a ring of LUT memory, where registers for each stage would be too many.
 //!
-//! 1. There is no reset and no valid bit. The output is arbitrary until `stages` edges have passed; users carry a valid bit beside.
+//! 1. There is no reset and no valid bit. The output is arbitrary until `stages` edges have passed; users carry a valid
+//!    bit beside the data.
 //!
-//! Latency: data that stands before edge 1 is on the output after edge `stages`.
+//! Latency: data that are valid before edge 1 are on the output after edge `stages`.
 //!
-//! Source: a counter writes, and another one `stages - 1` behind it reads into a register. Up to 16 stages a slice in an ECP5 keeps 4 bits;
-//! block RAM is dear, lies far from everything, and would be nearly empty.
+//! Source: one counter addresses the write; another, `stages - 1` behind, addresses a read into a register. Up to 16
+//! stages, one slice of an ECP5 keeps 4 bits. Block RAM is scarce, lies far from most logic, and would be nearly empty.
 
 use super::lut_memory::LutMemory;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
-/// Bits of the counter; the ring uses as many of them as it needs.
+/// Number of bits of the counter; the ring uses as many of them as it needs.
 const COUNTER_BITS: usize = 6;
 
-/// A delay; see the top of this file.
+/// A delay of data; see the top of this file.
 #[derive(LogicBlock)]
 pub struct DelayLine<const D: usize> {
     pub clock: Signal<In, Clock>,
-    /// Taken at every edge.
+    /// The data to delay, read at every edge.
     pub data_in: Signal<In, Bits<D>>,
-    /// `data_in` of `stages` edges ago.
+    /// Value of `data_in` `stages` edges ago.
     pub data_out: Signal<Out, Bits<D>>,
     ring: LutMemory<COUNTER_BITS, D>,
     position: DFF<Bits<COUNTER_BITS>>,
@@ -31,9 +31,9 @@ pub struct DelayLine<const D: usize> {
 }
 
 impl<const D: usize> DelayLine<D> {
-    /// Fewest stages; plain registers do for fewer.
+    /// Least number of stages; for fewer, plain registers will do.
     pub const MIN_STAGES: usize = 3;
-    /// Most stages that the counter can tell apart.
+    /// Largest number of stages that the counter can address.
     pub const MAX_STAGES: usize = 1 << COUNTER_BITS;
 
     /// A delay of `stages` clocks.
@@ -43,7 +43,7 @@ impl<const D: usize> DelayLine<D> {
     pub fn new(stages: usize) -> Self {
         let (fewest, most) = (Self::MIN_STAGES, Self::MAX_STAGES);
         assert!((fewest..=most).contains(&stages), "a delay line has {fewest} to {most} stages, not {stages}");
-        // The register behind the memory is one stage; the word read is this far behind the one written.
+        // The register behind the memory is one stage; so the read is this many places behind the write.
         let distance = stages - 1;
         Self {
             clock: Signal::default(),
@@ -71,7 +71,7 @@ impl<const D: usize> Logic for DelayLine<D> {
         dff_setup!(self, clock, position, oldest, delayed);
         clock!(self, clock, ring);
         self.position.d.next = self.position.q.val() + self.one.val();
-        // The counter will be one further when this is used.
+        // `oldest` is a register: by the time it is used, the counter is one further.
         self.oldest.d.next = self.position.q.val() - self.distance_before.val();
         self.ring.write_address.next = self.position.q.val();
         self.ring.write_data.next = self.data_in.val();

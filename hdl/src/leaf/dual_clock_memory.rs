@@ -1,15 +1,18 @@
-//! A memory in block RAM that is written by one clock and read by another.
+//! A memory in block RAM that one clock writes and another clock reads.
 //!
-//! 1. Without `read_enable` both ranks of the read port, array and output register, hold. Writes go on.
+//! 1. Without `read_enable` both stages of the read port, array and output register, hold
+//!    their values. Writes continue.
 //! 2. Only the low `address_bits` of an address and the low `stored_bits` of a word count.
-//! 3. A word that is written less than a clock of either side before it is read, or at the same time, is undefined in silicon. The design
-//!    never uses such a read; simulation in Rust answers one at the same time with a fixed pattern of alternating bits.
-//! 4. Contents are arbitrary until written.
+//! 3. In silicon, a word that is written at the same time as it is read, or less than a clock of either side before,
+//!    reads as an undefined value. The design never uses such a read; simulation in Rust answers a read at the same
+//!    time with a fixed pattern of alternating bits.
+//! 4. A word is arbitrary until it is written.
 //!
-//! Latency: an address that stands before an edge of `read_clock` with `read_enable` is data after the next such edge.
+//! Latency: an address that is valid before an edge of `read_clock` with `read_enable` gives its data after
+//! the next such edge.
 //!
-//! Source: block RAM with two clocks, which every family has. The Verilog is plain on all of them: no board with primitives of its own
-//! has two clocks.
+//! Source: block RAM with two clocks, which every family of FPGAs has. The Verilog is plain for all of them, because no
+//! board with primitives of its own has two clocks.
 
 use super::memory_shape::{assert_shape, low_part, unused_part, zero_extended};
 use rust_hdl_core::prelude::*;
@@ -17,21 +20,21 @@ use rust_hdl_core::prelude::*;
 /// A memory between two clocks; see the top of this file.
 #[derive(LogicBlock)]
 pub struct DualClockMemory<const A: usize, const D: usize> {
-    /// Writes happen at its rising edge.
+    /// Clock of the writes, which happen at its rising edge.
     pub write_clock: Signal<In, Clock>,
-    /// Word to write.
+    /// Address of the word to write.
     pub write_address: Signal<In, Bits<A>>,
-    /// Its new value.
+    /// New value of that word.
     pub write_data: Signal<In, Bits<D>>,
-    /// Write at this edge.
+    /// Write the word at this edge.
     pub write_enable: Signal<In, Bit>,
-    /// Reads happen at its rising edge.
+    /// Clock of the reads, which happen at its rising edge.
     pub read_clock: Signal<In, Clock>,
-    /// Word to read.
+    /// Address of the word to read.
     pub read_address: Signal<In, Bits<A>>,
-    /// The read port moves at this edge.
+    /// The read port advances at this edge.
     pub read_enable: Signal<In, Bit>,
-    /// Its value, zero above the stored bits.
+    /// Value of the word read, zero above the stored bits.
     pub read_data: Signal<Out, Bits<D>>,
     _address_bits: usize,
     _stored_bits: usize,
@@ -41,7 +44,7 @@ pub struct DualClockMemory<const A: usize, const D: usize> {
 }
 
 impl<const A: usize, const D: usize> DualClockMemory<A, D> {
-    /// Edges with `read_enable` from address to data.
+    /// Number of edges with `read_enable` from an address to its data.
     pub const LATENCY: usize = 2;
 
     /// A memory of `2^address_bits` words of `stored_bits` bits.
@@ -67,7 +70,7 @@ impl<const A: usize, const D: usize> DualClockMemory<A, D> {
         }
     }
 
-    /// What a read that meets a write of the same word gives in simulation.
+    /// The word that simulation gives for a read that meets a write of the same word.
     fn poison(&self) -> Bits<D> {
         (0..D).step_by(2).fold(Bits::default(), |word: Bits<D>, bit| word.replace_bit(bit, true)) & self._stored_mask
     }

@@ -1,12 +1,13 @@
-//! The Verilog of memories as block RAM of the ECP5, instantiated.
+//! Writes the Verilog that instantiates memories as block RAM of the ECP5.
 //!
-//! Inference reaches neither the output register inside the block RAM nor its clock enable; the path from the array through the fabric
-//! to a register outside would set the clock. One word is spread over block RAMs side by side, each as wide as the number of words
-//! allows, so no multiplexer follows them.
+//! Inference uses neither the output register inside the block RAM nor its clock enable; the path from the array
+//! through the fabric to a register outside would limit the clock. A word is spread over block RAMs side by side, each
+//! as wide as the number of words allows, so that no multiplexer follows them.
 //!
-//! Source: Lattice, ECP5 and ECP5-5G Memory Usage Guide, primitive DP16KD. `testbench/cells/DP16KD.v` states the modes used here.
+//! Source: Lattice, ECP5 and ECP5-5G Memory Usage Guide, primitive DP16KD. `testbench/cells/DP16KD.v` states
+//! the modes used here.
 
-/// Bits of each word that one block RAM of `2^address_bits` words holds; none if there is no block RAM so deep.
+/// Bits of each word that one block RAM of `2^address_bits` words holds, or `None` if no block RAM is so deep.
 fn slice_bits(address_bits: usize) -> Option<usize> {
     match address_bits {
         0..=10 => Some(18),
@@ -18,7 +19,8 @@ fn slice_bits(address_bits: usize) -> Option<usize> {
     }
 }
 
-/// The 14 address pins. The lowest are unused in wide words, except that the two lowest are byte enables in words of 18 bits.
+/// The 14 address pins. Wide words leave the lowest pins unused, except that the two lowest are byte enables in
+/// words of 18 bits.
 fn address_pins(address: &str, address_bits: usize, slice_bits: usize) -> String {
     let low = match slice_bits {
         18 => ", 4'b0011",
@@ -41,7 +43,7 @@ fn address_pins(address: &str, address_bits: usize, slice_bits: usize) -> String
     format!("{{{high}{address}{low}}}")
 }
 
-/// Connections of the pins `name0` up to the bits of a vector, or to nothing, eight to a line.
+/// Connections of the pins `name0`, `name1` and so on to the bits of a vector, or to nothing, eight pins to a line.
 fn pins(name: &str, vector: Option<&str>, bits: usize) -> String {
     let end = |bit| vector.map_or(String::new(), |vector| format!("{vector}[{bit}]"));
     let pins: Vec<_> = (0..bits).map(|bit| format!(".{name}{bit}({})", end(bit))).collect();
@@ -49,7 +51,7 @@ fn pins(name: &str, vector: Option<&str>, bits: usize) -> String {
     lines.join(",\n")
 }
 
-/// Signals of one port, as expressions.
+/// The signals of one port of a block RAM, as Verilog expressions.
 struct Port<'a> {
     letter: char,
     address: &'a str,
@@ -76,7 +78,7 @@ impl Port<'_> {
     }
 }
 
-/// One DP16KD; its vectors are in scope.
+/// The Verilog of one DP16KD; the vectors that it names must be declared around it.
 fn block_ram(bits: usize, write_mode_a: &str, a: &Port, b: &Port) -> String {
     format!(
         "\
@@ -94,7 +96,7 @@ DP16KD #(
     )
 }
 
-/// Verilog with both forms of a memory; the neutral one alone if no block RAM is so deep.
+/// Verilog with both forms of a memory, or with the neutral one alone if no block RAM is so deep.
 fn either(primitive: Option<String>, neutral: &str) -> String {
     match primitive {
         Some(primitive) => format!("`ifdef INCIRCLE_ECP5\n{primitive}`else\n{neutral}`endif\n"),
@@ -102,7 +104,7 @@ fn either(primitive: Option<String>, neutral: &str) -> String {
     }
 }
 
-/// What a memory with a read port and a port that writes, or also reads, connects to, as expressions.
+/// The connections of a memory, as Verilog expressions: one port that reads, and one that writes and may also read.
 pub(super) struct Memory<'a> {
     pub address_bits: usize,
     pub stored_bits: usize,
@@ -110,14 +112,14 @@ pub(super) struct Memory<'a> {
     pub write_data: &'a str,
     pub read_address: &'a str,
     pub read_enable: &'a str,
-    /// The value of `read_data`, from a word called `word`.
+    /// Value of `read_data`, computed from a word called `word`.
     pub result: &'a str,
-    /// The value of `shared_data`, from a word called `shared_word`, if the write port also reads.
+    /// Value of `shared_data`, computed from a word called `shared_word`, if the write port also reads.
     pub shared_result: Option<&'a str>,
 }
 
 impl Memory<'_> {
-    /// Verilog with this memory as DP16KD for ECP5, and otherwise as `neutral`.
+    /// Verilog with this memory as DP16KD for the ECP5, and as `neutral` for all other devices.
     pub(super) fn verilog(&self, neutral: &str) -> String {
         either(slice_bits(self.address_bits).map(|bits| self.primitive(bits)), neutral)
     }
@@ -185,7 +187,8 @@ always @(*) read_data = {result};
     }
 }
 
-/// Verilog of lock bits as one DP16KD for ECP5, and otherwise as `neutral`: port A reads and then sets, port B clears.
+/// Verilog of lock bits as one DP16KD for the ECP5, and as `neutral` for all other devices: port A reads and then
+/// sets, port B clears.
 pub(super) fn locks(address_bits: usize, test_address: &str, clear_address: &str, neutral: &str) -> String {
     let bits = 1;
     let test = Port {

@@ -1,32 +1,31 @@
-//! A first-in first-out buffer whose oldest entry stands on the output, and which a push passes at once when it is empty.
+//! A first-in first-out buffer that shows its oldest entry on the output; an entry pushed into an empty FIFO is on
+//! the output at once.
 //!
-//! 1. Empty: `valid = push` and `data = push_data` in the same cycle. Otherwise `data` is the oldest entry.
-//! 2. `pop` only while `valid`. Without it `valid` stays and `data` is held.
-//! 3. Push and pop at one edge are allowed in every state; on an empty buffer the entry passes without being stored.
+//! 1. While empty, `valid = push` and `data = push_data` in the same cycle. Otherwise `data` is the oldest entry.
+//! 2. `pop` may be high only while `valid` is high. Without `pop`, `valid` and `data` stay.
+//! 3. Push and pop at one edge are allowed in every state; if the FIFO is empty, the entry passes without being stored.
 //! 4. The user never holds more than `2^address_bits` entries: there is no full flag and no check.
 //!
-//! Latency: none from push to output when empty.
+//! Latency: none (combinational) from push to output while empty.
 //!
-//! Source: pointers into a [`LutMemory`]; a register says whether anything is stored, so no count is needed.
+//! Source: pointers into a [`LutMemory`]; a register says whether the memory holds an entry, so no count is needed.
 
 use super::lut_memory::LutMemory;
 use super::memory_shape::MAX_ADDRESS_BITS;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
-/// A buffer; see the top of this file.
+/// A FIFO; see the top of this file.
 #[derive(LogicBlock)]
 pub struct Fifo<const A: usize, const D: usize> {
     pub clock: Signal<In, Clock>,
-    /// Empty the buffer at this edge.
+    /// Empty the FIFO at this edge.
     pub reset: Signal<In, Bit>,
-    /// Take `push_data`.
+    /// Take `push_data` as a new entry at this edge.
     pub push: Signal<In, Bit>,
-    /// New entry.
     pub push_data: Signal<In, Bits<D>>,
     /// Remove the entry on the output at this edge.
     pub pop: Signal<In, Bit>,
-    /// There is an entry on the output.
+    /// The output holds an entry.
     pub valid: Signal<Out, Bit>,
     /// The oldest entry, zero above the stored bits.
     pub data: Signal<Out, Bits<D>>,
@@ -44,7 +43,7 @@ pub struct Fifo<const A: usize, const D: usize> {
 }
 
 impl<const A: usize, const D: usize> Fifo<A, D> {
-    /// A buffer of `2^address_bits` entries of `stored_bits` bits.
+    /// A FIFO of `2^address_bits` entries of `stored_bits` bits.
     ///
     /// # Panics
     /// If `address_bits` is not in `1..=A` (and at most 20) or `stored_bits` not in `1..=D`.
@@ -86,7 +85,6 @@ impl<const A: usize, const D: usize> Logic for Fifo<A, D> {
         self.after_newest.next = self.newest.q.val() + self.one.val();
         self.after_oldest.next = self.oldest.q.val() + self.one.val();
 
-        // What the user sees.
         self.entries.read_address.next = self.oldest.q.val();
         self.valid.next = self.holds_entries.q.val() | self.push.val();
         if self.holds_entries.q.val() {
@@ -95,7 +93,7 @@ impl<const A: usize, const D: usize> Logic for Fifo<A, D> {
             self.data.next = self.push_data.val() & self.kept_bits.val();
         }
 
-        // An entry that is popped while it is pushed into an empty buffer passes.
+        // Do not store an entry that is popped while it is pushed into an empty FIFO: the user has seen it already.
         self.passes.next = (!self.holds_entries.q.val()) & self.pop.val();
         self.stores.next = self.push.val() & (!self.passes.val());
         self.entries.write_address.next = self.newest.q.val();

@@ -1,10 +1,10 @@
-//! A flag delayed by a fixed number of clocks, in plain registers.
+//! Delays one bit by a fixed number of clocks, in plain registers.
 //!
 //! 1. There is no reset: the output is arbitrary until `stages` edges have passed.
 //!
-//! Latency: a flag that stands before edge 1 is on the output after edge `stages`.
+//! Latency: a flag that is valid before edge 1 is on the output after edge `stages`.
 //!
-//! Source: a shift register.
+//! Source: a shift register, of which the output is the last stage.
 
 use rust_hdl_core::prelude::*;
 
@@ -12,9 +12,9 @@ use rust_hdl_core::prelude::*;
 #[derive(LogicBlock, Default)]
 pub struct FlagDelay {
     pub clock: Signal<In, Clock>,
-    /// Taken at every edge.
+    /// The flag to delay, read at every edge.
     pub flag_in: Signal<In, Bit>,
-    /// `flag_in` of `stages` edges ago.
+    /// Value of `flag_in` `stages` edges ago.
     pub flag_out: Signal<Out, Bit>,
     _line: Vec<bool>,
 }

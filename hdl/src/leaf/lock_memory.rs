@@ -1,19 +1,21 @@
-//! One lock bit per word: a port that tests and sets, and a port that clears.
+//! One lock bit per word, with a port that tests and sets a lock and a port that clears one.
 //!
-//! 1. Every edge tests one lock; with `test_set` it also sets it. The test sees the lock as it was before the edge.
+//! 1. Every edge tests one lock, and with `test_set` also sets that lock. The test gives the lock as it
+//!    was before the edge.
 //! 2. With `clear_enable` the other port clears one lock; tests from the next edge on see it clear.
-//! 3. The two ports never meet at one lock and one edge while either changes it. Clearing and setting together has no winner in
-//!    silicon, and simulation in Rust panics. A plain test that meets a clear is undefined in silicon; there the Rust gives `true`.
+//! 3. The two ports never meet at one lock and one edge while the test sets it. Clearing and setting together has no
+//!    winner in silicon, and simulation in Rust panics. A plain test that meets a clear is undefined in silicon;
+//!    simulation in Rust answers `true`.
 //! 4. Only the low `address_bits` of an address count.
-//! 5. At power-up all locks are clear: a bitstream loads block RAM of no stated contents with zeros, and simulation starts so. (Stating
-//!    the zeros costs yosys most of a minute.) A reset does not clear them.
+//! 5. At power-up all locks are clear: a bitstream fills block RAM without stated contents with zeros, and simulation
+//!    begins the same way. (Stating the zeros costs yosys most of a minute.) A reset does not clear the locks.
 //!
-//! Latency: an address that stands before edge 1 gives `was_set` after edge 2, in step with `BlockMemory`.
+//! Latency: an address that is valid before edge 1 gives `was_set` after edge 2, in step with `BlockMemory`.
 //!
 //! Source: one ECP5 block RAM of 16K x 1, true dual port, with port A in read-before-write mode.
 //!
-//! With `INCIRCLE_ECP5` defined, the Verilog instantiates it, for up to 14 address bits; otherwise, and without it, it is plain Verilog
-//! that any tool maps to its block memories.
+//! With `INCIRCLE_ECP5` defined and up to 14 address bits, the Verilog instantiates that block RAM. Otherwise the
+//! Verilog is plain, and any tool maps it to its block memories.
 
 use super::memory_shape::{assert_shape, low_part, unused_part, MAX_ADDRESS_BITS};
 use rust_hdl_core::prelude::*;
@@ -24,15 +26,15 @@ use super::ecp5;
 #[derive(LogicBlock)]
 pub struct LockMemory<const A: usize> {
     pub clock: Signal<In, Clock>,
-    /// Lock to test.
+    /// Number of the lock to test.
     pub test_address: Signal<In, Bits<A>>,
-    /// Set it at this edge.
+    /// Set that lock at this edge.
     pub test_set: Signal<In, Bit>,
-    /// Its value before this edge.
+    /// The lock was set before the edge that tested it.
     pub was_set: Signal<Out, Bit>,
-    /// Lock to clear.
+    /// Number of the lock to clear.
     pub clear_address: Signal<In, Bits<A>>,
-    /// Clear it at this edge.
+    /// Clear that lock at this edge.
     pub clear_enable: Signal<In, Bit>,
     _address_bits: usize,
     _memory: Vec<bool>,
@@ -40,10 +42,10 @@ pub struct LockMemory<const A: usize> {
 }
 
 impl<const A: usize> LockMemory<A> {
-    /// Edges from address to `was_set`.
+    /// Number of clock edges from an address to `was_set`.
     pub const LATENCY: usize = 2;
 
-    /// `2^address_bits` locks, all clear.
+    /// A memory of `2^address_bits` locks, all clear.
     ///
     /// # Panics
     /// If `address_bits` is not in `1..=A` (and at most 20).

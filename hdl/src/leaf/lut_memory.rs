@@ -1,12 +1,12 @@
-//! A small memory in LUTs: one write port, and a read port that answers at once.
+//! A small memory in LUTs: one write port, and one read port without latency.
 //!
-//! 1. `read_data` follows `read_address` without a clock; a word written at an edge is seen right after it.
+//! 1. `read_data` follows `read_address` without a clock. A word written at an edge can be read right after that edge.
 //! 2. Only the low `address_bits` of an address and the low `stored_bits` of a word count.
-//! 3. Contents are arbitrary until written.
+//! 3. A word is arbitrary until it is written.
 //!
-//! Latency: none (combinational read).
+//! Latency: none (combinational) from address to data.
 //!
-//! Source: distributed RAM, TRELLIS_DPR16X4 on ECP5 (16 words of 4 bits each).
+//! Source: distributed RAM, TRELLIS_DPR16X4 on the ECP5 (16 words of 4 bits each).
 
 use super::memory_shape::{assert_shape, low_part, unused_part, zero_extended, MAX_ADDRESS_BITS};
 use rust_hdl_core::prelude::*;
@@ -14,17 +14,17 @@ use rust_hdl_core::prelude::*;
 /// A memory with a combinational read; see the top of this file.
 #[derive(LogicBlock)]
 pub struct LutMemory<const A: usize, const D: usize> {
-    /// Writes happen at its rising edge.
+    /// Clock of the writes, which happen at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// Word to write.
+    /// Address of the word to write.
     pub write_address: Signal<In, Bits<A>>,
-    /// Its new value.
+    /// New value of that word.
     pub write_data: Signal<In, Bits<D>>,
-    /// Write at this edge.
+    /// Write the word at this edge.
     pub write_enable: Signal<In, Bit>,
-    /// Word to read.
+    /// Address of the word to read.
     pub read_address: Signal<In, Bits<A>>,
-    /// Its value, zero above the stored bits.
+    /// Value of the word read, zero above the stored bits.
     pub read_data: Signal<Out, Bits<D>>,
     _address_bits: usize,
     _stored_bits: usize,
@@ -33,7 +33,7 @@ pub struct LutMemory<const A: usize, const D: usize> {
 }
 
 impl<const A: usize, const D: usize> LutMemory<A, D> {
-    /// Edges from address to data.
+    /// Number of clock edges from an address to its data.
     pub const LATENCY: usize = 0;
 
     /// A memory of `2^address_bits` words of `stored_bits` bits.

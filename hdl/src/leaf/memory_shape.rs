@@ -1,9 +1,9 @@
-//! The shape of a memory leaf: its limits, and the Verilog for ports that are wider than what is kept.
+//! The shape of a memory leaf: its limits, and the Verilog for ports that are wider than the memory.
 
-/// Widest address a memory leaf takes; keeps the number of words far from any overflow.
+/// Largest number of address bits of a memory leaf; keeps the number of words far from any overflow.
 pub(super) const MAX_ADDRESS_BITS: usize = 20;
 
-/// Refuses the shape of a memory that its ports cannot carry.
+/// Panics if the ports of a memory cannot carry its shape.
 pub(super) fn assert_shape(address_bits: usize, address_port: usize, stored_bits: usize, data_port: usize) {
     let widest = address_port.min(MAX_ADDRESS_BITS);
     assert!((1..=widest).contains(&address_bits), "a memory here has 1 to {widest} address bits, not {address_bits}");
@@ -33,7 +33,8 @@ pub(super) fn zero_extended(value: &str, width: usize, kept: usize) -> String {
     }
 }
 
-/// A Verilog wire that takes up the bits of `port` from `kept` up, so that lint sees them used; nothing if there are none.
+/// A Verilog wire that reads the bits of `port` from bit `kept` up, so that lint sees them used, or nothing
+/// if there are none.
 pub(super) fn unused_part(port: &str, width: usize, kept: usize) -> String {
     if kept == width {
         String::new()

@@ -1,7 +1,7 @@
-//! Leaves: the blocks whose Verilog is written by hand, and the small blocks on top of them.
+//! Leaves: the blocks with hand-written Verilog, such as memories and multipliers, and small blocks built from them.
 //!
-//! A leaf states its behaviour twice: `update()` for simulation in Rust, `hdl()` for synthesis and Verilator.
-//! `testbench/tests/it/blocks/leaf/` runs both against a third statement of the same.
+//! A leaf states its behaviour twice: `update()` for simulation in Rust, `hdl()` for synthesis and Verilator. The tests
+//! in `testbench/tests/it/blocks/leaf/` compare both with a third, independent statement.
 
 mod banked_memory;
 mod block_memory;

@@ -1,15 +1,16 @@
-//! An 18 x 18 bit signed multiplier with the three register ranks of a DSP block.
+//! An 18 x 18 bit signed multiplier with the three register stages of a DSP block.
 //!
-//! 1. A new pair of factors is taken at every edge.
+//! 1. The block takes a new pair of factors at every edge.
 //! 2. There is no reset: the product is arbitrary until [`LATENCY`](Multiplier::LATENCY) edges have passed.
 //!
-//! Latency: factors that stand before edge 1 are a product after edge 3 (input registers, pipeline register, output register).
+//! Latency: factors that are valid before edge 1 give their product after edge 3 (input registers,
+//! pipeline register, output register).
 //!
-//! Source: the register ranks of MULT18X18D (Lattice, ECP5 sysDSP usage guide). 36 bits hold every product: the largest is
-//! `(-2^17)^2 = 2^34`.
+//! Source: the register stages of MULT18X18D (Lattice, ECP5 sysDSP usage guide). 36 bits hold every product: the
+//! largest is `(-2^17)^2 = 2^34`.
 //!
-//! With `INCIRCLE_ECP5` defined, the Verilog instantiates the primitive and so uses its own registers; without it, it is plain
-//! Verilog that any tool maps to its multipliers.
+//! With `INCIRCLE_ECP5` defined, the Verilog instantiates the primitive and so uses its registers. Otherwise the
+//! Verilog is plain, and any tool maps it to its multipliers.
 
 use rust_hdl_core::prelude::*;
 
@@ -17,10 +18,10 @@ use rust_hdl_core::prelude::*;
 #[derive(LogicBlock, Default)]
 pub struct Multiplier {
     pub clock: Signal<In, Clock>,
-    /// Factors, two's complement.
+    /// The two factors, in two's complement.
     pub a: Signal<In, Bits<18>>,
     pub b: Signal<In, Bits<18>>,
-    /// `a * b`, two's complement.
+    /// The product `a * b`, in two's complement.
     pub product: Signal<Out, Bits<36>>,
     _a_input: i64,
     _b_input: i64,
@@ -28,11 +29,11 @@ pub struct Multiplier {
 }
 
 impl Multiplier {
-    /// Edges from factors to product.
+    /// Number of clock edges from factors to product.
     pub const LATENCY: usize = 3;
-    /// Bits of a factor.
+    /// Number of bits of a factor.
     pub const FACTOR_BITS: usize = 18;
-    /// Bits of the product.
+    /// Number of bits of the product.
     pub const PRODUCT_BITS: usize = 36;
 }
 
@@ -42,7 +43,7 @@ fn factor_value(bits: Bits<18>) -> i64 {
     ((bits.to_u64() << unused) as i64) >> unused
 }
 
-/// 36 bits in two's complement.
+/// A value as 36 bits in two's complement.
 fn product_bits(value: i64) -> Bits<36> {
     Bits::from(value as u64 & ((1 << 36) - 1))
 }

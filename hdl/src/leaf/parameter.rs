@@ -1,8 +1,8 @@
 //! A constant of a block that its constructor sets, such as the size of a memory.
 //!
-//! As rust-hdl's `Constant`, but with a `Default`, so that a block may derive `Default` and its constructor names only what differs:
-//! `Self { size: Parameter::new(12.into()), ..Self::default() }`. One that no constructor has set counts as an open signal, and the
-//! export refuses the design.
+//! A `Parameter` is rust-hdl's `Constant` with a `Default`, so that a block may derive `Default` and its constructor
+//! names only what differs: `Self { size: Parameter::new(12.into()), ..Self::default() }`. A parameter that no
+//! constructor sets counts as an open signal, and the export refuses the design.
 
 use rust_hdl_core::prelude::*;
 
@@ -19,7 +19,7 @@ impl<T: Synth> Parameter<T> {
         Self { constant: Constant::new(value), is_set: true }
     }
 
-    /// The value; kernels may use it.
+    /// Value of the parameter, also in kernels.
     pub fn val(&self) -> T {
         self.constant.val()
     }

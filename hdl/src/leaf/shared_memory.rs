@@ -1,19 +1,22 @@
-//! A memory in block RAM with one port that reads, and one that reads or writes.
+//! A memory in block RAM with one port that reads and one port that reads or writes, where a second read port
+//! would cost another copy.
 //!
 //! 1. Two reads, or a read and a write, can happen at every edge.
 //! 2. Only the low `address_bits` of an address and the low `stored_bits` of a word count.
-//! 3. Reading and writing one word at the same edge is undefined in silicon, and so is what `shared_data` gives for an edge that
-//!    wrote. The design never uses either; simulation in Rust answers with a fixed pattern of alternating bits.
-//! 4. Contents are arbitrary until written.
+//! 3. In silicon, reading and writing one word at the same edge gives an undefined value, and so does `shared_data` for
+//!    an edge that wrote. The design uses neither; simulation in Rust answers with a fixed pattern of alternating bits.
+//! 4. A word is arbitrary until it is written.
 //!
-//! Latency: an address that stands before edge 1 is data after edge 2 (array, output register), as in `BlockMemory`. What is
-//! written at an edge is seen by every address from the next edge on.
+//! Latency: an address that is valid before edge 1 gives its data after edge 2 (array, output register), as in
+//! `BlockMemory`. A word written at an edge can be read from the next edge on.
 //!
-//! Source: ECP5 block RAM as a true dual port memory with output registers, which is at most 18 bits wide: of words below 512 it
-//! takes twice the blocks of `BlockMemory`. `no_rw_check` keeps synthesis from adding bypass logic for rule 3.
+//! Source: ECP5 block RAM as a true dual port memory with output registers. Such a memory is at most 18 bits wide, so
+//! for fewer than 512 words it takes twice the blocks of `BlockMemory`. `no_rw_check` keeps synthesis from adding
+//! bypass logic for rule 3.
 //!
-//! With `INCIRCLE_ECP5` defined, the Verilog instantiates DP16KD with its output registers, as many as leave no multiplexer behind
-//! them, for up to 14 address bits; otherwise, and without it, it is plain Verilog that any tool maps to its block memories.
+//! With `INCIRCLE_ECP5` defined and up to 14 address bits, the Verilog instantiates DP16KD with its output registers,
+//! as many of them side by side as are needed to leave out a multiplexer. Otherwise the Verilog is plain, and any tool
+//! maps it to its block memories.
 
 use super::memory_shape::{assert_shape, low_part, unused_part, zero_extended, MAX_ADDRESS_BITS};
 use rust_hdl_core::prelude::*;
@@ -24,17 +27,17 @@ use super::ecp5;
 #[derive(LogicBlock)]
 pub struct SharedMemory<const A: usize, const D: usize> {
     pub clock: Signal<In, Clock>,
-    /// Word to read.
+    /// Address of the word to read.
     pub read_address: Signal<In, Bits<A>>,
-    /// Its value, zero above the stored bits.
+    /// Value of the word read, zero above the stored bits.
     pub read_data: Signal<Out, Bits<D>>,
-    /// Word to write or to read.
+    /// Address of the word to write or to read at the shared port.
     pub shared_address: Signal<In, Bits<A>>,
-    /// Its new value.
+    /// New value of that word.
     pub write_data: Signal<In, Bits<D>>,
-    /// Write it at this edge; otherwise it is read.
+    /// Write that word at this edge; otherwise read it.
     pub write_enable: Signal<In, Bit>,
-    /// Its value, zero above the stored bits.
+    /// Value of the word read at the shared port, zero above the stored bits.
     pub shared_data: Signal<Out, Bits<D>>,
     _address_bits: usize,
     _stored_bits: usize,
@@ -45,7 +48,7 @@ pub struct SharedMemory<const A: usize, const D: usize> {
 }
 
 impl<const A: usize, const D: usize> SharedMemory<A, D> {
-    /// Edges from address to data.
+    /// Number of clock edges from an address to its data.
     pub const LATENCY: usize = 2;
 
     /// A memory of `2^address_bits` words of `stored_bits` bits.
@@ -71,7 +74,7 @@ impl<const A: usize, const D: usize> SharedMemory<A, D> {
         }
     }
 
-    /// What a read that rule 3 leaves open gives in simulation.
+    /// The word that simulation gives for a read that rule 3 leaves undefined.
     fn poison(&self) -> Bits<D> {
         (0..D).step_by(2).fold(Bits::default(), |word: Bits<D>, bit| word.replace_bit(bit, true)) & self._stored_mask
     }

@@ -1,26 +1,26 @@
-//! The ring behind a deep buffer: a block memory that says, with what it reads, for which place that was asked for.
+//! The ring behind a [`DeepFifo`](super::DeepFifo): a block memory that returns, with each entry fetched, the place in
+//! the window for which the entry was asked.
 //!
 //! Latency: 2 clocks from `fetches` to `fetched`.
 
 use super::block_memory::BlockMemory;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
-/// The ring; see the top of this file.
+/// The ring of spilled entries; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct SpillRing<const A: usize, const D: usize> {
     pub clock: Signal<In, Clock>,
-    /// Reset forgets what is being fetched.
+    /// A reset forgets the fetches under way.
     pub reset: Signal<In, Bit>,
     /// An entry that is written at this edge.
     pub write_address: Signal<In, Bits<A>>,
     pub write_data: Signal<In, Bits<D>>,
     pub write_enable: Signal<In, Bit>,
-    /// An entry is fetched for this place.
+    /// Fetch the entry at `read_address` for this place in the window.
     pub read_address: Signal<In, Bits<A>>,
     pub fetches: Signal<In, Bit>,
     pub place: Signal<In, Bits<4>>,
-    /// An entry has come, for this place.
+    /// A fetched entry has come for this place in the window.
     pub fetched: Signal<Out, Bit>,
     pub fetched_place: Signal<Out, Bits<4>>,
     pub fetched_data: Signal<Out, Bits<D>>,

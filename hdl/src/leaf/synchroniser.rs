@@ -1,30 +1,30 @@
-//! Two cells that bring a value from another clock.
+//! Two cells that bring a value from one clock into another.
 //!
-//! 1. Of a `sent` of several bits, one changes at a time (Gray code), or each is a flag on its own.
+//! 1. If `sent` has several bits, either only one changes at a time (Gray code), or each is a flag of its own.
 //!
-//! Latency: 2 clocks, and where `sent` changes at the edge itself perhaps one more.
+//! Latency: 2 clocks, and perhaps one more if `sent` changes at the very edge.
 //!
-//! In silicon the first cell may hang between 0 and 1 for a while; the second gives it a clock to decide. `ASYNC_REG` tells tools to
-//! place both side by side, and to put nothing between them.
+//! In silicon the first cell may be neither 0 nor 1 for a while; the second cell gives it a clock to settle.
+//! `ASYNC_REG` makes tools place both side by side, and put nothing between them.
 
 use rust_hdl_core::prelude::*;
 
-/// Two cells; see the top of this file.
+/// The two cells; see the top of this file.
 #[derive(LogicBlock)]
 pub struct Synchroniser<T: Synth> {
-    /// The receiver's; everything happens at its rising edge.
+    /// Clock of the receiver; all happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// A register of the sender's clock, with no logic behind it.
     pub sent: Signal<In, T>,
-    /// Its value.
+    /// Value of `sent` in the receiver's clock.
     pub received: Signal<Out, T>,
     _first: T,
 }
 
 impl<T: Synth> Synchroniser<T> {
-    /// Edges from `sent` to `received`.
+    /// Number of clock edges from `sent` to `received`.
     pub const LATENCY: usize = 2;
-    /// Name of the first cell in Verilog: what crosses between clocks ends there.
+    /// Name of the first cell in the Verilog, at which every path between the clocks must end.
     pub const FIRST_CELL: &'static str = "first";
 }
 

@@ -1,18 +1,18 @@
-//! Bits as a structure: what a memory stores, read by field.
+//! Reads packed bits as a structure, for memories, which store plain bits.
 //!
-//! Latency: none. No logic: both sides are the same wires.
+//! Latency: none. There is no logic: both sides are the same wires.
 
 use rust_hdl_core::prelude::*;
 
-/// A structure that can be read back from its packed bits. [`packed!`](crate::packed) implements it.
+/// A structure that can be read back from its packed bits; [`packed!`](crate::packed) implements the trait.
 pub trait Unpacked: Synth {
-    /// The structure with these packed bits.
+    /// The structure that has these packed bits.
     fn unpacked<const N: usize>(bits: Bits<N>) -> Self;
 }
 
-/// A field of a packed structure.
+/// A type that can be a field of a packed structure.
 pub trait Field: Synth {
-    /// The field whose lowest bit stands at `offset`.
+    /// The field whose lowest bit is bit `offset` of `bits`.
     fn field<const N: usize>(bits: Bits<N>, offset: usize) -> Self;
 }
 
@@ -28,7 +28,7 @@ impl<const M: usize> Field for Bits<M> {
     }
 }
 
-/// Declares structures that travel on one signal, with a way back from their packed bits.
+/// Declares structures that travel on one signal and can be read back from their packed bits.
 #[macro_export]
 macro_rules! packed {
     ($($(#[$about:meta])* pub struct $name:ident { $($(#[$field_about:meta])* pub $field:ident: $kind:ty,)* })*) => {$(
@@ -57,12 +57,12 @@ macro_rules! packed {
     )*};
 }
 
-/// Bits as a structure; see the top of this file.
+/// Packed bits as a structure; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Unpack<T: Unpacked, const N: usize> {
-    /// Packed fields, the first in the lowest bits.
+    /// The packed fields, the first one in the lowest bits.
     pub bits: Signal<In, Bits<N>>,
-    /// The same as a structure.
+    /// The same bits as a structure.
     pub value: Signal<Out, T>,
 }
 

@@ -1,4 +1,4 @@
-//! The memories that hold the mesh: triangle records, vertices, and the locks with their owners (rule L9).
+//! The memories that hold the mesh: triangle records, vertices, and the locks with their holders (rule L9).
 
 mod lock_store;
 mod record;

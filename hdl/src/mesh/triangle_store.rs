@@ -1,13 +1,14 @@
-//! The triangle records, a memory per column so that a link can be written alone, and a lock for each.
+//! The triangle records, with a memory for each column, so that one neighbour can be written alone, and with a
+//! lock for each record.
 //!
-//! 1. A write is seen by every read from the next edge on. A record that is read and written at the same edge comes out torn: every
-//!    column that is written is arbitrary. Walks do that, and must look again; a visit that takes or holds the lock does not, because
-//!    only the holder writes.
-//! 2. A lock is taken whether or not the record is torn. A clear may meet anything at a lock.
+//! 1. Every read from the next edge on sees a write. A record that is read and written at the same edge comes out torn:
+//!    every column that is written is arbitrary. A walk may do that, and must visit the record again. A visit that
+//!    takes or holds the lock cannot, because only the holder writes.
+//! 2. A lock is taken whether or not the record is torn. A clear may meet any visit at a lock.
 //!
 //! Latency: 2 clocks from `read_id` to the columns and `was_set`, 3 to `took` and `foreign`.
 //!
-//! Record 5 and then its link 1 alone; three reads of it, the second of which takes its lock:
+//! A write of record 5, then of its neighbour 1 alone; three reads of the record, the second of which takes its lock:
 //! ```text
 //! vertex columns  /^^\____________________
 //! link column 1   /^^^^^\_________________
@@ -20,7 +21,7 @@
 //! was_set           .  .  .  .______/^^  .
 //! ```
 //!
-//! Source: Cline and Renka's triangle-based structure: three vertices and three neighbours for each triangle.
+//! Source: Cline and Renka's triangle-based structure, with three vertices and three neighbours for each triangle.
 
 use super::lock_store::LockStore;
 use super::record::Record;
@@ -32,19 +33,19 @@ use rust_hdl_core::prelude::*;
 #[derive(LogicBlock, Default)]
 pub struct TriangleStore {
     pub clock: Signal<In, Clock>,
-    /// A record or one link, written at this edge; only `enables` says what of it and where.
+    /// A record, or some of its neighbours, to write at this edge; `enables` alone says which columns and at which id.
     pub write: Signal<In, Write>,
     pub enables: Signal<In, WriteEnables>,
-    /// Record to read: its lock, its vertex and its link columns.
+    /// Id of the record to read, separately for its lock, its vertices and its neighbours.
     pub read_id: Signal<In, TriangleId>,
     pub vertices_id: Signal<In, TriangleId>,
     pub links_id: Signal<In, TriangleId>,
-    /// Take its lock at this edge, for this context.
+    /// The visit wants the lock at this edge, for this context.
     pub read_locks: Signal<In, Bit>,
-    pub owner: Signal<In, ContextId>,
-    /// It, with its lock as it was before.
+    pub context_id: Signal<In, ContextId>,
+    /// The record, with its lock as it was before the visit.
     pub record: Signal<Out, Record>,
-    /// What became of the lock, a clock after the record; see `LockStore`.
+    /// The outcome for the lock, a clock after the record; see `LockStore`.
     pub took: Signal<Out, Bit>,
     pub foreign: Signal<Out, Bit>,
     /// A lock to clear at this edge.
@@ -55,10 +56,10 @@ pub struct TriangleStore {
 }
 
 impl TriangleStore {
-    /// Clocks from `read_id` to the record.
+    /// Number of clocks from `read_id` to the record.
     pub const LATENCY: usize = BlockMemory::<15, 15>::LATENCY;
 
-    /// A store of `2^id_bits` records whose vertices have `vertex_bits`, for `2^context_bits` contexts.
+    /// A store of `2^id_bits` records whose vertices have ids of `vertex_bits` bits, for `2^context_bits` contexts.
     pub fn new(id_bits: usize, vertex_bits: usize, context_bits: usize) -> Self {
         Self {
             vertices: [(); 3].map(|()| BlockMemory::new(id_bits, vertex_bits)),
@@ -100,7 +101,7 @@ impl Logic for TriangleStore {
         self.locks.clock.next = self.clock.val();
         self.locks.id.next = self.read_id.val();
         self.locks.takes.next = self.read_locks.val();
-        self.locks.owner.next = self.owner.val();
+        self.locks.context_id.next = self.context_id.val();
         self.locks.clear.next = self.clear.val();
         self.took.next = self.locks.took.val();
         self.foreign.next = self.locks.foreign.val();

@@ -1,8 +1,8 @@
-//! The coordinates of the vertices, in three copies so that a triangle's three are read at once.
+//! The coordinates of the vertices, in three copies, so that the three of a record can be read at once.
 //!
-//! 1. The infinite vertex has no coordinates: reading it gives an arbitrary word that decides nothing.
-//! 2. Writes and fetches share a port of the first copy, so that a fetch costs no fourth copy. What is fetched at an edge with a
-//!    write is arbitrary.
+//! 1. The infinite vertex has no coordinates. Reading them gives an arbitrary word, on which no decision depends.
+//! 2. Writes and fetches share a port of the first copy, so that fetches do not cost a fourth copy. A fetch at an edge
+//!    with a write gives an arbitrary word.
 //!
 //! Latency: 2 clocks from an id to its coordinates.
 //! ```text
@@ -24,24 +24,24 @@ use rust_hdl_core::prelude::*;
 #[derive(LogicBlock, Default)]
 pub struct VertexStore {
     pub clock: Signal<In, Clock>,
-    /// A vertex written at this edge: x in the low half, y in the high.
+    /// A vertex to write at this edge; its point has x in the low half and y in the high half.
     pub write: Signal<In, Arrival>,
-    /// Vertices to read.
+    /// Ids of the three vertices to read.
     pub id0: Signal<In, VertexId>,
     pub id1: Signal<In, VertexId>,
     pub id2: Signal<In, VertexId>,
-    /// Their coordinates.
+    /// Coordinates of the three vertices, 2 clocks later.
     pub corners: Signal<Out, Corners>,
-    /// Another vertex to read, at an edge without a write.
+    /// Id of another vertex to fetch, at an edge without a write.
     pub fetch_id: Signal<In, VertexId>,
-    /// Its coordinates.
+    /// Coordinates of the fetched vertex, 2 clocks later.
     pub fetched: Signal<Out, Point>,
     first_copy: SharedMemory<15, 32>,
     copies: [BlockMemory<15, 32>; 2],
 }
 
 impl VertexStore {
-    /// Clocks from an id to its coordinates.
+    /// Number of clocks from an id to its coordinates.
     pub const LATENCY: usize = BlockMemory::<15, 32>::LATENCY;
 
     /// A store of `2^id_bits` vertices.

@@ -1,31 +1,31 @@
 //! The cross product of two vectors: two multipliers and a subtraction.
 //!
-//! 1. New vectors are taken at every edge. There is no reset.
-//! 2. Parts of the vectors are differences of 16-bit coordinates, so each product is below `2^32` and the result fits 34 bits; the
-//!    upper bits of the 36 repeat the sign.
+//! 1. The block takes new vectors at every edge. There is no reset.
+//! 2. The components of the vectors are differences of 16-bit coordinates, so each product is below `2^32` and the
+//!    result fits in 34 bits; the upper bits of the 36 repeat the sign.
 //!
-//! Latency: vectors that stand before edge 1 give the result after edge 4: edges 1 to 3 the multipliers, 4 the subtraction. Its
-//! register keeps the adder apart from whatever the user multiplies the result with.
+//! Latency: vectors that are valid before edge 1 give the result after edge 4: edges 1 to 3 for the multipliers, 4 for
+//! the subtraction. The register of the subtraction separates the adder from a multiplier behind the block.
 //!
-//! Apart from the wiring and the operator it is [`DotProduct`](super::DotProduct). They are two blocks, since a kernel of rust-hdl
-//! takes no operator as a parameter, and a subtract input would be a port that every user ties to a constant.
+//! The block differs from [`DotProduct`](super::DotProduct) in the wiring and the operator only. There are two blocks,
+//! because a kernel of rust-hdl takes no operator as a parameter, and a subtract input would be a port that every user
+//! ties to a constant.
 //!
 //! Source: `orient2d(u, v, p)` is the cross product of `u - p` and `v - p`.
 
 use crate::leaf::Multiplier;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// A cross product; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CrossProduct {
     pub clock: Signal<In, Clock>,
-    /// The vectors, two's complement.
+    /// Components of the two vectors, in two's complement.
     pub a_x: Signal<In, Bits<18>>,
     pub a_y: Signal<In, Bits<18>>,
     pub b_x: Signal<In, Bits<18>>,
     pub b_y: Signal<In, Bits<18>>,
-    /// `a_x * b_y - a_y * b_x`, two's complement.
+    /// The cross product `a_x * b_y - a_y * b_x`, in two's complement.
     pub product: Signal<Out, Bits<36>>,
     x_by_y: Multiplier,
     y_by_x: Multiplier,
@@ -33,7 +33,7 @@ pub struct CrossProduct {
 }
 
 impl CrossProduct {
-    /// Edges from vectors to result.
+    /// Number of clock edges from the vectors to the result.
     pub const LATENCY: usize = Multiplier::LATENCY + 1;
 }
 

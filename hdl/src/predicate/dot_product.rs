@@ -1,30 +1,30 @@
 //! The dot product of two vectors: two multipliers and an addition.
 //!
-//! 1. New vectors are taken at every edge. There is no reset.
-//! 2. Parts of the vectors are differences of 16-bit coordinates, so each product is below `2^32` and the result fits 34 bits; the
-//!    upper bits of the 36 repeat the sign.
+//! 1. The block takes new vectors at every edge. There is no reset.
+//! 2. The components of the vectors are differences of 16-bit coordinates, so each product is below `2^32` and the
+//!    result fits in 34 bits; the upper bits of the 36 repeat the sign.
 //!
-//! Latency: vectors that stand before edge 1 give the result after edge 4: edges 1 to 3 the multipliers, 4 the addition. Its
-//! register keeps the adder apart from whatever the user multiplies the result with.
+//! Latency: vectors that are valid before edge 1 give the result after edge 4: edges 1 to 3 for the multipliers, 4 for
+//! the addition. The register of the addition separates the adder from a multiplier behind the block.
 //!
-//! Apart from the wiring and the operator it is [`CrossProduct`](super::CrossProduct), whose header says why there are two.
+//! The block differs from [`CrossProduct`](super::CrossProduct) in the wiring and the operator only; the header of that
+//! block says why there are two.
 //!
 //! Source: the dot products of the Cline-Renka form of incircle.
 
 use crate::leaf::Multiplier;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// A dot product; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct DotProduct {
     pub clock: Signal<In, Clock>,
-    /// The vectors, two's complement.
+    /// Components of the two vectors, in two's complement.
     pub a_x: Signal<In, Bits<18>>,
     pub a_y: Signal<In, Bits<18>>,
     pub b_x: Signal<In, Bits<18>>,
     pub b_y: Signal<In, Bits<18>>,
-    /// `a_x * b_x + a_y * b_y`, two's complement.
+    /// The dot product `a_x * b_x + a_y * b_y`, in two's complement.
     pub product: Signal<Out, Bits<36>>,
     x_by_x: Multiplier,
     y_by_y: Multiplier,
@@ -32,7 +32,7 @@ pub struct DotProduct {
 }
 
 impl DotProduct {
-    /// Edges from vectors to result.
+    /// Number of clock edges from the vectors to the result.
     pub const LATENCY: usize = Multiplier::LATENCY + 1;
 }
 

@@ -1,23 +1,24 @@
-//! Signs and signed order of the three orientations of a visit.
+//! The signs and the signed order of the three orient2d of a visit, by which a walk chooses the edge to cross.
 //!
-//! 1. New orientations are taken at every edge. There is no reset.
-//! 2. Bits 33 to 35 of an input repeat its sign and are cut off.
+//! 1. The block takes new values at every edge. There is no reset.
+//! 2. Bits 33 to 35 of an input repeat its sign and are ignored.
 //!
-//! Latency: orientations that stand before edge 1, straight from registers, give their flags after edge `latency` of the constructor.
-//! Edge 1 takes the signs and compares the bits below them, edge 2 puts the two together: in one step they would set the clock.
+//! Latency: values that are valid before edge 1, straight from registers, give their flags after the edge given to the
+//! constructor as `latency`. Edge 1 registers the signs and compares the bits below them, edge 2 combines the two: in
+//! one step they would limit the clock.
 //!
-//! Source: the rules of the walk. Of two numbers with equal signs the lower bits decide, in two's complement also below zero.
+//! Source: the rules of the walk. Of two numbers with equal signs the lower bits decide, in two's
+//! complement also below zero.
 
 use super::signs::EdgeFlags;
 use crate::leaf::{FlagDelay, Parameter};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
-/// Flags of three orientations; see the top of this file.
+/// The flags of three orient2d; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct EdgeSigns {
     pub clock: Signal<In, Clock>,
-    /// Orientations, two's complement, each in `-2^32 .. 2^32`.
+    /// The three orient2d, in two's complement, each in `-2^32 .. 2^32`.
     pub e0: Signal<In, Bits<36>>,
     pub e1: Signal<In, Bits<36>>,
     pub e2: Signal<In, Bits<36>>,
@@ -50,7 +51,7 @@ pub struct EdgeSigns {
 }
 
 impl EdgeSigns {
-    /// Flags that come `latency` edges after the orientations.
+    /// A block whose flags come `latency` edges after the values.
     ///
     /// # Panics
     /// If `latency` is below 2.
@@ -81,7 +82,7 @@ impl Logic for EdgeSigns {
         clock!(self, clock, delay_negative_0, delay_negative_1, delay_negative_2);
         clock!(self, clock, delay_zero_0, delay_zero_1, delay_zero_2);
         clock!(self, clock, delay_1_below_0, delay_2_below_0, delay_2_below_1);
-        // Edge 1: signs, and the bits below them.
+        // Edge 1: the bits below the signs are compared at once, before anybody knows whether the signs are equal.
         self.value_0.next = bit_cast::<33, 36>(self.e0.val());
         self.value_1.next = bit_cast::<33, 36>(self.e1.val());
         self.value_2.next = bit_cast::<33, 36>(self.e2.val());
@@ -98,7 +99,7 @@ impl Logic for EdgeSigns {
         self.low_2_below_0.d.next = self.low_2.val() < self.low_0.val();
         self.low_2_below_1.d.next = self.low_2.val() < self.low_1.val();
 
-        // Edge 2: the comparisons; with unequal signs the negative one is below.
+        // Edge 2: if the signs differ, the negative value is below; otherwise the low bits have decided.
         self.delay_negative_0.flag_in.next = self.negative_0.q.val();
         self.delay_negative_1.flag_in.next = self.negative_1.q.val();
         self.delay_negative_2.flag_in.next = self.negative_2.q.val();

@@ -1,8 +1,8 @@
-//! The exact predicates of one visit: three orientations, one incircle, and the order of the vertices.
-//! [`VisitPredicates`] states the formula of the incircle (its rule 3); [`WideProduct`] multiplies its two halves.
+//! The exact predicates of one visit: three orient2d, one incircle, and the order of the vertices. [`VisitPredicates`]
+//! states the formula of incircle (its rule 3), and [`WideProduct`] multiplies its two halves.
 //!
-//! All is integer arithmetic in two's complement, wide enough that nothing ever wraps; signs decide, there is no epsilon. Coordinates are
-//! unsigned; a difference of two is widened first, so no value is ever cut.
+//! All values are integers in two's complement, wide enough that nothing ever wraps. Signs decide; there is no epsilon.
+//! Coordinates are unsigned, and every difference is widened before it is taken, so no value is ever cut.
 //!
 //! ```text
 //! r0 r1 r2 p -> PointDifference x5 -> CrossProduct x4, DotProduct x2 -> EdgeSigns           -> e*_...

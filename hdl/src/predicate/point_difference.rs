@@ -1,20 +1,21 @@
-//! The vector from one point to another, ready for a multiplier.
+//! The vector from one point to another, wide enough for a multiplier.
 //!
-//! 1. Coordinates are widened by two zero bits before the subtraction, so it never wraps: 17 bits hold the result, 18 carry it.
+//! 1. Two zero bits widen each coordinate before the subtraction, so the subtraction never wraps: 17 bits hold the
+//!    result, 18 carry it.
 //!
-//! Latency: none (combinational).
+//! Latency: none (combinational) from the points to the vector.
 //!
-//! Source: the differences of `orient2d` and `incircle`.
+//! Source: the differences in orient2d and incircle.
 
 use rust_hdl_core::prelude::*;
 
 /// A vector between two points; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct PointDifference {
-    /// Points: `x` in bits 0 to 15, `y` in bits 16 to 31, unsigned.
+    /// The two points: `x` in bits 0 to 15, `y` in bits 16 to 31, unsigned.
     pub from: Signal<In, Bits<32>>,
     pub to: Signal<In, Bits<32>>,
-    /// `to - from`, two's complement.
+    /// The vector `to - from`, in two's complement.
     pub x: Signal<Out, Bits<18>>,
     pub y: Signal<Out, Bits<18>>,
     from_x: Signal<Local, Bits<16>>,

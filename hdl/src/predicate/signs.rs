@@ -1,17 +1,18 @@
-//! What the predicates take and find out.
+//! The points that go into the predicates, and the flags that come out.
 
 use super::widths::Point;
 use rust_hdl_core::prelude::*;
 
 crate::packed! {
-    /// The corners of a record as stored; that of the infinite vertex is arbitrary.
+    /// The coordinates of a record's vertices, in stored order; those of the infinite vertex are arbitrary.
     pub struct Corners {
         pub r0: Point,
         pub r1: Point,
         pub r2: Point,
     }
 
-    /// Where the point lies from the three edges: `E_k` is the orientation of edge `k`, which lies opposite corner `k`, and the point.
+    /// The position of the point relative to the three edges. `E_k` is orient2d of edge `k` and the point; edge `k`
+    /// lies opposite corner `k`.
     pub struct EdgeFlags {
         /// `E_k < 0`: the point lies right of edge `k`.
         pub e0_negative: bool,
@@ -21,33 +22,34 @@ crate::packed! {
         pub e0_zero: bool,
         pub e1_zero: bool,
         pub e2_zero: bool,
-        /// `E_i < E_j`, signed.
+        /// `E_i < E_j`, as signed numbers.
         pub e1_below_e0: bool,
         pub e2_below_e0: bool,
         pub e2_below_e1: bool,
     }
 
-    /// The order of the point and the corners: by `x`, then by `y`.
+    /// The lexicographic order of the point and the corners: by `x`, then by `y`.
     pub struct OrderFlags {
-        /// The point comes before that corner.
+        /// The point comes before the corner.
         pub p_before_r0: bool,
         pub p_before_r1: bool,
         pub p_before_r2: bool,
-        /// The point is that corner.
+        /// The point has the coordinates of the corner.
         pub p_equals_r0: bool,
         pub p_equals_r1: bool,
         pub p_equals_r2: bool,
-        /// The one corner comes before the other.
+        /// The first corner comes before the second.
         pub r0_before_r1: bool,
         pub r0_before_r2: bool,
         pub r1_before_r2: bool,
     }
 
-    /// All that the predicates find out.
+    /// All results of the predicates.
     pub struct Signs {
         pub edges: EdgeFlags,
         pub order: OrderFlags,
-        /// The point lies inside the circle; on it.
+        /// The point lies inside the circle (`incircle_positive`) or on the circle
+        /// (`incircle_zero`) of counter-clockwise corners.
         pub incircle_positive: bool,
         pub incircle_zero: bool,
     }

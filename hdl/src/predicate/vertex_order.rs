@@ -1,8 +1,8 @@
-//! The lexicographic order of the new point and a triangle's vertices.
+//! The lexicographic order of the new point and a record's vertices, by which the tie rule decides.
 //!
-//! 1. New points are taken at every edge. There is no reset.
+//! 1. The block takes new points at every edge. There is no reset.
 //!
-//! Latency: points that stand before edge 1 give all flags after edge `latency` of the constructor.
+//! Latency: points that are valid before edge 1 give all flags after the edge given to the constructor as `latency`.
 //!
 //! Source: the canonical order of ties; a point as the number `x * 2^16 + y` sorts lexicographically.
 
@@ -11,7 +11,7 @@ use super::widths::Point;
 use crate::leaf::FlagDelay;
 use rust_hdl_core::prelude::*;
 
-/// Order of four points; see the top of this file.
+/// The order of four points; see the top of this file.
 #[derive(LogicBlock)]
 pub struct VertexOrder {
     pub clock: Signal<In, Clock>,
@@ -34,7 +34,7 @@ pub struct VertexOrder {
 }
 
 impl VertexOrder {
-    /// Flags that come `latency` edges after the points.
+    /// A block whose flags come `latency` edges after the points.
     ///
     /// # Panics
     /// If `latency` is 0.
@@ -93,7 +93,7 @@ impl Logic for VertexOrder {
     }
 }
 
-/// A point as a number that sorts lexicographically: the halves change places.
+/// A point as a number that sorts lexicographically: the point with its halves exchanged.
 #[derive(LogicBlock, Default)]
 struct SortKey {
     pub point: Signal<In, Point>,

@@ -1,16 +1,18 @@
-//! All predicates that one visit of a triangle needs, for one new visit per clock.
+//! All predicates that one visit of a record needs; a new visit may come at every clock.
 //!
-//! 1. Inputs come straight from registers. New ones are taken at every edge; there is no reset.
+//! 1. Inputs come straight from registers. The block takes new ones at every edge; there is no reset.
 //! 2. `E_k = orient2d(r[k+1], r[k+2], p)`, indices modulo 3: edge `k` is opposite vertex `k`.
-//! 3. `I = E_0 * dot(r1 - r0, r2 - r0) - orient2d(r0, r1, r2) * dot(r1 - p, r2 - p)`. For `r0`, `r1`, `r2` counter-clockwise, `I > 0` if
-//!    and only if `p` lies strictly inside their circle; clockwise the sign turns.
+//! 3. `I = E_0 * dot(r1 - r0, r2 - r0) - orient2d(r0, r1, r2) * dot(r1 - p, r2 - p)`. For `r0`, `r1`, `r2`
+//!    counter-clockwise, `I > 0` if and only if `p` lies strictly inside their circle. If they are
+//!    clockwise, the sign changes.
 //! 4. Every flag is exact for all inputs, also for equal and collinear points.
 //!
-//! Latency: inputs that stand before edge 1 give all flags after edge 10. Edges 1 to 3 small products, 4 their sums, 5 to 7 large
-//! products, 8 and 9 their sums, 10 the comparison of the two. No edge takes more than one addition or comparison, and no adder stands
-//! between two multipliers without a register.
+//! Latency: inputs that are valid before edge 1 give all flags after edge 10: edges 1 to 3 for the small products, 4
+//! for their sums, 5 to 7 for the large products, 8 and 9 for their sums, 10 for the comparison of the two. No edge
+//! takes more than one addition or comparison, and a register separates every adder from the multipliers around it.
 //!
-//! Source: the Cline-Renka form of incircle (A. K. Cline, R. J. Renka, 1984). 20 multipliers: 12 for small products, 8 for large ones.
+//! Source: the Cline-Renka form of incircle (A. K. Cline, R. J. Renka, 1984). 20 multipliers: 12 for the small
+//! products, 8 for the large ones.
 
 use super::cross_product::CrossProduct;
 use super::dot_product::DotProduct;
@@ -20,10 +22,9 @@ use super::signs::{Corners, Signs};
 use super::vertex_order::VertexOrder;
 use super::wide_product::WideProduct;
 use super::widths::Point;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
-/// Predicates of a visit; see the top of this file.
+/// The predicates of a visit; see the top of this file.
 #[derive(LogicBlock)]
 pub struct VisitPredicates {
     pub clock: Signal<In, Clock>,
@@ -53,9 +54,10 @@ pub struct VisitPredicates {
 }
 
 impl VisitPredicates {
-    /// Edges from inputs to flags: the small products, the large ones, and their comparison.
+    /// Number of clock edges from inputs to flags: the small products, the large ones, and their comparison.
     pub const LATENCY: usize = CrossProduct::LATENCY + WideProduct::LATENCY + 1;
-    /// 18 x 18 multipliers: two each for four cross and two dot products, four each for two wide products.
+    /// Number of 18 x 18 bit multipliers: two each for four cross and two dot products, four each
+    /// for two wide products.
     pub const MULTIPLIERS: usize = 2 * (4 + 2) + 4 * 2;
 }
 
@@ -96,7 +98,6 @@ impl Logic for VisitPredicates {
         clock!(self, clock, cross_0, cross_1, cross_2, cross_apex, dot_apex, dot_point);
         clock!(self, clock, edges, order, point_by_apex, apex_by_point, positive, zero);
 
-        // Vectors between the points.
         self.p_to_r0.from.next = self.p.val();
         self.p_to_r0.to.next = self.corners.val().r0;
         self.p_to_r1.from.next = self.p.val();
@@ -108,7 +109,8 @@ impl Logic for VisitPredicates {
         self.r0_to_r2.from.next = self.corners.val().r0;
         self.r0_to_r2.to.next = self.corners.val().r2;
 
-        // Orientations of the three edges, and of the triangle.
+        // `cross_0` is orient2d of an edge and a factor of incircle as well, so incircle needs only one cross
+        // product of its own.
         self.cross_0.a_x.next = self.p_to_r1.x.val();
         self.cross_0.a_y.next = self.p_to_r1.y.val();
         self.cross_0.b_x.next = self.p_to_r2.x.val();
@@ -134,7 +136,8 @@ impl Logic for VisitPredicates {
         self.dot_point.b_x.next = self.p_to_r2.x.val();
         self.dot_point.b_y.next = self.p_to_r2.y.val();
 
-        // Edge 5: the sums go to the signs and to the wide products.
+        // The signs of the edges are ready long before incircle; `EdgeSigns` delays them so that all flags of
+        // a visit come together.
         self.edges.e0.next = self.cross_0.product.val();
         self.edges.e1.next = self.cross_1.product.val();
         self.edges.e2.next = self.cross_2.product.val();
@@ -143,7 +146,8 @@ impl Logic for VisitPredicates {
         self.apex_by_point.a.next = self.cross_apex.product.val();
         self.apex_by_point.b.next = self.dot_point.product.val();
 
-        // Edge 10: the sign of their difference.
+        // Edge 10: comparing the two products is one step, where the sign of their difference would be two. With
+        // inverted sign bits, an unsigned comparison orders signed numbers.
         self.biased_first.next = self.point_by_apex.product.val() ^ self.sign.val();
         self.biased_second.next = self.apex_by_point.product.val() ^ self.sign.val();
         self.positive.d.next = self.biased_second.val() < self.biased_first.val();

@@ -1,27 +1,26 @@
-//! A 34 x 34 bit signed product from four multipliers.
+//! A signed product of 34 x 34 bits from four multipliers.
 //!
-//! 1. New factors are taken at every edge. There is no reset.
-//! 2. Bits 34 and 35 of a factor repeat its sign (they are what a sum of two products of differences leaves there).
+//! 1. The block takes new factors at every edge. There is no reset.
+//! 2. Bits 34 and 35 of a factor repeat its sign, as a sum of two products of differences leaves them.
 //!
-//! Latency: factors that stand before edge 1 are a product after edge 5: edges 1 to 3 the multipliers, 4 the sum of the middle
-//! products, 5 the product.
+//! Latency: factors that are valid before edge 1 give their product after edge 5: edges 1 to 3 for the multipliers, 4
+//! for the sum of the middle products, 5 for the product.
 //!
-//! Source: with limbs `a = h * 2^17 + l`, `l` unsigned and `h` signed,
-//! `a * b = h h' * 2^34 + (h l' + l h') * 2^17 + l l'`. `h h'` is at most `2^32`, `l l'` below `2^34`, so the two
-//! lie side by side in 68 bits without a carry between them. The middle is at most `2 * 2^16 * 2^17 = 2^34`, so 36 bits hold it.
+//! Source: with limbs `a = h * 2^17 + l`, `l` unsigned and `h` signed, `a * b = h h' * 2^34 + (h l' + l h') * 2^17 + l
+//! l'`. `h h'` is at most `2^32` and `l l'` below `2^34`, so the two lie side by side in 68 bits without a carry
+//! between them. The middle is at most `2 * 2^16 * 2^17 = 2^34`, so 36 bits hold it.
 
 use crate::leaf::Multiplier;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// A wide product; see the top of this file.
 #[derive(LogicBlock)]
 pub struct WideProduct {
     pub clock: Signal<In, Clock>,
-    /// Factors, two's complement, each in `-2^33 .. 2^33`.
+    /// The two factors, in two's complement, each in `-2^33 .. 2^33`.
     pub a: Signal<In, Bits<36>>,
     pub b: Signal<In, Bits<36>>,
-    /// `a * b`, two's complement.
+    /// The product `a * b`, in two's complement.
     pub product: Signal<Out, Bits<68>>,
     high_by_high: Multiplier,
     high_by_low: Multiplier,
@@ -53,7 +52,7 @@ pub struct WideProduct {
 }
 
 impl WideProduct {
-    /// Edges from factors to product.
+    /// Number of clock edges from factors to product.
     pub const LATENCY: usize = Multiplier::LATENCY + 2;
 }
 
@@ -90,7 +89,7 @@ impl Default for WideProduct {
             product_high_wide: Signal::default(),
             product_high_shifted: Signal::default(),
             product_low_wide: Signal::default(),
-            // Bits 36 to 50: what widening a negative middle sum has to fill.
+            // Bits 36 to 50, which must become ones when a negative middle sum is widened.
             middle_sign: Constant::new(Bits::<51>::mask() << 36),
         }
     }
@@ -102,7 +101,7 @@ impl Logic for WideProduct {
         clock!(self, clock, high_by_high, high_by_low, low_by_high, low_by_low);
         clock!(self, clock, upper, middle, lower, product_high, product_low);
 
-        // Edges 1 to 3: limbs into the multipliers.
+        // Edges 1 to 3: a low limb is unsigned, so a zero above its 17 bits makes it a signed factor of 18.
         self.a_shifted.next = self.a.val() >> 17;
         self.a_high.next = bit_cast::<18, 36>(self.a_shifted.val());
         self.a_low.next = self.a.val().get_bits::<17>(0);
@@ -120,12 +119,12 @@ impl Logic for WideProduct {
         self.low_by_low.a.next = self.a_low_wide.val();
         self.low_by_low.b.next = self.b_low_wide.val();
 
-        // Edge 4: the middle sum.
+        // Edge 4: only the middle products need an addition here; the outer ones lie side by side and wait.
         self.upper.d.next = bit_cast::<34, 36>(self.high_by_high.product.val());
         self.middle.d.next = self.high_by_low.product.val() + self.low_by_high.product.val();
         self.lower.d.next = bit_cast::<34, 36>(self.low_by_low.product.val());
 
-        // Edge 5: everything from bit 17 up; the lowest 17 bits stay as they are.
+        // Edge 5: the sum begins at bit 17; the lowest 17 bits come from `l l'` alone and pass unchanged.
         self.middle_wide.next = bit_cast::<51, 36>(self.middle.q.val());
         if self.middle.q.val().get_bit(35) {
             self.middle_wide.next = self.middle_wide.val() | self.middle_sign.val();

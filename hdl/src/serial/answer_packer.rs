@@ -1,29 +1,30 @@
-//! Cuts the answers of the core into parts that fit a frame, and gives their words byte by byte.
+//! Cuts the answers of the core into parts that fit in a frame, and offers their words byte by byte, because an answer
+//! may be longer than the payload of a frame.
 //!
-//! 1. All parts but the last have 256 words. The length of an answer is its second word, below 2^17.
+//! 1. Every part but the last has 256 words. The second word of an answer holds the length of the answer, below 2^17.
 //! 2. `word_ready`, `is_due` and `byte_valid` depend on registers only.
-//! 3. A part begins when its first word is there; of the first part the second, too, which is not taken then.
+//! 3. A part is due as soon as its first word is held. The first part waits for the second word of the answer as well:
+//!    the block reads the length from that word while the core offers it, and takes the word later.
 //!
 //! Latency: 3 clocks from the first two words of an answer to `is_due`.
 
 use super::types::{AnswerPlace, Byte};
-use crate::link::types::Word;
+use crate::commands::types::Word;
+use crate::prelude::*;
 use incircle_protocol::MAX_PAYLOAD;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
-/// What is awaited.
+/// The event that the packer awaits.
 #[derive(Clone, Copy, Debug, PartialEq, LogicState)]
 pub enum PackState {
     /// The first word of an answer.
     Head,
-    /// The second, which says how many follow.
+    /// The second word of the answer, which holds the length.
     Length,
-    /// The beginning of a frame.
+    /// The beginning of the frame of a part.
     Start,
-    /// The bytes of a frame to be taken.
+    /// The sender, which takes the bytes of the part.
     Words,
-    /// The end of the last frame.
+    /// The end of the frame with the last part.
     Rest,
 }
 
@@ -31,38 +32,38 @@ pub enum PackState {
 #[derive(LogicBlock, Default)]
 pub struct AnswerPacker {
     pub clock: Signal<In, Clock>,
-    /// Reset awaits an answer, number 0.
+    /// After a reset the packer awaits answer number 0.
     pub reset: Signal<In, Bit>,
     /// The answer stream of the core, word by word.
     pub word_valid: Signal<In, Bit>,
     pub word_ready: Signal<Out, Bit>,
     pub word_data: Signal<In, Word>,
-    /// A part is ready to be sent; it is the last one of its answer.
+    /// A part is ready to be sent; `is_last` says that the part is the last one of its answer.
     pub is_due: Signal<Out, Bit>,
     pub is_last: Signal<Out, Bit>,
-    /// The frame of the part begins.
+    /// The frame of the part begins at this edge.
     pub starts: Signal<In, Bit>,
-    /// The part.
+    /// Place of the part, for the header of the answer in the frame.
     pub answer: Signal<Out, AnswerPlace>,
-    /// A byte of the part; it is taken at this edge.
+    /// A byte of the part; the sender takes the byte at the edge at which `takes` is high.
     pub byte_valid: Signal<Out, Bit>,
     pub byte_data: Signal<Out, Byte>,
     pub takes: Signal<In, Bit>,
-    /// The byte is the last one of the part.
+    /// The byte on offer is the last one of the part.
     pub byte_is_last: Signal<Out, Bit>,
-    /// The frame of the last part is over.
+    /// The frame with the last part of the answer has ended.
     pub ended: Signal<In, Bit>,
-    /// No word of an answer has come.
+    /// The packer has no word of an answer yet.
     pub awaits: Signal<Out, Bit>,
     state: DFF<PackState>,
     word: DFF<Word>,
     is_held: DFF<Bit>,
     place: DFF<Bits<2>>,
-    /// The first word of an answer is held.
+    /// The word held is the first one of the answer.
     is_head: DFF<Bit>,
-    /// Words of the answer behind the one that is held, without the second word.
+    /// Words of the answer behind the word held, not counting the second word of the answer.
     after: DFF<Bits<17>>,
-    /// The word that is held in its part.
+    /// Index of the word held in its part.
     position: DFF<Byte>,
     part_number: DFF<Byte>,
     answers: DFF<Byte>,
@@ -104,7 +105,8 @@ impl Logic for AnswerPacker {
         self.byte_is_last.next = self.part_ends.q.val() & (self.place.q.val() == self.last_place.val());
         self.awaits.next = self.state.q.val() == PackState::Head;
 
-        // What follows from the words that are left, a clock later.
+        // The flags come from registers and so are a clock late; `is_settled` keeps `is_due` low until they
+        // fit the word held.
         self.many.next = self.after.q.val().get_bits::<9>(8);
         self.few.next = self.after.q.val().get_bits::<8>(0);
         self.is_short.d.next =

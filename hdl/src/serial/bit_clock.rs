@@ -1,27 +1,29 @@
-//! Ticks once a bit, at any rate: a phase of 24 bits.
+//! Ticks once per bit of the line at any rate: an accumulator of 24 bits keeps the fraction of a clock that
+//! a divider would lose.
 //!
-//! 1. The first value is a parameter: none, or half a bit, so that the first tick falls into the middle of one.
-//! 2. Ticks are 1 clock long, and `n` of them take `n 2^24 / step` clocks, rounded up: the remainder stays in the phase.
+//! 1. The first value of the phase is a parameter: zero, or half a bit, so that the first tick falls in the
+//!    middle of a bit.
+//! 2. A tick lasts 1 clock. `n` ticks take `n 2^24 / step` clocks, rounded up, because the remainder
+//!    stays in the phase.
 //!
-//! Latency: the tick shows a clock after the addition that passes the end.
+//! Latency: 1 clock from the addition that passes the end of the phase to the tick.
 
 use super::types::Step;
 use crate::leaf::Parameter;
+use crate::prelude::*;
 use incircle_protocol::PHASE_BITS;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 const _: () = assert!(PHASE_BITS == 24, "the phase of this block has as many bits as the protocol says");
 
-/// Ticks of bits; see the top of this file.
+/// Ticks at the rate of the bits; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct BitClock {
     pub clock: Signal<In, Clock>,
-    /// Added to the phase at every clock: a bit takes `2^24 / step` clocks.
+    /// Added to the phase at every clock, so a bit lasts `2^24 / step` clocks.
     pub step: Signal<In, Step>,
-    /// Set the phase to its first value at this edge.
+    /// Set the phase to its first value at this edge, and drop a tick that is due.
     pub starts: Signal<In, Bit>,
-    /// The phase has passed its end.
+    /// High for one clock after the phase has passed its end.
     pub ticks: Signal<Out, Bit>,
     phase: DFF<Bits<24>>,
     passes: DFF<Bit>,
@@ -32,12 +34,12 @@ pub struct BitClock {
 }
 
 impl BitClock {
-    /// Ticks at the end of bits.
+    /// A bit clock that ticks at the end of each bit.
     pub fn at_ends() -> Self {
         Self::from_phase(0)
     }
 
-    /// Ticks in the middle of bits.
+    /// A bit clock that ticks in the middle of each bit.
     pub fn in_middles() -> Self {
         Self::from_phase(1 << (PHASE_BITS - 1))
     }

@@ -1,11 +1,13 @@
-//! Takes frames out of COBS: the bytes of a frame, and its end.
+//! Decodes COBS: bytes of the line in, the bytes of frames and their ends out.
 //!
-//! 1. A zero ends a frame. Nothing between two zeros is no frame.
-//! 2. A frame is broken if it ends inside a piece, or a byte of it was lost. Noise between frames changes nothing.
+//! 1. A zero ends a frame. Two zeros with nothing between them are no frame.
+//! 2. A frame is broken if it ends inside a piece or if the line lost one of its bytes. Noise
+//!    between frames changes nothing.
 //!
-//! Latency: 1 clock. A byte from the line gives one byte of a frame at most: a length byte gives the zero before its piece.
+//! Latency: 1 clock. A byte of the line yields at most one byte of a frame: a length byte yields the
+//! zero before its piece.
 //!
-//! The frame 11 0 22, then one that ends too early; numbers of the wave are decimal:
+//! The frame 11 0 22, then a frame that ends too early; the numbers of the wave are decimal:
 //! ```text
 //! byte_valid      ___/^^\__/^^^^^^^^^^^^^^\__/^^^^^^^^\___________
 //! byte_data         .  2  . 11  2 22  0  0  .  5 33  0  .  .  .  .
@@ -16,30 +18,29 @@
 //! ```
 
 use super::types::Byte;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
-/// Frames out of COBS; see the top of this file.
+/// A decoder of COBS; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CobsDecoder {
     pub clock: Signal<In, Clock>,
-    /// Reset awaits a frame.
+    /// After a reset the decoder awaits a frame.
     pub reset: Signal<In, Bit>,
     /// A byte from the line.
     pub byte_valid: Signal<In, Bit>,
     pub byte_data: Signal<In, Byte>,
-    /// A byte from the line was lost.
+    /// The line lost a byte.
     pub noise: Signal<In, Bit>,
     /// A byte of a frame.
     pub data_valid: Signal<Out, Bit>,
     pub data: Signal<Out, Byte>,
-    /// The frame is over; it lacks bytes.
+    /// The frame has ended; `is_broken` is valid at the same time and says that the frame lacks bytes.
     pub frame_ends: Signal<Out, Bit>,
     pub is_broken: Signal<Out, Bit>,
-    /// Bytes before the next length byte.
+    /// Bytes of the line before the next length byte.
     left: DFF<Byte>,
     in_frame: DFF<Bit>,
-    /// A zero stands behind the present piece, if another one follows.
+    /// The piece stands for a zero behind it too, if another piece follows.
     owes_zero: DFF<Bit>,
     lacks: DFF<Bit>,
     gives: DFF<Bit>,

@@ -1,13 +1,16 @@
-//! Puts frames into reverse COBS: no byte of a frame is zero, and a zero ends it.
+//! Encodes frames in reverse COBS, so that no byte of a frame is zero and a zero can end it, without a
+//! buffer for a piece.
 //!
-//! 1. A byte that is not zero goes out as it comes. For a zero, and at the end, goes out a length byte: the bytes since the last one, plus
-//!    one. After 254 bytes goes out a 255.
-//! 2. A frame that is cut ends in a zero at once, without a length byte: its check sum is missing.
-//! 3. `byte_valid` and `byte_data` depend on the frame's side at once, `data_ready` on `byte_ready`.
+//! 1. A byte other than zero goes out as it comes. A zero, and the end of the frame, become a length byte: one more
+//!    than the number of bytes since the last length byte. After 254 bytes without a zero comes the length byte 255,
+//!    which stands for no zero.
+//! 2. A frame that is cut ends with a zero at once, without a length byte. The host drops the frame, because its
+//!    check sum is missing.
+//! 3. `byte_valid` and `byte_data` depend combinationally on the frame's ports, and `data_ready` on `byte_ready`.
 //!
 //! Latency: none (combinational) for a byte.
 //!
-//! The frame 11 0 22, sent to a line that takes a byte every second clock; numbers of the wave are decimal:
+//! The frame 11 0 22, sent to a line that takes a byte every second clock; the numbers of the wave are decimal:
 //! ```text
 //! data_valid      ___/^^^^^^^^^^^^^^^^^\___________
 //! data              . 11 11  0  0 22 22  .  .  .  .
@@ -19,41 +22,40 @@
 //! ```
 
 use super::types::Byte;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
-/// What goes out next.
+/// The byte that goes out next.
 #[derive(Clone, Copy, Debug, PartialEq, LogicState)]
 pub enum EncodeState {
-    /// A byte of the frame, or the length byte for it.
+    /// A byte of the frame, or the length byte that replaces it.
     Frame,
-    /// A 255 behind 254 bytes.
+    /// The length byte 255 behind 254 bytes.
     Longest,
-    /// The zero.
+    /// The zero that ends the frame.
     Zero,
 }
 
-/// Frames into reverse COBS; see the top of this file.
+/// An encoder of reverse COBS; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CobsEncoder {
     pub clock: Signal<In, Clock>,
-    /// Reset awaits a frame.
+    /// After a reset the encoder awaits a frame.
     pub reset: Signal<In, Bit>,
     /// The bytes of a frame.
     pub data_valid: Signal<In, Bit>,
     pub data_ready: Signal<Out, Bit>,
     pub data: Signal<In, Byte>,
-    /// No byte follows, held until `ended`; with `cuts` the frame is to be invalid.
+    /// No byte follows; held until `ended`. With `cuts` the frame is left invalid.
     pub ends: Signal<In, Bit>,
     pub cuts: Signal<In, Bit>,
-    /// The zero behind the frame is taken.
+    /// The line takes the zero behind the frame at this edge.
     pub ended: Signal<Out, Bit>,
     /// Bytes for the line.
     pub byte_valid: Signal<Out, Bit>,
     pub byte_ready: Signal<In, Bit>,
     pub byte_data: Signal<Out, Byte>,
     state: DFF<EncodeState>,
-    /// Bytes since the last length byte, plus one.
+    /// One more than the number of bytes since the last length byte.
     length: DFF<Byte>,
     is_zero: Signal<Local, Bit>,
     is_frame: Signal<Local, Bit>,

@@ -1,36 +1,37 @@
-//! Whether a command is under way: the core has taken a word of one whose answer has not been sent to its end.
+//! Tells whether a command is under way, for the status of a frame: from its first word that the core takes until its
+//! answer has been sent.
 //!
-//! 1. The core takes the words of the next command as soon as it offers the last word of an answer, so a word that comes then or later belongs to
-//!    that one. At most two answers have been offered to their end and not sent to it.
-//! 2. A word of zeros where a command may begin is padding and begins none.
+//! 1. The core may take words of the next command as soon as it offers the last word of an answer, so a word that it
+//!    takes in that clock or later belongs to the next command. At most two answers are offered to their end and not
+//!    yet sent to it.
+//! 2. A word of zeros where a command may begin is padding and begins no command.
 //!
 //! Latency: 1 clock from a word taken and from the end of an answer.
 
-use crate::link::types::Word;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::commands::types::Word;
+use crate::prelude::*;
 
-/// Commands under way; see the top of this file.
+/// The commands under way; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CommandProgress {
-    /// After reset none is.
+    /// After a reset no command is under way.
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
-    /// The core takes a command word.
+    /// The core takes `word`, a word of a command, at this edge.
     pub takes: Signal<In, Bit>,
     pub word: Signal<In, Word>,
-    /// The core offers the last word of an answer; what it offers is taken.
+    /// The core offers the last word of an answer; `takes_answer` says that the link takes what the core offers.
     pub offers_last: Signal<In, Bit>,
     pub takes_answer: Signal<In, Bit>,
-    /// The frame of an answer's last word is over.
+    /// The frame with the last word of an answer has ended.
     pub answer_ended: Signal<In, Bit>,
     /// A command is under way.
     pub is_busy: Signal<Out, Bit>,
-    /// A word has been taken since the last answer was offered to its end.
+    /// The core has taken a word since it offered the last answer to its end.
     begun: DFF<Bit>,
-    /// Answers offered to their end whose frames are not over.
+    /// Answers that the core has offered to their end and whose frames have not ended.
     open: DFF<Bits<2>>,
-    /// The last word that is offered was in the clock before.
+    /// The core offered the same last word one clock earlier.
     seen: DFF<Bit>,
     is_new: Signal<Local, Bit>,
     goes_on: Signal<Local, Bit>,

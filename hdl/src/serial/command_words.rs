@@ -1,10 +1,10 @@
-//! Bytes as the words of the core's command stream, the low byte first.
+//! Joins the bytes of the payload into the words of the core's command stream, the low byte first.
 //!
-//! 1. A word once offered stays until it is taken.
+//! 1. A word on offer stays until the core takes it.
 //!
 //! Latency: 1 clock from the fourth byte.
 //!
-//! A word that has to wait; `takes` shows where a byte is taken:
+//! A word that has to wait; `takes` is high where a byte is taken:
 //! ```text
 //! byte_valid      ___/^^^^^^^^^^^^^^^^^^^^^^^^^^
 //! byte_data         5  5  0  0  0  7  7  7  7  0
@@ -15,21 +15,20 @@
 //! ```
 
 use super::types::Byte;
-use crate::link::types::Word;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::commands::types::Word;
+use crate::prelude::*;
 
-/// Words of commands; see the top of this file.
+/// Bytes joined into words; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CommandWords {
     pub clock: Signal<In, Clock>,
-    /// Reset forgets the bytes of a word.
+    /// A reset forgets the bytes of an unfinished word.
     pub reset: Signal<In, Bit>,
-    /// A byte; it is taken at this edge.
+    /// A byte of the payload; the block takes the byte at the edge at which `takes` is high.
     pub byte_valid: Signal<In, Bit>,
     pub byte_data: Signal<In, Byte>,
     pub takes: Signal<Out, Bit>,
-    /// A word.
+    /// A word for the core.
     pub word_valid: Signal<Out, Bit>,
     pub word_ready: Signal<In, Bit>,
     pub word: Signal<Out, Word>,

@@ -1,30 +1,30 @@
-//! A running CRC-32 over bytes, a bit at a time.
+//! A running CRC-32 over bytes, one bit a clock.
 //!
-//! 1. A byte is taken only while `is_busy` is low, or the byte before is lost.
-//! 2. `sets` forgets a byte that is under way.
+//! 1. A byte may come only while `is_busy` is low; otherwise the byte before is lost.
+//! 2. `sets` forgets a byte that is not finished.
 //!
-//! Latency: 9 clocks. A byte of a line takes 80 or more, and a bit at a time is a quarter of the logic.
+//! Latency: 9 clocks. A byte of the line lasts 80 or more, and one bit a clock takes a quarter of the logic of
+//! a byte a clock.
 //!
-//! Source: polynomial 04C11DB7, reflected, as Ethernet and zip have it.
+//! Source: polynomial 04C11DB7, reflected, as in Ethernet and zip.
 
 use super::types::Byte;
-use crate::link::types::Word;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::commands::types::Word;
+use crate::prelude::*;
 
 /// A running check sum; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Crc32 {
     pub clock: Signal<In, Clock>,
-    /// Begin with this state at this edge.
+    /// Set the state to `start` at this edge.
     pub sets: Signal<In, Bit>,
     pub start: Signal<In, Word>,
-    /// One more byte.
+    /// Take `byte_data` at this edge.
     pub takes: Signal<In, Bit>,
     pub byte_data: Signal<In, Byte>,
-    /// The last byte is not in the state yet.
+    /// The state does not cover the last byte yet.
     pub is_busy: Signal<Out, Bit>,
-    /// The state: all ones in the beginning, and the check sum is its complement.
+    /// State of the check sum, all ones at the beginning; the check sum is its complement.
     pub state: Signal<Out, Word>,
     remainder: DFF<Word>,
     bits: DFF<Byte>,
@@ -40,7 +40,7 @@ pub struct Crc32 {
 impl Crc32 {
     /// The state before the first byte.
     pub const FIRST: u64 = 0xffff_ffff;
-    /// The state after a frame with its own check sum behind it, if that is right.
+    /// The state after a frame that ends with its own check sum, if the check sum is right.
     pub const SOUND: u64 = 0xdebb_20e3;
 }
 

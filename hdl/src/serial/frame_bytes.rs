@@ -1,34 +1,34 @@
-//! The byte of a frame to the host, chosen among its parts.
+//! Chooses the next byte of a frame to the host among the header, the greeting, the digests, the words
+//! and the check sum.
 //!
 //! 1. A check sum is the complement of its state.
 //!
-//! Latency: 1 clock.
+//! Latency: 1 clock from `part` and `index` to the byte.
 
 use super::types::{AnswerPlace, Byte};
-use crate::link::types::Word;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::commands::types::Word;
+use crate::prelude::*;
 
-/// The byte of a frame; see the top of this file.
+/// The bytes of a frame; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FrameBytes {
     pub clock: Signal<In, Clock>,
-    /// Part of the frame, as `FrameSender` numbers them, and the low bits of the byte's index in it.
+    /// Part of the frame, numbered as in `BytePlace`, and the low bits of the byte's index in its part.
     pub part: Signal<In, Bits<3>>,
     pub index: Signal<In, Bits<2>>,
-    /// The digest is that of an answer.
+    /// The digest is that of an answer; otherwise the digest is that of the payload.
     pub ends_answer: Signal<In, Bit>,
-    /// The byte, if it is of the header, of the greeting, of the words.
+    /// The byte to send if `part` is the header, the greeting or the words.
     pub header: Signal<In, Byte>,
     pub greeting: Signal<In, Byte>,
     pub word: Signal<In, Byte>,
-    /// The part of the answer in the frame.
+    /// Place of the frame's part of the answer.
     pub answer: Signal<In, AnswerPlace>,
-    /// States of the check sums: of the payload, of the answer, of the frame.
+    /// States of three check sums: over the payload of the session, over the answer, over the frame.
     pub payload_state: Signal<In, Word>,
     pub answer_state: Signal<In, Word>,
     pub sum_state: Signal<In, Word>,
-    /// The byte.
+    /// The chosen byte, a clock after `part` and `index`.
     pub byte_data: Signal<Out, Byte>,
     chosen: DFF<Byte>,
     payload_byte: Signal<Local, Byte>,

@@ -1,36 +1,35 @@
-//! Decides which frame goes to the host next.
+//! Decides which frame goes to the host next, and keeps its type and contents while the frame is under way.
 //!
 //! 1. A control frame goes before an answer.
-//! 2. What is said of the frame under way stands from the clock after `starts` to the end of the frame.
+//! 2. `kind` and `contents` are valid from the clock after `starts` to the end of the frame.
 //!
-//! Latency: none to `starts` (combinational), 1 clock to the type.
+//! Latency: none (combinational) to `starts`, 1 clock to `kind` and `contents`.
 
 use super::types::{Byte, Contents};
+use crate::prelude::*;
 use incircle_protocol::DeviceFrame;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
-/// The next frame; see the top of this file.
+/// The choice of the next frame; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FrameChoice {
     pub clock: Signal<In, Clock>,
-    /// No frame is under way.
+    /// No frame is under way, so the next one may begin.
     pub is_idle: Signal<In, Bit>,
-    /// A control frame is due; its type.
+    /// A control frame of type `reply_kind` is due.
     pub reply_is_due: Signal<In, Bit>,
     pub reply_kind: Signal<In, Byte>,
-    /// A part of an answer is; it is the last one.
+    /// A part of an answer is due; `answer_is_last` says that the part is the last one of its answer.
     pub answer_is_due: Signal<In, Bit>,
     pub answer_is_last: Signal<In, Bit>,
-    /// No frame may begin.
+    /// No frame may begin: the rate is about to change, or a change of the session has not settled.
     pub holds: Signal<In, Bit>,
-    /// No answer may begin.
+    /// No answer may begin, because the session is over.
     pub cuts: Signal<In, Bit>,
-    /// A frame begins at this edge; which of the two.
+    /// A frame begins at this edge: a control frame or a part of an answer.
     pub starts: Signal<Out, Bit>,
     pub starts_reply: Signal<Out, Bit>,
     pub starts_answer: Signal<Out, Bit>,
-    /// Type of the frame under way.
+    /// Type of the frame under way, and the parts behind its header.
     pub kind: Signal<Out, Byte>,
     pub contents: Signal<Out, Contents>,
     kind_byte: DFF<Byte>,
@@ -46,7 +45,7 @@ pub struct FrameChoice {
     nak_kind: Signal<Local, Byte>,
 }
 
-// The kernel names types by number, because rust-hdl takes literals only; a change in the protocol must come here.
+// The kernel holds the types as literals, because rust-hdl allows no constants there. A changed protocol fails here.
 const _: () = assert!(
     DeviceFrame::Hello as u8 == 0x81
         && DeviceFrame::Ack as u8 == 0x83

@@ -1,37 +1,37 @@
-//! The header of a frame to the host, as it was when the frame began, and the digest that goes with it.
+//! The header of a frame to the host, and the digest that goes with it, both as they were when the frame began.
 //!
-//! 1. A frame that is dropped at the very clock in which one begins shows in the next.
+//! 1. A frame of the host that is dropped in the very clock in which a frame to the host begins shows in the status
+//!    of the next one.
 //!
 //! Latency: none (combinational) from `kind` and `index`.
 
 use super::types::{Byte, Receipt, Session};
-use crate::link::types::Word;
+use crate::commands::types::Word;
+use crate::prelude::*;
 use incircle_protocol::{STATUS_BAD_RATE, STATUS_BUSY, STATUS_DROPPED, STATUS_OPEN};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
-/// Headers of frames to the host; see the top of this file.
+/// The header of frames to the host; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FrameHeader {
-    /// After reset no frame has been dropped.
+    /// After a reset no frame counts as dropped.
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
-    /// A frame begins: all below is as it is now, until the next begins.
+    /// A frame begins: the block keeps the fields below until the next frame begins.
     pub starts: Signal<In, Bit>,
-    /// Fields of the header.
+    /// The session, the number of answers sent to their end, the credit and the digest.
     pub open: Signal<In, Session>,
     pub answers: Signal<In, Byte>,
     pub receipt: Signal<In, Receipt>,
-    /// The last `Rate` was refused; a command is under way.
+    /// Bits of the status: the device refused the last `Rate`; a command is under way.
     pub is_refused: Signal<In, Bit>,
     pub is_busy: Signal<In, Bit>,
-    /// A frame of the host is dropped.
+    /// The device drops a frame of the host.
     pub drops: Signal<In, Bit>,
-    /// Type of the frame; byte of the header.
+    /// Type of the frame, and index of the wanted byte of the header, 0 to 6.
     pub kind: Signal<In, Byte>,
     pub index: Signal<In, Bits<3>>,
     pub byte_data: Signal<Out, Byte>,
-    /// The digest as it was.
+    /// State of the digest at the beginning of the frame.
     pub digest_taken: Signal<Out, Word>,
     session_then: DFF<Byte>,
     expected_then: DFF<Byte>,
@@ -46,7 +46,7 @@ pub struct FrameHeader {
     busy_bit: Signal<Local, Byte>,
 }
 
-// The kernel writes these as literals, because rust-hdl takes no constants of Rust; a change in the protocol must come here.
+// The kernel holds the bits as literals, because rust-hdl allows no constants there. A changed protocol fails here.
 const _: () = assert!(
     STATUS_OPEN == 1 && STATUS_BAD_RATE == 2 && STATUS_DROPPED == 4 && STATUS_BUSY == 8,
     "the status of this block follows the protocol"

@@ -1,67 +1,69 @@
-//! What a frame of a host asks for.
+//! Judges each frame of the host: what the frame asks for, and whether its payload may enter the receive FIFO.
 //!
-//! 1. Exactly one of the fields of `asked` but `hears` is high at the end of a frame, or none: for frames of another session.
-//! 2. `takes_payload` is decided 3 clocks after the header and stays until the end; `head.length` bytes fit the FIFO then.
-//! 3. Bytes of a frame come at least 16 clocks apart, so what the header says is compared in ranks of registers.
-//! 4. Whether a session is open is looked at once more in the clock of `comes`: it may end in any clock before.
+//! 1. At the end of a frame at most one field of `asked` besides `hears` is high; none is high for a
+//!    frame of another session.
+//! 2. `takes_payload` is decided 3 clocks after the header and stays until the end of the frame. While it is high, the
+//!    FIFO has room for `head.length` bytes.
+//! 3. Bytes of a frame come at least 16 clocks apart, so the header is compared in several ranks of registers.
+//! 4. The clock of `comes` looks once more at whether a session is open, because the session may have ended
+//!    in any clock before.
 //!
-//! Latency: 1 clock.
+//! Latency: 1 clock from `comes` to `asked`.
 
 use super::types::{Byte, FrameHead, Session};
 use crate::packed;
+use crate::prelude::*;
 use incircle_protocol::{HostFrame, MAX_PAYLOAD};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 packed! {
-    /// The request of a frame of the host.
+    /// The request of a frame, valid for one clock after the end of the frame.
     pub struct Asked {
-        /// A sound frame: there is a host.
+        /// A sound frame of a known type has come, so a host is there.
         pub hears: bool,
-        /// `Hello`.
+        /// A `Hello`, with or without a session.
         pub hello: bool,
-        /// `Open`.
+        /// An `Open`, which begins a session.
         pub opens: bool,
-        /// `Rate` of the open session.
+        /// A `Rate` of the open session.
         pub rate: bool,
-        /// `Poll` of the open session.
+        /// A `Poll` of the open session.
         pub polls: bool,
-        /// `Close` of the open session.
+        /// A `Close` of the open session.
         pub closes: bool,
-        /// `Data` that is taken.
+        /// A `Data` whose payload the device takes.
         pub takes: bool,
-        /// `Data` that has been taken before.
+        /// A `Data` that the device has taken before.
         pub repeats: bool,
-        /// `Data` behind a gap, or without room.
+        /// A `Data` behind a gap, or one for which the FIFO has no room.
         pub gap: bool,
-        /// A frame of a session, and none is open.
+        /// A frame that needs a session, while none is open.
         pub no_session: bool,
-        /// A frame that is not sound.
+        /// A frame that the device drops: damaged, of an unknown type or of a wrong length.
         pub drops: bool,
     }
 }
 
-/// What a frame asks for; see the top of this file.
+/// The judgement of frames; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FrameJudge {
     pub clock: Signal<In, Clock>,
-    /// Reset forgets a frame that is under way.
+    /// A reset forgets the frame under way.
     pub reset: Signal<In, Bit>,
     /// The header of the frame, from `FrameReader`.
     pub head: Signal<In, FrameHead>,
-    /// The header is complete.
+    /// The header is complete at this clock.
     pub header_comes: Signal<In, Bit>,
-    /// The frame is over; its check sum and its length are right.
+    /// The frame has ended; `is_sound` says that its check sum and its length are right.
     pub comes: Signal<In, Bit>,
     pub is_sound: Signal<In, Bit>,
     pub open: Signal<In, Session>,
-    /// Bytes of the receive FIFO that are free.
+    /// Free bytes of the receive FIFO.
     pub free: Signal<In, Bits<16>>,
-    /// The payload belongs into the FIFO, if the frame turns out to be sound.
+    /// The payload goes into the FIFO, where it counts only if the frame turns out to be sound.
     pub takes_payload: Signal<Out, Bit>,
-    /// What is asked for, at the end of the frame.
+    /// The request of the frame that has just ended.
     pub asked: Signal<Out, Asked>,
-    // First rank: what the header says.
+    // First rank: comparisons of the header alone.
     kind_low: DFF<Bits<3>>,
     is_host_kind: DFF<Bit>,
     is_this_session: DFF<Bit>,
@@ -71,11 +73,11 @@ pub struct FrameJudge {
     is_words: DFF<Bit>,
     distance: DFF<Byte>,
     has_room: DFF<Bit>,
-    // Second rank: what follows.
+    // Second rank: the decisions that combine several comparisons.
     is_fit: DFF<Bit>,
     is_next: DFF<Bit>,
     is_data: DFF<Bit>,
-    // Third rank: the decision.
+    // Third rank: whether the payload is taken, and the request.
     header_before: DFF<Bit>,
     header_first: DFF<Bit>,
     taking: DFF<Bit>,
@@ -87,7 +89,7 @@ pub struct FrameJudge {
     four: Signal<Local, Bits<11>>,
     is_ours: Signal<Local, Bit>,
     wide_kind: Signal<Local, Byte>,
-    /// Bit `k`: the frame is of type `k`.
+    /// One-hot type of the frame: bit `k` is high for type `k`.
     kinds: Signal<Local, Byte>,
     is_behind: Signal<Local, Bit>,
     is_data_of_ours: Signal<Local, Bit>,
@@ -96,7 +98,7 @@ pub struct FrameJudge {
     is_wanted: Signal<Local, Bit>,
 }
 
-// The kernel names types by number, because rust-hdl takes literals only; a change in the protocol must come here.
+// The kernel holds the types as literals, because rust-hdl allows no constants there. A changed protocol fails here.
 const _: () = assert!(
     HostFrame::Hello as u8 == 1
         && HostFrame::Open as u8 == 2
@@ -156,14 +158,15 @@ impl Logic for FrameJudge {
             _ => {}
         }
 
-        // Whether the payload is taken is decided once, before its first byte: room that comes later comes too late.
+        // Decide on the payload once, before its first byte: if room appeared later, the FIFO would get the end
+        // of the payload only.
         self.header_before.d.next = self.header_comes.val();
         self.header_first.d.next = self.header_before.q.val();
         if self.header_first.q.val() {
             self.taking.d.next =
                 self.is_data.q.val() & self.is_next.q.val() & self.has_room.q.val() & self.is_this_session.q.val();
         }
-        // A session that has ended since the header came is none.
+        // Look at the session again: one that has ended since the header came no longer counts (rule 4).
         self.is_ours.next = self.is_this_session.q.val() & self.open.val().is_open;
         self.is_wanted.next = self.comes.val() & self.is_sound.val() & self.is_fit.q.val();
         self.wide_kind.next = bit_cast::<8, 3>(self.kind_low.q.val());

@@ -1,26 +1,26 @@
-//! Whether a byte is the last one of its part of a frame to the host.
+//! Tells whether a byte is the last one of its part of a frame to the host, so that `FrameSender` need not know the
+//! lengths of the parts.
 //!
-//! Latency: 1 clock.
+//! Latency: 1 clock from `at` to `is_last`.
 
 use super::types::BytePlace;
+use crate::prelude::*;
 use incircle_protocol::{ANSWER_HEADER_BYTES, CRC_BYTES, DEVICE_HEADER_BYTES, GREETING_WORDS};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The ends of parts; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FramePart {
     pub clock: Signal<In, Clock>,
     pub at: Signal<In, BytePlace>,
-    /// The byte is the last one of the words.
+    /// The byte is the last one of the words of an answer in this frame.
     pub word_byte_is_last: Signal<In, Bit>,
-    /// The byte is the last one of the part.
+    /// The byte, a clock earlier at `at`, is the last one of its part.
     pub is_last: Signal<Out, Bit>,
     at_end: DFF<Bit>,
     last_index: Signal<Local, Bits<6>>,
 }
 
-// The kernel writes these as literals, because rust-hdl takes no constants of Rust; a change in the protocol must come here.
+// The kernel holds the lengths as literals, because rust-hdl allows no constants there. A changed protocol fails here.
 const _: () = assert!(
     DEVICE_HEADER_BYTES == 7 && GREETING_WORDS == 13 && ANSWER_HEADER_BYTES == 3 && CRC_BYTES == 4,
     "the parts of this block follow the protocol"

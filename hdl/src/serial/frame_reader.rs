@@ -1,66 +1,65 @@
-//! Reads the frames of a host: header, payload, check sum.
+//! Reads the frames of the host: header, payload, check sum.
 //!
-//! 1. Bytes, and the end of a frame, come at least 16 clocks apart.
+//! 1. Bytes of a frame, and its end, come at least 16 clocks apart.
 //! 2. A frame whose header says more than 1,024 bytes has no payload and is not sound.
-//! 3. The payload comes before the check sum is known.
+//! 3. The payload comes out before its check sum is known, so its user must be able to forget the payload again.
 //!
-//! Latency: 1 clock.
+//! Latency: 1 clock from a byte, or from `frame_ends`, to the outputs.
 
 use super::crc32::Crc32;
 use super::types::{Byte, FrameHead};
-use crate::link::types::Word;
+use crate::commands::types::Word;
+use crate::prelude::*;
 use incircle_protocol::{CRC_BYTES, HOST_HEADER_BYTES, MAX_PAYLOAD};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
-/// What the next byte is.
+/// The field of the frame to which the next byte belongs.
 #[derive(Clone, Copy, Debug, PartialEq, LogicState)]
 pub enum ReadState {
-    /// Number of a session.
+    /// Number of the session.
     Session,
     /// Type of the frame.
     Kind,
     /// Number of the frame.
     Number,
-    /// Length, the low byte.
+    /// The low byte of the length.
     LengthLow,
-    /// Length, the high byte.
+    /// The high byte of the length.
     LengthHigh,
     /// A byte of the payload.
     Payload,
     /// A byte of the check sum.
     Sum,
-    /// One too many.
+    /// A byte too many, or any byte after a length above 1,024.
     Excess,
 }
 
-/// Frames of a host; see the top of this file.
+/// The reader of frames; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FrameReader {
     pub clock: Signal<In, Clock>,
-    /// Reset awaits a frame.
+    /// After a reset the reader awaits a frame.
     pub reset: Signal<In, Bit>,
-    /// A byte of a frame.
+    /// A byte of a frame, decoded.
     pub data_valid: Signal<In, Bit>,
     pub data: Signal<In, Byte>,
-    /// The frame is over; it lacks bytes.
+    /// The frame has ended; `is_broken` says that the frame lacks bytes.
     pub frame_ends: Signal<In, Bit>,
     pub is_broken: Signal<In, Bit>,
-    /// The header of the frame.
+    /// The header of the frame, valid from `header_comes` until the next frame.
     pub head: Signal<Out, FrameHead>,
-    /// It is complete, and stands until the next frame.
+    /// The header is complete at this clock.
     pub header_comes: Signal<Out, Bit>,
     /// A byte of the payload.
     pub payload_valid: Signal<Out, Bit>,
     pub payload: Signal<Out, Byte>,
-    /// The last four bytes of the payload.
+    /// The last four bytes of the payload, the last one on top.
     pub value: Signal<Out, Word>,
-    /// A frame is over; its check sum and its length are right.
+    /// A frame has ended; `is_sound` says that its check sum and its length are right.
     pub comes: Signal<Out, Bit>,
     pub is_sound: Signal<Out, Bit>,
     state: DFF<ReadState>,
     header: DFF<FrameHead>,
-    /// Bytes of the payload or of the check sum that are to come.
+    /// Bytes of the payload or of the check sum that have yet to come.
     left: DFF<Bits<11>>,
     has_header: DFF<Bit>,
     gives: DFF<Bit>,
@@ -84,7 +83,7 @@ pub struct FrameReader {
     sound_state: Signal<Local, Word>,
 }
 
-// The kernel writes these as literals, because rust-hdl takes no constants of Rust; a change in the protocol must come here.
+// The kernel holds the numbers as literals, because rust-hdl allows no constants there. A changed protocol fails here.
 const _: () = assert!(
     HOST_HEADER_BYTES == 5
         && MAX_PAYLOAD == 1024
@@ -115,7 +114,7 @@ impl Logic for FrameReader {
         self.comes.next = self.is_over.q.val();
         self.is_sound.next = self.is_good.q.val();
 
-        // The check sum covers all bytes, its own included.
+        // The check sum runs over its own bytes too, so that a sound frame ends in one constant state.
         self.crc.sets.next = self.reset.val() | self.frame_ends.val();
         self.crc.start.next = self.first_state.val();
         self.crc.takes.next = self.data_valid.val();

@@ -1,65 +1,67 @@
-//! Sends a frame to the host: asks for its bytes in order.
+//! Sends a frame to the host: asks for its bytes in order, and hands them to the encoder.
 //!
-//! 1. `starts` only while `is_idle`.
-//! 2. A byte once offered stays until it is taken, unless the frame is cut.
+//! 1. `starts` may be high only while `is_idle` is high.
+//! 2. A byte on offer stays until the encoder takes it, unless the frame is cut.
 //!
-//! Latency: 4 clocks from `starts` to the first byte; 4 from a byte taken to the next, and not before the check sum has taken it.
+//! Latency: 4 clocks from `starts` to the first byte. The next byte follows 4 clocks after a byte is taken, or later,
+//! because the check sum must have taken the byte before.
 
 use super::frame_part::FramePart;
 use super::types::{Byte, BytePlace, Contents};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
-/// What is at work.
+/// The stage of the frame under way.
 #[derive(Clone, Copy, Debug, PartialEq, LogicState)]
 pub enum SendState {
-    /// Nothing: a frame is awaited.
+    /// No frame is under way; the sender awaits one.
     Idle,
-    /// The parts of a frame.
+    /// The sender loads the bytes of the frame, part by part.
     Parts,
-    /// The end of the frame is awaited.
+    /// All bytes are loaded; the sender awaits the end of the frame.
     End,
 }
 
-/// Frames to the host; see the top of this file.
+/// The sender of frames; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FrameSender {
     pub clock: Signal<In, Clock>,
-    /// Reset sends nothing.
+    /// A reset drops the frame under way.
     pub reset: Signal<In, Bit>,
     /// A frame begins at this edge.
     pub starts: Signal<In, Bit>,
-    /// What the frame under way has, from `FrameChoice`.
+    /// The parts of the frame under way, from `FrameChoice`.
     pub contents: Signal<In, Contents>,
-    /// An answer is over: its frame is to end, invalid.
+    /// The session is over: a frame that holds part of an answer ends at once, invalid.
     pub cuts: Signal<In, Bit>,
-    /// The byte of the frame that is wanted.
+    /// Place of the byte that the sender asks for.
     pub at: Signal<Out, BytePlace>,
-    /// The byte, 2 clocks later; the check sum has not taken the byte before.
+    /// The byte at that place, 2 clocks later. While `sum_is_busy` is high, a check sum has not
+    /// covered the byte before.
     pub byte_data: Signal<In, Byte>,
     pub sum_is_busy: Signal<In, Bit>,
-    /// The next byte of the words is there; it is the last one of the frame.
+    /// The next byte of the words is there; `word_byte_is_last` says that the byte is the last one of the
+    /// words in this frame.
     pub word_byte_valid: Signal<In, Bit>,
     pub word_byte_is_last: Signal<In, Bit>,
-    /// A byte that the check sum covers is loaded; it is one of the words.
+    /// The sender loads a byte that the check sum of the frame covers; with `loads_word` the byte belongs to the words.
     pub loads: Signal<Out, Bit>,
     pub loads_word: Signal<Out, Bit>,
-    /// Bytes of the frame.
+    /// The bytes of the frame, for the encoder.
     pub data_valid: Signal<Out, Bit>,
     pub data_ready: Signal<In, Bit>,
     pub data: Signal<Out, Byte>,
-    /// No byte follows; the frame is to be invalid; it is over.
+    /// No byte follows (`ends`); the frame is to be invalid (`is_cut`); the encoder has ended the frame (`ended`).
     pub ends: Signal<Out, Bit>,
     pub is_cut: Signal<Out, Bit>,
     pub ended: Signal<In, Bit>,
-    /// It was the last of an answer, and whole.
+    /// The frame that ended was the last one of an answer, and was not cut.
     pub answer_ended: Signal<Out, Bit>,
     /// No frame is under way.
     pub is_idle: Signal<Out, Bit>,
     state: DFF<SendState>,
     part_number: DFF<Bits<3>>,
     place: DFF<Bits<6>>,
-    /// Clocks for which the byte has been asked for, up to 2.
+    /// Clocks for which the sender has asked for the byte, up to 2.
     asked_once: DFF<Bit>,
     asked_twice: DFF<Bit>,
     is_loaded: DFF<Bit>,
@@ -94,7 +96,8 @@ impl Logic for FrameSender {
         self.answer_ended.next =
             self.ended.val() & self.contents.val().ends_answer & (!self.was_cut.q.val()) & (!self.cuts.val());
 
-        // A byte is asked for through two ranks of registers, while none is loaded and the check sum rests.
+        // Ask for two clocks before loading a byte: the greeting and `FrameBytes` take one each. Ask only when the
+        // check sums have covered the byte before, which takes them 9 clocks.
         self.part_end.at.next = self.at.val();
         self.part_end.word_byte_is_last.next = self.word_byte_is_last.val();
         self.is_words.next = self.part_number.q.val() == self.words_part.val();
@@ -118,7 +121,7 @@ impl Logic for FrameSender {
             self.place.d.next = self.place.q.val() + self.one.val();
         }
         if self.finishes.val() {
-            // The check sum follows whatever has nothing else behind it.
+            // Every part that is not followed by the check sum names its successor below.
             self.place.d.next = 0.into();
             self.part_number.d.next = 5.into();
             match self.part_number.q.val().index() {

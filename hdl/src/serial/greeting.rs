@@ -1,24 +1,23 @@
-//! The greeting, byte by byte: a memory of constants.
+//! The bytes of the greeting, which tells the host the link's and the core's parameters: a memory of constants.
 //!
-//! Latency: 1 clock.
+//! Latency: 1 clock from `index` to the byte.
 
 use super::types::Byte;
+use crate::commands::types::Word;
 use crate::leaf::Parameter;
-use crate::link::types::Word;
+use crate::prelude::*;
 use incircle_protocol::{
     Config, Greeting as GreetingWords, Identity, LinkConfig, CORE_COORD_BITS, CORE_VERSION, GREETING_WORDS, LINK_MAGIC,
     LINK_VERSION, MAGIC, PROTOCOL_VERSION,
 };
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 const _: () = assert!(GREETING_WORDS == 13, "the kernel of this block lists the words of the greeting");
 
-/// The greeting; see the top of this file.
+/// The bytes of the greeting; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Greeting {
     pub clock: Signal<In, Clock>,
-    /// A byte of the greeting, 0 to 51.
+    /// Index of a byte of the greeting, 0 to 51; `byte_data` is that byte, a clock later.
     pub index: Signal<In, Bits<6>>,
     pub byte_data: Signal<Out, Byte>,
     chosen: DFF<Byte>,
@@ -41,7 +40,7 @@ pub struct Greeting {
 }
 
 impl Greeting {
-    /// The greeting of a core behind a link.
+    /// The greeting of a core of this configuration behind this link.
     pub fn new(config: Config, link: LinkConfig) -> Self {
         let words = Self::words(config, link);
         let word = |index: usize| Parameter::new(u64::from(words[index]).into());
@@ -63,7 +62,7 @@ impl Greeting {
         }
     }
 
-    /// The words of the greeting.
+    /// The words of the greeting, in the order of `protocol/SERIAL.md`.
     fn words(config: Config, link: LinkConfig) -> [u32; GREETING_WORDS] {
         let LinkConfig { clock_hz, fifo_bytes, silence_ms } = link;
         let identity = Identity {

@@ -1,32 +1,32 @@
-//! Silence, breaks, and a beat to see.
+//! Times the line: a silent host, a break, and the beat of a lamp.
 //!
-//! 1. Time is counted in eighths of a millisecond, of which the first may be short: both last up to an eighth longer.
-//! 2. `is_silent` falls a clock after `hears`.
+//! 1. The unit of time is an eighth of a millisecond. The first unit of a silence or a break may be short, so both last
+//!    up to one unit longer than their limit.
+//! 2. `is_silent` falls one clock after `hears`.
 //!
-//! Latency: 2 clocks from the end of the time.
+//! Latency: 2 clocks from the end of a time.
 
 use crate::leaf::Parameter;
+use crate::prelude::*;
 use incircle_protocol::{LinkConfig, BREAK_MS};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 const _: () = assert!(BREAK_MS == 1, "eight eighths of this block are a break, and a short one");
 
-/// Times of the line; see the top of this file.
+/// The timers of the line; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct LineTimers {
-    /// After reset silence begins anew.
+    /// After a reset the silence begins anew.
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
-    /// The line is low.
+    /// The line is low at present.
     pub is_low: Signal<In, Bit>,
     /// A sound frame has come.
     pub hears: Signal<In, Bit>,
-    /// The line has been low for a millisecond, and is.
+    /// The line has been low for a millisecond and still is.
     pub is_broken: Signal<Out, Bit>,
-    /// No sound frame has come for as long as the parameter says.
+    /// No sound frame has come for `silence_ms` of the parameters.
     pub is_silent: Signal<Out, Bit>,
-    /// High for about half a second, low for as long.
+    /// High for about half a second, then low for as long.
     pub beat: Signal<Out, Bit>,
     clocks: DFF<Bits<16>>,
     ticks: DFF<Bit>,
@@ -44,7 +44,7 @@ pub struct LineTimers {
 }
 
 impl LineTimers {
-    /// Parts of a millisecond.
+    /// Units of time in a millisecond.
     pub const PARTS: u32 = 8;
 
     /// The timers of a link that has passed [`LinkConfig::check`].

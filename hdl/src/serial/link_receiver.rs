@@ -1,6 +1,7 @@
-//! From the line to the core: bytes, frames, payload, command words.
+//! The way from the line to the core: bytes, frames, payload, command words.
 //!
-//! 1. Payload goes into the FIFO as it comes, and counts when its frame has turned out to be sound.
+//! 1. Payload enters the FIFO as it comes, and counts once its frame has turned out to be sound. A frame then needs no
+//!    buffer of its own.
 //!
 //! ```text
 //! rx -> UartReceiver -> CobsDecoder -> FrameReader -> FrameJudge -> asked
@@ -16,28 +17,28 @@ use super::payload_digest::PayloadDigest;
 use super::receive_fifo::ReceiveFifo;
 use super::types::{Byte, Receipt, Session, Step};
 use super::uart_receiver::UartReceiver;
-use crate::link::types::Word;
-use crate::link::CommandSource;
+use crate::commands::types::Word;
+use crate::commands::CommandSource;
 use incircle_protocol::LinkConfig;
 use rust_hdl_core::prelude::*;
 
-/// From the line to the core; see the top of this file.
+/// The receiving half of the link; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct LinkReceiver {
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
-    /// Rate, and the line.
+    /// Rate of the line, and the line itself.
     pub step: Signal<In, Step>,
     pub rx: Signal<In, Bit>,
     pub open: Signal<In, Session>,
-    /// Empty the FIFO.
+    /// Forget the payload: the FIFO, the digest and an unfinished word.
     pub forgets: Signal<In, Bit>,
-    /// What a frame asks for, the session it names, the last four bytes of its payload.
+    /// The request of the last frame, the session that the frame names, and the last four bytes of its payload.
     pub asked: Signal<Out, Asked>,
     pub named: Signal<Out, Byte>,
     pub value: Signal<Out, Word>,
     pub receipt: Signal<Out, Receipt>,
-    /// The line is low.
+    /// The line is low at present.
     pub is_low: Signal<Out, Bit>,
     pub command: CommandSource,
     uart: UartReceiver,

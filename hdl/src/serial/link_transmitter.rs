@@ -1,6 +1,6 @@
-//! From the core to the line: answers and control frames, their headers and check sums, bytes.
+//! The way from the core to the line: answers and control frames, their headers and check sums, bytes.
 //!
-//! 1. A frame says what was true when it began.
+//! 1. The header of a frame says what was true when the frame began.
 //!
 //! ```text
 //! asked -> Replies -----+-> FrameChoice -> FrameSender -> CobsEncoder -> UartTransmitter -> tx
@@ -21,42 +21,42 @@ use super::replies::Replies;
 use super::types::{Receipt, Session, Step};
 use super::uart_transmitter::UartTransmitter;
 use super::word_narrower::WordNarrower;
-use crate::link::types::Word;
+use crate::commands::types::Word;
 use incircle_protocol::{Config, LinkConfig};
 use rust_hdl_core::prelude::*;
 
-/// From the core to the line; see the top of this file.
+/// The transmitting half of the link; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct LinkTransmitter {
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
-    /// Rate, and the line.
+    /// Rate of the line, and the line itself.
     pub step: Signal<In, Step>,
     pub tx: Signal<Out, Bit>,
-    /// What a frame of the host asks for; a gap was seen before it.
+    /// The request of the host's last frame; `saw_gap` says that a gap came before it.
     pub asked: Signal<In, Asked>,
     pub saw_gap: Signal<In, Bit>,
-    /// The session and the receipt that a frame to the host reports.
+    /// The session and the receipt for the headers of frames to the host.
     pub open: Signal<In, Session>,
     pub receipt: Signal<In, Receipt>,
     pub is_refused: Signal<In, Bit>,
     pub is_busy: Signal<In, Bit>,
-    /// The session ends; its answers are over; no frame may begin.
+    /// The session ends at this edge (`fails`); its answers are void (`forgets`); no frame may begin (`holds`).
     pub fails: Signal<In, Bit>,
     pub forgets: Signal<In, Bit>,
     pub holds: Signal<In, Bit>,
-    /// An `Ack` or `Nak` begins; a `Closed`.
+    /// The control frame that begins at this edge is an `Ack` or `Nak` (`acknowledges`), or a `Closed` (`closes`).
     pub acknowledges: Signal<Out, Bit>,
     pub closes: Signal<Out, Bit>,
-    /// No frame is under way, and the last stop bit is over.
+    /// No frame is under way, and the last stop bit has ended.
     pub is_quiet: Signal<Out, Bit>,
-    /// The frame of an answer's last word is over.
+    /// The frame with the last word of an answer has ended.
     pub answer_ended: Signal<Out, Bit>,
-    /// The answer stream.
+    /// The answer stream of the core.
     pub response_valid: Signal<In, Bit>,
     pub response_ready: Signal<Out, Bit>,
     pub response_data: Signal<In, Bits<64>>,
-    /// Bits 63 to 32 are a second word, which follows the first.
+    /// Bits 63 to 32 hold a second word, which follows the first.
     pub response_both: Signal<In, Bit>,
     replies: Replies,
     narrower: WordNarrower,
@@ -91,7 +91,7 @@ impl Logic for LinkTransmitter {
         self.first_state.next = 0xffff_ffffu64.into();
         self.is_over.next = self.forgets.val() | self.reset.val();
 
-        // What is due, and what goes.
+        // Only a reset clears the control frames: a `Closed` must still go out when its session is over.
         self.replies.reset.next = self.reset.val();
         self.replies.asked.next = self.asked.val();
         self.replies.saw_gap.next = self.saw_gap.val();
@@ -107,7 +107,7 @@ impl Logic for LinkTransmitter {
         self.acknowledges.next = self.choice.starts_reply.val() & self.replies.acknowledges.val();
         self.closes.next = self.choice.starts_reply.val() & self.replies.closes.val();
 
-        // Answers.
+        // The end of a session empties the path of its answers, so that none of their words can reach the next session.
         self.packer.reset.next = self.is_over.val();
         self.narrower.reset.next = self.is_over.val();
         self.narrower.pair_valid.next = self.response_valid.val();
@@ -126,7 +126,7 @@ impl Logic for LinkTransmitter {
         self.answer_digest.takes.next = self.sender.loads_word.val();
         self.answer_digest.byte_data.next = self.bytes.byte_data.val();
 
-        // The frame.
+        // Both check sums must have covered a byte before the sender loads the next, because words go into both.
         self.sender.reset.next = self.reset.val();
         self.sender.starts.next = self.choice.starts.val();
         self.sender.contents.next = self.choice.contents.val();
@@ -140,7 +140,7 @@ impl Logic for LinkTransmitter {
         self.frame_sum.takes.next = self.sender.loads.val();
         self.frame_sum.byte_data.next = self.bytes.byte_data.val();
 
-        // Its bytes.
+        // All sources see the place of the wanted byte at the same time; only `FrameBytes` knows which one counts.
         self.header.reset.next = self.reset.val();
         self.header.starts.next = self.choice.starts.val();
         self.header.open.next = self.open.val();
@@ -163,7 +163,8 @@ impl Logic for LinkTransmitter {
         self.bytes.answer_state.next = self.answer_digest.state.val();
         self.bytes.sum_state.next = self.frame_sum.state.val();
 
-        // The line.
+        // The line is quiet only if both the sender and the UART are idle: the sender is done while the last byte is
+        // still on its way.
         self.encoder.reset.next = self.reset.val();
         self.encoder.data_valid.next = self.sender.data_valid.val();
         self.encoder.data.next = self.sender.data.val();

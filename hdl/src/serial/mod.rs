@@ -1,5 +1,7 @@
-//! The serial link: frames on a line, with credits, check sums and sessions, around the core's two streams of words. The frame itself:
-//! `protocol/SERIAL.md`, "Frames".
+//! The serial link: the blocks that carry the core's two streams of words over a UART in frames, with credits,
+//! check sums and sessions.
+//!
+//! `protocol/SERIAL.md`, "Frames", describes a frame byte by byte.
 //!
 //! ```text
 //! in:  UartReceiver -> CobsDecoder -> FrameReader -> FrameJudge

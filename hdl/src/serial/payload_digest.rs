@@ -1,27 +1,28 @@
-//! The check sum of all payload that was taken in a session.
+//! The digest of a session: the check sum over all payload that the device has taken, by which the host finds a
+//! fault beyond the line.
 //!
-//! 1. `push`, and `commits` after it, come at least 9 clocks apart; so do `begins` and what follows it, or it follows the next clock.
+//! 1. At least 9 clocks lie between two `push`, between the last `push` and `commits`, and between `begins` and either
+//!    of them; but a `push` or `commits` may follow `begins` in the next clock.
 //!
 //! Latency: 1 clock from `commits`.
 
 use super::crc32::Crc32;
 use super::types::Byte;
-use crate::link::types::Word;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::commands::types::Word;
+use crate::prelude::*;
 
 /// The digest of a session; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct PayloadDigest {
     pub clock: Signal<In, Clock>,
-    /// Reset begins anew.
+    /// A reset begins the digest anew.
     pub reset: Signal<In, Bit>,
     /// Forget the bytes that do not count yet.
     pub begins: Signal<In, Bit>,
-    /// One more byte, which does not count yet.
+    /// Take one more byte, which does not count until `commits`.
     pub push: Signal<In, Bit>,
     pub push_data: Signal<In, Byte>,
-    /// All bytes count.
+    /// All bytes that were pushed count.
     pub commits: Signal<In, Bit>,
     /// State of the check sum over all bytes that count.
     pub state: Signal<Out, Word>,

@@ -1,40 +1,40 @@
-//! The rate of the line: the first one, until the host asks for another.
+//! The rate of the line: 115,200 bits per second until the host asks for another.
 //!
-//! 1. `value` stands 2 clocks before `asked`. A step of 0, and one above 2^21, is refused.
-//! 2. The rate changes when the first `Ack` or `Nak` that begins after the `Rate` is over, to the last byte.
-//! 3. It returns to the first rate when a `Closed` is over.
+//! 1. `value` must be stable from 2 clocks before `asked`. A step of 0 or above 2^21 is refused.
+//! 2. The device changes to a new rate when the first `Ack` or `Nak` that began after the `Rate` has left the line
+//!    with its last byte.
+//! 3. The device returns to the first rate when a `Closed` has left the line.
 //!
-//! Latency: 1 clock.
+//! Latency: 1 clock from `asked` to `is_refused`, and from `is_quiet` to `step`.
 
 use super::frame_judge::Asked;
 use super::types::Step;
+use crate::commands::types::Word;
 use crate::leaf::Parameter;
-use crate::link::types::Word;
+use crate::prelude::*;
 use incircle_protocol::{LinkConfig, FIRST_RATE, MAX_STEP};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The rate of the line; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RateControl {
     pub clock: Signal<In, Clock>,
-    /// Reset returns to the first rate.
+    /// A reset returns the line to the first rate.
     pub reset: Signal<In, Bit>,
-    /// What a frame asks for, and the step if it is a `Rate`.
+    /// The request of a frame; `value` is the step if the frame is a `Rate`.
     pub asked: Signal<In, Asked>,
     pub value: Signal<In, Word>,
-    /// Return to the first rate at this edge.
+    /// Silence or a break: return to the first rate at this edge.
     pub fails: Signal<In, Bit>,
-    /// An `Ack` or `Nak` begins; a `Closed`.
+    /// The control frame that begins at this edge is an `Ack` or `Nak` (`acknowledges`), or a `Closed` (`closes`).
     pub acknowledges: Signal<In, Bit>,
     pub closes: Signal<In, Bit>,
-    /// No frame to the host is under way, and the last stop bit is over.
+    /// No frame to the host is under way, and the last stop bit has ended.
     pub is_quiet: Signal<In, Bit>,
-    /// A bit takes `2^24 / step` clocks.
+    /// Rate of the line: a bit lasts `2^24 / step` clocks.
     pub step: Signal<Out, Step>,
-    /// The last `Rate` of the session was refused.
+    /// The device refused the last `Rate` of the session.
     pub is_refused: Signal<Out, Bit>,
-    /// No frame may begin: the rate is about to change.
+    /// No frame may begin, because the rate is about to change.
     pub holds: Signal<Out, Bit>,
     present: DFF<Step>,
     wanted: DFF<Step>,
@@ -55,7 +55,7 @@ pub struct RateControl {
 const _: () = assert!(MAX_STEP == 1 << 21, "the largest step of this block is the protocol's");
 
 impl RateControl {
-    /// The rate of a link that has passed [`LinkConfig::check`].
+    /// The rate control of a link that has passed [`LinkConfig::check`].
     pub fn new(link: LinkConfig) -> Self {
         let first = incircle_protocol::rate_step(FIRST_RATE, link.clock_hz).unwrap_or(MAX_STEP);
         Self { first: Parameter::new(u64::from(first).into()), ..Self::default() }
@@ -71,7 +71,8 @@ impl Logic for RateControl {
         self.is_refused.next = self.refused.q.val();
         self.holds.next = self.changes.q.val() | self.returns.q.val();
 
-        // The largest step has one bit, which no other has.
+        // No comparator is needed: bit 21 is set in the largest step alone. A step fits if nothing above bit 21 is set,
+        // and either bit 21 or some bit below it, but not both.
         self.low.next = self.value.val().get_bits::<21>(0);
         self.high.next = self.value.val().get_bits::<10>(22);
         self.is_some.d.next = self.low.val().any();

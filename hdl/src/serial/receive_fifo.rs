@@ -1,40 +1,42 @@
-//! The receive FIFO: bytes of payload, which count when their frame has turned out to be sound.
+//! The receive FIFO: holds the payload of frames until the core takes it, and can forget the bytes of a frame that
+//! turns out not to be sound.
 //!
-//! 1. `takes` only while `byte_valid`. Without it the byte stays.
-//! 2. The user pushes no more bytes than `free` says before the first of them: there is no check.
+//! 1. `takes` may be high only while `byte_valid` is high. A byte that is not taken stays.
+//! 2. The user pushes at most as many bytes as `free` said before the first of them; the FIFO does not check.
 //! 3. `commits` comes 3 clocks or more after the last `push`.
 //!
-//! Latency: 2 clocks from `commits` to `free`, and 3 to `byte_valid` if the FIFO was empty; 4 clocks from a byte taken to the next.
+//! Latency: from `commits` 2 clocks to `free`, and 3 to `byte_valid` if the FIFO was empty; 4 clocks from a byte
+//! taken to the next.
 //!
-//! Source: three pointers into a block RAM: where the next byte goes, where those that count end, and the end of what is free, which lies
-//! a whole memory behind the oldest byte and so is its address too. They have 16 bits, of which the memory uses as many as it has: the
-//! difference of two is the number of bytes between them.
+//! Source: three pointers into a block RAM: where the next byte goes, where the bytes that count end, and where the
+//! free bytes end. The last one lies a whole memory behind the oldest byte, so it is the address of that byte too.
+//! Pointers have 16 bits, of which the memory uses as many as its address has: the difference of two pointers is the
+//! number of bytes between them.
 
 use super::types::Byte;
 use crate::leaf::{BlockMemory, Parameter};
+use crate::prelude::*;
 use incircle_protocol::LinkConfig;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// Bits of an address of the largest FIFO.
 const ADDRESS_BITS: usize = 15;
 
-/// The receive FIFO; see the top of this file.
+/// A FIFO whose last bytes are provisional; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct ReceiveFifo {
     pub clock: Signal<In, Clock>,
-    /// Reset empties it.
+    /// A reset empties the FIFO.
     pub reset: Signal<In, Bit>,
     /// Forget the bytes that do not count yet.
     pub begins: Signal<In, Bit>,
-    /// One more byte, which does not count yet.
+    /// Store one more byte, which does not count until `commits`.
     pub push: Signal<In, Bit>,
     pub push_data: Signal<In, Byte>,
-    /// All bytes count.
+    /// All bytes that were pushed count.
     pub commits: Signal<In, Bit>,
-    /// Bytes that may be pushed, apart from those that do not count yet.
+    /// Free bytes, among them the places of bytes that do not count yet.
     pub free: Signal<Out, Bits<16>>,
-    /// The oldest byte that counts; it is taken at this edge.
+    /// The oldest byte that counts; the user takes the byte at the edge at which `takes` is high.
     pub byte_valid: Signal<Out, Bit>,
     pub byte_data: Signal<Out, Byte>,
     pub takes: Signal<In, Bit>,
@@ -44,7 +46,7 @@ pub struct ReceiveFifo {
     free_end: DFF<Bits<16>>,
     unused: DFF<Bits<16>>,
     holds: DFF<Bit>,
-    /// Clocks for which the oldest byte has been read, up to 3.
+    /// Clocks for which the memory has read the oldest byte, up to 3.
     read_for: DFF<Bits<2>>,
     size: Parameter<Bits<16>>,
     one: Signal<Local, Bits<16>>,

@@ -1,35 +1,36 @@
-//! Which control frames are due to the host, and which of them goes first.
+//! Keeps which control frames are due to the host, and decides which of them goes first.
 //!
-//! 1. The order is `Hello`, `Opened`, `Closed`, `NoSession`, `Ack` or `Nak`. Each is due once, however often it was asked for.
-//! 2. Where both are due, one `Nak` stands for an `Ack` as well. A frame that is taken needs no `Nak` any more.
-//! 3. What is asked for while a frame begins is due after it.
-//! 4. `Open` and `Close` forget what was due to the session before, and so does its end.
+//! 1. The order is `Hello`, `Opened`, `Closed`, `NoSession`, `Ack` or `Nak`. A frame is due once, however often the
+//!    host asked for it.
+//! 2. Where an `Ack` and a `Nak` are due, one `Nak` stands for both. `Data` that is taken cancels the `Nak`.
+//! 3. A frame that is asked for while another begins is due after it.
+//! 4. `Open` and `Close` cancel all that was due to the session before except a `Hello`; so does the end of a session
+//!    by silence or a break.
 //!
-//! Latency: 1 clock.
+//! Latency: 1 clock from `asked` to `is_due`.
 
 use super::frame_judge::Asked;
 use super::types::Byte;
+use crate::prelude::*;
 use incircle_protocol::DeviceFrame;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
-/// Control frames that are due; see the top of this file.
+/// The control frames that are due; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Replies {
-    /// After reset none is due.
+    /// After a reset no frame is due.
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
-    /// What a frame asks for; a gap was seen before it.
+    /// The request of a frame; `saw_gap` says that a gap came before it.
     pub asked: Signal<In, Asked>,
     pub saw_gap: Signal<In, Bit>,
-    /// The session ends without a word.
+    /// The session ends by silence or a break, without a frame.
     pub fails: Signal<In, Bit>,
-    /// A control frame is due; its type.
+    /// A control frame of type `kind` is due.
     pub is_due: Signal<Out, Bit>,
     pub kind: Signal<Out, Byte>,
-    /// The control frame begins at this edge.
+    /// The control frame that is due begins at this edge.
     pub starts: Signal<In, Bit>,
-    /// The frame that is due is an `Ack` or `Nak`; a `Closed`.
+    /// The frame that is due is an `Ack` or `Nak` (`acknowledges`), or a `Closed` (`closes`).
     pub acknowledges: Signal<Out, Bit>,
     pub closes: Signal<Out, Bit>,
     hello: DFF<Bit>,
@@ -40,7 +41,7 @@ pub struct Replies {
     nak: DFF<Bit>,
 }
 
-// The kernel names types by number, because rust-hdl takes literals only; a change in the protocol must come here.
+// The kernel holds the types as literals, because rust-hdl allows no constants there. A changed protocol fails here.
 const _: () = assert!(
     DeviceFrame::Hello as u8 == 0x81
         && DeviceFrame::Opened as u8 == 0x82
@@ -62,7 +63,7 @@ impl Logic for Replies {
             | self.ack.q.val()
             | self.nak.q.val();
 
-        // The last that is due here is the first that goes.
+        // The last assignment wins, so the frames stand here in the reverse of their order (rule 1).
         self.kind.next = 0x83.into();
         self.acknowledges.next = true;
         self.closes.next = false;

@@ -1,7 +1,7 @@
-//! The serial link: a line on one side, the streams of a core on the other.
+//! The serial link: connects a serial line to the two streams of a core, and keeps the session that both ends agree on.
 //!
 //! 1. `protocol/SERIAL.md` says what passes on the line.
-//! 2. The core is held in reset while no session is open, and reset when one begins.
+//! 2. The core is in reset while no session is open, and a session begins with a reset of the core.
 //!
 //! ```text
 //! rx -> LinkReceiver ------ commands -----------> core
@@ -19,22 +19,21 @@ use super::link_transmitter::LinkTransmitter;
 use super::rate_control::RateControl;
 use super::session_state::SessionState;
 use super::types::Lamps;
-use crate::link::{AnswerSink, CommandSource};
+use crate::commands::{AnswerSink, CommandSource};
+use crate::prelude::*;
 use incircle_protocol::{Config, ConfigError, LinkConfig, LinkConfigError};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
-/// The serial link; see the top of this file.
+/// A core's link to a serial line; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct SerialLink {
-    /// One clock; synchronous reset, active high.
+    /// One clock; a synchronous reset, active high.
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
-    /// The line, high when idle.
+    /// The line in both directions, high when idle.
     pub rx: Signal<In, Bit>,
     pub tx: Signal<Out, Bit>,
     pub lamps: Signal<Out, Lamps>,
-    /// Reset of the core.
+    /// Synchronous reset of the core.
     pub core_reset: Signal<Out, Bit>,
     pub command: CommandSource,
     pub response: AnswerSink,
@@ -52,12 +51,12 @@ pub struct SerialLink {
     clears: Signal<Local, Bit>,
 }
 
-/// Parameters that no device with a serial link can be built with.
+/// Parameters with which no device with a serial link can be built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SerialError {
-    /// One of the core.
+    /// A parameter of the core is out of range.
     Core(ConfigError),
-    /// One of the link.
+    /// A parameter of the link is out of range.
     Link(LinkConfigError),
 }
 
@@ -74,10 +73,10 @@ impl From<LinkConfigError> for SerialError {
 }
 
 impl SerialLink {
-    /// The link of a core of this configuration.
+    /// The serial link of a core of this configuration.
     ///
     /// # Errors
-    /// If a parameter is out of range; the error says which and what is possible.
+    /// If a parameter is out of range; the error says which one and what is possible.
     pub fn new(config: Config, link: LinkConfig) -> Result<Self, SerialError> {
         let (config, link) = (config.check()?, link.check()?);
         Ok(Self {
@@ -105,7 +104,7 @@ impl Logic for SerialLink {
         self.resets_core.d.next = self.clears.val();
         self.core_reset.next = self.resets_core.q.val();
 
-        // From the line to the core.
+        // While the core is in reset, no command word counts as taken: the core would lose it.
         self.receiver.step.next = self.rate.step.val();
         self.receiver.rx.next = self.rx.val();
         self.receiver.open.next = self.session.open.val();
@@ -116,7 +115,8 @@ impl Logic for SerialLink {
         self.command.data.next = self.receiver.command.data.val();
         self.receiver.command.ready.next = self.takes_command.val();
 
-        // The session.
+        // A break counts at any time. Silence counts in a session only, and not if a sound frame ends it
+        // in this very clock.
         self.timers.is_low.next = self.receiver.is_low.val();
         self.timers.hears.next = self.receiver.asked.val().hears;
         self.has_failed.d.next = self.timers.is_broken.val()
@@ -137,7 +137,6 @@ impl Logic for SerialLink {
         self.progress.takes_answer.next = self.transmitter.response_ready.val();
         self.progress.answer_ended.next = self.transmitter.answer_ended.val();
 
-        // From the core to the line.
         self.transmitter.step.next = self.rate.step.val();
         self.transmitter.asked.next = self.receiver.asked.val();
         self.transmitter.saw_gap.next = self.session.saw_gap.val();
@@ -154,7 +153,7 @@ impl Logic for SerialLink {
         self.response.ready.next = self.transmitter.response_ready.val();
         self.tx.next = self.transmitter.tx.val();
 
-        // Lamps.
+        // The error lamp keeps a dropped frame visible until the session ends or another one begins.
         if self.receiver.asked.val().drops {
             self.dropped.d.next = true;
         }

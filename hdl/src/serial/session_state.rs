@@ -1,33 +1,33 @@
-//! The session: whether one is open, its number, and the number of the `Data` frame that is awaited.
+//! The session: whether one is open, its number, and the number of the `Data` frame that the device awaits.
 //!
-//! 1. `forgets` lasts a clock at least when a session begins, also if one was open before.
-//! 2. An `Open` at the very clock of `fails` opens a session.
-//! 3. `settles` lasts 7 clocks from a change on: then what a frame says of number, credit and digest is of one and the same moment.
+//! 1. `forgets` is high for at least one clock when a session begins, even if one was open before.
+//! 2. An `Open` in the very clock of `fails` opens a session.
+//! 3. `settles` stays high for 7 clocks after a change, so that number, credit and digest in the header of a frame
+//!    belong to the same moment.
 //!
-//! Latency: 1 clock.
+//! Latency: 1 clock from `asked` or `fails` to `open`.
 
 use super::frame_judge::Asked;
 use super::types::{Byte, Session};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
-/// The session; see the top of this file.
+/// The state of the session; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct SessionState {
-    /// After reset no session is open.
+    /// After a reset no session is open.
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
-    /// What a frame asks for, and the session it names.
+    /// The request of a frame, and the session that the frame names.
     pub asked: Signal<In, Asked>,
     pub session: Signal<In, Byte>,
     /// Silence or a break: the session ends at this edge.
     pub fails: Signal<In, Bit>,
     pub open: Signal<Out, Session>,
-    /// A `Data` frame behind it has come, or one without room, since the last that was taken.
+    /// Since the last `Data` that was taken, one came behind a gap or without room in the FIFO.
     pub saw_gap: Signal<Out, Bit>,
-    /// Whatever belongs to a session is to be forgotten: none is open, or one begins.
+    /// All that belongs to a session is void: no session is open, or one begins.
     pub forgets: Signal<Out, Bit>,
-    /// Something has just changed: no frame to the host may begin.
+    /// A change has not settled: no frame to the host may begin.
     pub settles: Signal<Out, Bit>,
     opened: DFF<Bit>,
     session_number: DFF<Byte>,

@@ -1,50 +1,51 @@
-//! Bytes from a line: 8 data bits, no parity, one stop bit, at any rate.
+//! Receives bytes from a line: 8 data bits, no parity, one stop bit, at any rate.
 //!
-//! 1. The line passes two registers before it is used. A bit is what two of three samples around its middle say.
-//! 2. A start bit that is high in its middle was none: nothing happens.
-//! 3. After a byte without a stop bit the line must be high before another begins: a break is one such byte.
-//! 4. A byte ends in the middle of its stop bit, so the next may begin half a bit early.
+//! 1. The line passes two registers before any logic uses it. A bit is the majority of three samples around its middle.
+//! 2. A start bit that is high in its middle is ignored.
+//! 3. After a byte without a stop bit the line must be high before another byte begins, so a break counts
+//!    as one such byte.
+//! 4. A byte ends in the middle of its stop bit, so the next byte may begin half a bit early.
 //!
 //! Latency: 5 clocks from the middle of the stop bit to `byte_valid`.
 //!
-//! Source: the two registers are the usual guard against metastability. All store the line inverted, so that they begin as an idle one.
+//! Source: the two registers are the usual guard against metastability. All registers hold the line inverted, so that
+//! their first value, zero, is an idle line.
 
 use super::bit_clock::BitClock;
 use super::types::{Byte, Step};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
-/// What the line is at.
+/// The part of a byte that is on the line.
 #[derive(Clone, Copy, Debug, PartialEq, LogicState)]
 pub enum ReceiveState {
-    /// Nothing: a start bit is awaited.
+    /// No byte; the receiver awaits a start bit.
     Idle,
-    /// A start bit.
+    /// The start bit, up to its middle.
     Start,
-    /// A data bit.
+    /// One of the eight data bits.
     Data,
-    /// The stop bit.
+    /// The stop bit, up to its middle.
     Stop,
-    /// A low line that should be high.
+    /// A low line where a stop bit should have been; the line must become high first.
     Recover,
 }
 
-/// Bytes from a line; see the top of this file.
+/// A receiver of bytes; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct UartReceiver {
     pub clock: Signal<In, Clock>,
-    /// Reset awaits a byte.
+    /// After a reset the receiver awaits a byte.
     pub reset: Signal<In, Bit>,
-    /// A bit takes `2^24 / step` clocks, at least 8.
+    /// Rate of the line: a bit lasts `2^24 / step` clocks, at least 8.
     pub step: Signal<In, Step>,
-    /// The line, high when idle; it may change at any time.
+    /// The line, high when idle; `rx` may change at any time.
     pub rx: Signal<In, Bit>,
     /// A byte has come.
     pub byte_valid: Signal<Out, Bit>,
     pub byte_data: Signal<Out, Byte>,
-    /// A byte without a stop bit has come: it is lost.
+    /// A byte without a stop bit has come and is lost.
     pub noise: Signal<Out, Bit>,
-    /// The line as it is, for the detection of a break.
+    /// The line is low at present, for the detection of a break.
     pub is_low: Signal<Out, Bit>,
     unsettled: DFF<Bit>,
     sample: DFF<Bit>,
@@ -85,7 +86,7 @@ impl Logic for UartReceiver {
         self.noise.next = self.is_noise.q.val();
         self.is_low.next = self.sample.q.val();
 
-        // The line, inverted, and what three samples of it say.
+        // The vote of three samples keeps a short disturbance of the line from becoming a wrong bit.
         self.unsettled.d.next = !self.rx.val();
         self.sample.d.next = self.unsettled.q.val();
         self.sample_before.d.next = self.sample.q.val();

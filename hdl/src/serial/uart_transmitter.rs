@@ -1,37 +1,36 @@
-//! Bytes onto a line: 8 data bits, no parity, one stop bit, at any rate.
+//! Transmits bytes onto a line: 8 data bits, no parity, one stop bit, at any rate.
 //!
-//! 1. `byte_ready` depends on registers only, and lasts a clock: a byte is taken between two bits.
-//! 2. Bytes that are always there follow each other without a gap; a byte that comes later waits for up to a bit.
+//! 1. `byte_ready` depends on registers only and lasts one clock: the transmitter takes a byte between two bits.
+//! 2. Bytes that are always valid follow each other without a gap. A byte that comes later waits for up to a bit.
 //!
 //! Latency: 1 clock from the byte taken to its start bit.
 //!
-//! Source: the line is stored inverted, so that it is high before reset too.
+//! Source: the register of the line is inverted, so that the line is high before the first reset too.
 
 use super::bit_clock::BitClock;
 use super::types::{Byte, Step};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
-/// Bytes onto a line; see the top of this file.
+/// A transmitter of bytes; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct UartTransmitter {
     pub clock: Signal<In, Clock>,
-    /// Reset leaves the line high.
+    /// A reset leaves the line high.
     pub reset: Signal<In, Bit>,
-    /// A bit takes `2^24 / step` clocks.
+    /// Rate of the line: a bit lasts `2^24 / step` clocks.
     pub step: Signal<In, Step>,
-    /// The bytes.
+    /// The bytes for the line.
     pub byte_valid: Signal<In, Bit>,
     pub byte_ready: Signal<Out, Bit>,
     pub byte_data: Signal<In, Byte>,
     /// The line, high when idle.
     pub tx: Signal<Out, Bit>,
-    /// The last stop bit is over.
+    /// The last stop bit has ended.
     pub is_idle: Signal<Out, Bit>,
     is_low: DFF<Bit>,
-    /// Data bits that are still to come, inverted; the stop bit follows them as zeros.
+    /// Data bits that have yet to be sent, inverted; the zeros behind them are the stop bit.
     bits: DFF<Byte>,
-    /// Bits of the byte, the one on the line included.
+    /// Bits of the byte that have not ended, counting the one on the line.
     left: DFF<Bits<4>>,
     bit_clock: BitClock,
     is_over: Signal<Local, Bit>,
@@ -41,7 +40,7 @@ pub struct UartTransmitter {
 }
 
 impl UartTransmitter {
-    /// A transmitter whose line is idle.
+    /// A transmitter with an idle line.
     pub fn new() -> Self {
         Self { bit_clock: BitClock::at_ends(), ..Self::default() }
     }

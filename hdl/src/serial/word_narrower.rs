@@ -1,10 +1,11 @@
-//! Gives the words of answer beats one by one.
+//! Passes on the words of answer beats one by one, because the serial link sends bytes and the core answers up to
+//! two words a beat.
 //!
-//! 1. A beat is taken with its last word; until then it stands, as all that is offered.
+//! 1. A beat is taken together with its last word. Until then the beat, and every word on offer, must stay.
 //!
-//! Latency: none.
+//! Latency: none (combinational) from a beat to its words.
 //!
-//! A beat of two words and one of one:
+//! A beat of two words and a beat of one word:
 //! ```text
 //! pair_valid      /^^^^^^^^^^^\__
 //! both            /^^^^^^^^\_____
@@ -13,23 +14,22 @@
 //! word_ready      /^^\__/^^^^^^^^
 //! ```
 
-use crate::link::types::Word;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::commands::types::Word;
+use crate::prelude::*;
 
-/// Words of beats; see the top of this file.
+/// Beats split into words; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct WordNarrower {
     pub clock: Signal<In, Clock>,
-    /// Reset begins a beat anew.
+    /// A reset begins with the first word of a beat.
     pub reset: Signal<In, Bit>,
-    /// A beat of one word or two, the first in the low half.
+    /// A beat of one or two words, the first word in the low half.
     pub pair_valid: Signal<In, Bit>,
     pub pair_ready: Signal<Out, Bit>,
     pub pair: Signal<In, Bits<64>>,
     /// The beat has two words.
     pub both: Signal<In, Bit>,
-    /// The words.
+    /// The words, one at a time.
     pub word_valid: Signal<Out, Bit>,
     pub word_ready: Signal<In, Bit>,
     pub word: Signal<Out, Word>,

@@ -1,37 +1,37 @@
-//! Pairs of answer words as beats; each answer begins with a new beat.
+//! Joins pairs of answer words to beats of the bus, and begins each answer with a new beat, so that no
+//! two answers share one.
 //!
-//! 1. A beat that is offered stays while `is_full`.
-//! 2. What an answer leaves of its last beat is 0.
-//! 3. `is_stalled` is a function of a register and `is_full`.
+//! 1. A beat on offer stays while `is_full` is high.
+//! 2. The part of an answer's last beat that the answer leaves free is 0.
+//! 3. `is_stalled` depends on a register and on `is_full` only.
 //!
 //! Latency: 1 clock from the last pair of a beat.
 
 use crate::leaf::Parameter;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
-/// Beats of answers; see the top of this file.
+/// Pairs joined to beats; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AnswerBeats<const W: usize> {
-    /// The core's clock; reset forgets all pairs.
+    /// The core's clock; a reset forgets all pairs.
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
-    /// A pair; the last one of its answer.
+    /// A pair of answer words; `pair_last` marks the last pair of an answer.
     pub pair_valid: Signal<In, Bit>,
     pub pair_data: Signal<In, Bits<64>>,
     pub pair_last: Signal<In, Bit>,
     /// No pair is taken at this edge.
     pub is_stalled: Signal<Out, Bit>,
-    /// A beat; the last one of its answer.
+    /// A beat for the FIFO; `beat_last` marks the last beat of an answer.
     pub beat_valid: Signal<Out, Bit>,
     pub beat_data: Signal<Out, Bits<W>>,
     pub beat_last: Signal<Out, Bit>,
-    /// The beat is not taken at this edge.
+    /// The FIFO does not take the beat at this edge.
     pub is_full: Signal<In, Bit>,
-    /// Pairs are held.
+    /// The block holds at least one pair.
     pub is_held: Signal<Out, Bit>,
     beat: DFF<Bits<W>>,
-    /// The first half of a beat of two pairs is held.
+    /// The first pair of a beat of two pairs is held.
     is_half: DFF<Bit>,
     is_offered: DFF<Bit>,
     is_last: DFF<Bit>,
@@ -41,19 +41,19 @@ pub struct AnswerBeats<const W: usize> {
     low: Signal<Local, Bits<W>>,
     high: Signal<Local, Bits<W>>,
     pair_bits: Parameter<Bits<8>>,
-    /// A beat is one pair.
+    /// A beat holds one pair only.
     is_narrow: Parameter<Bit>,
 }
 
 impl<const W: usize> AnswerBeats<W> {
-    /// An answer's beats of W bits.
+    /// The block for beats of W bits.
     ///
     /// # Panics
     /// If W is not 64 or 128.
     pub fn new() -> Self {
         assert!(W == 64 || W == 128, "a beat has 64 or 128 bits, not {W}");
         Self {
-            // In a beat of one pair there is no second one to shift.
+            // A beat of 64 bits has no second pair, so nothing is shifted.
             pair_bits: Parameter::new(Bits::from(W as u64 - 64)),
             is_narrow: Parameter::new(W == 64),
             ..Self::default()

@@ -1,13 +1,14 @@
-//! Answer words, one or two at a time, as pairs; each answer begins with a new pair.
+//! Joins the words of answers, which come one or two at a time, to pairs, and begins each answer with a new pair.
 //!
-//! 1. A pair that is offered stays while `is_stalled`.
-//! 2. An answer with an odd number of words ends in a pair with zeros in bits 63 to 32.
-//! 3. `response_ready` depends on registers and `is_stalled`, and not on `response_valid`. It is low for a clock where an answer leaves
-//!    two pairs at once.
+//! 1. A pair on offer stays while `is_stalled` is high.
+//! 2. An answer with an odd number of words ends with a pair whose bits 63 to 32 are 0.
+//! 3. `response_ready` depends on registers and `is_stalled`, and not on `response_valid`. It is low for one clock when
+//!    the end of an answer fills two pairs at once.
 //!
-//! Latency: 1 clock, for a word that has to wait for its second one more than that one.
+//! Latency: 1 clock from the last word of a pair; 2 for the second of two pairs that are filled at once.
 //!
-//! An answer of three words, two at first and then one, and one of five, of which one comes first; `first` and `second` are the halves of a pair:
+//! An answer of three words, of which two come first, then an answer of five, of which one comes first; `first` and
+//! `second` are the halves of a pair:
 //! ```text
 //! response_valid  ___/^^^^^^^^^^^^^^\______________
 //! response_ready  ___/^^^^^^^^^^^^^^\__/^^^^^^^^^^^
@@ -19,30 +20,28 @@
 //! second            .  .  2  0  .  5  7  0  .  .  .
 //! ```
 
-use crate::link::types::Word;
-use crate::link::AnswerSink;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::commands::types::Word;
+use crate::commands::AnswerSink;
+use crate::prelude::*;
 
-/// Pairs of answer words; see the top of this file.
+/// Words joined to pairs; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AnswerPairs {
-    /// The core's clock; reset forgets all words.
+    /// The core's clock; a reset forgets all words.
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
     pub response: AnswerSink,
-    /// A pair; the last one of its answer.
+    /// A pair of answer words; `pair_last` marks the last pair of an answer.
     pub pair_valid: Signal<Out, Bit>,
     pub pair_data: Signal<Out, Bits<64>>,
     pub pair_last: Signal<Out, Bit>,
-    /// The pair cannot go on at this edge.
+    /// The next block does not take the pair at this edge.
     pub is_stalled: Signal<In, Bit>,
-    /// Words are held.
+    /// The block holds at least one word.
     pub is_held: Signal<Out, Bit>,
-    /// A word that awaits its second.
+    /// A word that awaits the second word of its pair (`awaits`), or that ends its answer and goes alone (`ends`).
     waiting: DFF<Word>,
     awaits: DFF<Bit>,
-    /// It is the last of its answer and goes alone.
     ends: DFF<Bit>,
     first: DFF<Word>,
     second: DFF<Word>,
@@ -81,7 +80,8 @@ impl Logic for AnswerPairs {
         if self.response.both.val() {
             self.high.next = self.response.data.val().get_bits::<32>(32);
         }
-        // One word alone stays, to await its second; so does the second of two behind one that waited.
+        // A single word waits for a second one. So does the second of two words, if the first completes a pair with
+        // a word that waited.
         self.keeps.next = (self.awaits.q.val() & self.response.both.val())
             | ((!self.awaits.q.val()) & (!self.response.both.val()) & (!self.response.last.val()));
 

@@ -1,12 +1,12 @@
-//! Watches the answer beats that are taken, and finds the headers with a status other than `Ok`.
+//! Watches the answer beats that the bus takes, and finds headers with a status other than `Ok`, which
+//! the registers then show.
 //!
-//! Latency: 1 clock.
+//! Latency: 1 clock from a beat to `events`.
 
 use super::events::AnswerEvents;
-use crate::link::types::Word;
+use crate::commands::types::Word;
+use crate::prelude::*;
 use incircle_protocol::{answer_header, Status};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The watch on answers; see the top of this file.
 #[derive(LogicBlock, Default)]
@@ -14,15 +14,15 @@ pub struct AnswerWatch<const W: usize> {
     /// The bus's clock and reset.
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
-    /// The FIFOs are in reset: the next beat is the first of an answer.
+    /// The FIFOs are in reset, so the next beat is the first one of an answer.
     pub resets: Signal<In, Bit>,
-    /// The answers that are offered and taken.
+    /// The stream of answers, as the bus sees it.
     pub m_axis_tvalid: Signal<In, Bit>,
     pub m_axis_tready: Signal<In, Bit>,
     pub m_axis_tdata: Signal<In, Bits<W>>,
     pub m_axis_tlast: Signal<In, Bit>,
     pub events: Signal<Out, AnswerEvents>,
-    /// A beat of an answer was taken, and not its last one.
+    /// The bus has taken a beat of the present answer, but not the last one.
     is_inside: DFF<Bit>,
     takes: DFF<Bit>,
     waits: DFF<Bit>,
@@ -33,7 +33,7 @@ pub struct AnswerWatch<const W: usize> {
     status: Signal<Local, Bits<8>>,
 }
 
-// The kernel knows where the status stands, and that `Ok` is 0.
+// The kernel holds the place of the status, and `Ok` as 0, as literals. A changed protocol fails here.
 const _: () = assert!(
     answer_header(0, Status::Ok) == 0 && answer_header(0, Status::UnknownOpcode) == 1 << 16,
     "the status of an answer is in bits 23 to 16 of its header"

@@ -1,16 +1,17 @@
-//! A buffer between two clocks.
+//! A FIFO between two clocks, which carries the beats of the stream link from the bus to the core and back.
 //!
-//! 1. P is the number of bits of a pointer: there is room for `2^(P-1)` entries, and two more in the read port.
-//! 2. `pop` only while `valid`. Without it `valid` and `data` stay.
-//! 3. `is_full`, `valid` and `data` are registers, `is_fetched` and `is_empty` functions of registers. Each belongs to its own side's clock.
-//! 4. Both resets are held together, for so long that each side has seen the other's pointer at 0: three clocks of either. In a reset
-//!    `is_full` is 1 and `valid` is 0.
+//! 1. P is the number of bits of a pointer. The memory holds `2^(P-1)` entries, and the read port two more.
+//! 2. `pop` may be high only while `valid` is high. Without `pop`, `valid` and `data` stay.
+//! 3. `is_full`, `valid` and `data` are registers; `is_fetched` and `is_empty` depend on registers only. Each belongs
+//!    to the clock of its own side.
+//! 4. Both resets are held together, at least until each side has seen the other's pointer at 0: three clocks of
+//!    either. During a reset `is_full` is 1 and `valid` is 0.
 //!
-//! Latency: from the edge that takes an entry five edges of `read_clock` to `valid`, and where that edge and one of `read_clock` fall together
-//! perhaps one more. An entry passes at every clock of the slower side.
+//! Latency: five edges of `read_clock` from the edge that takes an entry to `valid`, and perhaps one more if that edge
+//! coincides with one of `read_clock`. One entry passes at every clock of the slower side.
 //!
-//! Pointers count in Gray code and pass through a [`Synchroniser`]; they are all that crosses but for the words in the memory,
-//! which stand there for two clocks of the reader before it hears of them:
+//! The pointers count in Gray code and pass through a [`Synchroniser`]. Nothing else crosses but the words in the
+//! memory, which are stable for two clocks of the reader before the reader learns of them:
 //! ```text
 //! push -> write_count, write_gray --------> write_seen -> empty -> read_count -> fetched -> shown -> valid
 //!   |       full <- read_seen <------------ read_gray <---------------+             |         |
@@ -19,25 +20,24 @@
 //! Source: C. E. Cummings, Simulation and Synthesis Techniques for Asynchronous FIFO Design, SNUG 2002, style 1.
 
 use crate::leaf::{DualClockMemory, Parameter, Synchroniser};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
-/// A buffer between two clocks; see the top of this file.
+/// A FIFO between two clocks; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AsyncFifo<const P: usize, const D: usize> {
-    /// The writer's side: clock, and reset, which empties it.
+    /// The writer's side: its clock, and a reset that empties the FIFO.
     pub write_clock: Signal<In, Clock>,
     pub write_reset: Signal<In, Bit>,
-    /// An entry; it is taken where `push` and not `is_full`.
+    /// An entry, which is taken at an edge with `push` high and `is_full` low.
     pub push: Signal<In, Bit>,
     pub push_data: Signal<In, Bits<D>>,
     pub is_full: Signal<Out, Bit>,
-    /// The reader has fetched all that was taken, as far as the writer knows.
+    /// As far as the writer knows, the reader has fetched all that was taken.
     pub is_fetched: Signal<Out, Bit>,
-    /// The reader's side.
+    /// The reader's side: its clock and its reset.
     pub read_clock: Signal<In, Clock>,
     pub read_reset: Signal<In, Bit>,
-    /// There is an entry; it; it is removed at this edge.
+    /// The oldest entry, which `pop` removes at this edge.
     pub valid: Signal<Out, Bit>,
     pub data: Signal<Out, Bits<D>>,
     pub pop: Signal<In, Bit>,
@@ -51,9 +51,9 @@ pub struct AsyncFifo<const P: usize, const D: usize> {
     full: DFF<Bit>,
     read_count: DFF<Bits<P>>,
     read_gray: DFF<Bits<P>>,
-    /// Nothing is left in the memory to fetch.
+    /// The memory holds nothing that the reader could fetch.
     empty: DFF<Bit>,
-    /// An entry stands in the array's register, one in the output register.
+    /// An entry stands in the register of the memory's array (`fetched`), and one in the output register (`shown`).
     fetched: DFF<Bit>,
     shown: DFF<Bit>,
     takes: Signal<Local, Bit>,
@@ -70,15 +70,15 @@ pub struct AsyncFifo<const P: usize, const D: usize> {
     read_code: Signal<Local, Bits<P>>,
     nothing: Parameter<Bits<P>>,
     one: Parameter<Bits<P>>,
-    /// A pointer a whole round ahead differs in these bits of its Gray code.
+    /// A pointer that is a whole round ahead differs in these bits of its Gray code.
     round: Parameter<Bits<P>>,
 }
 
 impl<const P: usize, const D: usize> AsyncFifo<P, D> {
-    /// Entries in the memory.
+    /// Number of entries in the memory.
     pub const DEPTH: usize = 1 << (P - 1);
 
-    /// A buffer of [`DEPTH`](Self::DEPTH) entries and two more.
+    /// A FIFO of [`DEPTH`](Self::DEPTH) entries and two more.
     ///
     /// # Panics
     /// If P is not in `3..=16`.
@@ -106,7 +106,7 @@ impl<const P: usize, const D: usize> Logic for AsyncFifo<P, D> {
         self.read_seen.sent.next = self.read_gray.q.val();
         self.write_seen.sent.next = self.write_gray.q.val();
 
-        // The writer's side.
+        // The writer's side sees the reader's pointer late, so the FIFO may look fuller than it is, but never emptier.
         self.is_full.next = self.full.q.val();
         self.is_fetched.next = self.write_gray.q.val() == self.read_seen.received.val();
         self.takes.next = self.push.val() & (!self.full.q.val());
@@ -130,7 +130,7 @@ impl<const P: usize, const D: usize> Logic for AsyncFifo<P, D> {
             self.full.d.next = true;
         }
 
-        // The reader's side.
+        // The reader's side sees the writer's pointer late, so the FIFO may look emptier than it is, but never fuller.
         self.valid.next = self.shown.q.val();
         self.data.next = self.memory.read_data.val();
         self.is_empty.next = self.empty.q.val() & (!self.fetched.q.val()) & (!self.shown.q.val());

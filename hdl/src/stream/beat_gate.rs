@@ -1,10 +1,10 @@
-//! Takes command beats into the FIFO, and drops those without all their bytes.
+//! Lets command beats into the FIFO, and drops and reports beats that lack bytes, so that a host learns of a transfer
+//! that it has not padded to whole beats.
 //!
-//! Latency: none to `push`, 1 clock to `events`.
+//! Latency: none (combinational) to `push`, 1 clock to `events`.
 
 use super::events::CommandEvents;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The gate for command beats; see the top of this file.
 #[derive(LogicBlock, Default)]
@@ -12,12 +12,12 @@ pub struct BeatGate<const K: usize> {
     /// The bus's clock and reset.
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
-    /// A beat is offered; the bytes it has.
+    /// A beat on offer, and the bytes that it holds.
     pub s_axis_tvalid: Signal<In, Bit>,
     pub s_axis_tkeep: Signal<In, Bits<K>>,
-    /// No beat is taken. A register.
+    /// The FIFO is full, so no beat is taken; comes from a register.
     pub is_full: Signal<In, Bit>,
-    /// The beat is whole.
+    /// The beat on offer is whole and goes into the FIFO.
     pub push: Signal<Out, Bit>,
     pub events: Signal<Out, CommandEvents>,
     seen: DFF<CommandEvents>,

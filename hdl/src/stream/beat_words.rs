@@ -1,7 +1,8 @@
-//! Beats as the words of the core's command stream, little end first.
+//! Splits beats into the words of the core's command stream, the lowest word first.
 //!
-//! 1. A word once offered stays until it is taken. `command_valid` and `command_data` are registers.
-//! 2. With the last word of a beat taken, the next beat is taken at the same edge: a word at every clock.
+//! 1. A word on offer stays until the core takes it. `command_valid` and `command_data` are registers.
+//! 2. The next beat is taken at the edge that takes the last word of the beat before, so a word can
+//!    pass at every clock.
 //!
 //! Latency: 1 clock from a beat to its first word.
 //!
@@ -14,26 +15,25 @@
 //! command_data      .  .  1  2  2  3  4  .  .
 //! ```
 
+use crate::commands::CommandSource;
 use crate::leaf::Parameter;
-use crate::link::CommandSource;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
-/// Words of beats; see the top of this file.
+/// Beats split into words; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct BeatWords<const W: usize> {
-    /// The core's clock; reset forgets the words of a beat.
+    /// The core's clock; a reset forgets the words of a beat.
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
-    /// A beat; it is taken at this edge.
+    /// A beat of commands; the block takes the beat at the edge at which `takes` is high.
     pub beat_valid: Signal<In, Bit>,
     pub beat_data: Signal<In, Bits<W>>,
     pub takes: Signal<Out, Bit>,
     pub command: CommandSource,
-    /// Words of a beat are held.
+    /// The block holds at least one word.
     pub is_held: Signal<Out, Bit>,
     words: DFF<Bits<W>>,
-    /// Words that are held; the first one is on the output.
+    /// Number of words held; the first of them is on offer.
     left: DFF<Bits<3>>,
     holds: DFF<Bit>,
     is_last: DFF<Bit>,
@@ -48,7 +48,7 @@ pub struct BeatWords<const W: usize> {
 }
 
 impl<const W: usize> BeatWords<W> {
-    /// The words of beats of W bits.
+    /// The block for beats of W bits.
     ///
     /// # Panics
     /// If W is not 64 or 128.

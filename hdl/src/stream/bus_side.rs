@@ -1,6 +1,6 @@
-//! The bus's side of the stream link.
+//! The half of the stream link in the clock of the bus: the AXI ports, the registers, and the bus's ends of both FIFOs.
 //!
-//! 1. All is in the bus's clock. What comes from the core's clock goes into a `Synchroniser` and nowhere else.
+//! 1. All is in the bus's clock. A signal from the core's clock goes into a `Synchroniser` and nowhere else.
 
 use super::answer_watch::AnswerWatch;
 use super::axi::{AxiLite, AxisSink, AxisSource};
@@ -8,32 +8,32 @@ use super::beat_gate::BeatGate;
 use super::register_block::RegisterBlock;
 use super::reset_request::ResetRequest;
 use crate::leaf::{Parameter, Synchroniser};
+use crate::prelude::*;
 use incircle_protocol::Config;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
-/// The bus's side; see the top of this file.
+/// The bus's half of the link; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct BusSide<const W: usize, const K: usize, const E: usize> {
-    /// The bus's clock; its reset, active low.
+    /// The bus's clock and its reset, active low.
     pub clock: Signal<In, Clock>,
     pub bus_reset_n: Signal<In, Bit>,
     pub s_axis: AxisSink<W, K>,
     pub m_axis: AxisSource<W, K>,
     pub s_axi: AxiLite,
-    /// Writer's side of the command FIFO.
+    /// The writer's side of the command FIFO.
     pub push: Signal<Out, Bit>,
     pub push_data: Signal<Out, Bits<W>>,
     pub is_full: Signal<In, Bit>,
     pub is_fetched: Signal<In, Bit>,
-    /// Reader's side of the answer FIFO; the highest bit of an entry marks the last beat of an answer.
+    /// The reader's side of the answer FIFO; the highest bit of an entry marks the last beat of an answer.
     pub entry_valid: Signal<In, Bit>,
     pub entry: Signal<In, Bits<E>>,
     pub pop: Signal<Out, Bit>,
     pub is_empty: Signal<In, Bit>,
-    /// To the core's clock: reset. A register.
+    /// A reset of the core's side is wanted; a register, for the core's clock.
     pub request: Signal<Out, Bit>,
-    /// From the core's clock, each a register: it is in reset; changes while it runs; something is held or under way.
+    /// Three registers in the core's clock: the core's side is in reset; `core_beat` toggles while that clock runs; the
+    /// core's side holds words or is at work.
     pub reply: Signal<In, Bit>,
     pub core_beat: Signal<In, Bit>,
     pub core_busy: Signal<In, Bit>,
@@ -46,7 +46,8 @@ pub struct BusSide<const W: usize, const K: usize, const E: usize> {
     reply_seen: Synchroniser<Bit>,
     beat_seen: Synchroniser<Bit>,
     busy_seen: Synchroniser<Bit>,
-    /// What leaves one side may be seen late by the other, so that something is under way counts for two clocks more.
+    /// The flag from the core's side comes late, so the link counts as busy for two more clocks: a beat that has just
+    /// left one side must not seem to be on neither.
     busy_before: DFF<Bit>,
     busy_earlier: DFF<Bit>,
     reset: Signal<Local, Bit>,
@@ -82,7 +83,8 @@ impl<const W: usize, const K: usize, const E: usize> Logic for BusSide<W, K, E> 
 
         AxiLite::link(&mut self.s_axi, &mut self.registers.s_axi);
 
-        // Resets.
+        // Only `bus_reset_n` resets the registers and counters; a reset by the control register must leave
+        // them as they are.
         self.reset.next = !self.bus_reset_n.val();
         self.gate.reset.next = self.reset.val();
         self.watch.reset.next = self.reset.val();
@@ -99,7 +101,7 @@ impl<const W: usize, const K: usize, const E: usize> Logic for BusSide<W, K, E> 
         self.registers.resets.next = self.resetting.resets.val();
         self.registers.core_runs.next = self.resetting.core_runs.val();
 
-        // Commands.
+        // A beat that lacks bytes is taken like any other, or it would block the stream; `BeatGate` drops it.
         self.gate.s_axis_tvalid.next = self.s_axis.tvalid.val();
         self.gate.s_axis_tkeep.next = self.s_axis.tkeep.val();
         self.gate.is_full.next = self.is_full.val();
@@ -108,7 +110,6 @@ impl<const W: usize, const K: usize, const E: usize> Logic for BusSide<W, K, E> 
         self.push_data.next = self.s_axis.tdata.val();
         self.registers.commands.next = self.gate.events.val();
 
-        // Answers.
         self.last_mark.next = self.entry.val() & self.mark.val();
         self.is_last.next = self.last_mark.val().any();
         self.m_axis.tvalid.next = self.entry_valid.val();
@@ -122,7 +123,6 @@ impl<const W: usize, const K: usize, const E: usize> Logic for BusSide<W, K, E> 
         self.watch.m_axis_tlast.next = self.is_last.val();
         self.registers.answers.next = self.watch.events.val();
 
-        // What is under way.
         self.busy_seen.sent.next = self.core_busy.val();
         self.is_busy.next = (!self.is_fetched.val()) | self.busy_seen.received.val() | (!self.is_empty.val());
         self.busy_before.d.next = self.is_busy.val();

@@ -1,21 +1,21 @@
-//! The registers that say what the device is: constants.
+//! The registers that say what the device is, so that a host can refuse one that it does not know: constants.
 //!
-//! Latency: none.
+//! Latency: none (combinational) from `index` to `value`.
 
 use super::axi::RegisterIndex;
+use crate::commands::types::Word;
 use crate::leaf::Parameter;
-use crate::link::types::Word;
 use incircle_protocol::{
     Config, StreamRegister, CORE_COORD_BITS, CORE_VERSION, MAGIC, PROTOCOL_VERSION, STREAM_FIFO_BEATS, STREAM_VERSION,
 };
 use rust_hdl_core::prelude::*;
 
-/// Registers of constants; see the top of this file.
+/// The registers of constants; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct DeviceIdentity {
-    /// The register that is read.
+    /// Number of the register that is read.
     pub index: Signal<In, RegisterIndex>,
-    /// Its value, 0 if it is none of these, and whether it is one.
+    /// Value of that register, or 0 if it is none of this block; `is_known` says that it is one.
     pub value: Signal<Out, Word>,
     pub is_known: Signal<Out, Bit>,
     magic: Parameter<Word>,
@@ -25,12 +25,12 @@ pub struct DeviceIdentity {
     coord_bits: Parameter<Word>,
     capacity: Parameter<Word>,
     contexts: Parameter<Word>,
-    ring: Parameter<Word>,
+    ring_capacity: Parameter<Word>,
     beat_bits: Parameter<Word>,
     fifo_beats: Parameter<Word>,
 }
 
-// The kernel writes offsets as literals, because rust-hdl takes no constants of Rust; a change in the protocol must come here.
+// The kernel holds the offsets as literals, because rust-hdl allows no constants there. A changed protocol fails here.
 const _: () = {
     let mut index = 0;
     while index < 10 {
@@ -43,7 +43,7 @@ const _: () = {
 };
 
 impl DeviceIdentity {
-    /// The registers of a core of this configuration, behind streams of so many bits a beat.
+    /// The registers of a core of this configuration behind streams with beats of `beat_bits` bits.
     pub fn new(config: Config, beat_bits: usize) -> Self {
         let word = |value: u32| Parameter::new(Bits::from(u64::from(value)));
         Self {
@@ -54,7 +54,7 @@ impl DeviceIdentity {
             coord_bits: word(CORE_COORD_BITS),
             capacity: word(config.points),
             contexts: word(config.contexts),
-            ring: word(config.ring),
+            ring_capacity: word(config.ring),
             beat_bits: word(beat_bits as u32),
             fifo_beats: word(STREAM_FIFO_BEATS),
             ..Self::default()
@@ -89,7 +89,7 @@ impl Logic for DeviceIdentity {
                 self.value.next = self.contexts.val();
             }
             7 => {
-                self.value.next = self.ring.val();
+                self.value.next = self.ring_capacity.val();
             }
             8 => {
                 self.value.next = self.beat_bits.val();

@@ -1,28 +1,28 @@
-//! What happened on the two streams in the clock before.
+//! The events on the two streams that the registers of the stream link count or remember.
 
-use crate::link::types::Word;
+use crate::commands::types::Word;
 use rust_hdl_core::prelude::*;
 
 crate::packed! {
-    /// A command beat in the clock before.
+    /// The events of a command beat, one clock later.
     pub struct CommandEvents {
         /// The beat was taken.
         pub took: bool,
-        /// The beat waited.
+        /// The beat had to wait.
         pub waited: bool,
-        /// The beat was taken without all its bytes, and dropped.
+        /// The beat lacked bytes: the gate took and dropped it.
         pub dropped: bool,
     }
 
-    /// An answer beat in the clock before.
+    /// The events of an answer beat, one clock later.
     pub struct AnswerEvents {
         /// The beat was taken.
         pub took: bool,
-        /// The beat waited.
+        /// The beat had to wait.
         pub waited: bool,
-        /// The beat was taken and was the last one of its answer.
+        /// The beat was taken, and was the last one of its answer.
         pub ended: bool,
-        /// The beat was taken and was the first one of an answer with a status other than `Ok`.
+        /// The beat was taken, and was the first one of an answer with a status other than `Ok`.
         pub failed: bool,
         /// The header word of that answer.
         pub header: Word,

@@ -1,4 +1,5 @@
-//! The stream link: beats and registers of an AXI bus around the core's two streams of words, with a clock of its own.
+//! The stream link: the blocks that connect the core's two streams of words to AXI4-Streams and AXI4-Lite registers in
+//! the clock of a bus.
 
 mod answer_beats;
 mod answer_pairs;
@@ -8,10 +9,10 @@ mod axi;
 mod beat_gate;
 mod beat_words;
 mod bus_side;
+mod command_under_way;
 mod core_side;
 mod device_identity;
 mod events;
-mod progress;
 mod register_block;
 mod register_port;
 mod reset_reply;
@@ -27,10 +28,10 @@ pub use axi::{Address, AxiLite, AxisSink, AxisSource, RegisterIndex};
 pub use beat_gate::BeatGate;
 pub use beat_words::BeatWords;
 pub use bus_side::BusSide;
+pub use command_under_way::CommandUnderWay;
 pub use core_side::CoreSide;
 pub use device_identity::DeviceIdentity;
 pub use events::{AnswerEvents, CommandEvents};
-pub use progress::Progress;
 pub use register_block::RegisterBlock;
 pub use register_port::RegisterPort;
 pub use reset_reply::ResetReply;

@@ -1,8 +1,8 @@
-//! The registers behind an AXI4-Lite port: what the device is, control, status, what went wrong, and counts.
+//! The registers behind an AXI4-Lite port: the identity of the device, control, status, errors and counters.
 //!
-//! 1. `protocol/STREAM.md` says what stands where. All that can be written stands in the low byte.
-//! 2. What went wrong is kept until it is cleared; what goes wrong in the clock in which it is cleared stays. The header of the last
-//!    answer that failed is kept until `reset`.
+//! 1. `protocol/STREAM.md` lists the registers and their bits. All bits that can be written are in the low byte.
+//! 2. An error stays until the host clears it, and an error that comes in the clock of its clearing stays too. The
+//!    header of the last failed answer stays until `reset`.
 //!
 //! Latency: that of [`RegisterPort`]; 1 clock from an event to its register.
 
@@ -11,10 +11,9 @@ use super::device_identity::DeviceIdentity;
 use super::events::{AnswerEvents, CommandEvents};
 use super::register_port::RegisterPort;
 use super::traffic::Traffic;
-use crate::link::types::Word;
+use crate::commands::types::Word;
+use crate::prelude::*;
 use incircle_protocol::{Config, StreamRegister};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The register block; see the top of this file.
 #[derive(LogicBlock, Default)]
@@ -23,14 +22,15 @@ pub struct RegisterBlock {
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
     pub s_axi: AxiLite,
-    /// For the status: a reset is under way; the core's clock runs; something is held or under way.
+    /// Inputs of the status register: a reset is under way; the core's clock runs; the link holds words or the
+    /// core is at work.
     pub resets: Signal<In, Bit>,
     pub core_runs: Signal<In, Bit>,
     pub is_busy: Signal<In, Bit>,
-    /// Events on the streams.
+    /// Events on the two streams.
     pub commands: Signal<In, CommandEvents>,
     pub answers: Signal<In, AnswerEvents>,
-    /// A reset is written to the control register.
+    /// The host writes a reset to the control register at this edge.
     pub asks_reset: Signal<Out, Bit>,
     port: RegisterPort,
     identity: DeviceIdentity,
@@ -54,7 +54,7 @@ pub struct RegisterBlock {
     errors_index: Signal<Local, RegisterIndex>,
 }
 
-// The kernel writes offsets as literals, because rust-hdl takes no constants of Rust; a change in the protocol must come here.
+// The kernel holds the offsets as literals, because rust-hdl allows no constants there. A changed protocol fails here.
 const _: () = assert!(
     StreamRegister::Control.offset() == 4 * 16
         && StreamRegister::Status.offset() == 4 * 17
@@ -64,7 +64,7 @@ const _: () = assert!(
 );
 
 impl RegisterBlock {
-    /// The registers of a core of this configuration, behind streams of so many bits a beat.
+    /// The registers of a core of this configuration behind streams with beats of `beat_bits` bits.
     pub fn new(config: Config, beat_bits: usize) -> Self {
         Self { identity: DeviceIdentity::new(config, beat_bits), ..Self::default() }
     }
@@ -80,7 +80,8 @@ impl Logic for RegisterBlock {
         self.control_index.next = 16.into();
         self.errors_index.next = 18.into();
 
-        // Writes.
+        // Events stand behind the writes that clear them, so that an error in the very clock of its
+        // clearing is not lost.
         self.write_index.next = self.port.write_address.val().get_bits::<10>(2);
         self.writes_control.next = self.write_index.val() == self.control_index.val();
         self.writes_errors.next = self.write_index.val() == self.errors_index.val();
@@ -107,7 +108,7 @@ impl Logic for RegisterBlock {
             self.fault.d.next = 0.into();
         }
 
-        // Bits where they stand.
+        // Each bit is a word with the bit in its place, so that a read only joins words.
         self.runs_bit.next = 0.into();
         self.busy_bit.next = 0.into();
         self.resets_bit.next = 0.into();
@@ -135,7 +136,7 @@ impl Logic for RegisterBlock {
             self.failed_bit.next = 2.into();
         }
 
-        // Reads.
+        // The identity and the counters each give 0 for an index that is not theirs, so their values can be joined.
         self.read_index.next = self.port.read_address.val().get_bits::<10>(2);
         self.identity.index.next = self.read_index.val();
         self.traffic.reset.next = self.reset.val();

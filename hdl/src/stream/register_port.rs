@@ -1,11 +1,13 @@
-//! The AXI4-Lite port: turns its channels into single reads and writes of registers.
+//! An AXI4-Lite port: turns the transactions of its five channels into single reads and writes of registers.
 //!
-//! 1. All outputs are functions of registers, so no `ready` waits for its `valid`, nor a `valid` for its `ready`. What an answer says stays until it is taken.
-//! 2. Each address and its data come in any order, and give one write and one answer; each address of a read gives one read and one answer. Answers
-//!    come in the order of the addresses.
-//! 3. An answer is SLVERR (2) if the register is not known, otherwise OKAY (0).
+//! 1. All outputs depend on registers only, so no `ready` waits for its `valid` and no `valid` for its `ready`. A
+//!    response on offer stays until it is taken.
+//! 2. The address and the data of a write may come in either order; together they make one write and one response. The
+//!    address of a read makes one read and one response. Responses come in the order of the addresses.
+//! 3. A response is SLVERR (2) if the register is not known, otherwise OKAY (0).
 //!
-//! Latency: 2 clocks from the later of address and data, or from the address of a read, to the answer, if the one before has been taken.
+//! Latency: 2 clocks to the response, from the later of address and data or from the address of a read, if the response
+//! before has been taken.
 //!
 //! A write whose data comes first, and a read; `write` and `read` are the enables:
 //! ```text
@@ -23,28 +25,27 @@
 //! ```
 
 use super::axi::{Address, AxiLite};
-use crate::link::types::Word;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::commands::types::Word;
+use crate::prelude::*;
 
 /// The AXI4-Lite port; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RegisterPort {
-    /// The bus's clock; reset forgets all transactions.
+    /// The bus's clock; a reset forgets all transactions.
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
     pub s_axi: AxiLite,
-    /// A register is written at this edge.
+    /// A register is written at this edge; `write_bytes` says which of the four bytes count.
     pub write_enable: Signal<Out, Bit>,
     pub write_address: Signal<Out, Address>,
     pub write_data: Signal<Out, Word>,
     pub write_bytes: Signal<Out, Bits<4>>,
-    /// There is a register at that address, and it can be written.
+    /// The address is that of a register that can be written.
     pub write_is_known: Signal<In, Bit>,
     /// A register is read at this edge.
     pub read_enable: Signal<Out, Bit>,
     pub read_address: Signal<Out, Address>,
-    /// Its value; there is a register at that address.
+    /// Value of the register; `read_is_known` says that the address is that of a register.
     pub read_data: Signal<In, Word>,
     pub read_is_known: Signal<In, Bit>,
     has_address: DFF<Bit>,
@@ -69,7 +70,8 @@ impl Logic for RegisterPort {
         dff_setup!(self, clock, has_address, address, has_data, data, bytes, is_written, write_response);
         dff_setup!(self, clock, has_read, read_from, is_read, value, read_response);
 
-        // Writes.
+        // Address and data may come in either order, so each has a register of its own, and the write waits for both
+        // and for the response before.
         self.s_axi.awready.next = !self.has_address.q.val();
         self.s_axi.wready.next = !self.has_data.q.val();
         self.s_axi.bvalid.next = self.is_written.q.val();
@@ -101,7 +103,7 @@ impl Logic for RegisterPort {
             }
         }
 
-        // Reads.
+        // A read waits until the response before it is taken, because there is one register for responses.
         self.s_axi.arready.next = !self.has_read.q.val();
         self.s_axi.rvalid.next = self.is_read.q.val();
         self.s_axi.rdata.next = self.value.q.val();

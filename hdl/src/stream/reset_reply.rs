@@ -1,26 +1,26 @@
-//! The core's side of a reset: holds the core in it, and says so.
+//! The core's side of a reset: holds the core in reset while the bus wants it, and replies when it
+//! has been long enough.
 //!
 //! 1. `resets` is 1 from the clock after `request` until both `request` and `reply` are 0 again.
-//! 2. This block has no reset: it comes to rest by itself.
+//! 2. The block has no reset of its own: it comes to rest by itself.
 //!
 //! Latency: 1 clock to `resets`, 8 to `reply`.
 
 use crate::leaf::FlagDelay;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The core's side of a reset; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct ResetReply {
-    /// The core's clock.
+    /// The clock of the core.
     pub clock: Signal<In, Clock>,
-    /// From the bus's clock: reset.
+    /// The bus wants a reset; comes from the bus's clock.
     pub request: Signal<In, Bit>,
-    /// The core's side is in reset. A register.
+    /// The core's side is in reset; a register.
     pub resets: Signal<Out, Bit>,
-    /// To the bus's clock: `request` has been 1 for eight clocks. A register.
+    /// `request` has been 1 for eight clocks; a register, for the bus's clock.
     pub reply: Signal<Out, Bit>,
-    /// To the bus's clock: changes every eight clocks. A register.
+    /// Toggles every eight clocks; a register, for the bus's clock.
     pub beat: Signal<Out, Bit>,
     delay: FlagDelay,
     is_resetting: DFF<Bit>,
@@ -35,7 +35,7 @@ impl ResetReply {
 }
 
 impl ResetReply {
-    /// The reply, which comes after [`LATENCY`](Self::LATENCY) clocks.
+    /// The block, with a reply that comes [`LATENCY`](Self::LATENCY) clocks after the request.
     pub fn new() -> Self {
         Self { delay: FlagDelay::new(Self::LATENCY), ..Self::default() }
     }

@@ -1,42 +1,43 @@
-//! The bus's side of a reset: asks the core's side for it, and waits until that has said that it is over.
+//! The bus's side of a reset: asks the core's side for a reset, and waits until that side has been in reset
+//! and has left it.
 //!
-//! 1. `reset` or `asks` begins a reset, also within one. `request` is then 1 for at least 32 clocks and until `reply` is 1, so that one which
-//!    stands there from before is not taken for the answer; `resets` until `reply` is 0 again.
+//! 1. `reset` or `asks` begins a reset, also while one is under way. `request` is then 1 for at least 32 clocks and
+//!    until `reply` is 1. The 32 clocks keep a `reply` that is left from an earlier reset from being taken for the
+//!    answer. `resets` is 1 until `reply` is 0 again.
 //! 2. `core_runs` is 1 from a change of `core_beat` until 256 clocks have passed without one.
 //!
 //! Latency: 1 clock to `request` and `resets`.
 
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
-/// What is awaited.
+/// The event that the block awaits.
 #[derive(Clone, Copy, Debug, PartialEq, LogicState)]
 pub enum ResetState {
-    /// That the core's side is in reset.
+    /// The core's side enters its reset.
     Begin,
-    /// That the core's side is out of reset.
+    /// The core's side leaves its reset.
     End,
-    /// That a reset is wanted.
+    /// The host wants a reset.
     Rest,
 }
 
 /// The bus's side of a reset; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct ResetRequest {
-    /// The bus's clock and reset.
+    /// The bus's clock and its reset, which begins a reset of the core too.
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
-    /// A reset is wanted.
+    /// The host wants a reset.
     pub asks: Signal<In, Bit>,
-    /// To the core's clock: reset. A register.
+    /// A reset is wanted; a register, for the core's clock.
     pub request: Signal<Out, Bit>,
-    /// From the core's clock: it is in reset, and has been for some clocks.
+    /// The core's side has been in reset for some clocks; comes from the core's clock.
     pub reply: Signal<In, Bit>,
-    /// From the core's clock: changes every few clocks.
+    /// Toggles every few clocks of the core while the core's clock runs.
     pub core_beat: Signal<In, Bit>,
-    /// The bus's side is in reset. A register.
+    /// The bus's side is in reset; a register.
     pub resets: Signal<Out, Bit>,
-    /// `core_beat` changes.
+    /// The core's clock runs.
     pub core_runs: Signal<Out, Bit>,
     state: DFF<ResetState>,
     is_requested: DFF<Bit>,
@@ -53,7 +54,7 @@ pub struct ResetRequest {
 }
 
 impl ResetRequest {
-    /// Clocks that `request` is 1, at least.
+    /// Least number of clocks for which `request` is 1.
     pub const LEAST_CLOCKS: u32 = 32;
     /// Clocks without a change of `core_beat` after which `core_runs` is 0.
     pub const MOST_STILL: u32 = 256;

@@ -1,13 +1,15 @@
-//! The stream link: AXI on one side, the streams of a core on the other, each with its own clock.
+//! The stream link: connects AXI4-Streams and AXI4-Lite registers to the two streams of a core, each side
+//! in its own clock.
 //!
-//! 1. `protocol/STREAM.md` says what passes. W is 64 or 128, K the bytes of a beat, E the bits of an entry of the answer FIFO: W and one.
-//! 2. What is named after the core, `command` and `response` belong to `core_clock`, all else to `bus_clock`. What crosses is a register that
-//!    goes into a `Synchroniser`, or passes through the memory of an `AsyncFifo`.
+//! 1. `protocol/STREAM.md` says what passes. W, the bits of a beat, is 64 or 128; K is the bytes of a beat; E, the bits
+//!    of an entry of the answer FIFO, is W + 1.
+//! 2. The signals with core in their names, `command` and `response` belong to `core_clock`, all others to `bus_clock`.
+//!    A signal crosses as a register that goes into a `Synchroniser`, or through the memory of an `AsyncFifo`.
 //!
 //! ```text
 //!                  BusSide, bus_clock           |              CoreSide, core_clock
 //! s_axis -> BeatGate ----------------------> AsyncFifo -> BeatWords -------------> core
-//!               | events                        |             Progress <-----------+
+//!               | events                        |      CommandUnderWay <-----------+
 //! s_axi  -> RegisterBlock <-> ResetRequest <-----> ResetReply --> core_reset       |
 //!               | events                        |                                  v
 //! m_axis <- AnswerWatch <------------------- AsyncFifo <- AnswerBeats <- AnswerPairs
@@ -17,15 +19,15 @@ use super::async_fifo::AsyncFifo;
 use super::axi::{AxiLite, AxisSink, AxisSource};
 use super::bus_side::BusSide;
 use super::core_side::CoreSide;
-use crate::link::{AnswerSink, CommandSource};
+use crate::commands::{AnswerSink, CommandSource};
 use incircle_protocol::{Config, ConfigError, STREAM_FIFO_BEATS};
 use rust_hdl_core::prelude::*;
 
-/// Bits of a pointer of the FIFOs.
+/// Number of bits of a pointer of the FIFOs.
 const POINTER_BITS: usize = 10;
 const _: () = assert!(AsyncFifo::<POINTER_BITS, 1>::DEPTH == STREAM_FIFO_BEATS as usize);
 
-/// The stream link; see the top of this file.
+/// A core's link to an AXI bus; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct StreamLink<const W: usize, const K: usize, const E: usize> {
     /// Clock and reset of the AXI ports; the reset is active low and synchronous.
@@ -34,7 +36,7 @@ pub struct StreamLink<const W: usize, const K: usize, const E: usize> {
     pub s_axis: AxisSink<W, K>,
     pub m_axis: AxisSource<W, K>,
     pub s_axi: AxiLite,
-    /// Clock of the core; its reset.
+    /// The core's clock, and the reset that the link gives to the core.
     pub core_clock: Signal<In, Clock>,
     pub core_reset: Signal<Out, Bit>,
     pub command: CommandSource,
@@ -46,10 +48,10 @@ pub struct StreamLink<const W: usize, const K: usize, const E: usize> {
 }
 
 impl<const W: usize, const K: usize, const E: usize> StreamLink<W, K, E> {
-    /// The link of a core of this configuration.
+    /// The stream link of a core of this configuration.
     ///
     /// # Errors
-    /// If a parameter is out of range; the error says which and what is possible.
+    /// If a parameter is out of range; the error says which one and what is possible.
     ///
     /// # Panics
     /// If W is not 64 or 128, K not W / 8, or E not W + 1.
@@ -80,7 +82,8 @@ impl<const W: usize, const K: usize, const E: usize> Logic for StreamLink<W, K, 
         CommandSource::link(&mut self.command, &mut self.core.command);
         AnswerSink::link(&mut self.response, &mut self.core.response);
 
-        // Between the clocks.
+        // Only the next four signals and the two FIFOs cross between the clocks;
+        // `constraints/crossings` holds the list.
         self.core.request.next = self.bus.request.val();
         self.bus.reply.next = self.core.reply.val();
         self.bus.core_beat.next = self.core.core_beat.val();
@@ -91,7 +94,6 @@ impl<const W: usize, const K: usize, const E: usize> Logic for StreamLink<W, K, 
         self.answers.read_reset.next = self.bus.resets.val();
         self.core_reset.next = self.core.core_reset.val();
 
-        // Commands.
         self.bus.bus_reset_n.next = self.bus_reset_n.val();
         self.commands.push.next = self.bus.push.val();
         self.commands.push_data.next = self.bus.push_data.val();
@@ -102,7 +104,6 @@ impl<const W: usize, const K: usize, const E: usize> Logic for StreamLink<W, K, 
         self.core.is_empty.next = self.commands.is_empty.val();
         self.commands.pop.next = self.core.takes.val();
 
-        // Answers.
         self.answers.push.next = self.core.entry_valid.val();
         self.answers.push_data.next = self.core.entry.val();
         self.core.is_full.next = self.answers.is_full.val();

@@ -1,29 +1,29 @@
-//! Counts what passes and what waits on the streams, and is read as registers.
+//! Counts the beats that pass and that wait on the streams, and offers the counts as registers.
 //!
-//! 1. A read of the low half of the clocks keeps the high half, which is what a read of that one gives.
+//! 1. A read of the low half of the clocks keeps their high half, and a read of the high half gives the half kept, so
+//!    that both fit together.
 //!
-//! Latency: 1 clock to a count, none to `value`.
+//! Latency: 1 clock to a count, none (combinational) to `value`.
 
 use super::axi::RegisterIndex;
 use super::events::{AnswerEvents, CommandEvents};
-use crate::link::types::Word;
+use crate::commands::types::Word;
+use crate::prelude::*;
 use incircle_protocol::StreamRegister;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
-/// Counters of the streams; see the top of this file.
+/// The counters of the streams; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Traffic {
-    /// The bus's clock; reset sets all to 0.
+    /// The bus's clock; a reset sets all counters to 0.
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
-    /// Events to count, modulo 2^32.
+    /// Events to count; counts are modulo 2^32.
     pub commands: Signal<In, CommandEvents>,
     pub answers: Signal<In, AnswerEvents>,
-    /// The register that is looked at, and whether it is read at this edge.
+    /// Number of a register; `reads` says that the host reads it at this edge.
     pub index: Signal<In, RegisterIndex>,
     pub reads: Signal<In, Bit>,
-    /// Its value, 0 if it is none of these, and whether it is one.
+    /// Value of that register, or 0 if it is none of this block; `is_known` says that it is one.
     pub value: Signal<Out, Word>,
     pub is_known: Signal<Out, Bit>,
     clocks: DFF<Bits<64>>,
@@ -38,7 +38,7 @@ pub struct Traffic {
     low_clocks: Signal<Local, RegisterIndex>,
 }
 
-// The kernel writes offsets as literals, because rust-hdl takes no constants of Rust; a change in the protocol must come here.
+// The kernel holds the offsets as literals, because rust-hdl allows no constants there. A changed protocol fails here.
 const _: () = assert!(
     StreamRegister::ClocksLow.offset() == 4 * 32
         && StreamRegister::ClocksHigh.offset() == 4 * 33

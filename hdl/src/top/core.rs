@@ -1,8 +1,8 @@
-//! The core: command stream in, answer stream out, one insertion engine between them.
+//! The core: one insertion engine between a command stream and an answer stream.
 //!
-//! 1. All outputs are functions of registers.
-//! 2. After reset the lock memory is swept, a clock for each record, and the histogram of latencies beside it; until then
-//!    `command_ready` is low.
+//! 1. All outputs depend on registers only.
+//! 2. After a reset the core clears the lock memory, one record a clock, and the histogram of latencies at the same
+//!    time; `command_ready` is low until both are clear.
 //!
 //! ```text
 //! commands -> CommandPort --- points ---> InsertionEngine
@@ -10,16 +10,17 @@
 //!                 +--- AnswerHead, AnswerWords <- Counters, Latencies <- events
 //! ```
 
+use crate::commands::{AnswerHead, AnswerSource, AnswerWords, CommandPort, CommandSink, Responder};
 use crate::engine::{Counters, InsertionEngine, Latencies, Write};
 use crate::leaf::Parameter;
-use crate::link::{AnswerHead, AnswerSource, AnswerWords, CommandPort, CommandSink, Responder};
 use incircle_protocol::{infinite_vertex, patience, triangle_capacity, Config, ConfigError};
 use rust_hdl_core::prelude::*;
 
 /// The core; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Core {
-    /// One clock; synchronous reset, active high: for four clocks or more at power-up, for one or more in a core that runs.
+    /// One clock, and a synchronous reset, active high, which lasts four clocks or more at power-up and one or more
+    /// in a running core.
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
     pub command: CommandSink,
@@ -35,7 +36,7 @@ pub struct Core {
     latencies: Latencies,
     infinite: Parameter<Bits<15>>,
     capacity: Parameter<Bits<15>>,
-    ring: Parameter<Bits<7>>,
+    ring_capacity: Parameter<Bits<7>>,
     last_id: Parameter<Bits<15>>,
     contexts: Parameter<Bits<5>>,
     all_contexts: Parameter<Bits<24>>,
@@ -47,14 +48,14 @@ impl Core {
     /// The core of a configuration.
     ///
     /// # Errors
-    /// If a parameter is out of range; the error says which and what is possible.
+    /// If a parameter is out of range; the error says which one and what is possible.
     pub fn new(config: Config) -> Result<Self, ConfigError> {
         let config = config.check()?;
         Ok(Self {
             engine: InsertionEngine::new(config),
             infinite: Parameter::new(u64::from(infinite_vertex(config.points)).into()),
             capacity: Parameter::new(u64::from(config.points).into()),
-            ring: Parameter::new(u64::from(config.ring).into()),
+            ring_capacity: Parameter::new(u64::from(config.ring).into()),
             last_id: Parameter::new(u64::from(triangle_capacity(config.points) - 1).into()),
             contexts: Parameter::new(u64::from(config.contexts).into()),
             all_contexts: Parameter::new(((1u64 << config.contexts) - 1).into()),
@@ -75,7 +76,6 @@ impl Logic for Core {
         self.latencies.reset.next = self.reset.val();
         self.sweeps.next = self.engine.state.val().sweeps | self.latencies.sweeps.val();
 
-        // The command stream.
         self.command_port.capacity.next = self.capacity.val();
         self.command_port.built.next = self.contexts.val();
         CommandSink::link(&mut self.command, &mut self.command_port.command);
@@ -83,7 +83,6 @@ impl Logic for Core {
         self.command_port.engine.next = self.engine.state.val();
         self.command_port.answer.next = self.responder.progress.val();
 
-        // The answer stream.
         self.answer_head.request.next = self.command_port.request.val();
         self.answer_head.is_refused.next = self.command_port.clearing.val().is_refused;
         self.answer_head.records.next = self.engine.state.val().records;
@@ -94,7 +93,7 @@ impl Logic for Core {
         self.answer_words.tally.next = self.command_port.tally.val();
         self.answer_words.capacity.next = self.capacity.val();
         self.answer_words.contexts.next = self.contexts.val();
-        self.answer_words.ring.next = self.ring.val();
+        self.answer_words.ring_capacity.next = self.ring_capacity.val();
         self.answer_words.records.next = self.engine.state.val().records;
         self.answer_words.insertions.next = self.counters.insertions.val();
         self.answer_words.duplicates.next = self.counters.duplicates.val();
@@ -111,11 +110,10 @@ impl Logic for Core {
         self.responder.record.next = self.engine.read_out.val().record;
         AnswerSource::link(&mut self.response, &mut self.responder.response);
 
-        // The engine.
         self.engine.limits.next.infinite = self.infinite.val();
-        self.engine.limits.next.ring = self.ring.val();
+        self.engine.limits.next.ring_capacity = self.ring_capacity.val();
         self.engine.limits.next.last_id = self.last_id.val();
-        self.engine.limits.next.all = self.all_contexts.val();
+        self.engine.limits.next.built_contexts = self.all_contexts.val();
         self.engine.limits.next.patience = self.patience.val();
         self.engine.deal.next = self.command_port.deal.val();
         self.engine.clears.next = self.command_port.clearing.val().clears;
@@ -126,7 +124,8 @@ impl Logic for Core {
         self.engine.now.next = self.counters.now.val();
         self.write.next = self.engine.write.val();
 
-        // The counters.
+        // A clock counts as waiting only if the host is to blame: the command still awaits a point, and the insertion
+        // engine has nothing to do.
         self.counters.clears.next = self.command_port.clearing.val().clears;
         self.counters.inserting.next = self.command_port.activity.val().inserting;
         self.counters.waiting.next = self.command_port.activity.val().inserting

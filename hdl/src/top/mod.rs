@@ -1,4 +1,4 @@
-//! The core, everything put together, and the devices around it.
+//! The core with all its parts, and the devices that put a link around the core.
 
 mod core;
 mod serial_top;

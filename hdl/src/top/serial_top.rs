@@ -1,25 +1,25 @@
-//! A whole device: the core behind its serial link.
+//! A whole device: the core behind a serial link.
 //!
-//! 1. `reset` is needed once, after power-up, for two clocks or more: it passes a register, since the pin's side of it may be far away.
+//! 1. `reset` is needed once, after power-up, for two clocks or more: a register takes it first, because the pin
+//!    may be far away.
 
 use super::core::Core;
+use crate::commands::{AnswerSink, CommandSource};
 use crate::engine::Write;
-use crate::link::{AnswerSink, CommandSource};
+use crate::prelude::*;
 use crate::serial::{SerialError, SerialLink};
 use incircle_protocol::{Config, LinkConfig};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
-/// The core behind its serial link; see the top of this file.
+/// The core behind a serial link; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct SerialTop {
-    /// One clock; synchronous reset, active high.
+    /// One clock, and a synchronous reset, active high.
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
-    /// The line, high when idle.
+    /// The line in both directions, high when idle.
     pub rx: Signal<In, Bit>,
     pub tx: Signal<Out, Bit>,
-    /// Alive, busy, error, from bit 0 up; see `SerialLink`.
+    /// Lamps: alive, busy, error, from bit 0 up; see `SerialLink`.
     pub leds: Signal<Out, Bits<3>>,
     /// The write port of the triangle memory, for simulation.
     pub write: Signal<Out, Write>,
@@ -32,7 +32,7 @@ impl SerialTop {
     /// The device of a configuration of the core and of the link.
     ///
     /// # Errors
-    /// If a parameter is out of range; the error says which and what is possible.
+    /// If a parameter is out of range; the error says which one and what is possible.
     pub fn new(config: Config, link: LinkConfig) -> Result<Self, SerialError> {
         Ok(Self { core: Core::new(config)?, link: SerialLink::new(config, link)?, ..Self::default() })
     }

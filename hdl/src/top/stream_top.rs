@@ -1,15 +1,15 @@
-//! A whole device: the core behind its stream link.
+//! A whole device: the core behind a stream link.
 //!
-//! 1. `bus_reset_n` is needed once, after power-up. The core's reset follows from it.
+//! 1. `bus_reset_n` is needed once, after power-up; the reset of the core follows from it.
 
 use super::core::Core;
+use crate::commands::{AnswerSink, CommandSource};
 use crate::engine::Write;
-use crate::link::{AnswerSink, CommandSource};
 use crate::stream::{AxiLite, AxisSink, AxisSource, StreamLink};
 use incircle_protocol::{Config, ConfigError};
 use rust_hdl_core::prelude::*;
 
-/// The core behind its stream link; see the top of this file.
+/// The core behind a stream link; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct StreamTop<const W: usize, const K: usize, const E: usize> {
     /// Clock and reset of the AXI ports; the reset is active low and synchronous.
@@ -18,7 +18,7 @@ pub struct StreamTop<const W: usize, const K: usize, const E: usize> {
     pub s_axis: AxisSink<W, K>,
     pub m_axis: AxisSource<W, K>,
     pub s_axi: AxiLite,
-    /// Clock of the core.
+    /// The clock of the core.
     pub core_clock: Signal<In, Clock>,
     /// The write port of the triangle memory, in the core's clock, for simulation.
     pub write: Signal<Out, Write>,
@@ -30,7 +30,7 @@ impl<const W: usize, const K: usize, const E: usize> StreamTop<W, K, E> {
     /// The device of a configuration.
     ///
     /// # Errors
-    /// If a parameter is out of range; the error says which and what is possible.
+    /// If a parameter is out of range; the error says which one and what is possible.
     ///
     /// # Panics
     /// If W is not 64 or 128, K not W / 8, or E not W + 1.

@@ -1,4 +1,5 @@
-//! The outside of the core and of the devices around it: modules with ANSI ports, written by hand.
+//! The outermost modules of the core and of the devices around it: hand-written Verilog with ANSI ports, because the
+//! modules that rust-hdl emits have ports with names such as `command$valid`.
 //!
 //! The core, `incircle_core`:
 //!
@@ -7,7 +8,8 @@
 //! | `clock`, `reset` | in | 1 | one clock; synchronous reset, active high |
 //! | `command_valid`, `command_ready`, `command_data` | in, out, in | 1, 1, 32 | the command stream |
 //! | `response_valid`, `response_ready`, `response_data` | out, in, out | 1, 1, 64 | the answer stream |
-//! | `response_both`, `response_last` | out | 1 | bits 63 to 32 are a second word, which follows the first; the last word of the answer is here |
+//! | `response_both` | out | 1 | bits 63 to 32 hold a second word, which follows the first |
+//! | `response_last` | out | 1 | the last word of the answer is among them |
 //!
 //! The core behind a serial link, `incircle_serial_top`:
 //!
@@ -22,21 +24,23 @@
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
 //! | `bus_clock`, `bus_reset_n` | in | 1 | clock and reset of the AXI ports; the reset is active low and synchronous |
-//! | `s_axis_tdata`, `_tkeep`, `_tvalid`, `_tready`, `_tlast` | in, in, in, out, in | W, W/8, 1, 1, 1 | commands; `s_axis_tlast` means nothing |
-//! | `m_axis_tdata`, `_tkeep`, `_tvalid`, `_tready`, `_tlast` | out, out, out, in, out | W, W/8, 1, 1, 1 | answers |
+//! | `s_axis_tdata`, `_tkeep` | in | W, W/8 | commands |
+//! | `s_axis_tvalid`, `_tready`, `_tlast` | in, out, in | 1 | their handshake; `s_axis_tlast` means nothing |
+//! | `m_axis_tdata`, `_tkeep` | out | W, W/8 | answers |
+//! | `m_axis_tvalid`, `_tready`, `_tlast` | out, in, out | 1 | their handshake, and the mark of an answer's last beat |
 //! | `s_axi_aw...`, `_w...`, `_b...`, `_ar...`, `_r...` | | | AXI4-Lite, addresses of 12 bits, data of 32 |
 //! | `core_clock` | in | 1 | clock of the core |
 //!
-//! With the probe all have the write port of the triangle memory as well, field by field: `PROBE`.
+//! With the probe each module has the write port of the triangle memory as well, field by field: `PROBE`.
 
-/// Name of the core's module.
+/// Name of the module of the core.
 pub const CORE_NAME: &str = "incircle_core";
 /// Name of the module of a core behind a serial link.
 pub const SERIAL_TOP_NAME: &str = "incircle_serial_top";
 /// Name of the module of a core behind a stream link.
 pub const STREAM_TOP_NAME: &str = "incircle_stream_top";
 
-/// Ports of the core, and of a core behind a serial link, without the probe: direction, name, width.
+/// Ports of the core without the probe: direction, name, width.
 const CORE_PORTS: [(&str, &str, usize); 10] = [
     ("input", "clock", 1),
     ("input", "reset", 1),
@@ -52,7 +56,7 @@ const CORE_PORTS: [(&str, &str, usize); 10] = [
 const SERIAL_PORTS: [(&str, &str, usize); 5] =
     [("input", "clock", 1), ("input", "reset", 1), ("input", "rx", 1), ("output", "tx", 1), ("output", "leds", 3)];
 
-/// Ports of a core behind a stream link, with beats of so many bits.
+/// Ports of a core behind a stream link with beats of `beat_bits` bits.
 fn stream_ports(beat_bits: usize) -> [(&'static str, &'static str, usize); 29] {
     [
         ("input", "bus_clock", 1),
@@ -86,10 +90,10 @@ fn stream_ports(beat_bits: usize) -> [(&'static str, &'static str, usize); 29] {
         ("input", "core_clock", 1),
     ]
 }
-/// The one that a bus has and that nothing is connected to.
+/// The port that a bus has but the device does not use.
 const STREAM_UNUSED: [(&str, &str, usize); 1] = [("input", "s_axis_tlast", 1)];
 
-/// The fields of the write port, lowest bit first, with their widths; the order is that of [`Write`](crate::engine::Write).
+/// The fields of the write port with their widths, lowest bit first, in the order of [`Write`](crate::engine::Write).
 const PROBE: [(&str, usize); 10] = [
     ("write_valid", 1),
     ("write_id", 15),
@@ -113,31 +117,34 @@ pub fn serial_wrapper(device: &str, with_probe: bool) -> String {
     around(SERIAL_TOP_NAME, [&SERIAL_PORTS, &[]], ("device", device), with_probe)
 }
 
-/// The Verilog of the wrapper around the root module `device` of a core behind a stream link with beats of so many bits.
+/// The Verilog of the wrapper around the root module `device` of a core behind a stream link with
+/// beats of `beat_bits` bits.
 pub fn stream_wrapper(device: &str, beat_bits: usize, with_probe: bool) -> String {
     around(STREAM_TOP_NAME, [&stream_ports(beat_bits), &STREAM_UNUSED], ("device", device), with_probe)
 }
 
-/// Interfaces of the modules inside: a pin is named for one of them and for a signal of it, `command_valid` for `command$valid`.
+/// Interfaces of the modules inside. A pin has the name of an interface and of a signal in
+/// it: `command_valid` is `command$valid`.
 const INTERFACES: [&str; 5] = ["command", "response", "s_axis", "m_axis", "s_axi"];
 
-/// The port of the module inside that a pin is connected to.
+/// The port of the inner module to which a pin is connected.
 fn port_of(pin: &str) -> String {
     let signal = |interface: &str| Some(format!("{interface}${}", pin.strip_prefix(interface)?.strip_prefix('_')?));
     INTERFACES.into_iter().find_map(signal).unwrap_or_else(|| pin.to_string())
 }
 
-/// Direction, name and width of ports.
+/// Ports with their direction, name and width.
 type Ports<'a> = &'a [(&'a str, &'a str, usize)];
 
-/// The Verilog of a module with ANSI ports around `module` as `instance`. Ports of the second kind are connected to nothing.
+/// The Verilog of a module with ANSI ports around `module` as `instance`. The ports in `unused`
+/// are connected to nothing.
 fn around(name: &str, [ports, unused]: [Ports; 2], (instance, module): (&str, &str), with_probe: bool) -> String {
     let declared = |(direction, name, width): (&str, &str, usize)| {
         let range = if width == 1 { String::new() } else { format!("[{}:0] ", width - 1) };
         format!("{direction} wire {range}{name}")
     };
     let mut declarations: Vec<_> = ports.iter().chain(unused).map(|port| declared(*port)).collect();
-    // Without the probe the port ends in a wire that synthesis removes.
+    // Without the probe the write port ends in a wire that synthesis removes.
     let bits: usize = PROBE.iter().map(|(_, width)| width).sum();
     let mut inside = format!("    wire [{}:0] unused_write;\n", bits - 1);
     let mut write = "unused_write".to_string();

@@ -11,6 +11,7 @@ use incircle_testkit::Distribution;
 
 use crate::failure::{failure_of, Failure};
 use crate::formats::{MeshFormat, PointFormat};
+use crate::help;
 use crate::values::{
     backend_parser, distribution_parser, mhz_from, order_parser, port_from, quantize_from, readable_format_parser,
     seconds_from,
@@ -18,90 +19,127 @@ use crate::values::{
 
 /// Exact Delaunay triangulation: one canonical answer, in software or hardware
 #[derive(Debug, Parser)]
-#[command(name = "incircle", version, after_help = EXIT_CODES)]
+#[command(name = "incircle", version, after_help = help::ALL, after_long_help = help::ALL_LONG)]
 pub struct Cli {
-    /// What to do.
+    /// The subcommand with its arguments.
     #[command(subcommand)]
     pub command: Command,
 }
 
-const EXIT_CODES: &str = "Exit codes: 0 ok, 1 verification failed, 2 usage, 3 bad input, 4 device not found or no \
-permission, 5 link error, 6 device error or timeout, 7 capacity, 130 interrupted.";
-
-/// The subcommands.
+/// The subcommands of the command.
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Triangulate a file of points
+    #[command(after_help = help::TRIANGULATE, after_long_help = help::TRIANGULATE_LONG)]
     Triangulate(TriangulateArguments),
-    /// Check that the triangles of a mesh are the canonical Delaunay triangulation of its points
+    /// Check that a mesh is the canonical Delaunay triangulation of its points
     ///
-    /// Only the triangles are checked, as indices into POINTS: whatever else the mesh file holds (vertices of OBJ and PLY;
-    /// points, hull and duplicates of JSON) is not compared.
+    /// Only the triangles are checked, as indices into POINTS. Everything else in the mesh file is
+    /// ignored: the vertices of OBJ and PLY; the points, hull and duplicates of JSON.
+    #[command(verbatim_doc_comment, after_help = help::VERIFY, after_long_help = help::VERIFY_LONG)]
     Verify(VerifyArguments),
     /// Make a set of points
+    #[command(after_help = help::GENERATE, after_long_help = help::GENERATE_LONG)]
     Generate(GenerateArguments),
-    /// Measure a back end on generated sets: a table with a row per set
+    /// Measure a back end on generated sets, with a row of a table for each set
     ///
-    /// For a core: clock cycles per insertion and the time they take at --mhz, triangles visited by walks and conflict tests (both per
-    /// insertion), attempts given up, waiting tokens, root retries; how much of the insertion its ports were busy (visits
-    /// issued, records written, commits at work, locks released); and how many cycles an insertion took. Median and
-    /// 99th percentile are upper bounds, at most an eighth above the true value. For a board also the time of a job as a line over its points,
-    /// t = c + m n, fitted to four sizes of each set. For the software model: host time, the best of three runs.
+    /// The columns of a core, in this order:
+    /// - clock cycles per insertion, and the time of all insertions at --mhz;
+    /// - triangles visited by walks, and conflict tests, both per insertion;
+    /// - attempts aborted, priorities taken, and retries at a root, in all;
+    /// - shares of the cycles in which visits were issued, records were written, commits worked,
+    ///   and locks were released;
+    /// - cycles of one insertion: least, median, 99th percentile, most. Median and percentile are
+    ///   upper bounds, at most an eighth above the true value.
+    ///
+    /// For a board there is also the time of a job of n points as a line t = c + m n, fitted to four
+    /// sizes of each set. The back ends 'cpu' and 'model' have the time on this machine: the best
+    /// time of three runs.
+    #[command(verbatim_doc_comment, after_help = help::BENCH, after_long_help = help::BENCH_LONG)]
     Bench(BenchArguments),
-    /// Say what a back end is
+    /// Describe a back end: version, coordinates, capacity, contexts
+    #[command(after_help = help::INFO, after_long_help = help::INFO_LONG)]
     Info(InfoArguments),
-    /// List the serial ports and the PCIe cards, and say who is there
+    /// List the serial ports and the PCIe cards of this machine
+    #[command(after_help = help::DEVICES)]
     Devices(DevicesArguments),
     /// Print a completion script for a shell
+    #[command(after_help = help::COMPLETIONS, after_long_help = help::COMPLETIONS_LONG)]
     Completions(CompletionsArguments),
 }
 
-/// How coordinates come onto the grid.
+/// The grid that the points lie on.
 #[derive(Debug, Args)]
 pub struct GridArguments {
-    /// Bits of a coordinate: points lie on the grid 0 to 2^BITS - 1 (default: 16)
+    /// Bits of a coordinate; the grid is 0 to 2^BITS - 1 (default: 16)
     #[arg(long, value_name = "BITS", value_parser = clap::value_parser!(u32).range(8..=31))]
     pub coord_bits: Option<u32>,
-    /// Lay the points onto the grid: 'fit' (the bounding box fills it, one scale), or 'SCALE' or 'SCALE,X0,Y0' for
-    /// (x - X0) * SCALE; integers on the grid are untouched without it, others are fitted
-    #[arg(long, value_name = "HOW", value_parser = quantize_from, allow_hyphen_values = true)]
+    /// Lay the points onto the grid: 'fit', 'SCALE' or 'SCALE,X0,Y0'
+    ///
+    /// 'fit' scales the bounding box to fill the grid, both axes alike. 'SCALE,X0,Y0' computes
+    /// (x - X0) * SCALE and (y - Y0) * SCALE; 'SCALE' alone takes 0 for X0 and Y0.
+    /// Without this option integers on the grid are left as they are, and the bounding box of
+    /// points with fractions is fitted.
+    #[arg(
+        long,
+        value_name = "HOW",
+        value_parser = quantize_from,
+        allow_hyphen_values = true,
+        verbatim_doc_comment
+    )]
     pub quantize: Option<Quantize>,
 }
 
-/// Which device works.
+/// The back end that does the work.
 #[derive(Clone, Debug, Args)]
 pub struct BackendArguments {
-    /// Who triangulates: 'cpu', the fast engine on the processor; 'model', the software model of the core; 'clock', its model clock by
-    /// clock; 'sim', the core's Verilog in Verilator (needs a build with `--features sim`); 'serial:PORT', a board, such as
-    /// serial:/dev/ttyUSB0 or serial:/dev/ttyUSB0?baud=12000000; 'pcie:N', the card N in a PCIe slot, or pcie:DIR. Choices follow a question
-    /// mark: cpu?threads=2, model?coord-bits=20&capacity=5000, clock?config=full (default: 'triangulate' takes 'cpu', or 'model' if --order or
-    /// --contexts is given; others take 'model')
-    #[arg(long, value_parser = backend_parser())]
+    /// Back end
+    ///
+    /// - cpu: the CPU triangulator, the fastest on a usual computer
+    /// - model: the software model of the core
+    /// - clock: the model of the core, clock by clock
+    /// - sim: the core's Verilog in Verilator; needs a build with `--features sim`
+    /// - serial:PORT: a board at a serial port, such as serial:/dev/ttyUSB0
+    /// - pcie:N: the card N in a PCIe slot; pcie:DIR is a card by the directory of its files
+    ///
+    /// Choices follow a question mark, as in cpu?threads=2, model?coord-bits=20&capacity=5000,
+    /// clock?config=full or serial:/dev/ttyUSB0?baud=12000000.
+    ///
+    /// Default: 'triangulate' takes 'cpu', or 'model' if --order or --contexts is given.
+    /// All other commands take 'model'.
+    #[arg(long, value_parser = backend_parser(), verbatim_doc_comment)]
     pub backend: Option<DeviceAddress>,
-    /// Threads of the back end 'cpu' (default: as many as there are processors, fewer for small sets)
+    /// Threads of the back end 'cpu' (default: one per processor)
+    ///
+    /// A small set takes fewer: one thread, and one more for every full 16,384 points.
     #[arg(long, value_name = "N")]
     pub threads: Option<NonZeroU32>,
-    /// Configuration of the core, for 'clock' and 'sim' (default: the smallest that holds the points)
+    /// Core of 'clock' and 'sim'
+    ///
+    /// Without this option the core is the smallest one that holds the points.
     #[arg(long, value_enum)]
     pub config: Option<ConfigName>,
 }
 
 impl BackendArguments {
-    /// The back end asked for, or else this one.
+    /// The back end of the arguments, or else the one at the address `default`.
     pub fn or(&self, default: &str) -> Result<DeviceAddress, Failure> {
         let default = || default.parse().map_err(|error| failure_of(&error));
         self.backend.clone().map_or_else(default, Ok)
     }
 }
 
-/// How the device works.
+/// The choices for a job that change its time and never the mesh.
 #[derive(Debug, Args)]
 pub struct JobArguments {
-    /// Contexts that work, that is insertions in flight at once: it changes the time, never the mesh (default: all that the
-    /// back end has)
+    /// Insertions in flight at once (default: all contexts of the back end)
+    ///
+    /// The number changes the time, never the mesh.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub contexts: Option<u32>,
-    /// Order in which points are inserted: it changes the time, never the mesh (default: brio-hilbert)
+    /// Insertion order
+    ///
+    /// The order changes the time, never the mesh. Default: brio-hilbert.
     #[arg(long, value_parser = order_parser())]
     pub order: Option<Order>,
     /// Seconds that the device may take
@@ -110,34 +148,40 @@ pub struct JobArguments {
 }
 
 impl JobArguments {
-    /// The order asked for, or else the best.
+    /// The order of the arguments, or else the default order.
     pub fn order(&self) -> Order {
         self.order.unwrap_or_default()
     }
 
-    /// The choices for a job, of which this listener hears how far it is.
+    /// The library's options for a job whose progress goes to `listener`.
     pub fn options<'a>(&self, listener: ProgressListener<'a>) -> Options<'a> {
         Options::default().timeout(self.timeout).order(self.order()).contexts(self.contexts).progress(listener)
     }
 
-    /// What is asked of a job makes sense only for devices that insert one point after the other.
+    /// Whether the choices make sense only for a back end that inserts points one by one.
     pub fn wants_insertion(&self) -> bool {
         self.order.is_some() || self.contexts.is_some()
     }
 }
 
-/// Arguments of `triangulate`.
+/// The arguments of `incircle triangulate`.
 #[derive(Debug, Args)]
 pub struct TriangulateArguments {
-    /// Points: csv, xyz, node, obj, ply, geojson or json; '-' is CSV from standard input
+    /// File of points, in the format of its extension; '-' is CSV from standard input
     pub points: PathBuf,
-    /// The mesh: ele, obj, ply, vtk, geojson, json, csv or svg; '-' is standard output and needs --format
+    /// File for the mesh, in the format of its extension
+    ///
+    /// '-' is standard output and needs --format.
     #[arg(short, long, value_name = "MESH")]
     pub output: PathBuf,
-    /// Format of the mesh (default: by extension)
+    /// Mesh file
+    ///
+    /// Without this option the extension of the file names the format.
     #[arg(long, value_enum)]
     pub format: Option<MeshFormat>,
-    /// Format of the points (default: by extension)
+    /// Point file
+    ///
+    /// Without this option the extension of the file names the format.
     #[arg(long, value_enum)]
     pub from: Option<PointFormat>,
     #[command(flatten)]
@@ -146,47 +190,53 @@ pub struct TriangulateArguments {
     pub backend: BackendArguments,
     #[command(flatten)]
     pub job: JobArguments,
-    /// Record every signal of the simulated core, clock by clock, in this waveform file: slow and large, for small sets
+    /// Record a waveform of the back end 'sim' in this file, for small sets
+    ///
+    /// The file has every signal of the simulated core at every clock, so it is large and slow to write.
     #[arg(long, value_name = "FILE.vcd")]
     pub trace: Option<PathBuf>,
-    /// Print one JSON object about the run on standard output
+    /// Print a report of the run as one JSON object on standard output
     #[arg(long)]
     pub json: bool,
-    /// Print nothing but errors
+    /// Print only errors
     #[arg(short, long, conflicts_with = "verbose")]
     pub quiet: bool,
-    /// Print times and counters
+    /// Print times and counters as well
     #[arg(short, long)]
     pub verbose: bool,
 }
 
-/// Arguments of `verify`.
+/// The arguments of `incircle verify`.
 #[derive(Debug, Args)]
 pub struct VerifyArguments {
-    /// The points; '-' is CSV from standard input
+    /// File of points, in the format of its extension; '-' is CSV from standard input
     pub points: PathBuf,
-    /// The mesh: ele, obj, ply, json or csv; '-' is standard input and needs --format
+    /// File of the mesh; '-' is standard input and needs --format
     pub mesh: PathBuf,
-    /// Format of the points (default: by extension)
+    /// Point file
+    ///
+    /// Without this option the extension of the file names the format.
     #[arg(long, value_enum)]
     pub from: Option<PointFormat>,
-    /// Format of the mesh (default: by extension)
+    /// Mesh file
+    ///
+    /// Without this option the extension of the file names the format.
     #[arg(long, value_parser = readable_format_parser())]
     pub format: Option<MeshFormat>,
     #[command(flatten)]
     pub grid: GridArguments,
-    /// Print one JSON object on standard output
+    /// Print the result as one JSON object on standard output
     #[arg(long)]
     pub json: bool,
-    /// Print nothing but errors
+    /// Print only errors
     #[arg(short, long)]
     pub quiet: bool,
 }
 
-/// Arguments of `generate`.
+/// The arguments of `incircle generate`.
 #[derive(Debug, Args)]
 pub struct GenerateArguments {
-    /// The set
+    /// Set
     #[arg(value_parser = distribution_parser())]
     pub distribution: Distribution,
     /// Number of points, up to 536870911
@@ -195,71 +245,86 @@ pub struct GenerateArguments {
     /// Bits of a coordinate
     #[arg(long, default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=31))]
     pub bits: u32,
-    /// Seed: the same seed gives the same points on every machine
+    /// Seed; one seed gives the same points on every machine
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// Put the points into this order of insertion
+    /// Insertion order
+    ///
+    /// Puts the points in this order. Default: as generated.
     #[arg(long, value_parser = order_parser())]
     pub order: Option<Order>,
-    /// The points: csv, xyz or node; '-' is CSV on standard output; svg, with --order, is a drawing of the order
+    /// File for the points: .csv, .xyz or .node; '-' is CSV on standard output
+    ///
+    /// With --order, a file .svg is a drawing of the order: a line from each point to the next.
     #[arg(short, long, value_name = "POINTS")]
     pub output: PathBuf,
 }
 
-/// Arguments of `bench`.
+/// The arguments of `incircle bench`.
 #[derive(Debug, Args)]
 pub struct BenchArguments {
-    /// The sets (default: the five distributions of the literature, and the lattice)
+    /// Sets (default: the five distributions of the literature, and the lattice)
     #[arg(value_name = "SET", value_parser = distribution_parser())]
     pub sets: Vec<Distribution>,
-    /// Points of a set; duplicates are removed before the device sees them
+    /// Points of a set, including duplicates, which are then removed
     #[arg(short, value_name = "N", default_value_t = 4096, value_parser = clap::value_parser!(u32).range(1..))]
     pub n: u32,
-    /// Do so many jobs of such sets in one call, each with a seed of its own, and tell the time from the first word in to the last triangle
-    /// out; a core is taken in the configuration full unless chosen. At most 67,108,864 points in all
-    #[arg(long, value_name = "JOBS", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    /// Triangulate JOBS generated sets, each with its own seed, as one batch
+    ///
+    /// Reports the time from the first word sent to the last triangle received. Takes the core
+    /// `--config full` by default. All sets together have at most 67,108,864 points.
+    #[arg(
+        long,
+        value_name = "JOBS",
+        value_parser = clap::value_parser!(u32).range(1..=1_000_000),
+        verbatim_doc_comment
+    )]
     pub batch: Option<u32>,
     /// Bits of a coordinate (default: 16)
     #[arg(long, value_name = "BITS", value_parser = clap::value_parser!(u32).range(1..=31))]
     pub coord_bits: Option<u32>,
-    /// Seed of the sets: the same seed gives the same points on every machine
+    /// Seed; one seed gives the same points on every machine
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
     #[command(flatten)]
     pub backend: BackendArguments,
     #[command(flatten)]
     pub job: JobArguments,
-    /// Clock frequency for which times are told, in MHz: cycles are counted, frequency is assumed (default: what a board says, or 125)
+    /// Clock frequency in MHz for times (default: the board's, or 125)
+    ///
+    /// Cycles are counted; the frequency is assumed.
     #[arg(long, value_parser = mhz_from)]
     pub mhz: Option<f64>,
-    /// Print one JSON object on standard output
+    /// Print all rows as one JSON object on standard output
     #[arg(long)]
     pub json: bool,
 }
 
-/// Arguments of `info`.
+/// The arguments of `incircle info`.
 #[derive(Debug, Args)]
 pub struct InfoArguments {
     #[command(flatten)]
     pub backend: BackendArguments,
-    /// The board at this serial port: the same as --backend serial:PORT
+    /// Board at this serial port, the same as --backend serial:PORT
     #[arg(short, long, value_name = "PORT", value_parser = port_from, conflicts_with_all = ["backend", "config"])]
     pub port: Option<Address>,
 }
 
-/// Arguments of `devices`.
+/// The arguments of `incircle devices`.
 #[derive(Debug, Args)]
 pub struct DevicesArguments {
-    /// Ask at every port and card who is there. That sends a few bytes to whatever is connected to a port, for up to three seconds each,
-    /// and resets a card that nobody uses
-    #[arg(short, long)]
+    /// Ask at every port and card whether an incircle core is there
+    ///
+    /// The question sends a few bytes to whatever is connected to a port, takes up to four seconds
+    /// for each port, and resets a card that nobody uses.
+    #[arg(short, long, verbatim_doc_comment)]
     pub greet: bool,
 }
 
-/// Arguments of `completions`.
+/// The arguments of `incircle completions`.
 #[derive(Debug, Args)]
 pub struct CompletionsArguments {
-    /// The shell
+    /// Shell
     #[arg(value_enum)]
     pub shell: clap_complete::Shell,
 }
@@ -278,7 +343,7 @@ pub enum ConfigName {
 }
 
 impl ConfigName {
-    /// The configuration of this name.
+    /// The configuration that has this name.
     pub fn config(self) -> incircle_protocol::Config {
         match self {
             Self::Tiny => incircle_protocol::TINY,

@@ -1,4 +1,4 @@
-//! Back ends: from names to devices.
+//! Back ends of the command: from arguments to devices.
 
 use std::num::NonZeroU32;
 use std::path::Path;
@@ -13,25 +13,26 @@ use crate::arguments::{BackendArguments, ConfigName, JobArguments};
 use crate::failure::{failure_of, Exit, Failure};
 use crate::grid::Grid;
 
-/// Fewest points a model is made for.
+/// The smallest capacity that a model is made with.
 const LEAST_CAPACITY: usize = 4;
 
-/// Time for greeting a board, opening its session and finding a rate, in the time of the link.
+/// Time for greeting a board, opening its session and finding a rate. A slow link counts this time more slowly.
 const CONNECT_TIMEOUT: Duration = Duration::from_secs(12);
 
 /// A board behind a serial line.
 #[derive(Clone, Copy)]
 pub struct Board {
-    /// What it says of itself.
+    /// The answer of the board to a greeting.
     pub greeting: Greeting,
-    /// Bits per second.
+    /// The rate of the line, in bits per second.
     pub rate: u32,
-    /// How many times slower than a real one it is.
+    /// The factor by which a simulated board is slower than a real one; 1 for a real one.
     pub slow: u32,
 }
 
 impl Board {
-    /// Seconds that a job of so many points takes on the line alone: a word there, six back, of 40 bits each.
+    /// Seconds that a job of `points` points takes on the line alone. For each point one word goes to the board and six
+    /// come back, of 40 bits each.
     pub fn seconds(&self, points: usize) -> f64 {
         let bits = 7.0 * 40.0 * points as f64;
         bits * f64::from(self.slow) / f64::from(self.rate.max(1))
@@ -40,30 +41,30 @@ impl Board {
 
 /// An opened back end.
 pub struct Backend {
-    /// The device.
+    /// The device that does the jobs.
     pub device: Device,
-    /// Its name in reports: `cpu`, `model`, `clock`, `sim`, `serial` or `pcie`.
+    /// The name in reports: `cpu`, `model`, `clock`, `sim`, `serial` or `pcie`.
     pub name: &'static str,
-    /// The configuration of a core, where it is our choice.
+    /// The configuration of a core in simulation, which is our choice.
     pub config: Option<Config>,
-    /// The board, if it is one.
+    /// The board, if the back end is one.
     pub board: Option<Board>,
-    /// What the registers of a card say, if it is one.
+    /// The registers of the card, if the back end is one.
     pub card: Option<CardRegisters>,
 }
 
 impl Backend {
-    /// True if it counts cycles.
+    /// Whether the back end counts clock cycles.
     pub fn has_clock(&self) -> bool {
         self.config.is_some() || self.board.is_some() || self.card.is_some_and(|card| card.clocks > 0)
     }
 
-    /// Holds that a job is such as the back end can do: a core has as many contexts as are asked for, and the engine on
-    /// the processor inserts nothing. The rest is left to the library.
+    /// Rejects options that the back end cannot honour: more contexts than the core has, and `--order` or `--contexts`
+    /// on `cpu`. The library checks the rest.
     pub fn check_job(&self, job: &JobArguments) -> Result<(), Failure> {
         if self.name == "cpu" && job.wants_insertion() {
             return Err(Failure::usage(
-                "--order and --contexts are for back ends that insert points, and cpu divides them: \
+                "--order and --contexts are for back ends that insert points one by one, which cpu does not: \
                  leave them out, or use --backend model",
             ));
         }
@@ -90,20 +91,20 @@ impl Backend {
 /// A back end that is not open yet.
 #[derive(Clone, Debug)]
 pub struct Choice {
-    /// Where it is, or what it is to be.
+    /// The address of the device.
     pub address: DeviceAddress,
-    /// Threads of the engine on the processor.
+    /// Threads of the CPU triangulator, if they are chosen.
     threads: Option<NonZeroU32>,
-    /// The configuration of a core, where one is asked for.
+    /// The configuration of the core, if one is chosen.
     pub config: Option<Config>,
-    /// Bits of a coordinate, of the grid as of a model.
+    /// Bits of a coordinate, of the grid and of a model.
     pub coord_bits: u32,
 }
 
 impl Choice {
-    /// The back end that the arguments ask for, or else the one at `default`; coordinates have the bits of
-    /// `--coord-bits` or of the address, or else [`CORE_COORD_BITS`]. An address and an argument may not both choose
-    /// the same.
+    /// The back end of the arguments, or else the one at the address `default`. Coordinates have the bits of
+    /// `--coord-bits` or of the address, or else [`CORE_COORD_BITS`]. An address and an argument may not
+    /// choose the same thing.
     pub fn of(arguments: &BackendArguments, coord_bits: Option<u32>, default: &str) -> Result<Self, Failure> {
         let address = arguments.or(default)?;
         let coord_bits = once(bits_in(&address), coord_bits, "coord-bits")?.unwrap_or(CORE_COORD_BITS);
@@ -117,7 +118,7 @@ impl Choice {
         };
         let choice = Self { address, threads, config, coord_bits };
         if choice.threads.is_some() && !matches!(choice.address, DeviceAddress::Cpu { .. }) {
-            return Err(Failure::usage("--threads is for the engine on the processor: it needs --backend cpu"));
+            return Err(Failure::usage("--threads is for the CPU triangulator: it needs --backend cpu"));
         }
         if choice.config.is_some() && !choice.is_core() {
             return Err(Failure::usage(
@@ -127,23 +128,23 @@ impl Choice {
         Ok(choice)
     }
 
-    /// The grid of this back end, onto which points come so.
+    /// The grid of this back end, onto which `quantize` lays the points.
     pub fn grid(&self, quantize: Option<Quantize>) -> Grid {
         Grid { coord_bits: self.coord_bits, is_addressed: bits_in(&self.address).is_some(), quantize }
     }
 
-    /// A core in simulation, which is as large as we choose it.
+    /// Whether the back end is a core in simulation, whose configuration we choose.
     pub fn is_core(&self) -> bool {
         matches!(self.address, DeviceAddress::Clock { .. } | DeviceAddress::Sim { .. })
     }
 
-    /// It runs in this process and is timed, not counted in cycles.
+    /// Whether the back end is software that is timed in seconds and not in cycles.
     pub fn is_software(&self) -> bool {
         matches!(self.address, DeviceAddress::Cpu { .. } | DeviceAddress::Model { .. })
     }
 }
 
-/// Bits of a coordinate that an address chooses.
+/// Bits of a coordinate, if the address chooses them.
 fn bits_in(address: &DeviceAddress) -> Option<u32> {
     match address {
         &DeviceAddress::Model { coord_bits, .. } => coord_bits,
@@ -151,7 +152,7 @@ fn bits_in(address: &DeviceAddress) -> Option<u32> {
     }
 }
 
-/// What an address and an argument choose together.
+/// The choice that is made either in the address or by an argument; making it twice is an error.
 fn once<T>(in_address: Option<T>, argument: Option<T>, name: &str) -> Result<Option<T>, Failure> {
     if in_address.is_some() && argument.is_some() {
         return Err(Failure::usage(format!("the address of the back end and --{name} both choose: leave one out")));
@@ -159,9 +160,10 @@ fn once<T>(in_address: Option<T>, argument: Option<T>, name: &str) -> Result<Opt
     Ok(in_address.or(argument))
 }
 
-/// Opens the back end for these points, or, without points, as large as it gets. A core is taken in the configuration
-/// asked for, or else in the smallest that holds the distinct points. Its waveform goes to the file `trace`; other back
-/// ends have none. A board is greeted, which takes no longer than `timeout`, and is what it is.
+/// Opens the back end for these points, or, without points, as large as possible.
+///
+/// A core in simulation has the chosen configuration, or else the smallest one that holds the distinct points. The
+/// waveform of the back end `sim` goes to the file `trace`. Greeting a board takes no longer than `timeout`.
 pub fn open(
     choice: &Choice,
     points: Option<&[Point]>,
@@ -172,7 +174,8 @@ pub fn open(
     open_with_room(choice, room, trace, timeout)
 }
 
-/// As [`open`], for jobs of up to `room` points: all of them for the model, distinct ones for a core.
+/// Opens the back end as [`open`] does, for jobs of up to `room` points. A model counts all points,
+/// a core distinct ones.
 pub fn open_with_room(
     choice: &Choice,
     room: Option<usize>,
@@ -218,13 +221,14 @@ fn open_card(address: &CardAddress) -> Result<Backend, Failure> {
     Ok(Backend { device, name: "pcie", config: None, board: None, card })
 }
 
-/// A model for so many points, unless its address says how many it holds.
+/// Makes a model for `points` points, unless its address names a capacity.
 fn open_model(coord_bits: u32, capacity: Option<u32>, points: usize) -> Result<Device, Error> {
     let enough = points.clamp(LEAST_CAPACITY, MAX_POINTS);
     Device::model(coord_bits, capacity.unwrap_or_else(|| u32::try_from(enough).unwrap_or(u32::MAX)))
 }
 
-/// Comes before all that is said about configurations: without the core none of it would help.
+/// Refuses the back end `sim` in a build without the core. The check comes before all checks of configurations, whose
+/// advice would not help in such a build.
 fn check_sim() -> Result<(), Failure> {
     if cfg!(feature = "sim") {
         return Ok(());
@@ -245,8 +249,8 @@ fn open_sim(config: Config, trace: Option<&Path>) -> Result<Device, Failure> {
     crate::sim_backend::open(config, trace)
 }
 
-/// The configuration for a job of so many distinct points, or why there is none; without a job the one asked for, or
-/// the largest.
+/// The configuration for a job of `distinct` points, or the reason why there is none. Without a job the result is the
+/// chosen configuration, or else the largest.
 fn config_for(choice: &Choice, distinct: Option<usize>) -> Result<Config, Failure> {
     let coord_bits = choice.coord_bits;
     if coord_bits > CORE_COORD_BITS {
@@ -278,7 +282,7 @@ fn config_for(choice: &Choice, distinct: Option<usize>) -> Result<Config, Failur
     })
 }
 
-/// Distinct points of a list.
+/// The number of distinct points in a list.
 pub fn count_distinct(points: &[Point]) -> usize {
     let mut sorted = points.to_vec();
     sorted.sort_unstable();

@@ -1,4 +1,4 @@
-//! What a bench prints: a table for people, an object for scripts.
+//! The output of `incircle bench`: a table for people, a JSON object for scripts.
 
 use incircle::{Counters, Report, Stage};
 use incircle_testkit::Distribution;
@@ -9,41 +9,42 @@ use crate::failure::counted;
 use crate::fit::Fit;
 use crate::report::{add_cycles, counters_json, latencies_json};
 
-/// A set and what became of it.
+/// The measurement of one set.
 pub struct Measured {
-    /// The set.
+    /// The set that was triangulated.
     pub set: Distribution,
     /// The library's report of the run.
     pub report: Report,
-    /// Time of the whole library call.
+    /// Seconds of the whole library call.
     pub seconds: f64,
-    /// Times of several sizes as a line, where that is asked.
+    /// A line through the times of several sizes, for a board.
     pub fit: Option<Fit>,
 }
 
-/// What all rows have in common.
+/// The facts that all rows of a table have in common.
 pub struct Bench<'a> {
-    /// The command.
+    /// The arguments of the command.
     pub arguments: &'a BenchArguments,
     /// Bits of a coordinate of the sets.
     pub coord_bits: u32,
     /// Name of the back end.
     pub backend: &'static str,
-    /// Name of the configuration, of a core that is our choice.
+    /// Name of the configuration of a core in simulation.
     pub config: Option<&'static str>,
-    /// It counts cycles.
+    /// Whether the back end counts cycles.
     pub has_clock: bool,
-    /// Frequency for which times are told.
+    /// The frequency in MHz that turns cycles into times.
     pub mhz: f64,
-    /// Bits per second of a board's line.
+    /// Bits per second of the line to a board.
     pub rate: Option<u32>,
-    /// Points it holds.
+    /// Points that the back end holds.
     pub capacity: u32,
-    /// Contexts that work.
+    /// Contexts that work, or threads of the back end `cpu`.
     pub contexts: u32,
 }
 
-/// Columns of a core's table, with their widths. Visits and tests are per insertion, ports in per cent of the cycles.
+/// Columns of the table of a core, with their widths. Visits and tests are per insertion, ports in per
+/// cent of the cycles.
 const CORE_COLUMNS: [(&str, usize); 16] = [
     ("points", 7),
     ("cycles", 8),
@@ -51,7 +52,7 @@ const CORE_COLUMNS: [(&str, usize); 16] = [
     ("visits", 8),
     ("tests", 7),
     ("aborts", 8),
-    ("waits", 7),
+    ("priority", 10),
     ("retries", 9),
     ("issue", 7),
     ("write", 7),
@@ -63,11 +64,11 @@ const CORE_COLUMNS: [(&str, usize); 16] = [
     ("max", 7),
 ];
 
-/// Columns of the software model's table, with their widths. Times are in nanoseconds.
+/// Columns of the table of a back end without a clock, with their widths. Times are in nanoseconds.
 const MODEL_COLUMNS: [(&str, usize); 6] =
     [("points", 10), ("ns/point", 10), ("insertion", 11), ("visits", 8), ("tests", 8), ("overflows", 11)];
 
-/// Width of the names of sets.
+/// Width of the column with the names of sets.
 const SET_WIDTH: usize = 15;
 
 impl Bench<'_> {
@@ -89,7 +90,7 @@ impl Bench<'_> {
         if !self.has_clock {
             return about + &line("set", MODEL_COLUMNS.map(|(name, _)| name.to_owned()), MODEL_COLUMNS) + "\n";
         }
-        // Groups end where their last column does.
+        // Each group name ends where the last column of the group ends.
         let groups = [
             (format!("at {mhz} MHz"), 3),
             ("per insertion".to_owned(), 5),
@@ -125,7 +126,7 @@ impl Bench<'_> {
         let percent = |cycles: u32| Some(100.0 * busy(cycles, &counters)?);
         let latencies = report.latencies.as_ref();
         let latency = |value: Option<u32>| value.map_or_else(nothing, |cycles| cycles.to_string());
-        // Where the host answered alone there is nothing to tell.
+        // Counters are missing where the host answered without the device.
         let asked = |text: String| if report.counters.is_some() { text } else { nothing() };
         [
             report.distinct.to_string(),
@@ -134,7 +135,7 @@ impl Bench<'_> {
             asked(shown(mean(counters.walk_visits), 2)),
             asked(shown(mean(counters.tests), 2)),
             asked(counters.aborts.to_string()),
-            asked(counters.waiting_tokens.to_string()),
+            asked(counters.priorities_taken.to_string()),
             asked(counters.root_retries.to_string()),
             shown(percent(counters.issue_cycles), 1),
             shown(percent(counters.write_cycles), 1),
@@ -147,12 +148,12 @@ impl Bench<'_> {
         ]
     }
 
-    /// Time of the insertions at the frequency that is assumed.
+    /// Seconds of the insertions at the frequency of the table.
     fn seconds(&self, counters: &Counters) -> f64 {
         counters.insert_cycles as f64 / (self.mhz * 1e6)
     }
 
-    /// The object that `--json` prints.
+    /// The JSON object that `--json` prints.
     pub fn to_json(&self, rows: &[Measured]) -> Value {
         let BenchArguments { n, seed, job, .. } = self.arguments;
         let coord_bits = self.coord_bits;
@@ -228,12 +229,12 @@ fn model_cells(measured: &Measured) -> [String; 6] {
     ]
 }
 
-/// The share of the insertion's cycles; `None` if there are none.
+/// The given cycles as a share of the cycles of all insertions; `None` if there are no insertions.
 fn busy(cycles: u32, counters: &Counters) -> Option<f64> {
     (counters.insert_cycles > 0).then(|| f64::from(cycles) / counters.insert_cycles as f64)
 }
 
-/// A cell without a value.
+/// The text of a cell without a value.
 fn nothing() -> String {
     "-".to_owned()
 }

@@ -1,20 +1,20 @@
-//! How a run can fail: one sentence for the user and an exit code for scripts.
+//! Failures of a run: one sentence for the user and an exit code for scripts.
 
 use std::fmt;
 
 use incircle::{Error, ErrorKind};
 
-/// The exit codes of the command; scripts rely on the numbers.
+/// The exit codes of the command. Scripts rely on the numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Exit {
     /// A mesh did not pass verification.
     Rejected = 1,
-    /// The command was called wrongly.
+    /// The arguments of the command were wrong.
     Usage = 2,
-    /// A file could not be read or written, or what it says is wrong.
+    /// A file could not be read or written, or its content is wrong.
     Input = 3,
-    /// The device is not there, or may not be used.
+    /// The device does not exist, or the user may not use it.
     NoDevice = 4,
     /// The link to the device does not work.
     Link = 5,
@@ -22,36 +22,36 @@ pub enum Exit {
     Device = 6,
     /// The device cannot hold the job.
     Capacity = 7,
-    /// Interrupted by the user.
+    /// The user interrupted the run.
     Interrupted = 130,
 }
 
-/// A failed run.
+/// The failure of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Failure {
-    /// What scripts see.
+    /// The exit code, for scripts.
     pub exit: Exit,
-    /// What people see: one sentence, no newline.
+    /// The message, for people: one sentence without a newline.
     pub message: String,
 }
 
 impl Failure {
-    /// A failure with this exit code and this sentence.
+    /// Makes a failure of an exit code and a sentence.
     pub fn new(exit: Exit, message: impl Into<String>) -> Self {
         Self { exit, message: message.into() }
     }
 
-    /// Wrong input, exit code 3.
+    /// Makes a failure of wrong input, with exit code 3.
     pub fn input(message: impl Into<String>) -> Self {
         Self::new(Exit::Input, message)
     }
 
-    /// Wrong use of the command, exit code 2.
+    /// Makes a failure of wrong arguments, with exit code 2.
     pub fn usage(message: impl Into<String>) -> Self {
         Self::new(Exit::Usage, message)
     }
 
-    /// The same failure, its sentence opened with the name of the file it is about.
+    /// Puts the name of the file before the sentence.
     pub fn in_file(mut self, name: impl fmt::Display) -> Self {
         self.message = format!("{name}: {}", self.message);
         self
@@ -66,7 +66,7 @@ impl fmt::Display for Failure {
 
 impl std::error::Error for Failure {}
 
-/// The exit code of a library error.
+/// The failure that stands for an error of the library.
 pub fn failure_of(error: &Error) -> Failure {
     let exit = match error.kind() {
         ErrorKind::BadInput => Exit::Input,
@@ -75,18 +75,18 @@ pub fn failure_of(error: &Error) -> Failure {
         ErrorKind::Link => Exit::Link,
         ErrorKind::Capacity => Exit::Capacity,
         ErrorKind::Cancelled => return Failure::new(Exit::Interrupted, "interrupted: nothing was written"),
-        // Timeouts, wrong answers, and whatever is added later.
+        // Timeouts, wrong answers, and kinds that the library adds later.
         _ => Exit::Device,
     };
     Failure::new(exit, printable(&error.to_string()))
 }
 
-/// Characters of a wrong value that a message quotes.
+/// Most characters of a wrong value that a message quotes.
 const QUOTED: usize = 40;
 
-/// A value as messages quote it: in quotes, control characters escaped, cut after 40 characters.
+/// A value as messages show it: in quotes, with control characters escaped, cut after 40 characters.
 pub fn quoted(value: &[u8]) -> String {
-    // Four bytes are the longest character, so the cut loses nothing that would be shown.
+    // A character has at most four bytes, so the cut removes nothing that would be shown.
     let head = &value[..value.len().min(4 * QUOTED + 4)];
     let text = String::from_utf8_lossy(head);
     let mut characters = text.chars();
@@ -98,14 +98,14 @@ pub fn quoted(value: &[u8]) -> String {
     }
 }
 
-/// A count and what is counted, in the plural where it is not one.
+/// A count with its noun, in the plural unless the count is one.
 pub fn counted(count: usize, what: &str) -> String {
     let plural = if count == 1 { "" } else { "s" };
     format!("{count} {what}{plural}")
 }
 
-/// Text that may hold anything, such as a file name, as messages say it: on one line, and without power over the
-/// terminal. Control characters, line ends and marks of writing direction are escaped.
+/// Makes arbitrary text, such as a file name, safe for a message: one line that cannot control the terminal. Control
+/// characters, line ends and marks of writing direction are escaped.
 pub fn printable(text: &str) -> String {
     let mut shown = String::with_capacity(text.len());
     for character in text.chars() {
@@ -119,10 +119,10 @@ pub fn printable(text: &str) -> String {
     shown
 }
 
-/// Longest text of a library's own message, in characters.
+/// Most characters of a message that comes from another library.
 const LONGEST: usize = 200;
 
-/// The message of a library as one line of bounded length.
+/// The message of another library as one line of bounded length.
 pub fn one_line(message: &str) -> String {
     let words: Vec<&str> = message.split_whitespace().collect();
     let line = words.join(" ");

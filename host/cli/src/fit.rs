@@ -1,4 +1,4 @@
-//! The time of a job as a line over its points: `t = c + m n`.
+//! A line through the times of jobs of several sizes: `t = c + m n`.
 
 use std::fmt;
 
@@ -9,14 +9,14 @@ use serde_json::{json, Value};
 pub struct Fit {
     /// Seconds of a job without points.
     pub constant: f64,
-    /// Seconds per point.
+    /// Additional seconds for each point.
     pub slope: f64,
-    /// Points and seconds of the jobs.
+    /// Points and seconds of each job.
     pub jobs: Vec<(usize, f64)>,
 }
 
 impl Fit {
-    /// The line; `None` if the jobs are not at least two of different sizes.
+    /// Fits the line; `None` unless there are jobs of at least two sizes.
     pub fn of(jobs: Vec<(usize, f64)>) -> Option<Self> {
         let count = jobs.len() as f64;
         let mean = |value: fn(&(usize, f64)) -> f64| jobs.iter().map(value).sum::<f64>() / count;
@@ -27,7 +27,7 @@ impl Fit {
         slope.is_finite().then_some(Self { constant: seconds - slope * points, slope, jobs })
     }
 
-    /// As an object.
+    /// The line as a JSON object.
     pub fn to_json(&self) -> Value {
         let jobs: Vec<_> = self.jobs.iter().map(|&(n, seconds)| json!({ "distinct": n, "seconds": seconds })).collect();
         json!({ "constant": self.constant, "per_point": self.slope, "jobs": jobs })

@@ -1,4 +1,4 @@
-//! From the values of a file to points of the grid.
+//! The step from the numbers of a file to points of the grid.
 
 use incircle::quantize::{integers, quantize};
 use incircle::{Error, Point, Quantization, Quantize, Shown};
@@ -6,26 +6,26 @@ use incircle::{Error, Point, Quantization, Quantize, Shown};
 use crate::failure::{failure_of, Failure};
 use crate::points::PointTable;
 
-/// A grid, and how points come onto it.
+/// A grid, and the way in which points are laid onto it.
 pub struct Grid {
     /// Bits of a coordinate.
     pub coord_bits: u32,
-    /// The address of the back end chooses the bits, not `--coord-bits`.
+    /// Whether the address of the back end chose the bits, and not `--coord-bits`.
     pub is_addressed: bool,
-    /// How points are laid onto the grid, if that is asked for.
+    /// The value of `--quantize`, if the user gave one.
     pub quantize: Option<Quantize>,
 }
 
-/// Points on the grid, and how they came there.
+/// Points on the grid, with a record of their quantisation.
 pub struct Laid {
     /// All points, in input order.
     pub points: Vec<Point>,
-    /// What quantisation did; `None` if the values were integers of the grid and are untouched.
+    /// The quantisation that was done; `None` if the values were integers of the grid and are unchanged.
     pub quantization: Option<Quantization>,
 }
 
-/// Lays points onto the grid. Integers of the grid stay as they are unless quantisation is asked for; values with
-/// fractions are fitted; integers outside the grid are refused with their place.
+/// Lays points onto the grid. Without `--quantize` integers of the grid stay as they are, values with fractions are
+/// fitted, and integers outside the grid are refused with their place.
 pub fn lay(table: &PointTable, grid: &Grid) -> Result<Laid, Failure> {
     let bits = grid.coord_bits;
     let how = match grid.quantize {
@@ -43,7 +43,7 @@ pub fn lay(table: &PointTable, grid: &Grid) -> Result<Laid, Failure> {
     Ok(Laid { points, quantization: Some(quantization) })
 }
 
-/// Library errors that name a point name its place in the file here.
+/// Turns an error of the library into a failure that names the place of the point in the file.
 fn refuse(error: &Error, table: &PointTable, grid: &Grid, quantized: bool) -> Failure {
     let Error::OutOfGrid { index, axis, value, coord_bits } = error else {
         return failure_of(error);
@@ -53,7 +53,8 @@ fn refuse(error: &Error, table: &PointTable, grid: &Grid, quantized: bool) -> Fa
     let shown = Shown(*value);
     if quantized {
         return Failure::input(format!(
-            "{place}: the value falls on {shown}, outside 0 to {last} ({coord_bits} bits): choose another scale or --quantize fit"
+            "{place}: the value falls on {shown}, outside 0 to {last} ({coord_bits} bits): \
+             choose another scale or --quantize fit"
         ));
     }
     let needed = (*coord_bits..=31).find(|bits| (0.0..=((1u64 << bits) - 1) as f64).contains(value));

@@ -1,7 +1,7 @@
-//! Interrupts: a run that is stopped leaves no file and ends with exit code 130 and a sentence.
+//! Interrupts: an interrupted run leaves no file and ends with exit code 130 and a sentence.
 //!
-//! The handler ends the process at once, except while a job runs: that one is asked to end by itself, which tidies up
-//! the device, and gets a moment for it. A second interrupt does not wait for the moment to pass.
+//! The handler ends the process at once, except while a job runs. A job is first asked to end by itself, which tidies
+//! up the device, and gets a moment for that. A second interrupt does not wait for the moment to pass.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -12,28 +12,28 @@ use std::time::Duration;
 use crate::failure::{Exit, Failure};
 
 static RAISED: AtomicBool = AtomicBool::new(false);
-/// Whether a job runs that looks at [`raised`].
+/// Whether a job runs that checks [`raised`].
 static WORKING: AtomicBool = AtomicBool::new(false);
-/// Whether the run has done all it was asked for; changed only under the lock of [`UNFINISHED`].
+/// Whether the run is complete. Changed only under the lock of [`UNFINISHED`].
 static DONE: AtomicBool = AtomicBool::new(false);
-/// Whether the reason for the end of the run was told.
+/// Whether the reason for the end of the run has been printed.
 static TOLD: Mutex<bool> = Mutex::new(false);
-/// The unfinished outputs of the run, to be removed if it is stopped.
+/// The unfinished outputs of the run, which an interrupt removes.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
-/// Time for a job to end by itself: a chunk of a simulated job takes less.
+/// Time for a job to end by itself. A slice of a simulated job takes less.
 const GRACE: Duration = Duration::from_millis(1500);
 
-/// Watches for interrupts and for requests to terminate.
+/// Begins to watch for interrupts and for requests to terminate.
 pub fn watch() -> Result<(), Failure> {
     DONE.store(false, Ordering::SeqCst);
     match ctrlc::set_handler(on_signal) {
-        // Set by an earlier run in this process.
+        // An earlier run in this process has set the handler already.
         Ok(()) | Err(ctrlc::Error::MultipleHandlers) => Ok(()),
         Err(error) => Err(Failure::new(Exit::Device, format!("interrupts cannot be watched: {error}"))),
     }
 }
 
-/// Takes a signal. It must return while a job has its moment, or the next signal would wait too.
+/// Handles a signal. The function must return while a job has its moment, or the next signal would wait as well.
 fn on_signal() {
     let again = RAISED.swap(true, Ordering::SeqCst);
     if again || !WORKING.load(Ordering::SeqCst) {
@@ -48,9 +48,9 @@ fn on_signal() {
     }
 }
 
-/// Ends the process, unless the run is done already.
+/// Ends the process, unless the run is complete already.
 fn stop() {
-    // Kept locked to the end: no output can be finished any more.
+    // The lock is held to the end, so that no output can be finished any more.
     let unfinished = unfinished();
     if DONE.load(Ordering::SeqCst) {
         return;
@@ -62,11 +62,11 @@ fn stop() {
     std::process::exit(Exit::Interrupted as i32);
 }
 
-/// Prints why the run ends, once, whoever comes first.
+/// Prints why the run ends. Only the first call prints.
 pub fn tell(failure: &Failure) {
     let mut told = TOLD.lock().unwrap_or_else(PoisonError::into_inner);
     if !std::mem::replace(&mut *told, true) {
-        // Nobody is left to tell if standard error is closed.
+        // Nobody can be told that standard error is closed.
         let _ = writeln!(std::io::stderr(), "incircle: {failure}");
     }
 }
@@ -80,7 +80,7 @@ pub fn raised() -> bool {
     RAISED.load(Ordering::SeqCst)
 }
 
-/// Ends an interrupted run.
+/// Returns the failure of an interrupted run.
 pub fn check() -> Result<(), Failure> {
     if raised() {
         return Err(interrupted());
@@ -88,8 +88,7 @@ pub fn check() -> Result<(), Failure> {
     Ok(())
 }
 
-/// Says that the run has done all it was asked for, unless it was interrupted before: from here on an interrupt comes
-/// too late.
+/// Marks the run as complete, unless it was interrupted before. A later interrupt has no effect.
 pub fn done() -> Result<(), Failure> {
     let _unfinished = unfinished();
     if !DONE.load(Ordering::SeqCst) {
@@ -99,7 +98,7 @@ pub fn done() -> Result<(), Failure> {
     Ok(())
 }
 
-/// Does work that looks at [`raised`] and ends by itself when it is.
+/// Calls `work`, which must check [`raised`] and end by itself if it is true.
 pub fn working<T>(work: impl FnOnce() -> T) -> T {
     WORKING.store(true, Ordering::SeqCst);
     let result = work();
@@ -107,7 +106,7 @@ pub fn working<T>(work: impl FnOnce() -> T) -> T {
     result
 }
 
-/// The unfinished outputs, locked: while the lock is held no interrupt ends the process.
+/// The unfinished outputs, locked. While the lock is held no interrupt ends the process.
 pub fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
     UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1,7 +1,7 @@
-//! The command line of incircle as a library, so that tests and benches can use its formats and generators.
+//! The command `incircle` as a library, so that tests and benchmarks can use its file formats and generators.
 //!
-//! [`formats`] reads points and writes meshes, [`run`] is the whole command. The
-//! exit codes are those of [`Exit`].
+//! [`formats`] reads points and writes meshes, [`generate`] makes point sets, and [`run`] is the whole command with the
+//! exit codes of [`Exit`].
 #![warn(missing_docs)]
 
 mod arguments;
@@ -12,6 +12,7 @@ mod failure;
 mod fit;
 pub mod formats;
 mod grid;
+mod help;
 mod interrupt;
 mod output;
 mod points;
@@ -34,12 +35,12 @@ pub use points::{Place, PointTable};
 
 use arguments::{Cli, Command};
 
-/// Runs the command with these arguments, the program's name first, and gives its exit code. Never panics.
+/// Runs the command with these arguments, the program's name first, and returns its exit code. Never panics.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let cli = match Cli::try_parse_from(arguments) {
         Ok(cli) => cli,
         Err(refusal) => {
-            // A closed standard output is no matter here.
+            // Nobody can be told that standard output is closed.
             let _ = refusal.print();
             return ExitCode::from(if refusal.use_stderr() { Exit::Usage as u8 } else { 0 });
         }
@@ -56,7 +57,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     match result.and_then(|()| interrupt::done()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            // An interrupt may show as any failure.
+            // An interrupt may surface as any other failure, and then counts as an interrupt.
             let failure = interrupt::check().err().unwrap_or(failure);
             interrupt::tell(&failure);
             ExitCode::from(failure.exit as u8)

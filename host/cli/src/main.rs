@@ -1,4 +1,4 @@
-//! The command `incircle`; everything is in the library of this package.
+//! The command `incircle`. All its code is in the library of this package.
 
 use std::process::ExitCode;
 

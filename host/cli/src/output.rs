@@ -1,7 +1,7 @@
-//! Output files that are either whole or not there.
+//! Output files that are either complete or absent.
 //!
-//! A file is written under another name in the same folder and renamed when all is done. What is no ordinary file (a
-//! device, a pipe) is written as it is. A link to a file is followed; one that leads nowhere is refused.
+//! A file is written under another name in the same folder and renamed at the end of the run. Devices and pipes are
+//! written directly. A link to a file is followed; a link that leads nowhere is refused.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, ErrorKind, Write};
@@ -11,11 +11,11 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::source::{self, is_standard};
 
-/// Where output goes.
+/// The destination of an output.
 #[derive(Debug)]
 enum Target {
     Standard,
-    /// A device, a pipe: something that a rename would replace.
+    /// A device or a pipe, which a rename would replace.
     Special(PathBuf),
     Ordinary(PathBuf),
 }
@@ -27,18 +27,18 @@ pub struct Output {
     name: String,
 }
 
-/// An output that is written but not yet in place. Dropped without [`finish`], it is removed.
+/// An output that is written but not yet in place. Dropping the value without [`finish`] removes the file.
 #[must_use]
 #[derive(Debug)]
 pub struct Written {
-    /// The file under its working name and its place; `None` if there is nothing left to do.
+    /// The working name and the final name of the file; `None` if no renaming is needed.
     renaming: Option<(PathBuf, PathBuf)>,
     name: String,
 }
 
 impl Output {
-    /// Checks what can be checked before the work: the output must not be the input, its folder must exist, and a file
-    /// that is there must be writable.
+    /// Checks an output before the work: the output must not be the input, its folder must exist, and an existing
+    /// file must be writable.
     pub fn prepare(path: &Path, input: Option<&Path>) -> Result<Self, Failure> {
         if is_standard(path) {
             return Ok(Self { target: Target::Standard, name: "standard output".to_owned() });
@@ -54,7 +54,7 @@ impl Output {
             Ok(found) if found.is_file() => {
                 let writable = OpenOptions::new().write(true).open(path);
                 writable.map_err(|error| cannot_write(&name, &error))?;
-                // A link is followed, so that what it points to is replaced and not the link.
+                // The path behind links is used, so that the rename replaces the file and not the link.
                 Target::Ordinary(path.canonicalize().map_err(|error| cannot_write(&name, &error))?)
             }
             Ok(_) => Target::Special(path.to_owned()),
@@ -72,22 +72,23 @@ impl Output {
         Ok(Self { target, name })
     }
 
-    /// Whether this is standard output.
+    /// Whether the output is standard output.
     pub fn is_standard(&self) -> bool {
         matches!(self.target, Target::Standard)
     }
 
-    /// Makes the file empty, for a writer that wants its name ([`Written::part`]). Only ordinary files can be made so.
+    /// Makes an empty file for a writer that needs a file name, which is [`Written::part`]. Devices, pipes and
+    /// standard output are refused.
     pub fn reserve(self) -> Result<Written, Failure> {
         match self.target {
             Target::Ordinary(_) => self.write(|_| Ok(())),
             Target::Standard | Target::Special(_) => {
-                Err(Failure::usage(format!("{} is no ordinary file: choose another output for this", self.name)))
+                Err(Failure::usage(format!("{} is not an ordinary file: choose another output", self.name)))
             }
         }
     }
 
-    /// Whether this is the same ordinary file as another output, there already or not.
+    /// Whether two outputs are the same ordinary file, which may or may not exist yet.
     pub fn is_same(&self, other: &Self) -> bool {
         let place = |output: &Self| match &output.target {
             Target::Ordinary(path) => {
@@ -98,7 +99,7 @@ impl Output {
         place(self).is_some_and(|path| place(other) == Some(path))
     }
 
-    /// Writes everything that `content` writes. A reader that closed the pipe is no failure.
+    /// Writes the output by calling `content`. A pipe whose reader has closed it is not a failure.
     pub fn write(self, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<Written, Failure> {
         let Self { target, name } = self;
         let done = |renaming| Written { renaming, name: name.clone() };
@@ -111,7 +112,7 @@ impl Output {
             Target::Ordinary(path) => {
                 let part = part_beside(&path);
                 begin(&part).and_then(|file| {
-                    // From here on dropping it removes the part, whatever fails.
+                    // `written` exists before the content is written, so any later failure removes the part.
                     let written = done(Some((part, path)));
                     fill(file, content).map(|()| written)
                 })
@@ -122,12 +123,12 @@ impl Output {
 }
 
 impl Written {
-    /// Where the file is until it is in place; `None` where nothing is to be moved.
+    /// The working name of the file; `None` if no renaming is needed.
     pub fn part(&self) -> Option<&Path> {
         self.renaming.as_ref().map(|(part, _)| part.as_path())
     }
 
-    /// Puts the file in its place, unless the run was interrupted, and gives that place.
+    /// Renames the file to its final name, unless the run was interrupted, and returns that name.
     fn place(mut self) -> Result<Option<PathBuf>, Failure> {
         let Some((part, path)) = &self.renaming else {
             return Ok(None);
@@ -136,7 +137,7 @@ impl Written {
         interrupt::check()?;
         keep_permissions(part, path);
         fs::rename(part, path).map_err(|error| cannot_write(&self.name, &error))?;
-        // An interrupt takes it away again, until the run is done.
+        // Until the run is done an interrupt removes the file under its final name.
         unfinished.iter_mut().filter(|kept| *kept == part).for_each(|kept| kept.clone_from(path));
         drop(unfinished);
         Ok(self.renaming.take().map(|(_, path)| path))
@@ -153,7 +154,7 @@ impl Drop for Written {
     }
 }
 
-/// Puts all outputs in place and then does what is `last`. If anything fails, none of them is left.
+/// Puts all outputs in place and then calls `last`. If anything fails, none of the outputs is left.
 pub fn finish(
     outputs: impl IntoIterator<Item = Written>,
     last: impl FnOnce() -> Result<(), Failure>,
@@ -177,13 +178,13 @@ pub fn finish(
     result
 }
 
-/// Prints text on standard output. A reader that closed the pipe is no failure.
+/// Prints text on standard output. A pipe whose reader has closed it is not a failure.
 pub fn print(text: &str) -> Result<(), Failure> {
     let result = fill(io::stdout().lock(), |out| out.write_all(text.as_bytes()));
     ignore_closed(result).map_err(|error| cannot_write("standard output", &error))
 }
 
-/// Prints a line on standard error, if anybody reads it.
+/// Prints a line on standard error, and ignores a closed one.
 pub fn note(line: &str) {
     let _ = writeln!(io::stderr(), "{line}");
 }
@@ -219,7 +220,8 @@ fn folder_of(path: &Path) -> &Path {
     }
 }
 
-/// The working name: hidden, beside the file, so that the rename stays on one disk; the process id keeps runs apart.
+/// The working name of a file: hidden, and in the same folder, so that the rename stays on one disk. The process
+/// id keeps runs apart.
 fn part_beside(path: &Path) -> PathBuf {
     let mut name = std::ffi::OsString::from(".");
     name.push(path.file_name().unwrap_or_default());
@@ -227,14 +229,14 @@ fn part_beside(path: &Path) -> PathBuf {
     folder_of(path).join(name)
 }
 
-/// A file that is replaced hands its permissions on, as far as the system allows.
+/// Gives the new file the permissions of the file that it replaces, as far as the system allows.
 fn keep_permissions(part: &Path, path: &Path) {
     if let Ok(found) = fs::metadata(path) {
         let _ = fs::set_permissions(part, found.permissions());
     }
 }
 
-/// Whether input and output are one file, by whatever links.
+/// Whether input and output are the same file, also through links.
 fn is_same(input: &Path, output: &Path) -> bool {
     #[cfg(unix)]
     {
@@ -249,7 +251,7 @@ fn is_same(input: &Path, output: &Path) -> bool {
     }
 }
 
-/// Device and number of an ordinary file; `-` is what standard input reads from.
+/// Device number and inode of an ordinary file. The path `-` stands for the file behind standard input.
 #[cfg(unix)]
 fn identity(path: &Path) -> Option<(u64, u64)> {
     use std::os::fd::AsFd;

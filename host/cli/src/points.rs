@@ -1,17 +1,17 @@
-//! The points of a file, with the places they came from.
+//! The points of a file, with their places in the file.
 
 use std::fmt;
 
-/// Where in a file the points of a table stand.
+/// The kind of places at which the points of a table stand.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Origin {
-    /// A point per text row; the row of each, counted from 1.
+    /// One point in a text row; the list has the row of each point, counted from 1.
     Rows(Vec<u32>),
-    /// A point per item of this name, counted from 1.
+    /// One point in an item of this name; items are counted from 1.
     Items(&'static str),
 }
 
-/// Points as a file gives them, and where each one stands in it.
+/// The points of a file, each with its place for messages.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointTable {
     /// All points in the order of the file; every value is finite.
@@ -21,26 +21,26 @@ pub struct PointTable {
 }
 
 impl PointTable {
-    /// An empty table of text rows whose coordinates stand in these columns, counted from 1.
+    /// Makes an empty table of text rows whose coordinates stand in these columns, counted from 1.
     pub fn of_rows(columns: [usize; 2]) -> Self {
         Self { points: Vec::new(), origin: Origin::Rows(Vec::new()), columns }
     }
 
-    /// An empty table of items of this name (`vertex`, `feature`).
+    /// Makes an empty table of items of this name, such as `vertex` or `feature`.
     pub fn of_items(name: &'static str) -> Self {
         Self { points: Vec::new(), origin: Origin::Items(name), columns: [1, 2] }
     }
 
-    /// Adds a point that stands in this row (rows count from 1; ignored for items).
+    /// Adds a point of this row. Rows are counted from 1; a table of items ignores them.
     pub fn push(&mut self, point: [f64; 2], row: usize) {
-        // Minus zero is zero; the sum turns one into the other.
+        // Adding zero turns minus zero into zero.
         self.points.push([point[0] + 0.0, point[1] + 0.0]);
         if let Origin::Rows(rows) = &mut self.origin {
             rows.push(u32::try_from(row).unwrap_or(u32::MAX));
         }
     }
 
-    /// Where coordinate `axis` (0 or 1) of the point at `index` stands, as messages say it.
+    /// The place of coordinate `axis`, 0 or 1, of the point at `index`, for messages.
     pub fn place(&self, index: usize, axis: usize) -> Place {
         match &self.origin {
             Origin::Rows(rows) => Place::Cell {
@@ -64,11 +64,11 @@ pub enum Place {
     },
     /// A coordinate of an item.
     Item {
-        /// What the item is.
+        /// The name of the kind of item.
         name: &'static str,
-        /// Its number.
+        /// The number of the item.
         number: usize,
-        /// The coordinate.
+        /// The coordinate, `x` or `y`.
         axis: char,
     },
 }

@@ -1,4 +1,4 @@
-//! Progress of long jobs, on standard error and only on a terminal.
+//! The progress bar of long jobs, on standard error and only on a terminal.
 
 use std::cell::{Cell, OnceCell};
 use std::io::{stderr, IsTerminal};
@@ -10,10 +10,10 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::interrupt;
 
-/// A job shorter than this shows no bar.
+/// The bar appears after this time, so short jobs show none.
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// Listens to a job: shows how far it is, and ends it when the user interrupts.
+/// The listener of a job, which shows the progress and ends the job when the user interrupts.
 pub struct Meter {
     shown: bool,
     since: Instant,
@@ -22,7 +22,7 @@ pub struct Meter {
 }
 
 impl Meter {
-    /// A meter that shows nothing if `quiet`, or if nobody watches.
+    /// Makes a meter. With `quiet`, or if standard error is no terminal, the meter shows nothing.
     pub fn new(quiet: bool) -> Self {
         Self {
             shown: !quiet && stderr().is_terminal(),
@@ -32,7 +32,7 @@ impl Meter {
         }
     }
 
-    /// Takes news of the job.
+    /// Takes a progress report of the job.
     pub fn hear(&self, progress: Progress) -> ControlFlow<()> {
         if interrupt::raised() {
             return ControlFlow::Break(());
@@ -40,7 +40,7 @@ impl Meter {
         if self.shown && self.since.elapsed() >= PATIENCE {
             let bar = self.bar.get_or_init(|| new_bar(progress.total));
             if self.stage.replace(Some(progress.stage)) != Some(progress.stage) {
-                // The time left is that of the stage, at its own speed.
+                // Each stage has a speed of its own, so the estimate of the time left begins anew.
                 bar.reset();
                 bar.set_message(verb(progress.stage));
                 bar.set_prefix(if progress.stage == Stage::Read { "records" } else { "points" });
@@ -62,7 +62,7 @@ impl Drop for Meter {
 
 fn new_bar(total: usize) -> ProgressBar {
     let bar = ProgressBar::new(total as u64);
-    // The pattern is fixed and right; were it not, the library's own style would do.
+    // The template is fixed and valid. If it were not, the library's own style would do.
     if let Ok(style) = ProgressStyle::with_template("{msg:>10} {bar:40} {human_pos}/{human_len} {prefix}, {eta} left") {
         bar.set_style(style);
     }
@@ -75,7 +75,7 @@ fn verb(stage: Stage) -> &'static str {
         Stage::Insert => "inserting",
         Stage::Read => "reading",
         Stage::Assemble => "assembling",
-        // Stages that are added later.
+        // Stages that the library adds later have only their names.
         other => other.name(),
     }
 }

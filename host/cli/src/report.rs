@@ -1,4 +1,4 @@
-//! What a run says about itself: one JSON object for scripts, a few lines for people.
+//! The report of a run: one JSON object for scripts, a few lines for people.
 
 use std::time::Duration;
 
@@ -8,24 +8,24 @@ use serde_json::{json, Map, Value};
 use crate::backend::Backend;
 use crate::failure::counted;
 
-/// Everything that is reported of one triangulation.
+/// The report of one triangulation by the command.
 pub struct RunReport<'a> {
-    /// The library's report.
+    /// The library's report of the job.
     pub job: &'a Report,
     /// Name of the back end and of its configuration.
     pub backend: (&'static str, Option<&'static str>),
-    /// It counts cycles.
+    /// Whether the back end counts cycles.
     pub has_clock: bool,
     /// Bits of a coordinate of the grid; a core may have more.
     pub coord_bits: u32,
-    /// What quantisation did.
+    /// The quantisation of the points, if there was one.
     pub quantization: Option<&'a Quantization>,
     /// Seconds of the stages of the command, in the order in which they ran.
     pub stages: Vec<(&'static str, Duration)>,
 }
 
 impl<'a> RunReport<'a> {
-    /// A report of a job on this back end, the command's own stages still empty.
+    /// Makes the report of a job on this back end, with the list of stages still empty.
     pub fn new(job: &'a Report, backend: &Backend, coord_bits: u32, quantization: Option<&'a Quantization>) -> Self {
         Self {
             job,
@@ -37,7 +37,7 @@ impl<'a> RunReport<'a> {
         }
     }
 
-    /// The object that `--json` prints. Cycles are there where the back end has a clock.
+    /// The JSON object that `--json` prints. Cycles are part of the object if the back end has a clock.
     pub fn to_json(&self) -> Value {
         let job = self.job;
         let (backend, config) = self.backend;
@@ -74,7 +74,7 @@ impl<'a> RunReport<'a> {
         Value::Object(object)
     }
 
-    /// The lines for people: the counts; with `verbose` also times and counters.
+    /// The lines for people: the counts, and with `verbose` also times and counters.
     pub fn lines(&self, verbose: bool) -> Vec<String> {
         let job = self.job;
         let mut lines = Vec::new();
@@ -108,7 +108,7 @@ impl<'a> RunReport<'a> {
         let total: Duration = self.stages.iter().map(|&(_, duration)| duration).sum();
         let duplicates = match job.duplicates {
             0 => String::new(),
-            count => format!(" ({count} of them on the place of an earlier one)"),
+            count => format!(" ({count} of them with the coordinates of an earlier one)"),
         };
         format!(
             "{}{duplicates}, {}, {} on the hull; {}, {:.3} s",
@@ -121,11 +121,11 @@ impl<'a> RunReport<'a> {
     }
 }
 
-/// What the software model counts; the rest is 0 where there is no clock.
+/// The counters of the software model. The others are 0 on a back end without a clock.
 const WITHOUT_CLOCK: [&str; 8] =
     ["insertions", "duplicates", "refused", "walk_visits", "tests", "cavity_triangles", "overflows", "flips"];
 
-/// The counters as a table: what, how many, how many per insertion. Latencies have a line of their own.
+/// The counters as a table of name, value, and value per insertion. Latencies have a line of their own.
 fn counter_lines(counters: &Counters, insertions: usize) -> Vec<String> {
     let has_clock = counters.insert_cycles > 0;
     let is_shown = |name: &str| !name.starts_with("latency") && (has_clock || WITHOUT_CLOCK.contains(&name));
@@ -142,7 +142,7 @@ fn latency_line(latencies: &Latencies) -> String {
     format!("  cycles of an insertion: least {min}, half up to {median}, 99 % up to {p99}, most {max}")
 }
 
-/// The cycle counts of a job on a core; zero where the host answered alone.
+/// Adds the cycle counts of a job on a core, which are zero if the host answered without the device.
 pub fn add_cycles(object: &mut Value, job: &Report) {
     let counters = job.counters.unwrap_or_default();
     let cycles = counters.insert_cycles;
@@ -152,7 +152,7 @@ pub fn add_cycles(object: &mut Value, job: &Report) {
     object["cycles_per_insertion"] = job.cycles_per_insertion().into();
 }
 
-/// What quantisation did, as an object.
+/// The quantisation as a JSON object.
 pub fn quantization_json(quantization: &Quantization) -> Value {
     json!({
         "scale": quantization.scale,
@@ -163,16 +163,16 @@ pub fn quantization_json(quantization: &Quantization) -> Value {
     })
 }
 
-/// The counters by name.
+/// The counters as a JSON object, by name.
 pub fn counters_json(counters: &Counters) -> Value {
     counters.named().into_iter().map(|(name, value)| (name.to_owned(), Value::from(value))).collect()
 }
 
-/// The most that a percentile is told above its true value, as a share of that: buckets are an eighth of an octave
-/// wide.
+/// The largest excess of a percentile over its true value, as a share of the true value. The histogram has eight
+/// buckets to an octave.
 const RESOLUTION: f64 = 0.125;
 
-/// How long insertions took, as an object.
+/// The latencies of insertions as a JSON object.
 pub fn latencies_json(latencies: &Latencies) -> Value {
     json!({
         "insertions": latencies.insertions,

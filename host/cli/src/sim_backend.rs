@@ -14,8 +14,8 @@ use crate::interrupt;
 /// Clocks simulated between two looks at the deadline: about a tenth of a second.
 const SLICE: u64 = 100_000;
 
-/// A freshly made core of this configuration. With `trace` a waveform of all its signals goes to that file; dropping
-/// the device completes it.
+/// Makes a core of this configuration. With `trace` a waveform of all its signals goes to that file, which is complete
+/// once the device is dropped.
 pub fn open(config: Config, trace: Option<&Path>) -> Result<Device, Failure> {
     let mut device = SimDevice::new(config).map_err(|error| Failure::new(Exit::NoDevice, error.to_string()))?;
     if let Some(path) = trace {
@@ -24,14 +24,15 @@ pub fn open(config: Config, trace: Option<&Path>) -> Result<Device, Failure> {
     Ok(Device::from_transport(Box::new(SimTransport { device, name: config.name })))
 }
 
-/// A simulated core as a transport. A slice of clocks that did not suffice is followed by the next, until the deadline.
+/// The transport to a simulated core. The simulation runs in slices of clocks until the answer is there or
+/// the deadline has passed.
 struct SimTransport {
     device: SimDevice,
     name: &'static str,
 }
 
 impl SimTransport {
-    /// Hands the core a word after the other.
+    /// Sends words to the core, one after the other.
     fn send(&mut self, words: &[u32], deadline: Instant) -> Result<(), TransportError> {
         let wanted = words.len();
         let mut sent = 0;
@@ -46,13 +47,13 @@ impl SimTransport {
         }
     }
 
-    /// Fills the whole of `words` with the next words of the core.
+    /// Fills all of `words` with the next words of the core.
     fn fill(&mut self, words: &mut [u32], deadline: Instant) -> Result<(), TransportError> {
         let wanted = words.len();
         loop {
             match self.device.receive(words, SLICE) {
                 Ok(()) => return Ok(()),
-                // What has come is kept by the device for the next call.
+                // The device keeps the words that have come for the next call.
                 Err(SimError::Timeout { done, .. }) => go_on(deadline, done, wanted)?,
                 Err(error) => return Err(TransportError::other(ErrorKind::Link, error)),
             }
@@ -89,7 +90,7 @@ impl Transport for SimTransport {
     }
 }
 
-/// Ends the call at the deadline, and when the user interrupts.
+/// Refuses to go on after the deadline, or when the user has interrupted.
 fn go_on(deadline: Instant, done: usize, wanted: usize) -> Result<(), TransportError> {
     if interrupt::raised() {
         return Err(TransportError::other(ErrorKind::Link, "interrupted"));

@@ -7,12 +7,13 @@ use crate::failure::{printable, Failure};
 use crate::formats::{extension, MeshFormat, PointFormat};
 use crate::points::PointTable;
 
-/// Whether the path means standard input or output.
+/// Whether the path is `-`, which stands for standard input or output.
 pub fn is_standard(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 
-/// Reads all points of a file, or of standard input. `from` overrides the extension; standard input is CSV without it.
+/// Reads all points of a file or of standard input. The format is `from`, or else the one of the extension, or
+/// CSV for standard input.
 pub fn read_points(path: &Path, from: Option<PointFormat>) -> Result<PointTable, Failure> {
     let format = match from {
         Some(format) => format,
@@ -28,7 +29,7 @@ pub fn read_points(path: &Path, from: Option<PointFormat>) -> Result<PointTable,
     format.read(&bytes).map_err(|failure| failure.in_file(name(path)))
 }
 
-/// Reads the triangles of a mesh file; `format` overrides the extension.
+/// Reads the triangles of a mesh file. The format is `format`, or else the one of the extension.
 pub fn read_mesh(path: &Path, format: Option<MeshFormat>) -> Result<Vec<[u32; 3]>, Failure> {
     let format = format.or_else(|| MeshFormat::of_extension(extension(path)));
     let format = format.ok_or_else(|| {
@@ -39,7 +40,7 @@ pub fn read_mesh(path: &Path, format: Option<MeshFormat>) -> Result<Vec<[u32; 3]
     format.read(&bytes).map_err(|failure| failure.in_file(name(path)))
 }
 
-/// Why a mesh of this name needs `--format`.
+/// The reason why a mesh of this name needs `--format`, for a message.
 pub fn no_format(path: &Path) -> &'static str {
     if is_standard(path) {
         "a mesh that has no file name needs a format"
@@ -48,7 +49,7 @@ pub fn no_format(path: &Path) -> &'static str {
     }
 }
 
-/// The name of a file as messages say it.
+/// The name of a file for messages.
 pub fn name(path: &Path) -> String {
     if is_standard(path) {
         "standard input".to_owned()

@@ -1,4 +1,4 @@
-//! Text files as rows of values.
+//! Text files, read as rows of values.
 
 use crate::failure::{quoted, Failure};
 use crate::points::Place;
@@ -6,7 +6,7 @@ use crate::points::Place;
 /// The byte order mark that some editors put before UTF-8 text.
 const UTF8_MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// The text without its byte order mark; UTF-16 is refused with a sentence.
+/// Removes the byte order mark; UTF-16 is refused with a sentence.
 pub fn without_mark(bytes: &[u8]) -> Result<&[u8], Failure> {
     if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
         return Err(Failure::input("the text is UTF-16: save it as UTF-8"));
@@ -14,31 +14,31 @@ pub fn without_mark(bytes: &[u8]) -> Result<&[u8], Failure> {
     Ok(bytes.strip_prefix(UTF8_MARK).unwrap_or(bytes))
 }
 
-/// The rows of a text with their numbers, counted from 1. Ends in LF or CRLF; a missing last end is no matter.
+/// The rows of a text with their numbers, counted from 1. Rows end in LF or CRLF; the last row may lack its end.
 pub fn rows(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
     let body = bytes.strip_suffix(b"\n").unwrap_or(bytes);
     let rows = body.split(|&byte| byte == b'\n').enumerate();
     rows.filter(move |_| !bytes.is_empty()).map(|(index, row)| (index + 1, row.strip_suffix(b"\r").unwrap_or(row)))
 }
 
-/// The values of a row that are parted by spaces and tabs.
+/// The values of a row, separated by spaces and tabs.
 pub fn words(row: &[u8]) -> impl Iterator<Item = &[u8]> {
     row.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
 }
 
-/// The row without what follows a `#`.
+/// The row up to the first `#`.
 pub fn without_comment(row: &[u8]) -> &[u8] {
     row.split(|&byte| byte == b'#').next().unwrap_or(row)
 }
 
-/// Whether the value is meant as a number, right or wrong: rows that hold none may be headers.
+/// Whether a value is meant as a number, valid or not. A row without such values may be a header.
 pub fn looks_like_number(value: &[u8]) -> bool {
     let value = value.trim_ascii();
     let starts = value.first().is_some_and(|byte| byte.is_ascii_digit() || b"+-.".contains(byte));
     starts || std::str::from_utf8(value).is_ok_and(|text| text.parse::<f64>().is_ok())
 }
 
-/// A coordinate, which is any finite number. Integers up to 2^53 are exact.
+/// Parses a coordinate, which is any finite number. Integers up to 2^53 are exact.
 pub fn coordinate(value: &[u8], place: Place) -> Result<f64, Failure> {
     let value = value.trim_ascii();
     if value.is_empty() {
@@ -55,12 +55,12 @@ pub fn coordinate(value: &[u8], place: Place) -> Result<f64, Failure> {
     }
 }
 
-/// The refusal of NaN, infinities, and numbers too large for a double.
+/// The failure of NaN, infinities, and numbers too large for a double.
 pub fn not_finite(shown: &str, place: Place) -> Failure {
     Failure::input(format!("{place}: {shown} is not a finite number: a point needs two numbers"))
 }
 
-/// A whole number from 0 to 2^32 - 1 that is called `what` in messages.
+/// Parses a whole number from 0 to 2^32 - 1, which messages call `what`.
 pub fn whole(value: &[u8], what: &str, place: Place) -> Result<u32, Failure> {
     let value = value.trim_ascii();
     let parsed = std::str::from_utf8(value).ok().and_then(|text| text.parse::<u32>().ok());

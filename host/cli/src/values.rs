@@ -1,4 +1,4 @@
-//! The values of arguments, read from text; a wrong one is told in a sentence.
+//! Parsers of the values of arguments. The error of a wrong value is a sentence for the user.
 
 use std::time::Duration;
 
@@ -9,7 +9,7 @@ use incircle_testkit::Distribution;
 
 use crate::formats::MeshFormat;
 
-/// An order by its name. Help and completions show the names.
+/// Parses the name of an order. Help and completions show the names.
 pub fn order_parser() -> impl clap::builder::TypedValueParser<Value = Order> {
     OrderParser
 }
@@ -36,14 +36,14 @@ impl clap::builder::TypedValueParser for OrderParser {
     }
 }
 
-/// A point set by its name. Help shows the names and what the sets are.
+/// Parses the name of a generated set. Help shows the names with a description of each set.
 pub fn distribution_parser() -> impl clap::builder::TypedValueParser<Value = Distribution> {
     use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
     let named = |set: Distribution| PossibleValue::new(set.name()).help(set.description());
     PossibleValuesParser::new(Distribution::ALL.map(named)).try_map(|name| name.parse::<Distribution>())
 }
 
-/// A back end by its name or its address. Help and completions show the names.
+/// Parses the address of a back end. Help and completions show the forms of addresses.
 pub fn backend_parser() -> impl clap::builder::TypedValueParser<Value = DeviceAddress> {
     BackendParser
 }
@@ -68,7 +68,7 @@ impl clap::builder::TypedValueParser for BackendParser {
     }
 }
 
-/// An address of a device; the sentence of a bad one is told without the address.
+/// Parses the address of a device. The error leaves out the address, because clap names the value itself.
 fn backend_from(text: &str) -> Result<DeviceAddress, String> {
     text.parse().map_err(|error| match error {
         Error::Address { reason, .. } => reason,
@@ -76,12 +76,12 @@ fn backend_from(text: &str) -> Result<DeviceAddress, String> {
     })
 }
 
-/// A serial port, with or without choices behind it.
+/// Parses a serial port, with or without choices behind it.
 pub fn port_from(text: &str) -> Result<Address, String> {
     Address::parse(text).unwrap_or_else(|| Address::parse_port(text))
 }
 
-/// The formats that a mesh can be read back from.
+/// Parses the name of a format that a mesh can be read from.
 pub fn readable_format_parser() -> impl clap::builder::TypedValueParser<Value = MeshFormat> {
     use clap::builder::{PossibleValuesParser, TypedValueParser};
     let readable = MeshFormat::value_variants().iter().filter(|format| format.is_readable());
@@ -89,7 +89,7 @@ pub fn readable_format_parser() -> impl clap::builder::TypedValueParser<Value = 
     names.try_map(|name| MeshFormat::from_str(&name, false))
 }
 
-/// How coordinates are laid onto the grid: `fit`, a scale, or a scale with an offset.
+/// Parses the value of `--quantize`: `fit`, a scale, or a scale with an offset.
 pub fn quantize_from(text: &str) -> Result<Quantize, String> {
     if text == "fit" {
         return Ok(Quantize::Fit);
@@ -107,7 +107,7 @@ pub fn quantize_from(text: &str) -> Result<Quantize, String> {
     }
 }
 
-/// A positive number of seconds.
+/// Parses a positive number of seconds.
 pub fn seconds_from(text: &str) -> Result<Duration, String> {
     let seconds: f64 = text.parse().map_err(|_| "give seconds, such as 2.5".to_owned())?;
     match Duration::try_from_secs_f64(seconds) {
@@ -116,7 +116,7 @@ pub fn seconds_from(text: &str) -> Result<Duration, String> {
     }
 }
 
-/// A positive number of megahertz.
+/// Parses a positive number of megahertz.
 pub fn mhz_from(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(mhz) if mhz > 0.0 && mhz.is_finite() => Ok(mhz),

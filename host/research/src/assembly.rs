@@ -1,11 +1,11 @@
-//! From the records of the model to the canonical mesh.
+//! The step from the records of the model to the canonical mesh.
 
 use incircle_geometry::{Duplicate, Mesh, Point};
 use incircle_model::Record;
 use incircle_protocol::{infinite_vertex, MAX_MODEL_POINTS};
 
-/// The canonical mesh of the records of a mesh of [`MAX_MODEL_POINTS`], in which vertex `v` is the point with the index
-/// `order[v]`. O(n).
+/// The canonical mesh of the records of a mesh of [`MAX_MODEL_POINTS`], in which vertex `v` is the point with
+/// the index `order[v]`. O(n).
 pub fn canonical(records: &[Record], order: &[u32], points: &[Point], duplicates: Vec<Duplicate>) -> Mesh {
     let infinite = infinite_vertex(MAX_MODEL_POINTS);
     let index = |vertex: u32| order[vertex as usize];
@@ -13,7 +13,7 @@ pub fn canonical(records: &[Record], order: &[u32], points: &[Point], duplicates
     let mut following = vec![u32::MAX; points.len()];
     for record in records {
         match record.v.iter().position(|&vertex| vertex == infinite) {
-            // The ghost behind the hull edge from the vertex before the infinite one to the vertex after it.
+            // A ghost triangle gives the hull edge from the vertex before the infinite one to the vertex after it.
             Some(slot) => {
                 let v = record.rotated(slot).v;
                 following[index(v[2]) as usize] = index(v[1]);
@@ -44,7 +44,7 @@ fn around(following: &[u32]) -> Vec<u32> {
     hull
 }
 
-/// Sorts triangles by counting their first corners, then each corner's few triangles.
+/// Sorts triangles by counting their first corners, then sorts the few triangles of each corner.
 fn sorted(triangles: &[[u32; 3]], points: usize) -> Vec<[u32; 3]> {
     let mut starts = vec![0u32; points];
     triangles.iter().for_each(|triangle| starts[triangle[0] as usize] += 1);

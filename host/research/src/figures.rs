@@ -1,4 +1,4 @@
-//! `figures`: all figures that the documents publish of this package, made again.
+//! `figures`: makes all figures that the documents publish of this package again.
 
 use std::path::PathBuf;
 
@@ -13,28 +13,28 @@ use crate::way::Way;
 /// Arguments of `figures`. The defaults are those of the published figures.
 #[derive(Clone, Debug, Args)]
 pub struct FiguresArguments {
-    /// Points of each set of the table of all orders
+    /// Points of each set in the table of all orders
     #[arg(long, value_name = "N", default_value_t = 4096)]
     pub table: u32,
-    /// Points of each set of the published ranking
+    /// Points of each set for the published ranking
     #[arg(long, value_name = "N", default_value_t = 1 << 18)]
     pub ranking: u32,
-    /// Points of each set of the guided walks
+    /// Points of each set for the guided walks
     #[arg(long, value_name = "N", default_value_t = 1 << 20)]
     pub walks: u32,
-    /// Folder for the figures as CSV and the drawing: orders.csv, orders.svg, ranking.csv, walks.csv
+    /// Folder for the figures: orders.csv, orders.svg, ranking.csv and walks.csv
     #[arg(long, value_name = "FOLDER")]
     pub out: Option<PathBuf>,
 }
 
-/// Bits of a coordinate of the sets of the guided walks and the ranking, and seed of all sets.
+/// Bits of a coordinate in the sets for the guided walks and the ranking, and the seed of all sets.
 const WIDE_BITS: u32 = 24;
 const SEED: u64 = 1;
 
-/// Runs the subcommand: the table of all orders, the published ranking, and the guided walks of README.md.
+/// Runs the subcommand: the table of all orders, the published ranking, and the guided walks of docs/performance.md.
 ///
 /// # Errors
-/// Files that cannot be written, and sets that cannot be made.
+/// A file cannot be written, or a set cannot be made.
 pub fn figures(arguments: &FiguresArguments) -> Result<(), Failure> {
     let keep = |name: &str, text: String| match &arguments.out {
         Some(folder) => write(&folder.join(name), &text),
@@ -53,7 +53,7 @@ pub fn figures(arguments: &FiguresArguments) -> Result<(), Failure> {
     let rows = table(&Distribution::LITERATURE, &[arguments.ranking], &published(), WIDE_BITS, SEED)?;
     print(&ranking(&rows))?;
     keep("ranking.csv", to_csv(&rows))?;
-    print("\n== Guided walks (README.md, Figures)\n")?;
+    print("\n== Guided walks (docs/performance.md)\n")?;
     let ways = [Order::BRIO_HILBERT, Order::BrioDc(BrioDc::Linear)].map(Way::Ordered);
     let rows = table(&Distribution::LITERATURE, &[arguments.walks], &ways, WIDE_BITS, SEED)?;
     keep("walks.csv", to_csv(&rows))?;
@@ -66,7 +66,7 @@ fn published() -> Vec<Way> {
     Way::usual().into_iter().filter(|way| way.name().starts_with("brio")).collect()
 }
 
-/// The sentence of the documents.
+/// The sentence about guided walks in the documents.
 fn guided_walks(rows: &[Row]) -> String {
     let of = |name: &str, get: fn(&Row) -> f64| {
         let values = || rows.iter().filter(|row| row.way.name() == name).map(get);
@@ -75,8 +75,8 @@ fn guided_walks(rows: &[Row]) -> String {
     let [guided, plain] =
         ["briodc-linear", "brio-hilbert"].map(|name| (of(name, |row| row.walk), of(name, |row| row.order_ns)));
     format!(
-        "rounds with guides beside BRIO + Hilbert: {:.2} to {:.2} triangles a walk beside {:.2} to {:.2}; {:.0} to {:.0} ns a point to order \
-         beside {:.0} to {:.0}\n",
+        "rounds with guides beside BRIO + Hilbert: {:.2} to {:.2} triangles a walk beside {:.2} to {:.2}; {:.0} to \
+         {:.0} ns a point to order beside {:.0} to {:.0}\n",
         guided.0 .0, guided.0 .1, plain.0 .0, plain.0 .1, guided.1 .0, guided.1 .1, plain.1 .0, plain.1 .1
     )
 }

@@ -1,27 +1,29 @@
-//! A mesh of the software model with a triangle of each vertex, so that the walk to a point can begin at a vertex near
-//! it.
+//! A mesh of the software model that knows a triangle of each vertex, so that a walk can begin at a
+//! vertex near its point.
 
 use incircle_geometry::Point;
 use incircle_model::{Approach, Counts, Insertion, Mesh, Record};
 use incircle_protocol::{infinite_vertex, MAX_MODEL_POINTS};
 
-/// Edges around one cavity that the model keeps; the standard cores keep as many.
+/// Entries of the boundary list of the model, the same number as in the standard cores.
 pub const RING_CAPACITY: u32 = 32;
-/// No triangle is known.
+/// Marks a vertex of which no triangle is known.
 const NONE: u32 = u32::MAX;
 
-/// The point as the model has it.
+/// The point in the model's own type.
 pub(crate) fn in_model(Point { x, y }: Point) -> incircle_model::predicate::Point {
     incircle_model::predicate::Point { x, y }
 }
 
-/// A mesh of the software model with a finite triangle of each vertex. The triangles take four bytes per point, and are
-/// noted with each insertion.
+/// A mesh of the software model with a finite triangle of each vertex.
+///
+/// Use this mesh to insert points with a guide, which is a vertex near the point. The triangles take four bytes per
+/// point and are updated with each insertion.
 #[derive(Clone, Debug)]
 pub struct GuidedMesh {
     mesh: Mesh,
     infinite: u32,
-    /// By vertex, that is by number of arrival. A point that fell onto a vertex has a record near it.
+    /// For each vertex, that is by number of arrival, a finite triangle. A duplicate has a record near its place.
     triangle_of: Vec<u32>,
 }
 
@@ -32,23 +34,23 @@ impl Default for GuidedMesh {
 }
 
 impl GuidedMesh {
-    /// An empty mesh for `capacity` points with boundary lists of `ring_capacity` entries.
+    /// Makes an empty mesh for `capacity` points with boundary lists of `ring_capacity` entries.
     pub fn new(capacity: u32, ring_capacity: u32) -> Self {
         let mesh = Mesh::new(capacity, ring_capacity);
         Self { mesh, infinite: infinite_vertex(capacity), triangle_of: Vec::new() }
     }
 
-    /// The mesh of the model.
+    /// The mesh of the software model.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }
 
-    /// The counters of the model since the last clear.
+    /// The counters of the model since the last call of [`Self::clear`].
     pub fn counts(&self) -> &Counts {
         self.mesh.counts()
     }
 
-    /// Forgets all points.
+    /// Removes all points, and sets the counters to zero.
     pub fn clear(&mut self) {
         self.mesh.clear();
         self.triangle_of.clear();
@@ -60,9 +62,8 @@ impl GuidedMesh {
         self.mesh.records().get(found as usize)?.v.contains(&vertex).then_some(found)
     }
 
-    /// Inserts a point. The search for it begins at a triangle of the vertex `guide`, by number of arrival; where the
-    /// last search ended if there is no such vertex before this one. The mesh is the same wherever the search
-    /// begins.
+    /// Inserts a point. The walk begins at a triangle of the vertex `guide`, a number of arrival, or at the end of the
+    /// last walk if there is no such vertex before this point. The mesh is the same wherever the walk begins.
     pub fn insert(&mut self, point: Point, guide: Option<u32>) -> Insertion {
         match self.walk_to(point, guide) {
             None => self.insert_first(point),
@@ -79,8 +80,8 @@ impl GuidedMesh {
         }
     }
 
-    /// Inserts a point as [`Self::insert`] does, unless there is a vertex at its place: then gives that one as the
-    /// error. Otherwise gives the vertex of the point.
+    /// Inserts a point as [`Self::insert`] does, and returns its vertex. If there is a vertex at the place of the point
+    /// already, that vertex is the error, and the mesh stays as it is.
     pub fn insert_unless_there(&mut self, point: Point, guide: Option<u32>) -> Result<u32, u32> {
         let own = self.triangle_of.len() as u32;
         let Some(approach) = self.walk_to(point, guide) else {
@@ -98,7 +99,7 @@ impl GuidedMesh {
         Ok(own)
     }
 
-    /// A vertex near this point, found by a search that begins at `guide`; `None` before the first triangle.
+    /// Finds a vertex near this point by a walk that begins at `guide`; `None` before the first triangle.
     pub fn find(&mut self, point: Point, guide: Option<u32>) -> Option<u32> {
         self.walk_to(point, guide).map(|approach| approach.nearest().0)
     }
@@ -120,7 +121,7 @@ impl GuidedMesh {
         insertion
     }
 
-    /// Notes a triangle of its vertices, unless it is a ghost.
+    /// Notes a triangle for each of its vertices, unless the triangle is a ghost.
     fn note(&mut self, triangle: u32, vertices: [u32; 3]) {
         if !vertices.contains(&self.infinite) {
             for vertex in vertices {
@@ -129,8 +130,8 @@ impl GuidedMesh {
         }
     }
 
-    /// Notes the triangles around the point that was inserted last, of which this is one: all vertices of those that
-    /// are gone are at them.
+    /// Notes all triangles of the star around the last point, one of which is `of_star`. Each vertex of a removed
+    /// triangle has a triangle in the star.
     fn note_star(&mut self, of_star: u32) {
         self.triangle_of.push(NONE);
         let mut triangle = of_star;

@@ -1,9 +1,9 @@
-//! Points that arrive one at a time, in an order that nobody chose.
+//! The Delaunay hierarchy, for points that arrive one at a time in an order that nobody chose.
 //!
-//! Devillers, *The Delaunay hierarchy*, 2002. Of the points of a level about one in 32 are in the level above, each
-//! level with a mesh of its own. A point is looked for in the highest level first; the nearest corner of the triangle
-//! found there is where the walk in the level below begins. So a walk takes a constant number of steps in each of O(log
-//! n) levels, wherever the point before lay.
+//! Each level has a mesh of its own, and about one in 32 of its points are in the level above. A point is located in
+//! the highest level first. The nearest corner of the triangle found there is the start of the walk in the level below.
+//! So a walk takes a constant number of steps in each of O(log n) levels, wherever the previous point lay. Source:
+//! Devillers, *The Delaunay hierarchy*, 2002.
 
 mod level;
 
@@ -15,15 +15,18 @@ use incircle_model::Counts;
 use self::level::Level;
 use crate::assembly::canonical;
 
-/// One in 2 to this many points of a level is in the level above: about one in 30, as the author found to be good.
+/// The share of a level's points that are in the level above is one in 2 to this power: about one in 30, which the
+/// author of the hierarchy found to be good.
 const SHIFT: u32 = 5;
-/// A Delaunay triangulation of points that arrive one at a time. The mesh is the one that all devices give, byte for
-/// byte.
+/// A Delaunay triangulation of points that arrive one at a time.
 ///
-/// The levels are meshes of the software model, with coordinates up to 31 bits. A point takes O(log n) in the mean over
-/// the coins that choose levels, which are hashes of the coordinates, as long as cavities are small: an order of
-/// arrival can be bad, unlike one that is chosen. Points that come while all lie on one line are in no sample, so walks
-/// among them can be long. 75 bytes per point, up to twice that while lists grow.
+/// Reach for the hierarchy if the points are not known in advance. The mesh is the one that all devices
+/// give, byte for byte.
+///
+/// The levels are meshes of the software model, with coordinates of up to 31 bits. A point takes O(log n) on average
+/// over the coins that choose levels, which are hashes of the coordinates, as long as cavities are small; a bad order
+/// of arrival can make them large. Points that arrive while all lie on one line are only in the lowest level, so walks
+/// among them can be long. The hierarchy takes 75 bytes per point, and up to twice that while lists grow.
 ///
 /// ```
 /// use incircle_geometry::Point;
@@ -42,27 +45,27 @@ const SHIFT: u32 = 5;
 pub struct Hierarchy {
     points: Vec<Point>,
     duplicates: Vec<Duplicate>,
-    /// Lowest first, which has all distinct points.
+    /// The levels from the lowest up; the lowest has all distinct points.
     levels: Vec<Level>,
 }
 
 impl Hierarchy {
-    /// Without points.
+    /// Makes a hierarchy without points.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// The points that have arrived, duplicates included.
+    /// The points that have arrived so far, duplicates included.
     pub fn points(&self) -> &[Point] {
         &self.points
     }
 
-    /// Takes a point, whose index is the number of those before it. Returns the index of the first point of the same
-    /// coordinates, if there is one: then the mesh stays as it is.
+    /// Inserts a point, whose index is the number of the points before it. If there is a point with the same
+    /// coordinates already, the mesh stays as it is, and the index of the first such point is returned.
     ///
     /// # Errors
-    /// [`Error::CoordinateOutOfRange`] beyond 31 bits, [`Error::TooManyPoints`] beyond [`MAX_POINTS`]. The point is not
-    /// taken then.
+    /// [`Error::CoordinateOutOfRange`] beyond 31 bits, [`Error::TooManyPoints`] beyond [`MAX_POINTS`]. The hierarchy
+    /// then does not have the point.
     pub fn insert(&mut self, point: Point) -> Result<Option<u32>, Error> {
         let index = self.points.len();
         if (point.x | point.y) >> MAX_COORD_BITS != 0 {
@@ -88,26 +91,27 @@ impl Hierarchy {
         }
     }
 
-    /// Looks for a point from the highest level down: a vertex near it in the lowest.
+    /// Locates a point from the highest level down; returns a vertex near the point in the lowest level.
     fn descend(&mut self, point: Point) -> Option<u32> {
         let above = self.levels.iter_mut().skip(1).rev();
         above.fold(None, |guide, level| level.find(point, guide))
     }
 
-    /// Adds a new point to the levels above the lowest that its coins choose, at most to one more than there are.
+    /// Adds a new point to the levels above the lowest that its coins choose. At most one level is new.
     fn ascend(&mut self, point: Point, vertex: Option<u32>) {
         let key = u64::from(point.x) << 32 | u64::from(point.y);
         let top = (mix(key).trailing_zeros() / SHIFT) as usize;
         let mut below = vertex;
         for number in 1..=top.min(self.levels.len()) {
-            // What is no vertex cannot be a guide: on a line the point stays out of the levels above.
+            // A point on a line is no vertex yet, so it cannot be a guide and stays out of the levels above.
             let Some(vertex) = below else {
                 return;
             };
             if number == self.levels.len() {
                 self.levels.push(Level::default());
             }
-            // A new point is in no level; the walk has just ended at it.
+            // No guide is needed, because the last walk in this level ended at this point. The point is new in every
+            // level, so there is no error.
             below = self.levels[number].add(point, vertex, None).unwrap_or(None);
         }
     }
@@ -126,7 +130,7 @@ impl Hierarchy {
         }
     }
 
-    /// The counters of all levels, added up; points inserted are those of the lowest.
+    /// The sums of the counters of all levels. Insertions are counted in the lowest level only.
     pub fn counts(&self) -> Counts {
         let mut sum = Counts { insertions: (self.points.len() - self.duplicates.len()) as u32, ..Counts::default() };
         for counts in self.levels.iter().filter_map(Level::mesh).map(|mesh| mesh.counts()) {

@@ -1,4 +1,4 @@
-//! A whole job on the software model: put in order, inserted point by point, put into canonical form.
+//! A whole job on the software model: points are ordered, inserted one by one, and the mesh is put into canonical form.
 
 use incircle_geometry::{Mesh, Point};
 use incircle_model::{Counts, Mesh as ModelMesh};
@@ -9,7 +9,7 @@ use crate::guided::{in_model, GuidedMesh, RING_CAPACITY};
 use crate::order::Order;
 use crate::prepare::{prepare, Prepared};
 
-/// The mesh of a set, and what the model counted on the way there.
+/// The mesh of a set, with the counters of the model.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// The canonical mesh.
@@ -18,8 +18,8 @@ pub struct Outcome {
     pub counts: Counts,
 }
 
-/// Triangulates on the software model in this order, with guides where the order has them. No words pass a command
-/// port, as they do in the product's back end `model`.
+/// Triangulates on the software model in this order, with the guides of the order if there are any. Unlike the
+/// product's back end `model`, the function calls the model directly and encodes no commands.
 pub fn triangulate(points: &[Point], order: Order) -> Outcome {
     let Prepared { rounds, guides, duplicates, is_collinear } = prepare(points, order);
     let order = rounds.order;

@@ -1,11 +1,12 @@
-//! Orders of insertion of the literature, beside the product: what they cost, what they save, and where published
-//! rankings come back.
+//! Orders of insertion from the literature, with measurements of their costs and gains.
 //!
-//! The product inserts points in one of four orders, since none of the others is faster on the whole. This package has
-//! all that were tried: twelve [curves](order::Curve), alone and in rounds of three sizes, rounds with
+//! The product inserts points in one of four orders, because none of the others is faster on the whole. This package
+//! has all orders that were tried: twelve [curves](order::Curve), alone and in rounds of three sizes, rounds with
 //! [guides](order::brio_dc()), and the [Delaunay hierarchy](Hierarchy) for points that arrive one at a time. All are
-//! measured on the software model, and in cycles of the largest core. Nothing here ships; `cargo run --release -p
-//! incircle-research -- figures` makes all published figures again.
+//! measured on the software model, and in cycles of the largest core.
+//!
+//! Nothing here ships with the product. `cargo run --release -p incircle-research -- figures` makes
+//! all published figures again.
 #![warn(missing_docs)]
 
 pub mod assembly;

@@ -1,13 +1,13 @@
-//! Research as a command.
+//! The command `incircle-research`.
 
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use incircle_research::{figures, orders, picture, FiguresArguments, OrdersArguments, PictureArguments};
 
-/// Orders of insertion of the literature, measured
+/// Measure and draw the orders of insertion of the literature
 #[derive(Debug, Parser)]
-#[command(name = "incircle-research", version)]
+#[command(name = "incircle-research", version, after_help = "Example:\n  incircle-research orders uniform -n 4096")]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -15,12 +15,17 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Compare orders of insertion: time to order, walk steps, tests and cavity of an insertion, cycles of the core,
-    /// time in all
+    /// Compare orders of insertion in a table
+    ///
+    /// For each order the table has the time to order, the walk steps, tests and removed triangles of an insertion, the
+    /// cycles of the core, and the total time.
+    #[command(after_help = "Example:\n  incircle-research orders uniform kuzmin --order hilbert,brio-peano")]
     Orders(OrdersArguments),
-    /// Draw an order: a line from each point to the next
+    /// Draw an order as a line from each point to the next
+    #[command(after_help = "Example:\n  incircle-research draw lattice -n 256 --order peano -o peano.svg")]
     Draw(PictureArguments),
-    /// Make all published figures of the orders again: the table, the ranking, the guided walks
+    /// Make all published figures again: the table, the ranking, the guided walks
+    #[command(after_help = "Example:\n  incircle-research figures --out figures")]
     Figures(FiguresArguments),
 }
 

@@ -1,4 +1,4 @@
-//! `orders`: what orders of insertion cost and save, as a table, as CSV and as a drawing.
+//! `orders`: compares orders of insertion in a table, in a CSV file and in a drawing.
 
 use std::io::{self, Write as _};
 use std::path::{absolute, Path, PathBuf};
@@ -10,45 +10,47 @@ use incircle_testkit::{generate, Distribution};
 use crate::compare::{draw, header, measure, ranking, to_csv, Row};
 use crate::way::Way;
 
-/// Why a run failed, as a sentence.
+/// The reason why a run failed, as a sentence.
 pub type Failure = Box<dyn std::error::Error>;
 
 /// Arguments of `orders`.
 #[derive(Clone, Debug, Args)]
 pub struct OrdersArguments {
-    /// The sets (default: the five distributions of the literature, and two sets on which plain curves fail)
+    /// Sets (default: the literature's five distributions, and two on which plain curves fail)
     #[arg(value_name = "SET")]
     pub sets: Vec<Distribution>,
-    /// Points of a set, several numbers with commas; cycles are counted up to 16384
+    /// Points of a set, as one number or several with commas; cycles are counted up to 16384
     #[arg(short, value_name = "N", value_delimiter = ',', default_values_t = [4096])]
     pub n: Vec<u32>,
-    /// Orders, several with commas (default: random, every curve, rounds along every curve, rounds with guides, points
-    /// as they arrive)
+    /// Orders, separated by commas (default: all but 'input', with rounds of a quarter)
+    ///
+    /// The default is random, every curve, rounds along every curve, rounds with guides, and the hierarchy.
     #[arg(long = "order", value_name = "ORDER", value_delimiter = ',', value_parser = way_from)]
     pub orders: Vec<Way>,
     /// Bits of a coordinate; cycles are counted up to 16
     #[arg(long, value_name = "BITS", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=31))]
     pub coord_bits: u32,
-    /// Seed of the sets: the same seed gives the same points on every machine
+    /// Seed; one seed gives the same points on every machine
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// Write the figures as CSV, too
+    /// Write the figures as CSV as well
     #[arg(long, value_name = "FILE.csv")]
     pub csv: Option<PathBuf>,
-    /// Draw walk steps and time, too
+    /// Draw walk steps and time as well
     #[arg(long, value_name = "FILE.svg")]
     pub plot: Option<PathBuf>,
 }
 
-/// A way by its name.
+/// Parses the name of a way of insertion.
 fn way_from(name: &str) -> Result<Way, String> {
     Way::named(name).ok_or_else(|| format!("the orders are {}", Way::names().collect::<Vec<_>>().join(", ")))
 }
 
-/// Runs the subcommand: a row as soon as it is done, the published ranking below the table, files at the end.
+/// Runs the subcommand. Each row is printed as soon as it is measured, the published ranking follows below the table,
+/// and files are written at the end.
 ///
 /// # Errors
-/// Files that cannot be written or are the same, and sets that cannot be made.
+/// The files cannot be written or are the same, or a set cannot be made.
 pub fn orders(arguments: &OrdersArguments) -> Result<(), Failure> {
     check_files(arguments)?;
     let ways = if arguments.orders.is_empty() { Way::usual() } else { arguments.orders.clone() };
@@ -63,7 +65,7 @@ pub fn orders(arguments: &OrdersArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Measures and prints all ways on all sets.
+/// Measures all ways of insertion on all sets, and prints the table.
 pub(crate) fn table(
     sets: &[Distribution],
     sizes: &[u32],
@@ -87,7 +89,7 @@ pub(crate) fn table(
     Ok(rows)
 }
 
-/// The files for the figures and for the drawing cannot be one, and their folders must be there.
+/// Checks that the files for the figures and for the drawing are different, and that their folders exist.
 fn check_files(arguments: &OrdersArguments) -> Result<(), Failure> {
     let place = |path: &Option<PathBuf>| path.as_deref().map(absolute).transpose();
     let (csv, plot) = (place(&arguments.csv)?, place(&arguments.plot)?);
@@ -111,7 +113,7 @@ fn sets_of(arguments: &OrdersArguments) -> Vec<Distribution> {
     }
 }
 
-/// Prints at once, so that a long table is seen to grow.
+/// Prints a text immediately, so that the reader sees a long table grow.
 pub(crate) fn print(text: &str) -> io::Result<()> {
     let mut out = io::stdout().lock();
     out.write_all(text.as_bytes())?;

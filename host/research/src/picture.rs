@@ -1,4 +1,4 @@
-//! `draw`: a picture of an order, a line from each point to the next.
+//! `draw`: draws an order as a line from each point to the next.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -13,13 +13,13 @@ use crate::orders::{write, Failure};
 /// Arguments of `draw`.
 #[derive(Clone, Debug, Args)]
 pub struct PictureArguments {
-    /// The set
+    /// Set
     #[arg(value_name = "SET")]
     pub set: Distribution,
     /// Points of the set
     #[arg(short, value_name = "N", default_value_t = 1024)]
     pub n: u32,
-    /// The order
+    /// Order
     #[arg(long, value_parser = order_from)]
     pub order: Order,
     /// Bits of a coordinate
@@ -28,7 +28,7 @@ pub struct PictureArguments {
     /// Seed of the set
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// The picture
+    /// File for the picture
     #[arg(short, long, value_name = "FILE.svg")]
     pub output: PathBuf,
 }
@@ -38,14 +38,14 @@ fn order_from(name: &str) -> Result<Order, String> {
     Order::named(name).ok_or_else(|| format!("the orders are {}", names()))
 }
 
-/// Units of the picture along the longer side of the points' box, and around it.
+/// Units of the picture along the longer side of the points' bounding box, and of the margin around the box.
 const CANVAS: f64 = 10_000.0;
 const MARGIN: f64 = 250.0;
 
-/// Runs the subcommand.
+/// Runs the subcommand, which writes one picture.
 ///
 /// # Errors
-/// A file that cannot be written, and a set that cannot be made.
+/// The file cannot be written, or the set cannot be made.
 pub fn picture(arguments: &PictureArguments) -> Result<(), Failure> {
     let PictureArguments { set, n, order, coord_bits, seed, ref output } = *arguments;
     let points: Vec<Point> = generate(set, n as usize, coord_bits, seed)?.into_iter().map(Point::from).collect();

@@ -1,5 +1,5 @@
-//! What happens before the first insertion: duplicates removed, the order chosen, three points first that are not on
-//! one line.
+//! Preparation of a set: duplicates are removed, the points are ordered, and the first three are made
+//! to span a triangle.
 
 use incircle_geometry::order::{distinct, Rounds};
 use incircle_geometry::{Duplicate, Point};
@@ -9,19 +9,19 @@ use crate::order::{brio_dc, brio_rounds, Order};
 /// A set, ready to be inserted.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Prepared {
-    /// Input indices, one per distinct point (the lowest), in rounds. If all points lie on one line, one round in
-    /// lexicographic order.
+    /// The lowest input index of each distinct point, in rounds. Points on one line are one
+    /// round in lexicographic order.
     pub rounds: Rounds,
-    /// For each place of the order an earlier one whose point lies near, or the place itself; empty where the order
-    /// has no guides.
+    /// For each place of the order an earlier place whose point lies near, or the place itself. Orders without guides
+    /// have an empty list.
     pub guides: Vec<u32>,
-    /// Points that fell onto an earlier one, by index.
+    /// Input points with the coordinates of an earlier one, sorted by index.
     pub duplicates: Vec<Duplicate>,
-    /// There are fewer than three distinct points, or all lie on one line.
+    /// Whether there are fewer than three distinct points, or all lie on one line.
     pub is_collinear: bool,
 }
 
-/// Removes duplicates and puts the points into this order. O(n) but for the orders that are slower.
+/// Removes duplicates and puts the points into this order. O(n), or the time of the order if that is longer.
 pub fn prepare(points: &[Point], order: Order) -> Prepared {
     let (curve, duplicates) = distinct(points);
     let distinct = curve.into_indices();
@@ -61,9 +61,9 @@ impl Prepared {
             place if (2..found).contains(&place) => place as u32 + 1,
             _ => place,
         };
-        if let Some(stretch) = self.guides.get_mut(2..=found) {
-            stretch.rotate_right(1);
-            // A guide that now comes after the point it guided does so no more.
+        if let Some(range) = self.guides.get_mut(2..=found) {
+            range.rotate_right(1);
+            // A guide that now comes after its point cannot guide it, so such a point guides itself.
             let guides = (0..).zip(&mut self.guides);
             guides.for_each(|(place, guide)| *guide = moved(*guide).min(place));
         }

@@ -1,13 +1,13 @@
-//! What is compared: orders of insertion, and points as they arrive.
+//! The ways of insertion that are compared: orders, and the hierarchy for points as they arrive.
 
 use crate::order::{Alpha, BrioDc, Curve, Order};
 
 /// A way to insert points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Way {
-    /// In an order that is chosen when all points are known.
+    /// Points are inserted in an order that is chosen when all points are known.
     Ordered(Order),
-    /// One at a time as they arrive, found through a Delaunay hierarchy.
+    /// Points are inserted one at a time as they arrive, through a Delaunay hierarchy.
     Hierarchy,
 }
 
@@ -15,12 +15,12 @@ pub enum Way {
 const HIERARCHY: &str = "arrival-hierarchy";
 
 impl Way {
-    /// All names.
+    /// The names of all ways.
     pub fn names() -> impl Iterator<Item = &'static str> {
         Order::all().into_iter().map(Order::name).chain([HIERARCHY])
     }
 
-    /// The way of this name; `None` if there is none.
+    /// Finds a way by its name; `None` if no way has it.
     pub fn named(name: &str) -> Option<Self> {
         let hierarchy = (name == HIERARCHY).then_some(Self::Hierarchy);
         hierarchy.or_else(|| Order::named(name).map(Self::Ordered))
@@ -34,7 +34,8 @@ impl Way {
         }
     }
 
-    /// Random order, every curve, alone and in rounds, both variants of BrioDC, and points as they arrive.
+    /// The ways that are compared by default: random order, every curve alone and in rounds, both variants of
+    /// BrioDC, and the hierarchy.
     pub fn usual() -> Vec<Self> {
         let of_curve = |curve| [Order::Along(curve), Order::Brio(curve, Alpha::Quarter)];
         let orders = [Order::Random].into_iter().chain(Curve::ALL.into_iter().flat_map(of_curve));

@@ -1,5 +1,7 @@
-//! Commands and their answers over a way to a device. Identity, headers and lengths are checked here, counts and
-//! records in [`crate::job`], which also says what is left to the validator.
+//! Commands and their answers over a transport.
+//!
+//! Identity, headers and lengths of answers are checked here; counts and records are checked in [`crate::job`], which
+//! also says what is left to the validator.
 
 use std::time::Instant;
 
@@ -15,7 +17,7 @@ use crate::transports::{AnswerHead, Capabilities, DeviceClocks, Transport};
 /// The commands of the protocol over a [`Transport`].
 pub(crate) struct CommandChannel {
     transport: Box<dyn Transport>,
-    /// How the words of the device are laid out; what it says of itself tells.
+    /// Layout of points and records in words. The identity of the device decides it, so it is a guess before `Hello`.
     layout: Layout,
     is_out_of_step: bool,
 }
@@ -37,12 +39,12 @@ impl CommandChannel {
         self.transport.clocks()
     }
 
-    /// How the device that was greeted lays out words.
+    /// Layout of points and records in words, valid after [`hello`](Self::hello).
     pub(crate) fn layout(&self) -> Layout {
         self.layout
     }
 
-    /// Asks who the device is, and believes only what a sound device can be.
+    /// Asks the device for its identity and refuses one that no sound device has.
     pub(crate) fn hello(&mut self, limit: Limit) -> Result<Identity, Error> {
         let mut words = Vec::new();
         self.submit(&[Command::Hello], limit)?;
@@ -54,12 +56,12 @@ impl CommandChannel {
         Ok(identity)
     }
 
-    /// Hands over commands whose answers are received later, in their order. After any error the streams count as out
-    /// of step.
+    /// Hands over commands, whose answers are received later and in the same order. After any error the
+    /// channel is out of step.
     pub(crate) fn submit(&mut self, commands: &[Command<&[u32]>], limit: Limit) -> Result<(), Error> {
         self.check_step()?;
         let result = self.transport.submit(commands, limit.deadline());
-        // Of several it is the insertion that takes the time.
+        // An error names one command: of several the insertion, since it takes the time.
         let opcodes = commands.iter().map(Command::opcode);
         let opcode = opcodes.max_by_key(|opcode| *opcode == Opcode::Insert).unwrap_or(Opcode::Hello);
         let result = result.map_err(|source| self.failed(opcode, source, limit));
@@ -67,8 +69,8 @@ impl CommandChannel {
         result
     }
 
-    /// Receives the answer to `command`, the first one whose answer has not been received, into `payload`, which takes
-    /// its length. After any error the streams count as out of step.
+    /// Receives the answer to `command` into `payload`, which gets the length of the answer. `command` must be the
+    /// oldest one whose answer is outstanding. After any error the channel is out of step.
     pub(crate) fn receive<P>(
         &mut self,
         command: &Command<P>,
@@ -97,12 +99,13 @@ impl CommandChannel {
         Ok(())
     }
 
-    /// Whether the device is back after this error, as after its reset: then the job may be tried once more.
+    /// Tries to bring the device back after this error. `true` means that it is as after its reset, so the job may be
+    /// sent once more; `false` means that the error stands.
     pub(crate) fn recover(&mut self, error: &Error, limit: Limit) -> Result<bool, Error> {
         if !matches!(error, Error::Link { .. }) {
             return Ok(false);
         }
-        let during = "a new start";
+        let during = "the restart";
         let is_back = self.transport.recover(limit.deadline()).map_err(|source| match source {
             TransportError::Timeout { .. } => Error::Timeout { device: self.name(), during, timeout: limit.timeout() },
             source => Error::Link { device: self.name(), during, source },
@@ -111,7 +114,8 @@ impl CommandChannel {
         Ok(is_back)
     }
 
-    /// The error for a fault; the device is not asked again.
+    /// Turns a fault of the device into an error and puts the channel out of step, so that nothing more is asked of a
+    /// device that cannot be trusted.
     pub(crate) fn distrust(&mut self, opcode: Opcode, fault: DeviceFault) -> Error {
         self.is_out_of_step = true;
         Error::Device { device: self.name(), during: opcode_name(opcode), fault }
@@ -136,7 +140,7 @@ impl CommandChannel {
     }
 }
 
-/// What is wrong with an answer that does not begin as it must.
+/// The fault of an answer to `opcode` that does not begin with the header and the length of `words` words.
 fn fault_of(came: AnswerHead, opcode: Opcode, words: u32) -> DeviceFault {
     let [header, length] = came;
     let status = answer_status(header);
@@ -149,7 +153,7 @@ fn fault_of(came: AnswerHead, opcode: Opcode, words: u32) -> DeviceFault {
     DeviceFault::Header { found: header, opcode: opcode as u8 }
 }
 
-/// The command in messages.
+/// Noun for a command, for the place "failed during ..." of a message.
 const fn opcode_name(opcode: Opcode) -> &'static str {
     match opcode {
         Opcode::Hello => "the greeting",
@@ -161,15 +165,15 @@ const fn opcode_name(opcode: Opcode) -> &'static str {
     }
 }
 
-/// A status in messages.
+/// Words for a status in messages.
 const fn status_meaning(status: Status) -> &'static str {
     match status {
         Status::Ok => "done",
         Status::UnknownOpcode => "unknown opcode",
-        Status::BadRange => "the range passes the last record",
+        Status::BadRange => "the range goes beyond the last record",
         Status::Collinear => "the first three points lie on one line",
         Status::Full => "the memory is full",
         Status::BadContexts => "more contexts were asked for than it has",
-        Status::Stuck => "no insertion ends any more",
+        Status::Stuck => "insertions have stopped making progress",
     }
 }

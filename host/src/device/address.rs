@@ -1,4 +1,4 @@
-//! Addresses of devices.
+//! Addresses of devices, as text and as a type.
 
 use std::fmt;
 use std::num::NonZeroU32;
@@ -11,24 +11,30 @@ use crate::transports::choices::{Choice, Choices};
 use crate::transports::pcie::CardAddress;
 use crate::transports::serial;
 
-/// Where a device is, or what it is to be: a name, and choices behind a question mark.
+/// The address of a device: a name and, behind a question mark, choices.
 ///
-/// - `cpu`: the fast engine in this process, with as many threads as there are processors. Coordinates up to 31 bits.
-/// - `cpu?threads=N`: the same with `N` threads at most.
-/// - `model`: the embedded software model with 16-bit coordinates. It takes memory as points arrive.
-/// - `model?coord-bits=B`: the same with `B` bits, 1 to 31.
-/// - `model?coord-bits=B&capacity=N`: a model that holds `N` points and no more.
-/// - `clock`: the core's model, clock by clock, in the configuration `large`. It gives the answers, records and cycle
-///   counts of the core, some thousand times slower than `model`.
-/// - `clock?config=NAME`: the same in the configuration `tiny`, `small`, `full` or `large`.
-/// - `sim`, `sim?config=NAME`: the Verilog of the core in Verilator. The library itself cannot open it; the command
-///   can, if it was built so.
-/// - `serial:PORT`: a board at a serial port, such as `serial:/dev/ttyUSB0`. Nothing is sent yet.
-/// - `serial:PORT?baud=B&slow=S`: the same at `B` bits per second (3,000,000 unless given), or less where that cannot
-///   be had, and with all times of the link, and those that the library chooses, stretched `S` times for a simulated
-///   board.
-/// - `pcie:N`: the card `N` in a PCIe slot, at the driver XDMA. It is locked and reset.
-/// - `pcie:DIR`: the card whose three files are in a directory: `xdma0_h2c_0`, `xdma0_c2h_0` and `xdma0_user`.
+/// Programs that take an address from a command line or a file parse it into this type, to refuse a bad one before any
+/// device is opened. [`Device::open`](crate::Device::open) takes the text itself.
+///
+/// | address | device | when |
+/// |---|---|---|
+/// | `cpu` | the CPU triangulator with a thread for each processor; coordinates up to 31 bits | for speed |
+/// | `cpu?threads=N` | the same with at most `N` threads | |
+/// | `model` | the software model with 16-bit coordinates; memory grows as points arrive | to test without hardware |
+/// | `model?coord-bits=B` | the same with `B` bits, 1 to 31 | |
+/// | `model?coord-bits=B&capacity=N` | a model that holds at most `N` points | |
+/// | `clock` | the core's model, clock by clock, in the configuration `large` | to learn a core's records and cycles |
+/// | `clock?config=NAME` | the same in the configuration `tiny`, `small`, `full` or `large` | |
+/// | `sim`, `sim?config=NAME` | the Verilog of the core in Verilator | to simulate the hardware itself |
+/// | `serial:PORT` | a board at a serial port, such as `serial:/dev/ttyUSB0` | |
+/// | `serial:PORT?baud=B&slow=S` | the same at `B` bits per second, with times stretched `S` times | |
+/// | `pcie:N` | the card `N` in a PCIe slot, behind the driver XDMA | |
+/// | `pcie:DIR` | the card whose files `xdma0_h2c_0`, `xdma0_c2h_0` and `xdma0_user` are in a directory | |
+///
+/// `clock` is some thousand times slower than `model`. The library itself cannot open `sim`; the command `incircle`
+/// can, if it was built with it. Opening a serial port sends nothing; opening a card locks and resets it. `baud` is
+/// 3,000,000 unless given, and less where the port cannot reach it. `slow` suits a simulated board: all times of the
+/// link, and those that the library chooses, become `S` times as long.
 ///
 /// ```
 /// use incircle::DeviceAddress;
@@ -41,26 +47,26 @@ use crate::transports::serial;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum DeviceAddress {
-    /// The engine in this process.
+    /// The CPU triangulator in this program.
     Cpu {
-        /// Most threads; `None`: as many as there are processors.
+        /// Upper bound on the threads; `None` for one thread a processor.
         threads: Option<NonZeroU32>,
     },
-    /// The software model.
+    /// The software model in this program.
     Model {
-        /// Bits of a coordinate; `None`: whoever opens it chooses.
+        /// Bits of a coordinate, 1 to 31; `None` for the choice of whoever opens the model.
         coord_bits: Option<u32>,
-        /// Points it holds; `None`: whoever opens it chooses.
+        /// Points that the model holds; `None` for the choice of whoever opens the model.
         capacity: Option<u32>,
     },
     /// The model of the core, clock by clock.
     Clock {
-        /// Its configuration; `None`: whoever opens it chooses.
+        /// Configuration of the core; `None` for the choice of whoever opens the model.
         config: Option<Config>,
     },
     /// The Verilog of the core.
     Sim {
-        /// Its configuration; `None`: whoever opens it chooses.
+        /// Configuration of the core; `None` for the choice of whoever opens the simulation.
         config: Option<Config>,
     },
     /// A board at a serial port.
@@ -70,10 +76,10 @@ pub enum DeviceAddress {
 }
 
 impl DeviceAddress {
-    /// The forms that an address has, for a list.
+    /// One form of address for each kind of device, for a list in a help text.
     pub const FORMS: [&'static str; 6] = ["cpu", "model", "clock", "sim", "serial:PORT", "pcie:N"];
 
-    /// What stands before the choices: `cpu`, `model`, `clock`, `sim`, `serial` or `pcie`.
+    /// The kind of device: `cpu`, `model`, `clock`, `sim`, `serial` or `pcie`.
     #[must_use]
     pub const fn name(&self) -> &'static str {
         match self {
@@ -86,7 +92,7 @@ impl DeviceAddress {
         }
     }
 
-    /// Parses an address; the error is a sentence without it.
+    /// Parses an address. The error is a sentence that does not repeat the address.
     fn parse(text: &str) -> Result<Self, String> {
         if let Some(serial) = serial::Address::parse(text) {
             return serial.map(Self::Serial);
@@ -120,7 +126,7 @@ impl DeviceAddress {
             (Self::Model { .. }, _) => return Err(choice.unknown(&["coord-bits", "capacity"])),
             (Self::Clock { config } | Self::Sim { config }, "config") => *config = Some(config_named(choice.value)?),
             (Self::Clock { .. } | Self::Sim { .. }, _) => return Err(choice.unknown(&["config"])),
-            // Their own parsers have taken their choices.
+            // `parse` has returned before this point: the parsers of these two take their own choices.
             (Self::Serial(_) | Self::Pcie(_), _) => return Err(choice.unknown(&[])),
         }
         Ok(())
@@ -130,7 +136,7 @@ impl DeviceAddress {
 fn config_named(name: &str) -> Result<Config, String> {
     Config::named(name).ok_or_else(|| {
         let names = NAMED.map(|config| config.name).join(", ");
-        format!("there is no configuration \"{name}\"; there are {names}")
+        format!("there is no configuration \"{name}\": choose one of {names}")
     })
 }
 
@@ -138,15 +144,15 @@ impl FromStr for DeviceAddress {
     type Err = Error;
 
     /// # Errors
-    /// [`Error::Address`], with what would be right.
+    /// [`Error::Address`], with the reason and what would be right.
     fn from_str(text: &str) -> Result<Self, Error> {
         Self::parse(text).map_err(|reason| Error::Address { address: text.to_owned(), reason })
     }
 }
 
 impl fmt::Display for DeviceAddress {
-    /// The address as text. Of an address that was parsed the text gives the same again; others may hold what no text
-    /// says, such as a configuration without a name.
+    /// Writes the address as text. Parsing that text gives a parsed address back; an address that a program put
+    /// together may hold what no text can say, such as a configuration without a name.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut items = Vec::new();
         let mut add = |key: &str, value: Option<String>| items.extend(value.map(|value| format!("{key}={value}")));

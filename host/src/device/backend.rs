@@ -1,4 +1,4 @@
-//! What does the work behind a session.
+//! The trait of a back end: what does the jobs of a session.
 
 use incircle_protocol::Identity;
 
@@ -7,54 +7,54 @@ use crate::job::{Options, Solution};
 use crate::limit::Limit;
 use incircle_geometry::Point;
 
-/// What does the work: the engine in this process, or a device that takes commands.
+/// A back end: the CPU triangulator, or a device that takes commands.
 pub(crate) trait Backend {
-    /// Name in reports.
+    /// Name of the back end in reports and errors.
     fn name(&self) -> String;
 
-    /// Finds out who it is, and believes only what can be.
+    /// Asks for the identity and refuses one that no sound device has.
     fn greet(&mut self, limit: Limit) -> Result<Identity, Error>;
 
-    /// How many times slower than real it is.
+    /// Factor by which this back end is slower than real hardware; 1 unless it is simulated.
     fn slow(&self) -> u32 {
         1
     }
 
-    /// Clocks since it was made, where they are counted.
+    /// Clocks since the device was opened, where they are counted.
     fn clocks(&self) -> Option<u64> {
         None
     }
 
-    /// Does one job, of which a listener hears how far it is.
+    /// Does one job and tells its listener about the progress.
     fn triangulate(&mut self, points: Vec<Point>, terms: Terms<'_>) -> Result<Solution, Error>;
 
-    /// Does those of many jobs that go together.
+    /// Does those of many jobs that go well together, and returns the others.
     fn triangulate_together(&mut self, jobs: Vec<Vec<Point>>, terms: Terms<'_>) -> Result<Together, Error>;
 }
 
-/// On what terms a job is done. Its points, and the number of contexts, have been checked.
+/// The terms on which a job is done. The session has already checked the points and the number of contexts.
 #[derive(Clone, Copy)]
 pub(crate) struct Terms<'t> {
     pub(crate) identity: Identity,
-    /// Contexts that work.
+    /// Contexts that may work on the job.
     pub(crate) contexts: u32,
     pub(crate) limit: Limit,
     pub(crate) options: &'t Options<'t>,
 }
 
-/// What has become of many jobs.
+/// Outcome of [`Backend::triangulate_together`]: each job is in one of the two lists.
 pub(crate) struct Together {
-    /// Those that are done, in the order of the caller.
+    /// Solutions in the order of the caller, `None` for each job that is left.
     pub(crate) solutions: Vec<Option<Solution>>,
-    /// Those that must go one by one.
+    /// Jobs that must go one by one.
     pub(crate) left: Vec<JobLeft>,
 }
 
-/// A job that must go by itself.
+/// A job that the back end has left for a call of its own.
 pub(crate) struct JobLeft {
-    /// Its place in the list of the caller.
+    /// Index of the job in the list of the caller.
     pub(crate) job: usize,
     pub(crate) points: Vec<Point>,
-    /// Contexts that work on it.
+    /// Contexts that are to work on the job.
     pub(crate) contexts: u32,
 }

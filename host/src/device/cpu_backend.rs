@@ -1,4 +1,4 @@
-//! The engine in this process.
+//! The back end `cpu`: the CPU triangulator behind a session.
 
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
@@ -16,14 +16,14 @@ use crate::job::watch::{tell, Stopwatch};
 use crate::job::{Options, Report, Solution, Stage};
 use crate::limit::Limit;
 
-/// Name in reports.
+/// Name of the back end in reports and errors.
 pub(crate) const CPU_NAME: &str = "cpu";
-/// The order in reports: the engine has its own.
+/// Name of the order in reports. The CPU triangulator has an order of its own, whatever the options say.
 const ORDER: &str = "z-curve";
-/// What a watch that goes over time is told to be doing.
+/// Noun for the work under way, in the error of a passed deadline.
 const DURING: &str = "the triangulation";
 
-/// The engine in this process, with so many threads at most.
+/// The CPU triangulator, with an upper bound on its threads.
 pub(crate) struct CpuBackend {
     pub(crate) threads: u32,
 }
@@ -42,7 +42,7 @@ impl Backend for CpuBackend {
         solve(points, contexts, options, limit)
     }
 
-    /// Jobs side by side, each by one thread. Large jobs are left to all threads together.
+    /// Does small jobs side by side, each in one thread. Large jobs are left over: all threads do one together.
     fn triangulate_together(&mut self, jobs: Vec<Vec<Point>>, terms: Terms<'_>) -> Result<Together, Error> {
         let total = jobs.iter().map(Vec::len).sum();
         let mut together = Together { solutions: jobs.iter().map(|_| None).collect(), left: Vec::new() };
@@ -64,10 +64,10 @@ impl Backend for CpuBackend {
     }
 }
 
-/// Jobs with their places in the list of the caller.
+/// Items, each with the index of its job in the list of the caller.
 type Numbered<T> = Vec<(usize, T)>;
 
-/// Does these jobs, each by one of the threads.
+/// Does these jobs, each in one of the threads.
 fn side_by_side(jobs: Numbered<Vec<Point>>, terms: Terms<'_>) -> Numbered<Result<Solution, Error>> {
     let Terms { contexts: threads, limit, options: Options { order, .. }, .. } = terms;
     let jobs = Mutex::new(jobs.into_iter());
@@ -88,7 +88,7 @@ fn side_by_side(jobs: Numbered<Vec<Point>>, terms: Terms<'_>) -> Numbered<Result
     })
 }
 
-/// Does a job, with so many threads at most.
+/// Does one job with at most `threads` threads.
 fn solve(points: Vec<Point>, threads: u32, options: &Options<'_>, limit: Limit) -> Result<Solution, Error> {
     let allowed = NonZeroUsize::new(threads as usize).unwrap_or(NonZeroUsize::MIN);
     let threads = threads_for(points.len(), allowed);
@@ -122,7 +122,7 @@ fn solve(points: Vec<Point>, threads: u32, options: &Options<'_>, limit: Limit) 
     Ok(Solution::of(mesh, report))
 }
 
-/// What the engine says of itself: its threads are its contexts.
+/// The identity of the CPU triangulator: its threads stand in the place of contexts.
 pub(crate) fn identity(threads: u32) -> Identity {
     let number = |text: &str| text.parse::<u32>().unwrap_or_default();
     let (major, minor) = (number(env!("CARGO_PKG_VERSION_MAJOR")), number(env!("CARGO_PKG_VERSION_MINOR")));
@@ -137,7 +137,7 @@ pub(crate) fn identity(threads: u32) -> Identity {
     }
 }
 
-/// The engine's stages as those of a job.
+/// The stage of a job for a stage of the CPU triangulator.
 fn stage_of(stage: cpu::Stage) -> Stage {
     match stage {
         cpu::Stage::Order => Stage::Order,
@@ -146,7 +146,7 @@ fn stage_of(stage: cpu::Stage) -> Stage {
     }
 }
 
-/// The engine's errors as those of a job.
+/// The error of a job for an error of the CPU triangulator.
 fn error_of(error: cpu::Error) -> Error {
     match error {
         cpu::Error::CoordinateOutOfRange { index, point: Point { x, y } } => {
@@ -156,7 +156,7 @@ fn error_of(error: cpu::Error) -> Error {
         cpu::Error::Cancelled(cpu::Progress { stage, done, total, .. }) => {
             Error::Cancelled { stage: stage_of(stage).name(), done, total }
         }
-        // None that the engine has today.
+        // The enum is non-exhaustive, but has no other variant today.
         _ => Error::Cancelled { stage: Stage::Order.name(), done: 0, total: 0 },
     }
 }

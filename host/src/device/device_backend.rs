@@ -1,4 +1,4 @@
-//! A device that takes commands.
+//! The back end of every device that takes commands.
 
 use incircle_protocol::Identity;
 
@@ -17,7 +17,7 @@ use crate::limit::Limit;
 use crate::transports::Transport;
 use incircle_geometry::Point;
 
-/// A device behind a way that carries commands.
+/// A device behind a transport.
 pub(crate) struct DeviceBackend {
     channel: CommandChannel,
 }
@@ -32,7 +32,7 @@ impl DeviceBackend {
         Carrier { identity, channel: &mut self.channel, options, limit, watch: Stopwatch::start(), jobs }
     }
 
-    /// Does a job that nobody shares.
+    /// Does a single job, which has the whole memory, step by step.
     fn solve(&mut self, jobs: &[Vec<Point>; 1], terms: &Terms<'_>) -> Result<Option<Answer>, Error> {
         let ([points], contexts) = (jobs, terms.contexts);
         let (capabilities, layout) = (self.channel.capabilities(), self.channel.layout());
@@ -74,6 +74,8 @@ impl Backend for DeviceBackend {
         let answer = self.solve(&jobs, &terms)?;
         let [points] = jobs;
         let solution = answer.map(|answer| answer.with(points));
+        // `carry` returns without an error only when every job has its answer, so this error is never returned. If that
+        // rule were broken, the session could not be trusted any more, and this error says so without a panic.
         solution.ok_or_else(|| Error::OutOfStep { device: self.name() })
     }
 

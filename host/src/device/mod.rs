@@ -1,13 +1,13 @@
 //! Devices: opened by address, used through a session.
 //!
 //! ```text
-//! Device ──> Session ──> Backend <── CpuBackend      the engine in this process
+//! Device ──> Session ──> Backend <── CpuBackend      the CPU triangulator
 //!    │                      ^
-//! DeviceAddress             └─────── DeviceBackend   commands to a device, over a way of [`crate::transports`]
+//! DeviceAddress             └─────── DeviceBackend   commands to a device, over one of [`crate::transports`]
 //! ```
 //!
-//! A [`Session`](session::Session) checks what it is given and says how long it may take. The rest of a job is that of
-//! its back end.
+//! A [`Session`](session::Session) checks points and options and sets the time limit. Everything else about a job is up
+//! to the back end.
 
 mod address;
 mod backend;

@@ -1,4 +1,4 @@
-//! Devices: opened by address, or made around a transport.
+//! Opening devices, by address or around a transport.
 
 use std::num::NonZeroU32;
 use std::time::Duration;
@@ -16,37 +16,52 @@ use crate::transports::pcie::PcieTransport;
 use crate::transports::serial::{SerialTransport, LONGEST};
 use crate::transports::{ClockTransport, ModelTransport, Transport};
 
-/// Time for the greeting unless chosen otherwise.
+/// Time limit for the greeting unless the caller sets another.
 const GREETING_TIMEOUT: Duration = Duration::from_secs(15);
 const _: () =
     assert!(GREETING_TIMEOUT.as_millis() > LONGEST.as_millis(), "a board on a bad line is found in this time");
 
-/// Most threads of the engine in this process.
+/// Most threads of the CPU triangulator.
 const MAX_THREADS: u32 = 256;
 
-/// Something that triangulates: the engine in this process, an embedded software model, or what is behind a
-/// [`Transport`].
+/// Something that triangulates: the CPU triangulator, a model of the hardware, a board or a card.
+///
+/// Reach for a device when [`triangulate`](crate::triangulate) is not enough: for hardware, for several jobs, for
+/// options, or for a report. Opening a device does not talk to it, except that a card is locked and reset;
+/// [`session`](Self::session) greets the device, and all jobs go through the [`Session`].
+///
+/// ```
+/// use incircle::{Config, Device};
+///
+/// let mut by_address = Device::open("clock?config=tiny")?;
+/// let mut by_hand = Device::clock_model(Config::named("tiny").expect("a named configuration"))?;
+/// assert_eq!(by_address.session()?.identity(), by_hand.session()?.identity());
+/// # Ok::<(), incircle::Error>(())
+/// ```
 pub struct Device {
     backend: Box<dyn Backend>,
 }
 
 impl Device {
-    /// Opens the device at an address, such as `cpu`, `clock?config=full` or `serial:/dev/ttyUSB0`: [`DeviceAddress`]
-    /// lists them. Other devices come through [`Device::from_transport`].
+    /// Opens the device at an address, such as `cpu`, `clock?config=full` or `serial:/dev/ttyUSB0`.
+    ///
+    /// [`DeviceAddress`] lists all forms. For a device that has no address, see [`Device::from_transport`].
     ///
     /// # Errors
-    /// [`Error::Address`] for an unknown address, and the errors of [`Device::at`].
+    /// [`Error::Address`] for text that is not an address, and the errors of [`Device::at`].
     pub fn open(address: &str) -> Result<Self, Error> {
         Self::at(&address.parse()?)
     }
 
-    /// Opens the device at an address. A model for which no bits and no capacity are chosen has 16 and holds 2^30 - 1
-    /// points; a core for which no configuration is chosen is `large`.
+    /// Opens the device at an address that is already parsed.
+    ///
+    /// Choices that the address leaves open are made here: a model has 16 coordinate bits and holds 2^30 - 1 points,
+    /// and a core has the configuration `large`.
     ///
     /// # Errors
-    /// [`Error::Open`] for a port or a card that cannot be opened, [`Error::Link`] for a card whose registers are not
-    /// those of a sound one, [`Error::Address`] for `sim`, which the library has not, and the errors of
-    /// [`Device::model`].
+    /// [`Error::Open`] for a port or a card that cannot be opened, [`Error::Link`] for a card whose
+    /// registers are not those of a sound one, [`Error::Address`] for `sim`, which is not part of the
+    /// library, and the errors of [`Device::model`].
     pub fn at(address: &DeviceAddress) -> Result<Self, Error> {
         match address {
             &DeviceAddress::Cpu { threads } => Ok(Self::cpu(threads)),
@@ -57,8 +72,8 @@ impl Device {
             DeviceAddress::Sim { .. } => Err(Error::Address {
                 address: address.to_string(),
                 reason:
-                    "the simulated core is a part of the command, not of the library: take \"clock\", which has its \
-                         answers and cycles, or make a device from a transport"
+                    "the simulated core is part of the command 'incircle', not of the library: use \"clock\", which \
+                         gives the same answers and cycles, or make a device from a transport"
                         .to_owned(),
             }),
             DeviceAddress::Serial(address) => Ok(Self::from_transport(Box::new(SerialTransport::open(address)?))),
@@ -66,16 +81,23 @@ impl Device {
         }
     }
 
-    /// The fast engine in this process: coordinates up to 31 bits, as many points as memory holds, and up to so many
-    /// threads, which are its contexts; `None`: as many as there are processors. Small jobs take fewer. The order of
-    /// the options is for devices that insert points one after the other; this one has its own.
+    /// Makes a device of the CPU triangulator, the fastest without hardware.
+    ///
+    /// Coordinates have up to 31 bits. `threads` is an upper bound, from 1 to 256; `None` allows one thread a
+    /// processor. Small jobs use fewer. In [`Identity`](crate::Identity) and
+    /// [`Options::contexts`](crate::Options::contexts) the threads stand in the place of contexts.
+    /// [`Options::order`](crate::Options::order) has no effect: the order of insertion is for devices that insert
+    /// points one after the other.
     pub fn cpu(threads: Option<NonZeroU32>) -> Self {
         let processors = || std::thread::available_parallelism().map_or(1, usize::from);
         let threads = threads.map_or_else(|| u32::try_from(processors()).unwrap_or(MAX_THREADS), NonZeroU32::get);
         Self { backend: Box::new(CpuBackend { threads: threads.min(MAX_THREADS) }) }
     }
 
-    /// The software model for `capacity` points of `coord_bits` bits. It takes memory as points arrive.
+    /// Makes a device of the software model, for `capacity` points of `coord_bits` bits.
+    ///
+    /// Use it to test a program without hardware, or as a second opinion: the model runs the algorithm of the core, one
+    /// insertion after the other. Memory grows as points arrive.
     ///
     /// # Errors
     /// [`Error::CoordBits`] outside 1 to 31, [`Error::Model`] for a capacity below 4 or above 2^30 - 1, the most
@@ -86,8 +108,10 @@ impl Device {
         Ok(Self::from_transport(Box::new(transport)))
     }
 
-    /// The core's model, clock by clock: it gives the answers, records and cycle counts of the core of this
-    /// configuration.
+    /// Makes a device of the core's model, clock by clock.
+    ///
+    /// Use it to learn what a core of this configuration would do: answers, records and cycle counts are the core's.
+    /// The model is some thousand times slower than [`Device::model`].
     ///
     /// # Errors
     /// [`Error::Model`] for a configuration that no core can be built with.
@@ -95,25 +119,29 @@ impl Device {
         Ok(Self::from_transport(Box::new(ClockTransport::new(config)?)))
     }
 
-    /// The device behind a transport: a simulation, a board, a test double. Nothing is sent yet.
+    /// Makes a device of a transport, such as a simulation, a board with a link of its own, or a test
+    /// double. Nothing is sent yet.
     pub fn from_transport(transport: Box<dyn Transport>) -> Self {
         Self { backend: Box::new(DeviceBackend::new(transport)) }
     }
 
-    /// Greets the device and checks what it says of itself; gives it fifteen seconds, stretched for a simulation by its
-    /// [`Pace`](crate::transports::Pace).
+    /// Greets the device, checks its identity, and opens a session.
+    ///
+    /// The device has 15 seconds to answer; a simulation has more, by the factor of its
+    /// [`Pace`](crate::transports::Pace). A device has one session at a time.
     ///
     /// # Errors
-    /// [`Error::Link`], [`Error::Timeout`], or [`Error::Device`] for one that is no incircle device, speaks another
-    /// major version or an older minor one, or claims coordinate bits, a capacity or contexts that cannot be.
+    /// [`Error::Link`] or [`Error::Timeout`] if the greeting fails, and [`Error::Device`] for a device that is not an
+    /// incircle device, speaks another major version or an older minor version of the protocol, or claims an impossible
+    /// number of coordinate bits, points or contexts.
     pub fn session(&mut self) -> Result<Session<'_>, Error> {
         self.session_within(GREETING_TIMEOUT.saturating_mul(self.backend.slow()))
     }
 
-    /// As [`Device::session`], with another time for the greeting.
+    /// Does what [`Device::session`] does, with another time limit for the greeting.
     ///
     /// # Errors
-    /// As [`Device::session`].
+    /// The errors of [`Device::session`].
     pub fn session_within(&mut self, timeout: Duration) -> Result<Session<'_>, Error> {
         let identity = self.backend.greet(Limit::of(timeout))?;
         Ok(Session::new(&mut *self.backend, identity))

@@ -1,4 +1,4 @@
-//! A session: exclusive use of a greeted device.
+//! Sessions: exclusive use of a device that has been greeted.
 
 use incircle_protocol::Identity;
 
@@ -12,6 +12,14 @@ use incircle_geometry::Point;
 use incircle_geometry::MAX_POINTS;
 
 /// Exclusive use of a device that has been greeted and checked.
+///
+/// A session comes from [`Device::session`](crate::Device::session) and takes any number of jobs:
+///
+/// - [`triangulate`](Self::triangulate) for one job with the default [`Options`];
+/// - [`triangulate_with`](Self::triangulate_with) for a time limit, progress, cancellation,
+///   an order, or fewer contexts;
+/// - [`triangulate_owned`](Self::triangulate_owned) for points that the caller can part with;
+/// - [`triangulate_batch`](Self::triangulate_batch) for many jobs, which a device works on side by side.
 ///
 /// ```
 /// use incircle::Device;
@@ -33,15 +41,15 @@ impl<'d> Session<'d> {
         Self { backend, identity }
     }
 
-    /// What the device says of itself, checked.
+    /// The identity of the device: coordinate bits, capacity, contexts and versions, all checked.
     pub fn identity(&self) -> &Identity {
         &self.identity
     }
 
-    /// Triangulates with the default [`Options`].
+    /// Triangulates one set of points with the default [`Options`].
     ///
     /// # Errors
-    /// As [`Session::triangulate_with`].
+    /// The errors of [`Session::triangulate_with`].
     pub fn triangulate<P: Into<Point> + Copy>(
         &mut self,
         points: &(impl AsRef<[P]> + ?Sized),
@@ -49,18 +57,23 @@ impl<'d> Session<'d> {
         self.triangulate_with(points, &Options::default())
     }
 
-    /// Triangulates: the Delaunay triangulation of the distinct points, in canonical form.
+    /// Triangulates one set of points: the Delaunay triangulation of its distinct points, in canonical form.
     ///
-    /// Duplicates collapse onto their lowest index and are listed. Fewer than three distinct points, or points on one
-    /// line, are answered by the host alone. O(n log n) on the device in the mean, O(n) on the host. At a million
-    /// points of 16 bits the peak is below 200 bytes per point, the engine or the software model and the mesh included,
-    /// the caller's points not.
+    /// Points that fall onto an earlier one are left out of the triangles and listed in
+    /// [`Mesh::duplicates`](crate::Mesh::duplicates). With fewer than three distinct points, or with all points on one
+    /// line, there are no triangles, and the host answers alone.
+    ///
+    /// Cost: O(n log n) on the device in the mean, O(n) on the host. At a million points of 16 bits the peak is
+    /// below 200 bytes per point. That includes the mesh and the CPU triangulator or the software model, but not
+    /// the points of the caller.
     ///
     /// # Errors
-    /// A coordinate beyond the device's bits, more contexts than it has, more distinct points than it holds, a failing
-    /// link, an answer that no sound device gives, a passed deadline, or a cancelled job. After an error of link or
-    /// device, or a deadline that passed while the device worked, the session is out of step: open the device again.
-    /// After all others it can be used again.
+    /// - [`Error::CoordinateOutOfRange`], [`Error::TooManyPoints`], [`Error::Capacity`] and [`Error::Contexts`]
+    ///   for input and options that the device cannot take; [`Error::Cancelled`] if the listener says so. The
+    ///   session can be used again.
+    /// - [`Error::Link`] and [`Error::Device`] for a link that fails and an answer that no sound device gives;
+    ///   [`Error::Timeout`] if the deadline passes while the device works. The session is then out of step and refuses
+    ///   further work: open the device again.
     pub fn triangulate_with<P: Into<Point> + Copy>(
         &mut self,
         points: &(impl AsRef<[P]> + ?Sized),
@@ -69,32 +82,36 @@ impl<'d> Session<'d> {
         self.triangulate_owned(own(points.as_ref()), options)
     }
 
-    /// As [`Session::triangulate_with`], of points that need not be copied: they are those of the mesh.
+    /// Triangulates points that the caller hands over. The mesh takes them as its own, so that they are not copied.
     ///
     /// # Errors
-    /// As [`Session::triangulate_with`].
+    /// The errors of [`Session::triangulate_with`].
     pub fn triangulate_owned(&mut self, points: Vec<Point>, options: &Options<'_>) -> Result<Solution, Error> {
         let terms = self.terms(points.len(), options);
         self.check_input(&points, terms.contexts)?;
         self.backend.triangulate(points, terms)
     }
 
-    /// Triangulates many sets in one call: the mesh of each is that of [`Session::triangulate_with`], byte for byte; of
-    /// the reports: a job that a device does with others, or ahead of another, has no times, and counters only where it
-    /// had the whole memory.
+    /// Triangulates many sets of points in one call, as a batch. Each mesh is byte for byte
+    /// the one that [`Session::triangulate_with`] gives.
     ///
-    /// A device works on several jobs side by side in one memory: as many as it has contexts, if so many fit;
-    /// [`Options::contexts`] says how many at most. Jobs so large that only few fit, or that are left over, are done
-    /// one by one, each with as many contexts as pay: whatever is expected to take the device the fewest clocks. Where
-    /// the link takes words ahead, those of the next job are on their way, and the one behind it is put in order in a
-    /// thread, while the device works on the last and its mesh is assembled: three jobs are held in order at once. The
-    /// engine in this process works on a job with each thread.
+    /// Reach for a batch when there are many small jobs: a single small mesh has no room for many insertions at once,
+    /// so a device works on several jobs side by side, one in each context. [`Options::contexts`] bounds their
+    /// number. Jobs that are too large to share the memory are *exclusive*: each has the memory to itself, with as
+    /// many contexts as pay. The host chooses the division that is expected to take the device the fewest clocks.
+    /// If the transport takes commands ahead, the next job is sent, and the one behind it is put in order, while
+    /// the device works on the current one; three jobs are held in order at once. The CPU triangulator works on one
+    /// small job in each thread.
     ///
-    /// [`Options::insert_chunk`] is used only where a job has more than 65,536 points, or the link takes nothing ahead.
-    /// The time of [`Options::timeout`] is for all jobs that share the memory together, and for each of the others; a
-    /// job that is sent ahead lends its own to the one before it. Progress is told in points of all jobs, duplicates
-    /// included, and never goes back: first [`Stage::Order`] of those that share the memory, then [`Stage::Insert`].
-    /// What has been sent when a listener cancels is still answered, so the session stays in step.
+    /// - **Reports.** Jobs that shared the device, or were sent ahead, have no times; they have counters only if
+    ///   they had the whole memory.
+    /// - **Time.** [`Options::timeout`] is one limit for all jobs that share the memory, and one for each of the
+    ///   others. While a job is sent ahead, its time is added to that of the job before it.
+    /// - **Progress** counts the points of all jobs, duplicates included, and never goes back: first [`Stage::Order`]
+    ///   for the jobs that share the memory, then [`Stage::Insert`]. If the listener cancels, the answers to what was
+    ///   sent are still received, so the session stays in step.
+    /// - [`Options::insert_chunk`] matters only for a job of more than 65,536 points, and where
+    ///   the transport takes nothing ahead.
     ///
     /// ```
     /// use incircle::{Device, Options, Point};
@@ -109,8 +126,8 @@ impl<'d> Session<'d> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`Session::triangulate_with`], with the number of the job where one is at fault. There are no solutions
-    /// then.
+    /// The errors of [`Session::triangulate_with`], inside [`Error::InJob`] if one job is at fault. After an error
+    /// there are no solutions, not even of the jobs that were done.
     pub fn triangulate_batch<P: Into<Point> + Copy>(
         &mut self,
         jobs: &[impl AsRef<[P]>],
@@ -137,14 +154,14 @@ impl<'d> Session<'d> {
         Ok(solutions.into_iter().flatten().collect())
     }
 
-    /// Clocks of the device since it was opened: of a core in simulation, of which every clock is counted; `None`
-    /// elsewhere.
+    /// Clocks of the device since it was opened; `None` unless the device is a simulated
+    /// core, whose clocks are counted.
     #[must_use]
     pub fn clocks(&self) -> Option<u64> {
         self.backend.clocks()
     }
 
-    /// The terms for so many points, from now on.
+    /// The terms for a job of `points` points whose time begins now.
     fn terms<'t>(&self, points: usize, options: &'t Options<'t>) -> Terms<'t> {
         let default = || Options::default_timeout(points).saturating_mul(self.backend.slow());
         Terms {
@@ -155,7 +172,7 @@ impl<'d> Session<'d> {
         }
     }
 
-    /// The device must have the contexts; every point must fit its grid, and all of them 32-bit indices.
+    /// Refuses more contexts than the device has, more points than a job may have, and coordinates beyond its bits.
     fn check_input(&self, points: &[Point], asked: u32) -> Result<(), Error> {
         let Identity { contexts, coord_bits, .. } = self.identity;
         if !(1..=contexts).contains(&asked) {
@@ -174,7 +191,7 @@ impl<'d> Session<'d> {
     }
 }
 
-/// The points of a caller as our own.
+/// Copies the points of the caller, converted.
 fn own<P: Into<Point> + Copy>(points: &[P]) -> Vec<Point> {
     let mut own = pages::with_room(points.len());
     own.extend(points.iter().map(|&point| -> Point { point.into() }));

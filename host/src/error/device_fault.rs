@@ -1,163 +1,172 @@
-//! What a device can say that no sound device says.
+//! Faults in the answers of a device.
 
 use incircle_protocol::{MAX_MODEL_POINTS, MIN_POINTS};
 
 use incircle_geometry::Point;
 
-/// Most contexts of a device: `Clear` names them in a byte.
+/// Most contexts of a device, since `Clear` has a byte for their number.
 pub(crate) const MAX_DEVICE_CONTEXTS: u32 = 255;
 
-/// A fault in the answer of a device. A hostile or broken device ends in one of these, never in a panic.
+/// A fault in the answer of a device: something that no sound device says.
+///
+/// Every answer is checked before it is used, so a hostile or broken device ends in one of these, never in a panic. The
+/// checks on the way are cheap ones; [`Mesh::verify`](crate::Mesh::verify) proves that a mesh is Delaunay.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DeviceFault {
-    /// The identity does not start with the project's letters.
-    #[error("its identity starts with {found:#010x}, not {expected:#010x}, so it is no incircle device")]
+    /// The identity does not start with the word that marks an incircle device.
+    #[error("its identity starts with {found:#010x}, not {expected:#010x}, so it is not an incircle device")]
     Magic {
-        /// Word received.
+        /// First word of the identity received.
         found: u32,
-        /// Word of every incircle device.
+        /// First word of the identity of every incircle device.
         expected: u32,
     },
-    /// It speaks another major version of the protocol, or an older minor one.
-    #[error("it speaks protocol {}.{}, this library {}.{}", found >> 16, found & 0xffff, expected >> 16, expected & 0xffff)]
+    /// The device speaks another major version of the protocol than this library, or an older minor version.
+    #[error(
+        "it speaks version {}.{} of the protocol, but this library speaks {}.{}",
+        found >> 16, found & 0xffff, expected >> 16, expected & 0xffff
+    )]
     ProtocolVersion {
-        /// Version of the device.
+        /// Version of the device, `major << 16 | minor`.
         found: u32,
-        /// Version of this library.
+        /// Version of this library, `major << 16 | minor`.
         expected: u32,
     },
-    /// It claims coordinate bits that no device has.
+    /// The device claims a number of coordinate bits that no device has.
     #[error("it claims {0} coordinate bits, but 1 to 31 are possible")]
     CoordBits(u32),
-    /// It claims a capacity that no device has.
+    /// The device claims a capacity that no device has.
     #[error("it claims to hold {0} points, but {MIN_POINTS} to {MAX_MODEL_POINTS} are possible")]
     Capacity(u32),
-    /// It claims a number of contexts that no device has.
+    /// The device claims a number of contexts that no device has.
     #[error("it claims {0} contexts, but 1 to {MAX_DEVICE_CONTEXTS} are possible")]
     Contexts(u32),
-    /// The first word of an answer is none.
-    #[error("the answer starts with {found:#010x}, which is no header of an answer to opcode {opcode}")]
+    /// The first word of an answer is not the header of an answer to this command.
+    #[error("the answer starts with {found:#010x}, which is not the header of an answer to opcode {opcode}")]
     Header {
-        /// Word received.
+        /// First word of the answer received.
         found: u32,
-        /// Opcode of the command.
+        /// Opcode of the command that was sent.
         opcode: u8,
     },
-    /// It reports that the command failed.
+    /// The device reports that the command failed.
     #[error("it reports status {status} ({meaning})")]
     Status {
-        /// Status byte.
+        /// Status byte of the header.
         status: u8,
         /// The status in words.
         meaning: &'static str,
     },
-    /// The payload has another length than the command asks for.
+    /// The answer announces another length of payload than the command asks for.
     #[error("the answer announces {found} words where {expected} are due")]
     PayloadLength {
-        /// Words announced.
+        /// Words of payload that the answer announces.
         found: u32,
-        /// Words due.
+        /// Words of payload that are due.
         expected: u32,
     },
-    /// A count of the insertion report is not what the points sent make it.
+    /// A count in the insertion report does not agree with the points that were sent.
     #[error("it counts {found} {what} where {expected} are due")]
     Count {
-        /// What is counted.
+        /// Noun for the things counted, such as `"points inserted"`.
         what: &'static str,
-        /// Count received.
+        /// Count in the report.
         found: u32,
-        /// Count due.
+        /// Count that follows from the points sent.
         expected: u32,
     },
     /// A record names a vertex that does not exist.
     #[error("record {record} names vertex {vertex}, but only {points} points were sent")]
     VertexOutOfRange {
-        /// Number of the record.
+        /// Number of the record, from 0.
         record: usize,
-        /// Vertex id received.
+        /// Vertex id in the record.
         vertex: u32,
-        /// Points sent.
+        /// Points that were sent.
         points: usize,
     },
     /// A record names a neighbour that does not exist.
     #[error("record {record} names record {neighbor} as a neighbour, but there are only {records}")]
     NeighborOutOfRange {
-        /// Number of the record.
+        /// Number of the record, from 0.
         record: usize,
-        /// Record id received.
+        /// Record id that the record names as a neighbour.
         neighbor: u32,
-        /// Records of the mesh.
+        /// Records that the mesh has.
         records: usize,
     },
     /// A record is locked though no insertion is under way.
     #[error("record {record} is locked though no insertion is under way")]
     Locked {
-        /// Number of the record.
+        /// Number of the record, from 0.
         record: usize,
     },
-    /// Bits of a narrow record that hold nothing are set.
+    /// Unused bits of a narrow record are set.
     #[error("word {place} of record {record} is {word:#010x}, but its bits above the two ids must be 0")]
     SpareBits {
-        /// Number of the record.
+        /// Number of the record, from 0.
         record: usize,
-        /// Which of its words, from 0.
+        /// Number of the word within the record, from 0.
         place: usize,
-        /// The word received.
+        /// Value of the word received.
         word: u32,
     },
-    /// The half of a word behind the last packed vertex is set.
+    /// The unused half word behind the last packed vertex is not 0.
     #[error("the last word of the triangles up to record {record} is {word:#010x}, but its high half must be 0")]
     SpareHalf {
-        /// Number of the last record.
+        /// Number of the last record read.
         record: usize,
-        /// The word received.
+        /// Value of the last word received.
         word: u32,
     },
-    /// A record of a batch has vertices of several jobs.
-    #[error("record {record} of a batch has the vertices {}, {}, {}, which belong to several jobs", vertices[0], vertices[1], vertices[2])]
+    /// A record has vertices of several jobs of a batch.
+    #[error(
+        "record {record} of a batch has the vertices {}, {}, {}, which belong to several jobs",
+        vertices[0], vertices[1], vertices[2]
+    )]
     MixedJobs {
-        /// Number of the record.
+        /// Number of the record, from 0.
         record: usize,
-        /// Vertex ids received.
+        /// Vertex ids in the record.
         vertices: [u32; 3],
     },
-    /// A record has one vertex twice.
+    /// A record has the same vertex twice.
     #[error("record {record} has a vertex twice")]
     RepeatedVertex {
-        /// Number of the record.
+        /// Number of the record, from 0.
         record: usize,
     },
-    /// A finite triangle does not turn counter-clockwise.
+    /// The corners of a triangle are not in counter-clockwise order.
     #[error("record {record}, the triangle {} {} {}, is not counter-clockwise", corners[0], corners[1], corners[2])]
     Orientation {
-        /// Number of the record.
+        /// Number of the record, from 0.
         record: usize,
-        /// Its corners.
+        /// Corners of the triangle, in the order received.
         corners: [Point; 3],
     },
-    /// One triangle came twice.
+    /// The same triangle came twice.
     #[error("the triangle of the points {}, {}, {} came twice", triangle[0], triangle[1], triangle[2])]
     TriangleTwice {
-        /// Input indices of its corners.
+        /// Input indices of the corners.
         triangle: [u32; 3],
     },
-    /// The ghosts do not close one hull.
+    /// The ghost triangles do not close one hull.
     #[error(
-        "its {ghosts} ghost records do not close one hull: the edge that leaves point {point} is missing or doubled"
+        "its {ghosts} ghost triangles do not close one hull: the edge that leaves point {point} is missing or doubled"
     )]
     OpenHull {
-        /// Ghost records received.
+        /// Number of ghost triangles received.
         ghosts: usize,
         /// Input index of the point where the hull breaks.
         point: u32,
     },
-    /// The triangles do not fill the hull.
-    #[error("its triangles cover {triangles} half grid squares, its hull {hull}")]
+    /// The areas of the triangles do not sum to the area of the hull.
+    #[error("its triangles cover {triangles} half grid squares, but its hull covers {hull}")]
     Area {
-        /// Twice the area of all triangles.
+        /// Twice the area of all triangles, in grid squares.
         triangles: i128,
-        /// Twice the area of the hull.
+        /// Twice the area of the hull, in grid squares.
         hull: i128,
     },
 }

@@ -1,22 +1,24 @@
-//! Whose fault an error is.
+//! Kinds of errors, for exit codes.
 
-/// What kind of error it is, for exit codes and for callers that only want to know whose fault it was.
+/// The kind of an error: whose fault it is, and so who can do something about it.
+///
+/// Use it for exit codes, and wherever a program only decides between "ask the user" and "try another device".
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ErrorKind {
-    /// The points cannot be used as they are.
+    /// The points cannot be used as they are: correct or quantise them.
     BadInput,
-    /// A choice that does not exist, such as 32 coordinate bits, or more contexts than the device has.
+    /// A choice is impossible, such as 32 coordinate bits, or more contexts than the device has.
     BadChoice,
-    /// There is no device at the address, or it may not be opened.
+    /// There is no device at the address, or it cannot be opened.
     DeviceNotFound,
-    /// Words did not get through.
+    /// Words did not get through between the host and the device.
     Link,
-    /// The device answered nonsense or reported a failure.
+    /// The device gave an answer that no sound device gives, or reported a failure.
     Device,
     /// The device did not answer in time.
     Timeout,
-    /// More points, or wider coordinates, than the device holds.
+    /// The device cannot hold so many points, or no job may have so many.
     Capacity,
     /// The progress listener ended the job.
     Cancelled,

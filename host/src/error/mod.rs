@@ -1,4 +1,5 @@
-//! Everything that can go wrong, as typed errors: one sentence each, with the numbers and what to do.
+//! Everything that can go wrong, as typed errors. Each says in one sentence what happened, with the numbers, and
+//! what to do about it.
 
 mod device_fault;
 mod kind;
@@ -15,6 +16,18 @@ pub use shown::Shown;
 pub use transport_error::TransportError;
 
 /// An error of the library.
+///
+/// Print it: the text is one sentence with the numbers and what to do. Match on it where a program can do something
+/// about one case, or ask [`kind`](Self::kind) whose fault it is.
+///
+/// ```
+/// use incircle::{Error, ErrorKind};
+///
+/// let error = incircle::triangulate(&[(0, 0), (1 << 31, 5)]).expect_err("31 bits are the limit");
+/// assert!(matches!(error, Error::CoordinateOutOfRange { index: 1, coord_bits: 31, .. }));
+/// assert_eq!(error.kind(), ErrorKind::BadInput);
+/// assert!(error.to_string().starts_with("point 1 is (2147483648, 5), but coordinates of 31 bits end at 2147483647"));
+/// ```
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -26,31 +39,31 @@ pub enum Error {
     CoordinateOutOfRange {
         /// Input index of the point.
         index: usize,
-        /// Its horizontal coordinate.
+        /// Horizontal coordinate of the point.
         x: u32,
-        /// Its vertical coordinate.
+        /// Vertical coordinate of the point.
         y: u32,
         /// Bits of a coordinate of the device.
         coord_bits: u32,
     },
     /// A value is NaN or infinite.
-    #[error("the {axis} of point {index} is {value}, which is no finite number: remove or correct the point")]
+    #[error("the {axis} of point {index} is {value}, which is not a finite number: remove or correct the point")]
     NotFinite {
         /// Input index of the point.
         index: usize,
-        /// `x` or `y`.
+        /// Axis of the coordinate, `x` or `y`.
         axis: char,
-        /// The value.
+        /// Value of the coordinate, in input units.
         value: f64,
     },
-    /// A value has a fraction where grid points are wanted.
-    #[error("the {axis} of point {index} is {}, which is no integer: quantise the points", Shown(*value))]
+    /// A value has a fraction, but coordinates must be integers.
+    #[error("the {axis} of point {index} is {}, which is not an integer: quantise the points", Shown(*value))]
     NotInteger {
         /// Input index of the point.
         index: usize,
-        /// `x` or `y`.
+        /// Axis of the coordinate, `x` or `y`.
         axis: char,
-        /// The value.
+        /// Value of the coordinate, in input units.
         value: f64,
     },
     /// A value is outside the grid.
@@ -61,7 +74,7 @@ pub enum Error {
     OutOfGrid {
         /// Input index of the point.
         index: usize,
-        /// `x` or `y`.
+        /// Axis of the coordinate, `x` or `y`.
         axis: char,
         /// The value, in grid units.
         value: f64,
@@ -69,38 +82,45 @@ pub enum Error {
         coord_bits: u32,
     },
     /// The bounding box is too small or too large for a scale in double precision.
-    #[error("the points span {} units, for which no scale onto the grid exists in double precision: scale them first", Shown(*extent))]
+    #[error(
+        "the points span {} units, for which double precision has no scale onto the grid: scale the points first",
+        Shown(*extent)
+    )]
     Extent {
-        /// The longer side of the bounding box.
+        /// Longer side of the bounding box, in input units.
         extent: f64,
     },
     /// A scale that is not a positive finite number, or an offset that is not finite.
-    #[error("the quantisation scale {} with offset ({}, {}) is unusable: give a positive finite scale and finite offsets", Shown(*scale), Shown(offset[0]), Shown(offset[1]))]
+    #[error(
+        "the quantisation scale {} with offset ({}, {}) is unusable: give a positive finite scale and finite offsets",
+        Shown(*scale), Shown(offset[0]), Shown(offset[1])
+    )]
     Scale {
         /// Grid units per input unit.
         scale: f64,
         /// The input point that falls on the grid's origin.
         offset: [f64; 2],
     },
-    /// Coordinate bits that nothing here works with.
+    /// A number of coordinate bits outside 1 to 31.
     #[error("{0} coordinate bits are not possible: choose 1 to 31")]
     CoordBits(u32),
     /// More points than any job may have.
     #[error("{points} points are more than the {max} that indices allow: cut the set into parts")]
     TooManyPoints {
-        /// Points given.
+        /// Number of points given.
         points: usize,
-        /// Points possible.
+        /// Most points of a job.
         max: usize,
     },
     /// More distinct points than the device holds.
     #[error(
-        "{distinct} distinct points are more than the {capacity} that {device} holds: use a larger device or the back end \"model\""
+        "{distinct} distinct points are more than the {capacity} that {device} holds: \
+         use a larger device or the back end \"model\""
     )]
     Capacity {
         /// Distinct points of the job.
         distinct: usize,
-        /// Points the device holds.
+        /// Number of points that the device holds.
         capacity: u32,
         /// Name of the device.
         device: String,
@@ -108,9 +128,9 @@ pub enum Error {
     /// No contexts, or more than the device has.
     #[error("{device} cannot work with {asked} contexts: choose {}, or leave the choice out", from_one_to(*contexts))]
     Contexts {
-        /// Contexts asked for.
+        /// Number of contexts asked for.
         asked: u32,
-        /// Contexts the device has.
+        /// Number of contexts that the device has.
         contexts: u32,
         /// Name of the device.
         device: String,
@@ -118,30 +138,33 @@ pub enum Error {
     /// The software model refused its parameters.
     #[error("the software model cannot be made: {0}")]
     Model(String),
-    /// The address is in no known form.
-    #[error("\"{address}\" is no device address that this library opens: {reason}")]
+    /// The text is not the address of a device, or of one that the library cannot open.
+    #[error("\"{address}\" is not a device address that this library can open: {reason}")]
     Address {
-        /// What was asked for.
+        /// Text that was given as an address.
         address: String,
-        /// What is wrong and what would be right.
+        /// The reason, and what would be right.
         reason: String,
     },
-    /// There is a device at the address, or should be, and it cannot be opened.
+    /// The device at the address cannot be opened.
     #[error("{device} cannot be opened: {source}")]
     Open {
-        /// The port or the card.
+        /// Name of the port or the card.
         device: String,
-        /// Why, and what to do: a [`PortFault`](crate::serial::PortFault) or a [`CardFault`](crate::pcie::CardFault).
+        /// The reason, and what to do.
+        ///
+        /// For a board this is a [`PortFault`](crate::serial::PortFault), for a card a
+        /// [`CardFault`](crate::pcie::CardFault), which `downcast_ref` gives.
         source: Box<dyn StdError + Send + Sync>,
     },
-    /// Words did not get through.
+    /// Words did not get through between the host and the device.
     #[error("the link to {device} failed during {during}: {source}")]
     Link {
         /// Name of the device.
         device: String,
-        /// The command under way.
+        /// Noun for the command under way, such as `"the insertion"`.
         during: &'static str,
-        /// What the transport said.
+        /// The reason that the transport gives.
         source: TransportError,
     },
     /// The device did not answer in time.
@@ -149,22 +172,24 @@ pub enum Error {
     Timeout {
         /// Name of the device.
         device: String,
-        /// The command under way.
+        /// Noun for the command under way, such as `"the insertion"`.
         during: &'static str,
-        /// The time allowed.
+        /// Time that the device was given.
         timeout: Duration,
     },
-    /// The device answered something no sound device answers.
-    #[error("{device} answered {during} wrongly: {fault}: reset the device, and if it persists distrust it")]
+    /// The device gave an answer that no sound device gives.
+    #[error(
+        "{device} answered {during} wrongly: {fault}: reset the device, and if that does not help, do not trust it"
+    )]
     Device {
         /// Name of the device.
         device: String,
-        /// The command under way.
+        /// Noun for the command under way, such as `"the insertion"`.
         during: &'static str,
-        /// What was wrong.
+        /// The fault in the answer.
         fault: DeviceFault,
     },
-    /// An earlier error left the streams of this session out of step.
+    /// An earlier error left commands and answers out of step, so the session refuses further work.
     #[error("an earlier error left the link to {device} out of step: reset the device and open it again")]
     OutOfStep {
         /// Name of the device.
@@ -173,9 +198,9 @@ pub enum Error {
     /// A job of a batch cannot be done.
     #[error("job {job} of the batch: {source}")]
     InJob {
-        /// Its place in the batch, from 0.
+        /// Index of the job in the batch, from 0.
         job: usize,
-        /// Why.
+        /// The error of this job.
         source: Box<Error>,
     },
     /// The progress listener ended the job.
@@ -183,14 +208,14 @@ pub enum Error {
     Cancelled {
         /// Name of the stage.
         stage: &'static str,
-        /// Points or records done in it.
+        /// Points or records done in this stage.
         done: usize,
-        /// Points or records of it.
+        /// Points or records of this stage.
         total: usize,
     },
 }
 
-/// The numbers from 1 on as a choice.
+/// The numbers from 1 to `last` as a choice, for messages.
 fn from_one_to(last: u32) -> String {
     if last == 1 {
         "1".to_owned()
@@ -200,7 +225,7 @@ fn from_one_to(last: u32) -> String {
 }
 
 impl Error {
-    /// What kind of error it is.
+    /// The kind of this error: whose fault it is.
     pub fn kind(&self) -> ErrorKind {
         match self {
             Self::CoordinateOutOfRange { .. }

@@ -1,9 +1,10 @@
-//! Values in messages.
+//! Floating-point values in messages.
 
 use std::fmt;
 
-/// A value as messages show it: in scientific form where plain digits would be a long row of zeros, below 1e-6 and from
-/// 1e15 on.
+/// A floating-point value as messages show it.
+///
+/// Values below 1e-6 and from 1e15 on are in scientific form: their plain digits would be a long row of zeros.
 ///
 /// ```
 /// use incircle::Shown;

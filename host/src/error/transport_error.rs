@@ -1,49 +1,52 @@
-//! Why words did not get through.
+//! The error that every transport returns.
 
 use std::error::Error as StdError;
 
 use super::kind::ErrorKind;
 
-/// Why words did not get through.
+/// The reason why words did not get through: the error that a [`Transport`](crate::Transport) returns.
+///
+/// A session wraps it in [`Error::Link`](crate::Error::Link) or [`Error::Timeout`](crate::Error::Timeout). Whoever
+/// writes a transport returns the first three where they fit, and [`other`](Self::other) for everything else.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TransportError {
-    /// The deadline passed with this many words of the call done.
+    /// The deadline passed before all words of the call were carried.
     #[error("the deadline passed after {done} of {wanted} words")]
     Timeout {
         /// Words carried before the deadline.
         done: usize,
-        /// Words the call asked for.
+        /// Words that the call asked for.
         wanted: usize,
     },
-    /// The device has nothing more to say, and more was expected.
+    /// The device ended its answer, but more words were expected.
     #[error("the device ended its answer after {done} of {wanted} words")]
     Closed {
         /// Words carried before the end.
         done: usize,
-        /// Words the call asked for.
+        /// Words that the call asked for.
         wanted: usize,
     },
-    /// The operating system refused.
+    /// The operating system refused a call.
     #[error("{0}")]
     Io(#[from] std::io::Error),
-    /// The way itself has found what is wrong, and says it in a type of its own.
+    /// The transport has found a fault, which has a type of its own.
     #[error("{source}")]
     Other {
-        /// Whose fault it is.
+        /// Kind of the fault.
         kind: ErrorKind,
-        /// What is wrong, in one sentence.
+        /// The fault, whose text is one sentence.
         source: Box<dyn StdError + Send + Sync>,
     },
 }
 
 impl TransportError {
-    /// What a way says of itself: an error of its own type, or a sentence.
+    /// Makes an error of a fault that the transport has found: an error type of its own, or a sentence.
     pub fn other(kind: ErrorKind, source: impl Into<Box<dyn StdError + Send + Sync>>) -> Self {
         Self::Other { kind, source: source.into() }
     }
 
-    /// The fault that a way has found, if it is of this type.
+    /// The fault that the transport has found, if it is of type `F`.
     pub fn fault<F: StdError + 'static>(&self) -> Option<&F> {
         match self {
             Self::Other { source, .. } => source.downcast_ref(),
@@ -51,7 +54,7 @@ impl TransportError {
         }
     }
 
-    /// Whose fault it is.
+    /// The kind of this error: whose fault it is.
     pub fn kind(&self) -> ErrorKind {
         match self {
             Self::Timeout { .. } => ErrorKind::Timeout,

@@ -1,22 +1,23 @@
-//! What becomes of a job.
+//! The result of a job.
 
 use super::report::Report;
 use incircle_geometry::Point;
 use incircle_geometry::{Duplicate, Mesh};
 
-/// A mesh, and how it came about.
+/// The result of a job: the mesh, and a report on how it came about.
 ///
-/// Meshes of one set of points are equal, on whatever device; the reports are not, since they have times.
+/// Compare meshes, not solutions: the meshes of one set of points are equal on every device, but reports differ, since
+/// they have times. Programs that need only the mesh take it out: `session.triangulate(&points)?.mesh`.
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct Solution {
-    /// The mesh.
+    /// The Delaunay triangulation of the points.
     pub mesh: Mesh,
-    /// Counts, times, device.
+    /// Counts, times, and the device that did the job.
     pub report: Report,
 }
 
-/// A solution without the points, which the caller keeps.
+/// The parts of a solution without the points, which the caller of the back end keeps until the job is done.
 #[derive(Debug)]
 pub(crate) struct Answer {
     pub(crate) triangles: Vec<[u32; 3]>,
@@ -26,7 +27,7 @@ pub(crate) struct Answer {
 }
 
 impl Answer {
-    /// The solution for these points, in whose report the counts are those of the mesh.
+    /// The solution for these points, with the counts of the mesh in its report.
     pub(crate) fn with(self, points: Vec<Point>) -> Solution {
         let Self { triangles, hull, duplicates, report } = self;
         Solution::of(Mesh::new(points, triangles, hull, duplicates), report)
@@ -34,7 +35,7 @@ impl Answer {
 }
 
 impl Solution {
-    /// A mesh, and a report whose counts are those of the mesh.
+    /// A solution of `mesh` and `report`. The counts in the report are replaced by those of the mesh.
     pub(crate) fn of(mesh: Mesh, report: Report) -> Self {
         let report = Report {
             points: mesh.points.len(),

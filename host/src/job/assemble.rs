@@ -1,9 +1,9 @@
-//! From a device's records to the canonical mesh. Nothing a record says is used before it is checked.
+//! From the records of a device to the canonical mesh. Nothing in a record is used before it is checked.
 //!
-//! What is checked costs O(n): ids in range, locks and unused bits clear, triangles counter-clockwise and none twice,
-//! ghosts that close one hull, areas that sum to the hull's. Links, where they are read, are only checked to be in
-//! range, and not used. Not checked here: the Delaunay property and the tie rule, which
-//! [`Mesh::verify`](crate::Mesh::verify) proves.
+//! The checks cost O(n): ids are in range, locks and unused bits are clear, triangles are counter-clockwise and
+//! none comes twice, ghost triangles close one hull, and areas sum to the area of the hull. Ids of neighbours,
+//! where they are read, are only checked to be in range, and not used. The Delaunay property and the tie rule are
+//! not checked here: [`Mesh::verify`](crate::Mesh::verify) proves them.
 
 use std::ops::Range;
 
@@ -12,7 +12,7 @@ use incircle_protocol::{infinite_vertex, Layout, NARROW_ID_BITS};
 use crate::error::DeviceFault;
 use incircle_geometry::{orient2d, Point};
 
-/// Takes records one after the other.
+/// Collects the records of one mesh, one after another.
 pub(crate) struct Assembly<'a> {
     /// Input index of each vertex.
     order: &'a [u32],
@@ -21,7 +21,7 @@ pub(crate) struct Assembly<'a> {
     triangles: Vec<[u32; 3]>,
     /// Hull edges, counter-clockwise, as input indices.
     hull_edges: Vec<[u32; 2]>,
-    /// Twice the area of the triangles so far.
+    /// Twice the area of the triangles so far, in grid squares.
     area: i128,
 }
 
@@ -29,7 +29,7 @@ pub(crate) struct Assembly<'a> {
 const LOCK: u32 = 0b10;
 
 impl<'a> Assembly<'a> {
-    /// For the mesh of the points `order` names, on a device of this capacity.
+    /// An empty assembly for the mesh of the points that `order` names, on a device of this capacity.
     pub(crate) fn new(order: &'a [u32], points: &'a [Point], capacity: u32) -> Self {
         let records = 2 * order.len() - 2;
         Self {
@@ -42,7 +42,7 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// Takes a record with these vertices, as this mesh counts them.
+    /// Takes the vertices of a record, numbered within this mesh.
     pub(crate) fn take_vertices(&mut self, record: usize, [a, b, c]: [u32; 3]) -> Result<(), DeviceFault> {
         if (a == b) | (b == c) | (c == a) {
             return Err(DeviceFault::RepeatedVertex { record });
@@ -58,7 +58,7 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// The ghost behind the hull edge from `b` to `a`.
+    /// Takes the ghost triangle of the hull edge from `b` to `a`.
     fn take_ghost(&mut self, record: usize, a: u32, b: u32) -> Result<(), DeviceFault> {
         let edge = [self.input_index(record, b)?, self.input_index(record, a)?];
         self.hull_edges.push(edge);
@@ -84,7 +84,7 @@ impl<'a> Assembly<'a> {
         known.ok_or(DeviceFault::VertexOutOfRange { record, vertex, points: self.order.len() })
     }
 
-    /// Sorts and checks the whole: the canonical triangles and the hull.
+    /// Checks the mesh as a whole, and gives its triangles and its hull in canonical form.
     pub(crate) fn finish(self) -> Result<(Vec<[u32; 3]>, Vec<u32>), DeviceFault> {
         let hull = close_hull(self.hull_edges)?;
         let area = hull_area(&hull, self.points);
@@ -99,7 +99,7 @@ impl<'a> Assembly<'a> {
     }
 }
 
-/// The vertices of a whole record, of so many, whose links and spare bits are as they must be.
+/// The vertices of an unpacked record, after a check of its neighbours' ids against `records` and of its unused bits.
 pub(crate) fn checked_record(
     layout: Layout,
     record: usize,
@@ -117,7 +117,7 @@ pub(crate) fn checked_record(
     Ok(v)
 }
 
-/// The half word behind the last of these packed records, if there is one, must be 0.
+/// Checks that the half word behind the last of these packed records, if there is one, is 0.
 pub(crate) fn check_last_half(layout: Layout, records: &Range<usize>, words: &[u32]) -> Result<(), DeviceFault> {
     let ends_in_half = layout.record_words == 3 && records.len() % 2 == 1;
     match words.last() {
@@ -126,7 +126,7 @@ pub(crate) fn check_last_half(layout: Layout, records: &Range<usize>, words: &[u
     }
 }
 
-/// At rest, no narrow record is locked, and its bits above the ids are 0.
+/// Checks that a narrow record is not locked, and that its bits above the ids are 0, as on every device at rest.
 fn check_spare_bits(record: usize, words: &[u32]) -> Result<(), DeviceFault> {
     for (place, &word) in (0..).zip(words) {
         match word >> (2 * NARROW_ID_BITS) {
@@ -138,7 +138,8 @@ fn check_spare_bits(record: usize, words: &[u32]) -> Result<(), DeviceFault> {
     Ok(())
 }
 
-/// The triangle with its smallest index first. Selections instead of branches: no processor predicts which one it is.
+/// The triangle, rotated to begin with its smallest index. Selections replace branches here, since no processor can
+/// predict which corner is the smallest.
 fn smallest_first(a: u32, b: u32, c: u32) -> [u32; 3] {
     let b_is_first = (b < a) & (b < c);
     let c_is_first = (c < a) & (c < b);
@@ -181,7 +182,7 @@ fn close_hull(mut edges: Vec<[u32; 2]>) -> Result<Vec<u32>, DeviceFault> {
     }
 }
 
-/// Twice the signed area of the hull polygon.
+/// Twice the signed area of the hull polygon, in grid squares.
 fn hull_area(hull: &[u32], points: &[Point]) -> i128 {
     let at = |index: &u32| points[*index as usize];
     let Some((first, rest)) = hull.split_first() else {
@@ -191,8 +192,8 @@ fn hull_area(hull: &[u32], points: &[Point]) -> i128 {
     fan.map(|pair| i128::from(orient2d(at(first), at(&pair[0]), at(&pair[1])))).sum()
 }
 
-/// Sorts triangles by counting their first corners, then each corner's few triangles. O(n) for meshes, O(n log n) for
-/// any list.
+/// Sorts triangles: a counting sort by the first corner, then the few triangles of each corner by themselves. O(n) for
+/// meshes, O(n log n) for any list.
 fn sort_triangles(triangles: Vec<[u32; 3]>, points: usize) -> Vec<[u32; 3]> {
     let mut starts = vec![0u32; points];
     for triangle in &triangles {
@@ -239,7 +240,7 @@ mod tests {
         assert_eq!(outside, Err(DeviceFault::VertexOutOfRange { record: 1, vertex: 7, points: 3 }));
     }
 
-    /// Half of a square twice: as large as the square, inside its hull, and no mesh.
+    /// One half of a square, twice: the areas sum to the hull's, and yet it is no mesh.
     #[test]
     fn a_triangle_that_comes_twice_is_refused() {
         let points = [(0, 0), (4, 0), (4, 4), (0, 4)].map(Point::from);

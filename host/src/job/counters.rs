@@ -1,60 +1,65 @@
-//! What a device counts: events, and how long insertions took.
+//! Counters of a device: its events, and how long its insertions took.
 
 use incircle_protocol::{latency_of_bucket, Counter, COUNTER_WORDS, LATENCY_BUCKETS};
 
-/// The device's event counters after a job. Cycle counts, and counts of what contexts do to each other, are 0 where
-/// there is no clock (the software model).
+/// The event counters of a device after a job.
+///
+/// Look here to learn why a job was slow: long walks (`walk_visits`), contention between contexts (`aborts`,
+/// `root_retries`, `revisits`), or a host that does not send points fast enough (`wait_cycles`). All counts are for
+/// one job. Where there is no clock, as in the software model, cycle counts are 0, and so are counts of what
+/// contexts do to each other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Counters {
     /// Clock cycles from the first point accepted to the last lock released.
     pub insert_cycles: u64,
-    /// Those of them in which the engine waited for a point.
+    /// Clock cycles, among `insert_cycles`, in which the insertion engine waited for a point.
     pub wait_cycles: u64,
-    /// Clock cycles of reading records out.
+    /// Clock cycles of the read-out.
     pub read_cycles: u64,
-    /// Points inserted.
+    /// Number of points inserted.
     pub insertions: u32,
-    /// Points that fell onto an earlier one; 0, as the host removes them first.
+    /// Points that fell onto an earlier one; 0, since the host removes them first.
     pub duplicates: u32,
     /// Points refused; 0 after a job that ended well.
     pub refused: u32,
-    /// Triangles visited by walks, the located ones included.
+    /// Triangles visited by walks, the roots included.
     pub walk_visits: u32,
-    /// Conflict tests.
+    /// Tests of records behind the boundary of a cavity for a conflict.
     pub tests: u32,
     /// Triangles removed by cavities.
     pub cavity_triangles: u32,
-    /// Insertions whose boundary list overflowed.
+    /// Insertions whose boundary was longer than its list, and which became solo insertions.
     pub overflows: u32,
-    /// Flips of those insertions.
+    /// Flips of solo insertions.
     pub flips: u32,
-    /// Visits that lock the located triangle and look at it again.
+    /// Visits that lock the root of a cavity and evaluate it again.
     pub root_visits: u32,
-    /// Visits made once more: a record being written, a lock waited for, the own commit not finished.
+    /// Visits made once more because a record was being written, a lock was held, or the context's
+    /// own commit was not finished.
     pub revisits: u32,
-    /// Attempts given up because another context held a lock.
+    /// Attempts aborted because another context held a lock.
     pub aborts: u32,
-    /// Located triangles that no longer held the point when they were locked.
+    /// Roots that no longer held the point when they were locked.
     pub root_retries: u32,
-    /// Times a context took the waiting token.
-    pub waiting_tokens: u32,
-    /// Clock cycles in which a visit was issued: the read port of the triangle memory.
+    /// Times a context took the priority.
+    pub priorities_taken: u32,
+    /// Clock cycles in which a visit was issued, so that the read port of the triangle memory was busy.
     pub issue_cycles: u32,
-    /// Clock cycles in which a record or a link was written: the write port.
+    /// Clock cycles in which a record or a neighbour's id was written, so that the write port was busy.
     pub write_cycles: u32,
     /// Clock cycles in which a commit was at work.
     pub commit_cycles: u32,
     /// Clock cycles in which a lock was released.
     pub release_cycles: u32,
-    /// Fewest clock cycles of an insertion; see [`Latencies`].
+    /// Fewest clock cycles of an insertion, as [`Latencies`] defines them.
     pub latency_min: u32,
-    /// Most clock cycles of an insertion; see [`Latencies`].
+    /// Most clock cycles of an insertion, as [`Latencies`] defines them.
     pub latency_max: u32,
 }
 
 impl Counters {
-    /// From the words of the answer to `Counters`.
+    /// Decodes the payload of the answer to the command `Counters`.
     pub fn from_words(words: &[u32; COUNTER_WORDS]) -> Self {
         let narrow = |counter: Counter| words[counter as usize];
         let wide = |counter: Counter| {
@@ -77,7 +82,7 @@ impl Counters {
             revisits: narrow(Counter::Revisits),
             aborts: narrow(Counter::Aborts),
             root_retries: narrow(Counter::RootRetries),
-            waiting_tokens: narrow(Counter::WaitingTokens),
+            priorities_taken: narrow(Counter::PrioritiesTaken),
             issue_cycles: narrow(Counter::IssueCycles),
             write_cycles: narrow(Counter::WriteCycles),
             commit_cycles: narrow(Counter::CommitCycles),
@@ -87,7 +92,7 @@ impl Counters {
         }
     }
 
-    /// Every counter by its name, in the order of the protocol.
+    /// Every counter with its name, in the order of the protocol, as for a table.
     pub fn named(&self) -> [(&'static str, u64); 22] {
         [
             ("insert_cycles", self.insert_cycles),
@@ -105,7 +110,7 @@ impl Counters {
             ("revisits", self.revisits.into()),
             ("aborts", self.aborts.into()),
             ("root_retries", self.root_retries.into()),
-            ("waiting_tokens", self.waiting_tokens.into()),
+            ("priorities_taken", self.priorities_taken.into()),
             ("issue_cycles", self.issue_cycles.into()),
             ("write_cycles", self.write_cycles.into()),
             ("commit_cycles", self.commit_cycles.into()),
@@ -116,32 +121,36 @@ impl Counters {
     }
 }
 
-/// How many clock cycles insertions took, each from its point taken by a context to its last record written. The first
-/// three points and those inserted alone are left out.
+/// Latencies of insertions, in clock cycles: each from the clock in which a context takes the point to the clock in
+/// which its last record is written.
+///
+/// The first three points and solo insertions are left out.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Latencies {
     /// Insertions that were timed.
     pub insertions: u64,
-    /// Fewest cycles; exact.
+    /// Fewest cycles of an insertion; exact.
     pub min: u32,
-    /// Half of the insertions took no more than this; the median itself is at most an eighth less.
+    /// Upper bound on the median: half of the insertions took no more cycles than this. The median itself is
+    /// at most an eighth less.
     pub median: u32,
-    /// 99 of 100 insertions took no more than this; the percentile itself is at most an eighth less.
+    /// Upper bound on the 99th percentile: 99 of 100 insertions took no more cycles than this. The percentile itself is
+    /// at most an eighth less.
     pub p99: u32,
-    /// Most cycles; exact.
+    /// Most cycles of an insertion; exact.
     pub max: u32,
-    /// Where median and percentile come from: the fewest cycles of a bucket and its insertions, without empty buckets.
-    /// There are eight buckets to an octave; the first one is for 0 to 17 cycles, the last one is open.
+    /// Histogram behind `median` and `p99`: for each bucket that is not empty, its fewest cycles and its insertions.
+    /// There are eight buckets to an octave; the first one is for 0 to 17 cycles, and the last one has no upper end.
     pub histogram: Vec<[u32; 2]>,
 }
 
 impl Latencies {
-    /// From the answers of a device; `None` if it timed nothing, as the software model, which has no clock.
+    /// Latencies from the answers of a device; `None` if it timed nothing, as the software model, which has no clock.
     pub(crate) fn of(counters: &Counters, buckets: &[u32; LATENCY_BUCKETS]) -> Option<Self> {
         let insertions: u64 = buckets.iter().copied().map(u64::from).sum();
         let (min, max) = (counters.latency_min, counters.latency_max);
-        // The most cycles of the bucket in which this many of a hundred insertions are reached.
+        // A bucket knows its range only. Its upper end errs on the safe side, within the extremes, which are exact.
         let percentile = |percent: u64| {
             let mut sum = 0;
             let reached = buckets.iter().position(|&count| {
@@ -190,10 +199,10 @@ mod tests {
             *word = index as u32;
         }
         let named = Counters::from_words(&words).named();
-        // The low word of a value is the number of its first word.
+        // Each word holds its own number, so the low word of a counter says which word it was read from.
         let low = named.map(|(_, value)| value as u32);
         assert_eq!(low.to_vec(), [0, 2, 4].into_iter().chain(6..25).collect::<Vec<u32>>());
-        // The derived name of a field is the key.
+        // `Debug` is derived, so it shows the real names of the fields.
         let shown = format!("{:?}", Counters::from_words(&words));
         for (name, value) in named {
             assert!(shown.contains(&format!(" {name}: {value}")), "{name}: {shown}");
@@ -220,12 +229,12 @@ mod tests {
         assert_eq!((found.median, found.p99), (103, 103));
         counters.latency_max = 95;
         assert_eq!(of(&counters, &samples).expect("a hundred samples").median, 95);
-        // The two open buckets.
+        // The first and the last bucket.
         counters = Counters { latency_min: 3, latency_max: 4_000_000, ..Counters::default() };
         let found = of(&counters, &[3, 4_000_000]).expect("two samples");
         assert_eq!((found.median, found.p99), (17, 4_000_000));
         assert_eq!(found.histogram, [[0, 1], [latency_of_bucket(LATENCY_BUCKETS - 1), 1]]);
-        // What a device may claim.
+        // A hostile device may claim a minimum above the maximum, and full buckets.
         counters = Counters { latency_min: u32::MAX, latency_max: 0, ..Counters::default() };
         assert!(Latencies::of(&counters, &[u32::MAX; LATENCY_BUCKETS]).is_some());
     }

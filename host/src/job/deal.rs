@@ -1,24 +1,26 @@
-//! Points dealt to the contexts of a device.
+//! Dealing points to the contexts of a device.
 
 use incircle_protocol::FIRST_ROUND;
 
 use incircle_geometry::order::{along_curve, rounds, Rounds};
 use incircle_geometry::Point;
 
-/// The first place from which on points belong to all contexts in turn; see [`FIRST_ROUND`].
+/// First place of an order from which on points belong to all contexts in turn; see [`FIRST_ROUND`].
 const FIRST: usize = FIRST_ROUND as usize;
 
-/// The order in which a device with this many contexts gets the points:
-/// [`brio_hilbert`](incircle_geometry::order::brio_hilbert), each round cut into as many stretches, dealt out in turn.
+/// The default order of insertion for a device with this many contexts.
+///
+/// The order is [`brio_hilbert`](incircle_geometry::order::brio_hilbert) with each round cut into runs of points, one
+/// for each context, as [`deal`] does it. The result has the index of every point once.
 pub fn brio_hilbert_dealt(points: &[Point], contexts: u32) -> Vec<u32> {
     deal(rounds(&along_curve(points)), contexts)
 }
 
-/// Deals each round to the contexts of a device, so that every context runs along a stretch of the curve of its own and
-/// they work far apart. O(n).
+/// Deals each round to the contexts of a device: a run of consecutive points to each.
 ///
-/// Context 0 takes the points before [`FIRST_ROUND`], and place `j` from there on belongs to context `(j - FIRST_ROUND)
-/// mod contexts`. The places of a round that belong to context `c` get the `c`-th stretch of the round.
+/// Consecutive points of a curve are close together, so contexts that each follow a run of their own work far apart and
+/// seldom meet. Context 0 takes the points before [`FIRST_ROUND`], and place `j` from there on belongs to context `(j -
+/// FIRST_ROUND) mod contexts`. The places of a round that belong to context `c` get the `c`-th run of the round. O(n).
 pub fn deal(rounds: Rounds, contexts: u32) -> Vec<u32> {
     let Rounds { mut order, starts, .. } = rounds;
     let ends = starts.iter().skip(1).copied().chain([order.len()]);
@@ -29,7 +31,7 @@ pub fn deal(rounds: Rounds, contexts: u32) -> Vec<u32> {
     order
 }
 
-/// Deals a round that begins at place `first`.
+/// Deals a round that begins at place `first` of the order.
 fn deal_round(round: &mut [u32], first: usize, contexts: usize) {
     if contexts < 2 || round.is_empty() {
         return;
@@ -57,7 +59,7 @@ mod tests {
     }
 
     #[test]
-    fn a_context_gets_a_stretch_of_each_round() {
+    fn a_context_gets_a_run_of_each_round() {
         let points = lattice(40, 7);
         for contexts in 1..=incircle_protocol::MAX_CONTEXTS {
             for single in [false, true] {
@@ -73,8 +75,8 @@ mod tests {
                     let end = starts.get(round + 1).copied().unwrap_or(order.len());
                     let places = || start.max(FIRST)..end;
                     let belongs = |place: usize| (place - FIRST) as u32 % contexts;
-                    let stretches = (0..contexts).flat_map(|context| places().filter(move |&j| belongs(j) == context));
-                    let along: Vec<u32> = stretches.map(|place| dealt[place]).collect();
+                    let runs = (0..contexts).flat_map(|context| places().filter(move |&j| belongs(j) == context));
+                    let along: Vec<u32> = runs.map(|place| dealt[place]).collect();
                     assert_eq!(along, order[places()], "{contexts} contexts, round {round}");
                 }
             }

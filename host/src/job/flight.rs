@@ -1,5 +1,8 @@
-//! Loads on their way: sent, answered, checked, and sent once more if a fault passes. The commands of the next load are
-//! sent before the answers of the last are received, where the way to the device takes them.
+//! Carrying loads to a device: sending them, receiving and checking the answers, and trying once
+//! more after a passing fault.
+//!
+//! If the transport takes commands ahead, the commands of the next load are sent before the answers to
+//! the current one are received.
 
 use std::collections::VecDeque;
 
@@ -17,10 +20,10 @@ use crate::error::{DeviceFault, Error};
 use crate::limit::Limit;
 use incircle_geometry::Point;
 
-/// Loads that are under way at most, where commands may be sent ahead: one in the device, one behind it.
+/// Most loads under way where commands may be sent ahead: one in the device, one behind it.
 const MOST_SENT: usize = 2;
 
-/// An error, and the job of a list that it is about, if it is about one.
+/// An error, with the index of the job that it is about, if it is about one job.
 #[derive(Debug)]
 pub(crate) struct JobError {
     pub(crate) job: Option<usize>,
@@ -34,7 +37,7 @@ impl From<Error> for JobError {
 }
 
 impl JobError {
-    /// As the caller of a batch is told it.
+    /// The error as the caller of a batch gets it.
     pub(crate) fn in_batch(self) -> Error {
         match self.job {
             Some(job) => Error::InJob { job, source: Box::new(self.error) },
@@ -43,11 +46,12 @@ impl JobError {
     }
 }
 
-/// What has become of jobs, in the order of the caller.
+/// The answers so far.
 pub(crate) struct Done {
+    /// Answers in the order of the caller, `None` for jobs that are not done.
     pub(crate) answers: Vec<Option<Answer>>,
-    /// Points of the jobs that have been begun or answered: what a listener hears is ahead by the jobs under way at
-    /// most.
+    /// Points of the jobs that have been begun or answered. A listener hears this number, which is ahead by the points
+    /// of the jobs under way.
     pub(crate) passed: usize,
 }
 
@@ -57,20 +61,20 @@ impl Done {
     }
 }
 
-/// Loads under way, in their order: the first is answered first.
+/// The loads under way, in the order in which they are answered.
 struct Flight {
     loads: VecDeque<Load>,
-    /// How many of them the link has.
+    /// Number of loads whose commands have been sent.
     sent: usize,
-    /// Until when the first may take.
+    /// Limit of the first load, if its time has begun.
     limit: Option<Limit>,
-    /// The first is under way for the second time.
+    /// Whether the first load is under way for the second time.
     is_second_try: bool,
-    /// Clock of the device in which the last answer of the load before ended.
+    /// Clock of the device in which the last answer to the previous load ended.
     clock: Option<u64>,
 }
 
-/// What the device answered to a load.
+/// The content of the answers to a load.
 #[derive(Default)]
 struct Answered {
     assembled: Vec<Assembled>,
@@ -78,21 +82,21 @@ struct Answered {
     latencies: Option<Latencies>,
 }
 
-/// Jobs that a device does.
+/// Carries jobs to a device and back.
 pub(crate) struct Carrier<'c> {
     pub(crate) identity: Identity,
     pub(crate) channel: &'c mut CommandChannel,
     pub(crate) options: &'c Options<'c>,
-    /// For all loads that have no time of their own.
+    /// Limit for all loads that have no time of their own.
     pub(crate) limit: Limit,
-    /// Times the stages of a job that goes step by step.
+    /// Stopwatch for the stages of a job that goes step by step.
     pub(crate) watch: Stopwatch,
     pub(crate) jobs: &'c [Vec<Point>],
 }
 
 impl Carrier<'_> {
-    /// Does the loads that `next` gives, one behind the other. An error of `next` ends them when all that was sent is
-    /// answered: the session stays in step.
+    /// Carries the loads that `next` gives, one after another. After an error of `next` no more are asked for, but the
+    /// answers to what was sent are still received, so that the session stays in step.
     pub(crate) fn carry(
         &mut self,
         done: &mut Done,
@@ -125,8 +129,8 @@ impl Carrier<'_> {
         }
     }
 
-    /// Answers a job that needs no device, for which so many contexts would work; gives back one that does. An error if
-    /// the device cannot hold it.
+    /// Answers a job that needs no device, and gives back one that does. Fails if the device cannot hold the job.
+    /// `contexts` is the number of contexts that would work on it, for the report.
     pub(crate) fn answer_here(
         &self,
         ordered: Ordered,
@@ -147,7 +151,7 @@ impl Carrier<'_> {
         Ok(None)
     }
 
-    /// What is known of a job before it is done.
+    /// A report with what is known of a job before it is done.
     fn report(&self, contexts: u32) -> Report {
         Report {
             backend: self.channel.name(),
@@ -160,8 +164,8 @@ impl Carrier<'_> {
         }
     }
 
-    /// Sends what the link does not have yet. Where each command must be answered before the next, that is done with
-    /// the answers.
+    /// Sends the loads that have not been sent. Where each command must be answered before the next, this only counts
+    /// them as sent: [`receive`](Self::receive) sends each command when its turn comes.
     fn send(&mut self, flight: &mut Flight) -> Result<(), Error> {
         let limit = self.limit_of(flight);
         while let Some(load) = flight.loads.get(flight.sent) {
@@ -173,12 +177,12 @@ impl Carrier<'_> {
         Ok(())
     }
 
-    /// All commands of this load are sent before the first of them is answered.
+    /// Whether all commands of this load are sent before the first of them is answered.
     fn goes_ahead(&self, load: &Load) -> bool {
         self.channel.capabilities().takes_ahead && !load.is_step_by_step
     }
 
-    /// Submits the commands of these steps.
+    /// Submits the commands of these steps to the transport.
     fn submit(&mut self, load: &Load, steps: &[Step], limit: Limit) -> Result<(), Error> {
         let (capabilities, layout) = (self.channel.capabilities(), self.channel.layout());
         let mut words = Vec::new();
@@ -188,7 +192,7 @@ impl Carrier<'_> {
         self.channel.submit(&commands, limit)
     }
 
-    /// Receives the answers to the first load and makes its meshes.
+    /// Receives the answers to the first load, makes its meshes and takes the load out of the flight.
     fn finish(&mut self, flight: &mut Flight, done: &mut Done) -> Result<(), Error> {
         self.send(flight)?;
         let limit = self.limit_of(flight);
@@ -209,7 +213,7 @@ impl Carrier<'_> {
         Ok(())
     }
 
-    /// The checked answers to a load.
+    /// Receives and checks the answers to a load.
     fn receive(&mut self, load: &Load, limit: Limit) -> Result<Answered, Error> {
         let (capabilities, layout) = (self.channel.capabilities(), self.channel.layout());
         let mut meshes = Meshes::new(&load.group, self.jobs, self.identity.capacity, capabilities, layout);
@@ -242,7 +246,7 @@ impl Carrier<'_> {
         self.assemble(load, meshes, answered)
     }
 
-    /// Puts the meshes together when all records are there.
+    /// Makes the meshes when all records are there.
     fn assemble(&mut self, load: &Load, meshes: Meshes<'_>, answered: Answered) -> Result<Answered, Error> {
         if load.is_step_by_step {
             tell(self.options, Stage::Assemble, 0, self.points())?;
@@ -255,15 +259,15 @@ impl Carrier<'_> {
         Ok(Answered { assembled, ..answered })
     }
 
-    /// Tells how far a load is that goes step by step.
+    /// Tells the listener how far a load is, before this step, if the load goes step by step.
     fn tell_before(&mut self, load: &Load, step: &Step) -> Result<(), Error> {
         if !load.is_step_by_step {
             return Ok(());
         }
         let (points, records) = (load.group.sent(), load.group.records());
         let (stage, done, total) = match step {
-            Step::Insert(stretch) => (Stage::Insert, stretch.start, points),
-            Step::Read(stretch) => (Stage::Read, stretch.start, records),
+            Step::Insert(range) => (Stage::Insert, range.start, points),
+            Step::Read(range) => (Stage::Read, range.start, records),
             Step::Ended(Stage::Insert) => (Stage::Insert, points, points),
             Step::Ended(stage) => (*stage, records, records),
             Step::Clear | Step::Counters | Step::Latencies => return Ok(()),
@@ -275,13 +279,13 @@ impl Carrier<'_> {
         Ok(())
     }
 
-    /// Points of all jobs.
+    /// Number of points of all jobs, duplicates included.
     pub(crate) fn points(&self) -> usize {
         self.jobs.iter().map(Vec::len).sum()
     }
 
-    /// After an error: if the device is back as after its reset, all that was under way is sent once more, but a load
-    /// only once.
+    /// Recovers from an error. If the device is as after its reset, everything under way will be sent once more. The
+    /// error stands if the device is not, or if this was the second try of the first load.
     fn try_again(&mut self, flight: &mut Flight, error: Error) -> Result<(), JobError> {
         let job = flight.loads.front().and_then(|load| load.group.only_job());
         let in_job = |error| JobError { job, error };
@@ -294,9 +298,9 @@ impl Carrier<'_> {
         Ok(())
     }
 
-    /// Until when the first load may take: one that has a time of its own has it from the end of the one before on, all
-    /// others have theirs together. While such a load is sent ahead its time is added, since nobody can tell which of
-    /// the two is at work.
+    /// Limit of the first load. A load with a time of its own has that time from the end of the previous load on; all
+    /// others share one limit. The time of a load that is sent ahead is added, since the host cannot tell which of the
+    /// two the device is working on.
     fn limit_of(&self, flight: &mut Flight) -> Limit {
         let mut loads = flight.loads.iter();
         let head = loads.next().and_then(|load| load.time);
@@ -305,7 +309,7 @@ impl Carrier<'_> {
     }
 }
 
-/// All points sent so far must be in.
+/// Checks the answer to an `Insert`: all points sent so far must be in.
 fn check_insert(load: &Load, words: &[u32], sent: usize) -> Result<(), DeviceFault> {
     load.group.check_report(&InsertReport::from_words(first_of::<INSERT_REPORT_WORDS>(words)), sent)
 }

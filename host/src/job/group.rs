@@ -1,4 +1,4 @@
-//! Jobs that are in the memory of a device at once: their points, and whose a record is.
+//! Jobs whose meshes are in the memory of a device at one time: their points, and which job a record belongs to.
 
 use std::ops::Range;
 
@@ -8,9 +8,9 @@ use super::prepare::Prepared;
 use crate::error::DeviceFault;
 use incircle_geometry::Point;
 
-/// A job in the order of insertion.
+/// A job whose points are in the order of insertion.
 pub(crate) struct Ordered {
-    /// Its place in the list of the caller.
+    /// Index of the job in the list of the caller.
     pub(crate) job: usize,
     pub(crate) prepared: Prepared,
 }
@@ -21,27 +21,28 @@ impl Ordered {
     }
 }
 
-/// Jobs that go to the device in one go: one that has the whole memory, or several that share it, the longest first.
+/// Jobs that the device does at one time: one job that has the whole memory, or several that share it.
 pub(crate) struct Group {
+    /// Jobs of the group, the longest first.
     pub(crate) jobs: Vec<Ordered>,
-    /// Contexts that work on each of them: one where they share the memory.
+    /// Contexts that work on each job: 1 if the jobs share the memory.
     pub(crate) contexts: u32,
-    /// The jobs share the memory; one alone may do so too.
+    /// Whether the jobs share the memory. A group of one may be sent in this form too.
     pub(crate) is_shared: bool,
 }
 
 impl Group {
-    /// Jobs that share the memory, the longest first, each with a context of its own.
+    /// A group of jobs that share the memory, the longest first, each with a context of its own.
     pub(crate) fn sharing(jobs: Vec<Ordered>) -> Self {
         Self { jobs, contexts: 1, is_shared: true }
     }
 
-    /// A job that has the whole memory and so many contexts.
+    /// A group of one job, which has the whole memory and this many contexts.
     pub(crate) fn alone(job: Ordered, contexts: u32) -> Self {
         Self { jobs: vec![job], contexts, is_shared: false }
     }
 
-    /// Where there is only one job: its place in the list of the caller.
+    /// Index of the job in the list of the caller, if there is only one.
     pub(crate) fn only_job(&self) -> Option<usize> {
         match &self.jobs[..] {
             [ordered] => Some(ordered.job),
@@ -49,15 +50,15 @@ impl Group {
         }
     }
 
-    /// Records of all jobs.
+    /// Number of records of all jobs together.
     pub(crate) fn records(&self) -> usize {
         self.jobs.iter().map(|ordered| 2 * ordered.vertices() - 2).sum()
     }
 
-    /// Points that are sent, repeated ones included.
+    /// Number of points that are sent, repeated ones included.
     pub(crate) fn sent(&self) -> usize {
         let (longest, last_round) = self.longest();
-        // Each job has as many places as the longest, but for the last round.
+        // Each job takes as many places as the longest. Only the last round leaves out the jobs that are shorter.
         if longest > 3 {
             (longest - 1) * self.jobs.len() + last_round
         } else {
@@ -65,20 +66,19 @@ impl Group {
         }
     }
 
-    /// Vertices of the longest job, and how many jobs have as many: the first ones, since they stand in the order of
-    /// their lengths.
+    /// Number of vertices of the longest job, and number of jobs that are as long. They come first in the list.
     fn longest(&self) -> (usize, usize) {
         let longest = self.jobs.first().map_or(0, Ordered::vertices);
         (longest, self.jobs.iter().take_while(|ordered| ordered.vertices() == longest).count())
     }
 
-    /// Hands on a stretch of the points that are sent, in their order: three of each job, then one of each in turn. A
-    /// job that has no more repeats its last one, which is found at once, until the longest is over. For a job alone
-    /// that is its own order.
-    pub(crate) fn for_points(&self, jobs: &[Vec<Point>], stretch: Range<usize>, mut take: impl FnMut(Point)) {
+    /// Calls `take` for a range of the points that are sent, in the order of sending: first three points of each job,
+    /// then one point of each job in turn. A job that has no more points repeats its last one, which the device finds
+    /// at once, until the longest job is over. A job alone is sent in its own order.
+    pub(crate) fn for_points(&self, jobs: &[Vec<Point>], range: Range<usize>, mut take: impl FnMut(Point)) {
         let at = |ordered: &Ordered, index: u32| jobs[ordered.job][index as usize];
         if let [only] = &self.jobs[..] {
-            return only.prepared.order[stretch].iter().for_each(|&index| take(at(only, index)));
+            return only.prepared.order[range].iter().for_each(|&index| take(at(only, index)));
         }
         let first =
             self.jobs.iter().flat_map(|ordered| ordered.prepared.order[..3].iter().map(move |&index| (ordered, index)));
@@ -90,15 +90,12 @@ impl Group {
                 order.get(place).or(order.last()).map(|&index| (ordered, index))
             })
         });
-        first
-            .chain(rounds)
-            .skip(stretch.start)
-            .take(stretch.len())
-            .for_each(|(ordered, index)| take(at(ordered, index)));
+        first.chain(rounds).skip(range.start).take(range.len()).for_each(|(ordered, index)| take(at(ordered, index)));
     }
 
-    /// After so many points all of them must be in, and those that were repeated are duplicates. The points of jobs
-    /// that share the memory are sent at once.
+    /// Checks the counts that the device reports after `sent` points: all must have arrived, and those that were
+    /// repeated must count as duplicates. The points of jobs that share the memory are sent with one command, so
+    /// all of them are due.
     pub(crate) fn check_report(&self, report: &InsertReport, sent: usize) -> Result<(), DeviceFault> {
         let (vertices, records) = match &self.jobs[..] {
             [_] => (sent, 2 * sent - 2),
@@ -117,7 +114,8 @@ impl Group {
         }
     }
 
-    /// The job that a record belongs to, and its vertices as that job counts them.
+    /// The job that a record belongs to, as an index into `jobs`, and the vertices of the record, numbered within that
+    /// job. Place `j` of the points sent is vertex `j` of the device, so the order of sending gives both.
     pub(crate) fn own_vertices(
         &self,
         record: usize,
@@ -125,7 +123,7 @@ impl Group {
         sent: usize,
         infinite: u32,
     ) -> Result<(usize, [u32; 3]), DeviceFault> {
-        let (count, mut owner) = (self.jobs.len() as u32, None);
+        let (count, mut found) = (self.jobs.len() as u32, None);
         let mut own = v;
         for (vertex, own) in v.into_iter().zip(&mut own).filter(|(vertex, _)| *vertex != infinite) {
             if vertex as usize >= sent {
@@ -136,11 +134,11 @@ impl Group {
                 Some(dealt) => (dealt % count, 3 + dealt / count),
             };
             *own = place;
-            if owner.replace(job).is_some_and(|other| other != job) {
+            if found.replace(job).is_some_and(|other| other != job) {
                 return Err(DeviceFault::MixedJobs { record, vertices: v });
             }
         }
-        match owner {
+        match found {
             Some(job) => Ok((job as usize, own)),
             None => Err(DeviceFault::RepeatedVertex { record }),
         }

@@ -1,4 +1,4 @@
-//! A group with its commands: what it asks of the device, and what the answers must say.
+//! A group with the commands that it takes, and the meshes that are made of the answers.
 
 use std::ops::Range;
 use std::time::Duration;
@@ -12,26 +12,26 @@ use crate::error::DeviceFault;
 use crate::transports::Capabilities;
 use incircle_geometry::Point;
 
-/// Records of one `Read` or `Triangles` command of a job that goes step by step: 384 kB at most. A slow link takes
-/// fewer.
+/// Most records of one `Read` or `Triangles` command of a job that goes step by step: 384 kB at most. A slow link gets
+/// fewer at a time.
 const READ_CHUNK: usize = 16_384;
-/// Fewest points of an `Insert` command: the device can judge its report only after the first triangle.
+/// Fewest points of an `Insert` command: its report can be checked only once the first triangle is there.
 const MIN_INSERT_CHUNK: usize = 3;
 
-/// A step of a load.
+/// A step of a load: a command, or the end of a stage.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Step {
-    /// Everything is forgotten.
+    /// Empties the memory of the device.
     Clear,
-    /// These of the points that are sent.
+    /// Inserts a range of the points that are sent.
     Insert(Range<usize>),
-    /// These of the records.
+    /// Reads a range of the records.
     Read(Range<usize>),
-    /// The counters.
+    /// Reads the event counters.
     Counters,
-    /// The histogram of latencies.
+    /// Reads the histogram of latencies.
     Latencies,
-    /// A stage is over; no command.
+    /// Ends a stage, for the listener and the stopwatch. There is no command.
     Ended(Stage),
 }
 
@@ -39,9 +39,9 @@ pub(crate) enum Step {
 pub(crate) struct Load {
     pub(crate) group: Group,
     pub(crate) steps: Vec<Step>,
-    /// A listener hears how far it is, step by step.
+    /// Whether the commands go one by one, so that a listener hears the progress between them.
     pub(crate) is_step_by_step: bool,
-    /// The time that it may take, if that is not the time of all.
+    /// The time of this load, if it does not share the limit of all.
     pub(crate) time: Option<Duration>,
 }
 
@@ -49,8 +49,8 @@ pub(crate) struct Load {
 pub(crate) type Assembled = (Vec<[u32; 3]>, Vec<u32>);
 
 impl Load {
-    /// A group whose points and records go in a command each, so that all commands may be sent ahead. The counters of a
-    /// job that has the whole memory are read before its mesh, which ends it.
+    /// A load with one command for all points and one for all records, so that all commands may be sent ahead. The
+    /// counters of a job that has the whole memory are read before its mesh, so that the load ends with the mesh.
     pub(crate) fn at_once(group: Group, time: Option<Duration>) -> Self {
         let mut steps = vec![Step::Clear, Step::Insert(0..group.sent())];
         if !group.is_shared {
@@ -60,7 +60,7 @@ impl Load {
         Self { group, steps, is_step_by_step: false, time }
     }
 
-    /// A job whose points and records go in pieces, between which it is told how far it is.
+    /// A load whose points and records go in pieces, with progress told between them.
     pub(crate) fn step_by_step(
         group: Group,
         options: &Options<'_>,
@@ -79,7 +79,8 @@ impl Load {
         Self { group, steps, is_step_by_step: true, time: None }
     }
 
-    /// The command of a step, if it has one, with the place of its points in `words`, to which they are appended.
+    /// The command of a step, if it has one. The words of its points are appended to `words`, and the
+    /// command has their range there.
     pub(crate) fn command(
         &self,
         step: &Step,
@@ -89,17 +90,17 @@ impl Load {
         words: &mut Vec<u32>,
     ) -> Option<Command<Range<usize>>> {
         let command = self.bare_command(step, capabilities)?;
-        Some(command.map(|stretch| {
+        Some(command.map(|range| {
             let begin = words.len();
-            words.reserve(stretch.len() * layout.point_words);
-            self.group.for_points(jobs, stretch, |point| {
+            words.reserve(range.len() * layout.point_words);
+            self.group.for_points(jobs, range, |point| {
                 words.extend_from_slice(&layout.point_to_words(point.x, point.y)[..layout.point_words]);
             });
             begin..words.len()
         }))
     }
 
-    /// The command of a step, if it has one, with its stretch of the points that are sent.
+    /// The command of a step, if it has one, with its range of the points that are sent.
     pub(crate) fn bare_command(&self, step: &Step, capabilities: Capabilities) -> Option<Command<Range<usize>>> {
         Some(match step {
             Step::Clear if self.group.is_shared => {
@@ -115,7 +116,7 @@ impl Load {
     }
 }
 
-/// The command that reads these records, with their links or without.
+/// The command that reads these records: packed, without neighbours, if the transport allows it.
 fn read_out<P>(records: Range<usize>, capabilities: Capabilities) -> Command<P> {
     let range = RecordRange { first: records.start as u32, count: records.len() as u32 };
     if capabilities.packs_records {
@@ -125,17 +126,17 @@ fn read_out<P>(records: Range<usize>, capabilities: Capabilities) -> Command<P> 
     }
 }
 
-/// Stretches of at most `most`, up to `all`.
+/// Ranges of at most `most` items that together are `0..all`.
 fn pieces(all: usize, most: usize) -> impl Iterator<Item = Range<usize>> {
     (0..all).step_by(most).map(move |start| start..all.min(start + most))
 }
 
-/// Puts the meshes of a group together from its records.
+/// Makes the meshes of a group from its records.
 pub(crate) struct Meshes<'a> {
     group: &'a Group,
     layout: Layout,
     infinite: u32,
-    /// Records have no links.
+    /// Whether records come packed, without neighbours.
     is_packed: bool,
     assemblies: Vec<Assembly<'a>>,
 }
@@ -154,7 +155,7 @@ impl<'a> Meshes<'a> {
         Self { group, layout, infinite: infinite_vertex(capacity), is_packed, assemblies }
     }
 
-    /// Takes the words of these records.
+    /// Takes the words of a range of records.
     pub(crate) fn take(&mut self, records: &Range<usize>, words: &[u32]) -> Result<(), DeviceFault> {
         if self.is_packed {
             for (place, record) in records.clone().enumerate() {
@@ -177,7 +178,7 @@ impl<'a> Meshes<'a> {
         self.assemblies[job].take_vertices(record, own)
     }
 
-    /// The triangles and the hull of each job.
+    /// The triangles and the hull of each job, after all records were taken.
     pub(crate) fn finish(self) -> Result<Vec<Assembled>, DeviceFault> {
         self.assemblies.into_iter().map(Assembly::finish).collect()
     }

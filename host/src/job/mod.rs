@@ -7,9 +7,9 @@
 //!            first        contexts    memory      sent ahead
 //! ```
 //!
-//! A single job is a group of one whose commands go one by one, so that a listener hears how far it is. A [`batch`]
-//! makes groups of many jobs, whose commands are sent ahead where the way to the device takes them. From there on there
-//! is one way for both: [`flight`] sends a load, checks its answers, and tries once more if a fault passes.
+//! A single job is a group of one. Its commands go one by one, so that a listener hears the progress. A [`batch`] makes
+//! groups of many jobs, whose commands are sent ahead where the transport takes them. From there on both go the same
+//! way: [`flight`] sends a load, checks the answers, and tries once more after a passing fault.
 
 pub(crate) mod answer;
 mod assemble;

@@ -1,26 +1,26 @@
-//! What a caller can choose for one job, and what it hears while the job runs.
+//! The choices of a caller for a job, and the progress that a listener hears.
 
 use std::ops::ControlFlow;
 use std::time::Duration;
 
 use incircle_geometry::Order;
 
-/// A part of a job.
+/// A stage of a job, in the order in which they run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Stage {
-    /// The host removes duplicates and chooses the order.
+    /// The host removes duplicates and puts the points in order.
     Order,
-    /// The device takes points.
+    /// The device inserts points.
     Insert,
-    /// The device hands out triangle records.
+    /// The host reads the records of the finished mesh from the device.
     Read,
     /// The host sorts the triangles into the canonical list.
     Assemble,
 }
 
 impl Stage {
-    /// The name in reports.
+    /// The name of the stage in reports and errors, such as `insert`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Order => "order",
@@ -31,24 +31,49 @@ impl Stage {
     }
 }
 
-/// How far a job is.
+/// The progress of a job: `done` of `total` items in a stage.
+///
+/// The items are records in [`Stage::Read`] and points in all other stages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
-    /// The part of the job.
+    /// Stage that is running.
     pub stage: Stage,
-    /// Points (records in [`Stage::Read`]) done in this part.
+    /// Items of this stage that are done.
     pub done: usize,
-    /// Points (records in [`Stage::Read`]) of this part.
+    /// Items of this stage in all.
     pub total: usize,
 }
 
-/// A listener: [`ControlFlow::Break`] cancels the job with [`Error::Cancelled`](crate::Error::Cancelled).
+/// A function that hears of progress and can cancel the job.
+///
+/// [`ControlFlow::Continue`] lets the job go on; [`ControlFlow::Break`] ends it with
+/// [`Error::Cancelled`](crate::Error::Cancelled), after which the session can be used again.
+///
+/// ```
+/// use std::ops::ControlFlow;
+/// use incircle::{Device, ErrorKind, Options, Progress, Stage};
+///
+/// let stop_before_read = |progress: Progress| match progress.stage {
+///     Stage::Read => ControlFlow::Break(()),
+///     _ => ControlFlow::Continue(()),
+/// };
+/// let mut device = Device::open("model")?;
+/// let mut session = device.session()?;
+/// let options = Options::default().progress(&stop_before_read);
+/// let error = session.triangulate_with(&[(0, 0), (4, 0), (0, 4)], &options).expect_err("it was cancelled");
+/// assert_eq!(error.kind(), ErrorKind::Cancelled);
+/// assert_eq!(session.triangulate(&[(0, 0), (4, 0), (0, 4)])?.mesh.triangles.len(), 1);
+/// # Ok::<(), incircle::Error>(())
+/// ```
 pub type ProgressListener<'a> = &'a dyn Fn(Progress) -> ControlFlow<()>;
 
-/// Points of one `Insert` command unless chosen otherwise.
+/// Points of one `Insert` command unless the caller chooses another number.
 const INSERT_CHUNK: usize = 65_536;
 
-/// Choices for one job; [`Options::default`] suits most.
+/// Choices for a job or a batch. [`Options::default`] suits most.
+///
+/// No choice changes the mesh: the order and the number of contexts decide how long the job takes, and the others how
+/// the caller can watch and end it.
 ///
 /// ```
 /// use incircle::{Options, Order};
@@ -59,55 +84,58 @@ const INSERT_CHUNK: usize = 65_536;
 #[derive(Clone, Copy)]
 #[non_exhaustive]
 pub struct Options<'a> {
-    /// Time the device may take for the whole job. `None`: [`Options::default_timeout`].
+    /// Time limit for the whole job. `None` stands for [`Options::default_timeout`], stretched for a simulated device.
     pub timeout: Option<Duration>,
-    /// Order of insertion.
+    /// Order of insertion, for devices that insert points one after another; the CPU triangulator has
+    /// an order of its own.
     pub order: Order,
-    /// Called at the start of each stage and after every chunk.
+    /// Listener that is called at the start of each stage and after every chunk.
     pub progress: Option<ProgressListener<'a>>,
-    /// Contexts that work, that is insertions in flight at once: 1 to what
-    /// [`Session::identity`](crate::Session::identity) says the device has. `None`: all of them. In a batch that is the
-    /// most that may work, and a job has as many as pay. The mesh does not depend on it, the time does.
+    /// Contexts that work, which is the number of insertions in flight at once: from 1 to the contexts of the device,
+    /// see [`Session::identity`](crate::Session::identity). `None` stands for all of them. In a batch this is an upper
+    /// bound, and each job gets as many as pay.
     pub contexts: Option<u32>,
-    /// Points of one `Insert` command; at least 3 are sent. Progress and cancellation come between chunks.
+    /// Points of one `Insert` command, 65,536 by default; fewer than 3 count as 3. Progress is told,
+    /// and cancellation heard, between chunks.
     pub insert_chunk: usize,
 }
 
 impl<'a> Options<'a> {
-    /// With another [`timeout`](Self::timeout).
+    /// Sets the time limit, [`timeout`](Self::timeout).
     #[must_use]
     pub fn timeout(self, timeout: impl Into<Option<Duration>>) -> Self {
         Self { timeout: timeout.into(), ..self }
     }
 
-    /// With another [`order`](Self::order).
+    /// Sets the [`order`](Self::order) of insertion.
     #[must_use]
     pub fn order(self, order: Order) -> Self {
         Self { order, ..self }
     }
 
-    /// With a listener for [`progress`](Self::progress).
+    /// Sets the listener for [`progress`](Self::progress).
     #[must_use]
     pub fn progress(self, listener: ProgressListener<'a>) -> Self {
         Self { progress: Some(listener), ..self }
     }
 
-    /// With another number of [`contexts`](Self::contexts).
+    /// Sets the number of [`contexts`](Self::contexts) that work.
     #[must_use]
     pub fn contexts(self, contexts: impl Into<Option<u32>>) -> Self {
         Self { contexts: contexts.into(), ..self }
     }
 
-    /// With another [`insert_chunk`](Self::insert_chunk).
+    /// Sets the number of points of one `Insert` command, [`insert_chunk`](Self::insert_chunk).
     #[must_use]
     pub fn insert_chunk(self, points: usize) -> Self {
         Self { insert_chunk: points, ..self }
     }
 
-    /// The time a job of this many points may take when none is chosen: a minute and 2 ms per point.
+    /// The time limit of a job of this many points unless the caller sets one: a minute and 2 ms per point.
     ///
-    /// The simulated core with one context takes about 0.07 ms per uniform point: 120 clocks at two million a second.
-    /// Choose more for a device that is much slower, such as a simulation that writes waveforms.
+    /// The limit is generous. The simulated core with one context takes about 0.07 ms per uniform point:
+    /// 120 clocks, at two million clocks a second. Choose more for a device that is much slower, such
+    /// as a simulation that writes waveforms.
     pub fn default_timeout(points: usize) -> Duration {
         let milliseconds = u64::try_from(points).unwrap_or(u64::MAX).saturating_mul(2);
         Duration::from_secs(60).saturating_add(Duration::from_millis(milliseconds))

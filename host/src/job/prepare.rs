@@ -1,25 +1,25 @@
-//! What the host does before the device: remove duplicates, choose the order, find three points that are not
-//! collinear.
+//! Preparing a job for the device: the host removes duplicates, puts the points in order, and moves three points that
+//! are not collinear to the front.
 
 use super::deal::deal;
 use incircle_geometry::order::{distinct, random, rounds, Order, Rounds};
 use incircle_geometry::Duplicate;
 use incircle_geometry::Point;
 
-/// A job, ready for the device.
+/// A job that is ready for the device.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Prepared {
     /// Input index of each vertex, in the order of insertion: one index, the lowest, per distinct point.
     pub(crate) order: Vec<u32>,
-    /// Points that fell onto an earlier one, by index.
+    /// Points that fell onto an earlier one, sorted by index.
     pub(crate) duplicates: Vec<Duplicate>,
-    /// Fewer than three distinct points, or all on one line; `order` is then lexicographic.
+    /// Whether there are fewer than three distinct points, or all lie on one line. Then `order` is lexicographic.
     pub(crate) collinear: bool,
 }
 
-/// Sorts, removes duplicates, orders, and deals the points to this many contexts; the order of the input is left alone.
-/// The input must be shorter than 2^32. O(n), 16 bytes per point while it runs (32 where a coordinate has more than 16
-/// bits).
+/// Removes duplicates, puts the points in order, and deals them to this many contexts, except in the order of the
+/// input, which is not dealt. The input must have fewer than 2^32 points. O(n); takes 16 bytes per point while it runs,
+/// or 32 where a coordinate has more than 16 bits.
 pub(crate) fn prepare(points: &[Point], order: Order, contexts: u32) -> Prepared {
     let (curve, duplicates) = distinct(points);
     let mut rounds = match order {
@@ -30,7 +30,7 @@ pub(crate) fn prepare(points: &[Point], order: Order, contexts: u32) -> Prepared
             indices.sort_unstable();
             Rounds::single(indices)
         }
-        // The default, and what no version of this library has yet.
+        // `Order` is non-exhaustive: an order that this crate does not know yet is treated as the default.
         _ => rounds(&curve),
     };
     let collinear = rounds.start_with_a_triangle(points).is_none();
@@ -85,7 +85,7 @@ mod tests {
 
     #[test]
     fn points_are_dealt_but_not_in_the_order_of_the_input() {
-        // A line first, so that the third point comes from far behind.
+        // The points begin with a line, so that the third vertex comes from far behind.
         let mut raw: Vec<(u32, u32)> = (0..100).map(|k| (k, k)).collect();
         raw.extend((0..900).map(|k| (k * 7919 % 10_007, k * 104_729 % 9973)));
         let points = points(&raw);

@@ -1,67 +1,83 @@
-//! What a job says about itself.
+//! Reports on jobs that are done.
 
 use std::time::Duration;
 
 use super::counters::{Counters, Latencies};
 use super::options::Stage;
 
-/// What a job says about itself.
+/// A report on a job: counts of the mesh, times, and facts about the device.
+///
+/// Reach for it to show or log how a job went. Counts of the mesh are always there. Times, counters and latencies are
+/// there where the device has them, as each field says; a [batch](crate::Session::triangulate_batch) has fewer of them.
+///
+/// ```
+/// use incircle::{Device, Stage};
+///
+/// let mut device = Device::open("clock?config=tiny")?;
+/// let report = device.session()?.triangulate(&[(0, 0), (9, 0), (3, 5), (9, 9), (9, 0)])?.report;
+/// assert_eq!((report.points, report.distinct, report.triangles, report.hull), (5, 4, 2, 4));
+/// assert!(report.stage(Stage::Insert).is_some());
+/// assert!(report.cycles_per_insertion().is_some_and(|cycles| cycles > 1.0));
+/// # Ok::<(), incircle::Error>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Report {
-    /// Input points.
+    /// Input points, duplicates included.
     pub points: usize,
-    /// Distinct ones.
+    /// Distinct points among them.
     pub distinct: usize,
     /// Points that fell onto an earlier one: `points - distinct`.
     pub duplicates: usize,
-    /// Triangles.
+    /// Triangles of the mesh.
     pub triangles: usize,
     /// Points on the hull, those in the middle of a hull edge included.
     pub hull: usize,
-    /// There is no triangle: fewer than three distinct points, or all on one line. The host answered alone.
+    /// Whether there is no triangle, because there are fewer than three distinct points, or all lie on one line. The
+    /// host answers such a job alone.
     pub collinear: bool,
-    /// Name of the device.
+    /// Name of the back end, such as `cpu` or `clock:full`.
     pub backend: String,
     /// Name of the insertion order.
     pub order: &'static str,
-    /// Time per stage, in the order in which they ran; none where a device did the job with others, or as one
-    /// that was sent ahead.
+    /// Name and time of each stage, in the order in which they ran. Empty if the job shared the device with others, or
+    /// was sent ahead of its turn.
     pub stages: Vec<(&'static str, Duration)>,
-    /// The device's counters; `None` if the host answered alone, or the job shared the memory of the device with
-    /// others. Of a job of a batch that had the whole memory they are read before its mesh is, so that
-    /// [`Counters::read_cycles`] is 0.
+    /// Counters of the device; `None` if the host answered alone, or if the job shared the memory of the device. For a
+    /// job of a batch that was sent ahead they are read before its mesh, so that [`Counters::read_cycles`] is 0.
     pub counters: Option<Counters>,
-    /// How long insertions took; `None` where there is no clock, where there are no counters, and for a job of a batch
+    /// Latencies of insertions; `None` where there is no clock, where there are no counters, and for a job of a batch
     /// that was sent ahead.
     pub latencies: Option<Latencies>,
-    /// Clocks of the device for a job of a batch that had the whole memory: from the last word of the job before it, or
-    /// the first of the batch, to its own last triangle. `None` elsewhere, and where the link does not know.
+    /// Clocks of the device for an exclusive job that was sent ahead: from the last word of the previous job, or the
+    /// beginning of the batch, to the last triangle of this job. `None` for all other jobs, and where the transport
+    /// does not know the clocks.
     pub clocks: Option<u64>,
     /// Bits of a coordinate of the device.
     pub coord_bits: u32,
-    /// Points the device holds.
+    /// Points that the device holds.
     pub capacity: u32,
-    /// Contexts that worked: insertions in flight at once.
+    /// Contexts that worked, or threads of the CPU triangulator.
     pub contexts: u32,
 }
 
 impl Report {
-    /// Time of a stage; `None` if the job did not come to it.
+    /// Time of a stage; `None` if the job did not come to it, or has no times.
     pub fn stage(&self, stage: Stage) -> Option<Duration> {
         let found = self.stages.iter().find(|(name, _)| *name == stage.name());
         found.map(|&(_, duration)| duration)
     }
 
-    /// Clock cycles per distinct point, from the first point accepted to the last lock released: waiting for points,
-    /// which [`Counters::wait_cycles`] counts, lies within, reading out lies outside. `None` where there is no clock,
-    /// or where the host answered alone.
+    /// Clock cycles of the device per distinct point, from the first point accepted to the last lock released.
+    ///
+    /// The time in which the device waits for points is included ([`Counters::wait_cycles`] counts it), the read-out is
+    /// not. `None` where there is no clock, and where the host answered alone.
     pub fn cycles_per_insertion(&self) -> Option<f64> {
         let cycles = self.counters?.insert_cycles;
         (cycles > 0 && self.distinct > 0).then(|| cycles as f64 / self.distinct as f64)
     }
 
-    /// Time of all stages.
+    /// Time of all stages together.
     pub fn total(&self) -> Duration {
         self.stages.iter().map(|&(_, duration)| duration).sum()
     }
@@ -82,7 +98,7 @@ mod tests {
         counters.wait_cycles = 100;
         counters.read_cycles = 70;
         report.counters = Some(counters);
-        // Waiting lies within the span, reading out does not.
+        // Cycles of waiting are part of `insert_cycles`; cycles of the read-out are not.
         assert_eq!(report.cycles_per_insertion(), Some(125.0));
     }
 }

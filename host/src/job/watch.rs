@@ -1,4 +1,4 @@
-//! Who hears how far a job is, and how long its stages took.
+//! Telling listeners of progress, and timing stages.
 
 use std::cell::Cell;
 use std::ops::ControlFlow;
@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use super::options::{Options, Progress, Stage};
 use crate::error::Error;
 
-/// Tells the listener, which may cancel.
+/// Tells the listener of progress. Fails with [`Error::Cancelled`] if the listener cancels the job.
 pub(crate) fn tell(options: &Options<'_>, stage: Stage, done: usize, total: usize) -> Result<(), Error> {
     let Some(listener) = options.progress else {
         return Ok(());
@@ -18,7 +18,7 @@ pub(crate) fn tell(options: &Options<'_>, stage: Stage, done: usize, total: usiz
     Ok(())
 }
 
-/// Times stages.
+/// Times the stages of a job.
 #[derive(Debug)]
 pub(crate) struct Stopwatch {
     since: Instant,
@@ -30,7 +30,7 @@ impl Stopwatch {
         Self { since: Instant::now(), stages: Vec::with_capacity(4) }
     }
 
-    /// From now on, as if what came after the first stage had not been.
+    /// Starts anew after the first stage, which needs no second try: the times of all later stages are dropped.
     pub(crate) fn again(&mut self) {
         self.stages.truncate(1);
         self.since = Instant::now();
@@ -43,13 +43,14 @@ impl Stopwatch {
     }
 }
 
-/// Hears of a job that goes by itself, and tells how far all jobs are.
+/// Hears of the progress of one job of a batch, and tells the progress of the whole batch.
 pub(crate) struct PartListener<'a> {
     options: &'a Options<'a>,
-    /// Points of the jobs before it, and of all.
+    /// Points of the jobs before this one.
     before: usize,
+    /// Points of all jobs.
     total: usize,
-    /// The most that was told.
+    /// Largest number of points that was told so far.
     most: Cell<usize>,
 }
 
@@ -58,7 +59,7 @@ impl<'a> PartListener<'a> {
         Self { options, before, total, most: Cell::new(before) }
     }
 
-    /// What a job that is done once more tells again is told once.
+    /// Passes progress on. A job that is tried once more begins at 0 again, but the batch never goes back.
     pub(crate) fn hear(&self, progress: Progress) -> ControlFlow<()> {
         if progress.stage == Stage::Insert {
             self.most.set(self.most.get().max(self.before + progress.done));

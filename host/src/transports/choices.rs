@@ -2,21 +2,21 @@
 
 use std::ops::RangeInclusive;
 
-/// A name with its choices.
+/// An address, split into a name and its choices.
 pub(crate) struct Choices<'a> {
-    /// What stands before the question mark.
+    /// Text before the question mark.
     pub(crate) name: &'a str,
     items: &'a str,
 }
 
 impl<'a> Choices<'a> {
-    /// Takes a text apart.
+    /// Splits an address at its question mark.
     pub(crate) fn of(text: &'a str) -> Self {
         let (name, items) = text.split_once('?').unwrap_or((text, ""));
         Self { name, items }
     }
 
-    /// The choices, in their order. A key that stands alone has an empty value.
+    /// The choices in the order of the text. A key without `=` has an empty value.
     pub(crate) fn items(&self) -> impl Iterator<Item = Choice<'a>> + use<'a> {
         let items = self.items.split('&').filter(|item| !item.is_empty());
         items.map(|item| {
@@ -37,18 +37,18 @@ impl Choice<'_> {
     /// The value as a number in this range.
     ///
     /// # Errors
-    /// A sentence without the address.
+    /// A sentence that does not repeat the address.
     pub(crate) fn number(self, range: RangeInclusive<u32>) -> Result<u32, String> {
         let Self { key, value } = self;
         let parsed = value.parse().ok().filter(|number| range.contains(number));
         parsed.ok_or_else(|| match (range.start(), *range.end()) {
-            (0, u32::MAX) => format!("\"{key}\" wants a whole number, not \"{value}\""),
-            (least, u32::MAX) => format!("\"{key}\" wants a whole number from {least} on, not \"{value}\""),
-            (least, most) => format!("\"{key}\" wants a whole number from {least} to {most}, not \"{value}\""),
+            (0, u32::MAX) => format!("\"{key}\" must be a whole number, not \"{value}\""),
+            (least, u32::MAX) => format!("\"{key}\" must be a whole number from {least} on, not \"{value}\""),
+            (least, most) => format!("\"{key}\" must be a whole number from {least} to {most}, not \"{value}\""),
         })
     }
 
-    /// The sentence for a key that is none of these.
+    /// The sentence of an error for a key that is not one of `known`.
     pub(crate) fn unknown(self, known: &[&str]) -> String {
         let known: Vec<String> = known.iter().map(|key| format!("\"{key}\"")).collect();
         let are = if known.len() == 1 { "is" } else { "are" };

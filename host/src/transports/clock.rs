@@ -1,5 +1,5 @@
-//! The core's model, clock by clock, as a device: the answers, records and cycle counts of the core, without a
-//! simulator.
+//! The core's model, clock by clock, as a transport: the answers, records and cycle counts of
+//! the core without a simulator.
 
 use std::collections::VecDeque;
 use std::time::Instant;
@@ -10,28 +10,29 @@ use incircle_protocol::{Command, Config};
 use super::transport::{receive_in_pieces, AnswerHead, Capabilities, DeviceClocks, Transport};
 use crate::error::{Error, TransportError};
 
-/// Name in reports, before the name of the configuration.
+/// Name of the back end in reports, before the name of the configuration.
 pub(crate) const CLOCK_NAME: &str = "clock";
 
-/// Clocks between two looks at the deadline: about a millisecond.
+/// Clocks between two looks at the deadline, which is about a millisecond.
 const SLICE: u32 = 4096;
 
 /// The core's model, clock by clock, as a transport.
 ///
-/// Time passes only while words are sent or awaited. Answers are taken as they come, also while words are sent, and
-/// kept until they are asked for, so no order of calls can block the core. A word is offered as soon as the one before
-/// it is taken: the cycle counts are those of a core whose host never keeps it waiting within a command.
+/// [`Device::clock_model`](crate::Device::clock_model) makes a device of it. Clocks pass only while words are sent or
+/// awaited. Answers are taken as they come, also while words are sent, and kept until they are asked for, so no order
+/// of calls can block the core. Each word is offered as soon as the previous one is taken, so the cycle counts are
+/// those of a core whose host never keeps it waiting within a command.
 pub struct ClockTransport {
     model: ClockModel,
     config: Config,
-    /// Words that have not been received, each with the clock that ended when it came.
+    /// Words of answers that have not been received, each with the clock at whose end it came.
     answers: VecDeque<(u32, u64)>,
     clocks: u64,
     answer_clock: Option<u64>,
 }
 
 impl ClockTransport {
-    /// A core of this configuration, after its reset.
+    /// Makes a core of this configuration, as after its reset.
     ///
     /// # Errors
     /// [`Error::Model`] for a configuration that no core can be built with.
@@ -40,7 +41,7 @@ impl ClockTransport {
         Ok(Self { model, config, answers: VecDeque::new(), clocks: 0, answer_clock: None })
     }
 
-    /// One clock in which the core is offered this word, or none. True if it takes the word.
+    /// Runs one clock in which the core is offered this word, or none. Returns true if the core takes the word.
     fn clock(&mut self, command: Option<u32>) -> bool {
         let outputs = self.model.outputs();
         self.clocks += 1;
@@ -56,7 +57,7 @@ impl ClockTransport {
 }
 
 impl ClockTransport {
-    /// Hands the core a word after the other.
+    /// Hands all words to the core, one after another.
     fn send(&mut self, words: &[u32], deadline: Instant) -> Result<(), TransportError> {
         let mut left = SLICE;
         for (done, &word) in words.iter().enumerate() {
@@ -114,7 +115,7 @@ impl Transport for ClockTransport {
     }
 }
 
-/// Ends the call at the deadline, which is looked at once a slice.
+/// Counts a clock, and fails once the deadline has passed. Reading the time is slow, so it is read once a slice.
 fn go_on(left: &mut u32, deadline: Instant, done: usize, wanted: usize) -> Result<(), TransportError> {
     *left -= 1;
     if *left == 0 {
@@ -136,7 +137,7 @@ mod tests {
     fn it_answers_as_a_core() {
         let mut transport = ClockTransport::new(TINY).expect("a named configuration");
         let deadline = Instant::now() + Duration::from_secs(60);
-        // Two commands in one go: the first answer is kept meanwhile.
+        // Both commands are sent before an answer is taken, so the transport must keep the first answer.
         transport.submit(&[Command::Hello; 2], deadline).expect("in time");
         let head = answer_head(Opcode::Hello, IDENTITY_WORDS as u32);
         for _ in 0..2 {

@@ -1,4 +1,4 @@
-//! What a device says of itself.
+//! Checking the identity of a device.
 
 use incircle_protocol::{
     Identity, MAGIC, MAX_COORD_BITS, MAX_MODEL_POINTS, MIN_CONTEXTS, MIN_COORD_BITS, MIN_POINTS, PROTOCOL_VERSION,
@@ -6,13 +6,13 @@ use incircle_protocol::{
 
 use crate::error::{DeviceFault, MAX_DEVICE_CONTEXTS};
 
-/// Identity words are hostile until they pass here.
+/// Refuses an identity that no sound device has. No word of an identity may be used before it passes here.
 pub(crate) fn check_identity(identity: &Identity) -> Result<(), DeviceFault> {
     if identity.magic != MAGIC {
         return Err(DeviceFault::Magic { found: identity.magic, expected: MAGIC });
     }
     let (found, expected) = (identity.protocol_version, PROTOCOL_VERSION);
-    // An older minor version lacks commands that are sent, and counters that are awaited.
+    // A device of an older minor version would lack commands that the host sends, and counters that it expects.
     if found >> 16 != expected >> 16 || found < expected {
         return Err(DeviceFault::ProtocolVersion { found, expected });
     }

@@ -1,8 +1,8 @@
-//! Ways to a device.
+//! Transports: the code that carries commands to a device and brings the answers.
 //!
-//! Sessions choose them by address, so few callers need this module: whoever writes a way of their own, as for a
-//! simulator, implements [`Transport`] and hands it to [`Device::from_transport`](crate::Device::from_transport);
-//! whoever tests or measures a link drives its [`parts`].
+//! [`Device::open`](crate::Device::open) chooses the transport by the address, so most programs never need this module.
+//! To connect a device in another way, as a simulator, implement [`Transport`] and hand it to
+//! [`Device::from_transport`](crate::Device::from_transport). To test or measure a link, drive its [`parts`].
 
 pub(crate) mod choices;
 pub(crate) mod clock;
@@ -16,9 +16,10 @@ pub use clock::ClockTransport;
 pub use model::ModelTransport;
 pub use transport::{receive_in_pieces, AnswerHead, Capabilities, DeviceClocks, Pace, Transport};
 
-/// The parts of the ways to boards and cards, for whoever tests or measures a link: the serial protocol without a port
-/// and without a clock, so that it runs in virtual time, and the files of a card, so that it can be one in memory.
-/// Sessions need none of them.
+/// Parts of the transports to boards and cards, for tests and measurements of a link. Sessions need none of them.
+///
+/// [`SerialProtocol`](parts::SerialProtocol) is the serial protocol without a port and without a clock, so that it can
+/// run in virtual time. [`CardFiles`](parts::CardFiles) are the files of a card, which may as well be in memory.
 pub mod parts {
     pub use super::pcie::files::{CardFiles, RegisterFile};
     pub use super::pcie::left_behind::calls_left_behind;

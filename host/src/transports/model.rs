@@ -1,4 +1,4 @@
-//! The embedded device: the software model, fed with commands like any other.
+//! The software model as a transport: it takes commands like any other device.
 
 use std::time::Instant;
 
@@ -8,21 +8,23 @@ use incircle_protocol::Command;
 use super::transport::{receive_in_pieces, AnswerHead, Capabilities, Transport};
 use crate::error::{Error, TransportError};
 
-/// Boundary edges of one cavity that the model keeps; the standard cores keep as many.
+/// Boundary edges of a cavity for which the model has room, as many as the standard cores.
 pub(crate) const RING_CAPACITY: u32 = 32;
-/// Name in reports.
+/// Name of the back end in reports.
 pub(crate) const MODEL_NAME: &str = "model";
 
-/// The software model as a transport. It answers at once, so deadlines need no waiting here.
+/// The software model as a transport. The model answers at once, so deadlines play no part.
+///
+/// [`Device::model`](crate::Device::model) makes a device of it.
 pub struct ModelTransport {
     model: CommandModel,
 }
 
 impl ModelTransport {
-    /// A model for `capacity` points of `coord_bits` bits, about 60 bytes per point.
+    /// Makes a model for `capacity` points of `coord_bits` bits. It takes about 60 bytes per point.
     ///
     /// # Errors
-    /// [`Error::Model`] where the model refuses its parameters.
+    /// [`Error::Model`] if the model refuses these parameters.
     pub fn new(coord_bits: u32, capacity: u32) -> Result<Self, Error> {
         let model = CommandModel::new(coord_bits, capacity, RING_CAPACITY)
             .map_err(|refusal| Error::Model(refusal.to_string()))?;

@@ -1,4 +1,4 @@
-//! The way to a device: commands go out, answers come back.
+//! The trait of all transports: commands go out, answers come back.
 
 use std::time::Instant;
 
@@ -6,30 +6,40 @@ use incircle_protocol::{Command, ANSWER_HEAD_WORDS};
 
 use crate::error::TransportError;
 
-/// What an answer begins with: its header, and the number of words of its payload.
+/// The beginning of an answer: its header, and the number of words of its payload.
 pub type AnswerHead = [u32; ANSWER_HEAD_WORDS];
 
-/// A way to a device.
+/// Carries commands to a device and brings the answers.
 ///
-/// The trait is object-safe; `Box<dyn Transport>` is what [`Device::from_transport`](crate::Device::from_transport)
-/// takes. A way carries whole commands and whole answers, in their order, and judges no answer: what a device says is
-/// checked above it. After an error the streams are out of step, and the session that saw it refuses further work,
-/// unless [`recover`](Self::recover) helps.
+/// Implement this trait to connect a device in a way of your own, as a simulator or another bus, and hand it to
+/// [`Device::from_transport`](crate::Device::from_transport). Two methods are enough for a plain transport beside its
+/// name: [`submit`](Self::submit) and [`receive`](Self::receive), the latter with the help of [`receive_in_pieces`].
+///
+/// A transport carries whole commands and whole answers, in their order. It does not judge answers: the session
+/// checks what a device says. After an error commands and answers are out of step, and the session refuses
+/// further work, unless [`recover`](Self::recover) helps.
 pub trait Transport {
-    /// Short name for reports: `model`, `sim:full`.
+    /// Short name for reports and errors, such as `model` or `sim:full`.
     fn name(&self) -> String;
 
-    /// Hands over commands whose answers are received later, or fails by `deadline`. It is one command, all answers to
-    /// earlier ones have been received, and this call may wait for the answer, unless the way [takes commands
-    /// ahead](Capabilities::takes_ahead).
+    /// Hands commands to the device, or fails by `deadline`. The answers are received later.
+    ///
+    /// Unless the transport [takes commands ahead](Capabilities::takes_ahead), `commands` is one command, all answers
+    /// to earlier ones have been received, and this call may wait for the answer.
+    ///
+    /// # Errors
+    /// [`TransportError::Timeout`] if the deadline passes, or whatever went wrong.
     fn submit(&mut self, commands: &[Command<&[u32]>], deadline: Instant) -> Result<(), TransportError>;
 
-    /// Receives the answer to the first command whose answer has not been received, or fails by `deadline`. `head` is
-    /// what that answer begins with if the device did what it was asked for: then the payload, which is as long as that
-    /// says, is filled. Of any other answer the payload is left alone. Gives what the answer begins with;
-    /// [`receive_in_pieces`] does all that for a stream of words.
+    /// Receives the answer to the oldest command whose answer is outstanding, or fails by `deadline`.
     ///
-    /// A way whose device may be reset by others has an error for an answer that must be somebody else's.
+    /// `head` is the beginning of that answer if the device did what it was asked for, and `payload` has the length
+    /// that `head` announces. If the answer begins with `head`, `payload` is filled; if not, `payload` is left as it
+    /// is. The result is the actual beginning. [`receive_in_pieces`] does all that for a stream of words.
+    ///
+    /// # Errors
+    /// [`TransportError::Timeout`] if the deadline passes, or whatever went wrong. A transport whose device others may
+    /// reset also fails for an answer that cannot belong to its own command.
     fn receive(
         &mut self,
         head: AnswerHead,
@@ -37,39 +47,42 @@ pub trait Transport {
         deadline: Instant,
     ) -> Result<AnswerHead, TransportError>;
 
-    /// What this way can do, and how fast it is.
+    /// The abilities and the pace of this transport. The default suits a plain transport.
     fn capabilities(&self) -> Capabilities {
         Capabilities::default()
     }
 
-    /// The clock of the device, where it is counted.
+    /// The clocks of the device; `None` where they are not counted.
     fn clocks(&self) -> Option<DeviceClocks> {
         None
     }
 
-    /// After an error: brings the device back to where it was after its reset, if that may help, and says whether it
-    /// did. Then the job is tried once more, from its `Clear` on, and so is what was sent ahead behind it.
+    /// Tries, after an error, to bring the device back to its state after a reset, if that may help.
+    ///
+    /// After `true` the session tries the job once more, from its `Clear` on, and everything that was sent ahead behind
+    /// it. After `false`, the default, the error stands.
     ///
     /// # Errors
-    /// A newer fault, which tells more than the one before.
+    /// A newer fault that tells more than the error before it.
     fn recover(&mut self, deadline: Instant) -> Result<bool, TransportError> {
         let _ = deadline;
         Ok(false)
     }
 }
 
-/// What a way to a device can do. The default suits one that is plain: a command at a time, `Triangles`, and no time
-/// lost.
+/// The abilities of a transport.
+///
+/// The default suits a plain transport: one command at a time, read-out by `Triangles`, and no pace to follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Capabilities {
-    /// Commands may be submitted before the answers to earlier ones are received. Only for a way on which
-    /// [`submit`](Transport::submit) never waits until answers are received: what comes meanwhile is kept, up to the
-    /// answers of two jobs.
+    /// Whether commands may be submitted before the answers to earlier ones are received. Set it only if
+    /// [`submit`](Transport::submit) never waits until answers are received: the transport must keep what comes
+    /// meanwhile, up to the answers of two jobs.
     pub takes_ahead: bool,
-    /// Meshes are read with `Triangles`, which leaves out the links: half the words. False where a way knows `Read`
-    /// alone, as one does that asks again for parts of an answer.
+    /// Whether meshes are read with `Triangles`, which leaves out the neighbours and so half of the words. Clear it for
+    /// a transport that only knows `Read`, as one that asks again for parts of an answer.
     pub packs_records: bool,
-    /// How fast the way is.
+    /// Speed of the transport.
     pub pace: Pace,
 }
 
@@ -79,22 +92,22 @@ impl Default for Capabilities {
     }
 }
 
-/// Clocks of a device since it was made.
+/// Clocks of a device since it was opened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DeviceClocks {
-    /// Until now.
+    /// Clocks up to now.
     pub now: u64,
-    /// Until the word that was received last; `None` before the first. The device may be far ahead of what was
-    /// received.
+    /// Clocks up to the word that was received last; `None` before the first. The device may be far
+    /// ahead of the words received.
     pub answer: Option<u64>,
 }
 
-/// How fast a way to a device is: times and lengths that the library chooses itself follow it.
+/// The speed of a transport. Times and lengths that the library chooses itself follow it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pace {
-    /// How many times slower than a real device it is: 1, or more for a simulation.
+    /// Factor by which the device is slower than a real one: 1, or more for a simulation.
     pub slow: u32,
-    /// Words that pass in a second; `None` if that is not what takes the time.
+    /// Words that pass in a second; `None` if the words are not what takes the time.
     pub words_per_second: Option<u32>,
 }
 
@@ -105,8 +118,8 @@ impl Default for Pace {
 }
 
 impl Pace {
-    /// Items of this many words for about a quarter of a second, so that progress is told and an interrupt heard in
-    /// time: at least 64, at most `most`.
+    /// Number of items of `words` words that pass in about a quarter of a second, so that progress is told and an
+    /// interrupt heard in time: at least 64 and at most `most`.
     pub(crate) fn chunk(self, most: usize, words: usize) -> usize {
         const LEAST: usize = 64;
         match self.words_per_second {
@@ -116,11 +129,12 @@ impl Pace {
     }
 }
 
-/// Receives an answer as [`Transport::receive`] must, from a stream of words: `fill` fills the whole of a list with the
-/// next words.
+/// Receives an answer as [`Transport::receive`] must, from a stream of words.
+///
+/// `fill` fills the whole of a slice with the next words, or fails.
 ///
 /// # Errors
-/// Those of `fill`.
+/// The errors of `fill`.
 pub fn receive_in_pieces(
     head: AnswerHead,
     payload: &mut [u32],

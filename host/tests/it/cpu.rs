@@ -1,4 +1,4 @@
-//! The engine in this process: the model's meshes, on any number of threads, for shapes that strain divide and conquer.
+//! The CPU triangulator gives the model's meshes on any number of threads, for shapes that strain divide and conquer.
 
 use std::cell::RefCell;
 use std::ops::ControlFlow;
@@ -7,7 +7,7 @@ use std::time::Duration;
 use crate::common::{by, by_model, Random};
 use incircle::{Device, Error, ErrorKind, Options, Point, Solution, Stage};
 
-/// Widest coordinate.
+/// Largest coordinate.
 const MAX: u32 = (1 << 31) - 1;
 
 fn same(one: &Solution, other: &Solution) {
@@ -67,7 +67,7 @@ fn shapes(n: u32) -> Vec<(&'static str, Vec<Point>)> {
 
 #[test]
 fn threads_do_not_change_the_mesh() {
-    // As many as four threads are given work for.
+    // These sets are large enough to give work to four threads.
     for (name, points) in shapes(50_000) {
         println!("{name}");
         let expected = by_model(&points);
@@ -98,7 +98,7 @@ fn collinear_and_tiny_sets_are_answers() {
 fn progress_covers_the_stages_and_cancels_anywhere() {
     let points = Random(24).points(150_000, 1 << 20);
     for threads in [1, 2] {
-        let mut device = Device::open(&format!("cpu?threads={threads}")).expect("the engine");
+        let mut device = Device::open(&format!("cpu?threads={threads}")).expect("the CPU triangulator");
         let mut session = device.session().expect("a session");
         let calls = RefCell::new(Vec::new());
         let listen = |progress| {
@@ -112,7 +112,7 @@ fn progress_covers_the_stages_and_cancels_anywhere() {
             assert!(calls.iter().any(|call| call.stage == stage), "{stage:?}");
             assert!(expected.report.stage(stage).is_some(), "{stage:?}");
         }
-        // How often a thread looks depends on the others, so the last stop is far before the end.
+        // The number of looks that a thread takes depends on the others, so the last stop is far before the end.
         for stop in 0..4u32 {
             let left = RefCell::new(stop);
             let listen = |_| match left.replace_with(|left| left.saturating_sub(1)) {
@@ -140,7 +140,7 @@ fn a_passed_deadline_is_a_timeout_and_no_more() {
 
 #[test]
 fn wrong_choices_are_named() {
-    let mut device = Device::open("cpu?threads=2").expect("the engine");
+    let mut device = Device::open("cpu?threads=2").expect("the CPU triangulator");
     let mut session = device.session().expect("a session");
     assert_eq!((session.identity().contexts, session.identity().coord_bits), (2, 31));
     for asked in [0, 3] {

@@ -17,7 +17,7 @@ fn run(liar: Liar) -> Result<Solution, Error> {
     session.triangulate(&points())
 }
 
-/// The fault that a lie is found out as.
+/// The fault with which a lie is found out.
 fn fault(lie: impl FnMut(Opcode, &mut Vec<u32>) + 'static) -> DeviceFault {
     found_out(Liar::new(16, lie))
 }
@@ -29,7 +29,7 @@ fn found_out(liar: Liar) -> DeviceFault {
     }
 }
 
-/// As [`fault`], where the host reads whole records.
+/// The fault with which a lie is found out where the host reads whole records.
 fn fault_of_records(lie: impl FnMut(Opcode, &mut Vec<u32>) + 'static) -> DeviceFault {
     found_out(Liar::new(16, lie).with_links())
 }
@@ -80,7 +80,7 @@ fn a_larger_minor_version_is_welcome() {
 
 #[test]
 fn contexts_that_are_claimed_and_not_there_are_found_out() {
-    // The model behind the liar has one, and refuses to clear for more.
+    // The model behind the lie has one context, and refuses to clear for more.
     let found = fault(word(Opcode::Hello, 2 + 5, |_| 255));
     assert_eq!(
         found,
@@ -101,7 +101,7 @@ fn absurd_latencies_are_no_more_than_absurd() {
 
 #[test]
 fn an_absurd_capacity_takes_no_memory() {
-    // A device that claims a billion points speaks wide records; the model behind it does not, and that shows.
+    // A device for a billion points has wide records. The model behind the lie has narrow ones, and that shows.
     let found = fault(word(Opcode::Hello, 2 + 4, |_| (1 << 30) - 1));
     assert!(matches!(found, DeviceFault::PayloadLength { .. }), "{found}");
 }
@@ -161,7 +161,7 @@ fn wrong_records() {
 
 #[test]
 fn wrong_packed_triangles() {
-    // Record 5 has the halves 15, 16 and 17: the high one of word 7, and word 8.
+    // The vertices of record 5 are the half words 15, 16 and 17: the high half of word 7, and both halves of word 8.
     let vertex = |place: usize, change: fn(u32) -> u32| fault(word(Opcode::Triangles, 2 + place, change));
     let outside = vertex(7, |w| w & 0xffff | 63 << 16);
     assert!(matches!(outside, DeviceFault::VertexOutOfRange { record: 5, vertex: 63, points: 40 }), "{outside}");
@@ -177,7 +177,7 @@ fn wrong_packed_triangles() {
     assert!(matches!(found, DeviceFault::PayloadLength { .. }), "{found}");
 }
 
-/// Changes whole records; most such lies show only in the whole.
+/// The fault with which changed records are found out. Most such lies show only in the mesh as a whole.
 fn records(change: impl Fn(&mut [[u32; 3]]) + 'static) -> DeviceFault {
     fault_of_records(move |opcode, answer| {
         if opcode == Opcode::Read {
@@ -212,8 +212,8 @@ fn wrong_meshes() {
     assert!(matches!(found, DeviceFault::Area { .. }), "{found}");
 }
 
-/// Turns the edge between the only two triangles of a mesh; links stay as they are.
-fn turn_the_inner_edge(records: &mut [[u32; 3]]) {
+/// Flips the edge between the only two triangles of a mesh, and leaves the neighbours as they are.
+fn flip_the_inner_edge(records: &mut [[u32; 3]]) {
     let vertices = |record: &[u32; 3]| record.map(|word| word & 0x7fff);
     let mut triangles = records.iter_mut().filter(|record| !is_ghost(record));
     let one = triangles.next().expect("a triangle");
@@ -234,7 +234,7 @@ fn turn_the_inner_edge(records: &mut [[u32; 3]]) {
 fn a_well_formed_mesh_of_another_kind_is_left_to_the_validator() {
     let liar = Liar::new(16, |opcode, answer| {
         if opcode == Opcode::Read {
-            turn_the_inner_edge(answer[2..].as_chunks_mut::<3>().0);
+            flip_the_inner_edge(answer[2..].as_chunks_mut::<3>().0);
         }
     });
     let mut device = Device::from_transport(Box::new(liar.with_links()));
@@ -301,7 +301,7 @@ fn noise_in_any_word_never_panics() {
         };
         let liar = Liar::new(bits, lie);
         match run(if target == Opcode::Read as u32 { liar.with_links() } else { liar }) {
-            // A lie about a link, a counter or a version leaves the mesh right; any other is found by the validator.
+            // A lie about a neighbour, a counter or a version leaves the mesh right. The validator finds any other lie.
             Ok(solution) if solution.mesh.triangles == honest.mesh.triangles => {}
             Ok(solution) => assert!(solution.mesh.verify().is_err()),
             Err(_) => wrong += 1,

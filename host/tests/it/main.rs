@@ -1,4 +1,4 @@
-//! The tests of the library, in one program. Modules mirror the sources; `common` has the devices that tests make up.
+//! The tests of the library, in one program. Modules mirror the sources; `common` has the devices made for the tests.
 
 mod common;
 
@@ -8,7 +8,7 @@ mod oracle;
 mod quantize;
 
 mod batch {
-    mod frames;
+    mod exclusive;
     mod jobs;
     mod middle_jobs;
 }

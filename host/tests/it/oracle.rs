@@ -1,7 +1,7 @@
-//! The embedded model and the engine in this process against a brute-force oracle on tiny grids, and the validator against the
-//! oracle's meshes.
+//! The software model and the CPU triangulator against a brute-force oracle on tiny grids, and the
+//! validator against the oracle's meshes.
 
-use crate::common::{brute_force, by_engine, by_model, Random};
+use crate::common::{brute_force, by_cpu, by_model, Random};
 use incircle::{triangulate, verify, Point};
 
 #[test]
@@ -9,7 +9,7 @@ fn every_subset_of_a_three_by_four_grid() {
     let grid: Vec<Point> = (0..12).map(|k| Point::new(k / 4, k % 4)).collect();
     for subset in 0u32..1 << 12 {
         let points: Vec<Point> = (0..12).filter(|k| subset >> k & 1 == 1).map(|k| grid[k as usize * 5 % 12]).collect();
-        let solution = by_engine(&points);
+        let solution = by_cpu(&points);
         let expected = brute_force(&points);
         assert_eq!(solution.mesh.triangles, expected, "{points:?}");
         assert_eq!(by_model(&points).mesh.triangles, expected, "{points:?}");
@@ -22,7 +22,7 @@ fn random_sets_with_duplicates_on_a_small_grid() {
     for round in 0..2000 {
         let count = 3 + random.below(14) as usize;
         let points = random.points(count, 3 + round % 8);
-        let solution = by_engine(&points);
+        let solution = by_cpu(&points);
         let expected = brute_force(&points);
         assert_eq!(solution.mesh.triangles, expected, "{points:?}");
         assert!(verify(&points, &expected).is_ok(), "{points:?}");
@@ -57,7 +57,7 @@ fn the_validator_refuses_every_flip_of_the_one_right_mesh() {
     }
 }
 
-/// Any list but the canonical one is wrong: spoils it in some way.
+/// Spoils a canonical list in some way. Every other list is wrong.
 fn spoil(triangles: &mut Vec<[u32; 3]>, points: u32, random: &mut Random) {
     let place = random.below(triangles.len() as u32) as usize;
     let corner = random.below(3) as usize;

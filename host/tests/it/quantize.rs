@@ -1,4 +1,4 @@
-//! Quantisation: what is taken as it is, what is moved, what is refused.
+//! Quantisation: which values are taken as they are, which are moved, and which are refused.
 
 use incircle::quantize::{integers, quantize, Quantization, Quantize};
 use incircle::{Error, ErrorKind, Point};
@@ -51,7 +51,7 @@ fn halves_round_to_even() {
 #[test]
 fn points_that_fall_together_are_counted() {
     let how = Quantize::Scale { scale: 1.0, offset: [0.0, 0.0] };
-    // Four distinct points on one grid point, one of them twice, with both signs of zero.
+    // Four distinct points fall onto one grid point. One of them is given twice, with both signs of zero.
     let values = [[0.1, 0.0], [0.2, 0.0], [0.1, -0.0], [0.0, 0.3], [0.3, 0.3], [5.0, 5.0]];
     let (_, report) = quantize(&values, 16, how).expect("on the grid");
     assert_eq!(report.merged, 3);
@@ -96,7 +96,7 @@ fn a_given_scale_does_not_clip() {
     assert!(matches!(error, Err(Error::OutOfGrid { index: 0, axis: 'y', .. })));
 }
 
-/// Half a grid step, and what the arithmetic itself may lose.
+/// Half a grid step, plus the error of the arithmetic itself.
 fn tolerance(report: &Quantization, values: &[[f64; 2]]) -> f64 {
     let largest = values.as_flattened().iter().fold(0.0f64, |most, value| most.max(value.abs()));
     0.5 / report.scale * (1.0 + 1e-6) + largest * 1e-14

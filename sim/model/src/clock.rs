@@ -1,11 +1,12 @@
-//! The core, clock by clock: what every root port of the Verilog says at every clock.
+//! The model clock by clock: the value of every root port of the Verilog at every clock.
 //!
-//! One [`ClockModel::clock`] is one rising edge. The parts of the core stand here in files of their own, each a small `Copy` struct
-//! with the registers that decide what the root ports say and when; a part here may be several blocks there, and has fewer registers than
-//! they, since nothing is pipelined but in time. An edge takes a copy of all registers as they were, derives the wires from it, and lets
-//! each block compute its next state from that copy, so no order of evaluation matters, as in hardware. What is pipelined
-//! there (memories, predicates) is computed at the clock its record is read and handed over when the hardware is done.
-//! Nothing is shared with the hardware but the protocol.
+//! One [`ClockModel::clock`] is one rising edge. Each part of the core has a file here, with a small `Copy` struct of
+//! the registers that decide what the root ports say and when. A part may stand for several blocks of the hardware, and
+//! has fewer registers, since only the time of a pipeline is modelled: what memories and predicates compute in stages
+//! is computed here in one step, at the clock in which the record is read, and handed over when the hardware would be
+//! done. An edge takes a copy of all registers, derives the wires from the copy, and lets each part compute its next
+//! state from both, so the order of evaluation does not matter, as in hardware. The model shares nothing with the
+//! hardware but the protocol.
 
 mod answer;
 mod attempts;
@@ -42,7 +43,7 @@ pub use defect::Defect;
 pub use memory::Write;
 pub use ports::{Inputs, Outputs};
 
-/// The core at a clock.
+/// The state of the core at a clock.
 #[derive(Clone, Debug)]
 pub struct ClockModel {
     config: Config,
@@ -78,13 +79,13 @@ impl ClockModel {
         })
     }
 
-    /// The same core without one of its rules, to show what that leads to.
+    /// The same core without one of its rules, to show what the rule prevents.
     pub fn with_defect(mut self, defect: Defect) -> Self {
         self.defect = Some(defect);
         self
     }
 
-    /// The outputs as they stand.
+    /// The outputs in the current state.
     pub fn outputs(&self) -> Outputs {
         let now = &self.registers;
         Outputs {
@@ -97,26 +98,26 @@ impl ClockModel {
         }
     }
 
-    /// Memories are being cleared.
+    /// Whether memories are being cleared.
     fn sweeps(&self) -> bool {
         self.release.sweeps() || self.latencies.sweeps()
     }
 
-    /// The record with this id as it stands in the memory, as words of a `Read` answer.
+    /// The record of this id as it stands in the memory, as words of a `Read` answer.
     pub fn record_words(&self, id: u32) -> [u32; 3] {
         self.memory.record_words(id)
     }
 
-    /// What the core is doing, for a reader of a mismatch report.
+    /// The state of the core in a sentence, for readers of a report of a mismatch.
     pub fn describe(&self) -> String {
         let now = &self.registers;
         format!(
-            "asleep {:x}, keeping {:x}, busy {:x}, waiter {:?}, alone {:?}, {} of {} points finished, commit {:?}, \
-             solo {:?}, command {:?}",
+            "asleep {:x}, retrying {:x}, busy {:x}, priority_context {:?}, solo {:?}, {} of {} points finished, \
+             commit {:?}, solo {:?}, command {:?}",
             now.contexts.asleep,
-            now.contexts.keeps,
+            now.contexts.retrying,
             now.contexts.busy,
-            now.contexts.waiter,
+            now.contexts.priority_context,
             now.contexts.solo,
             now.contexts.finished,
             now.command.arrived,
@@ -126,10 +127,10 @@ impl ClockModel {
         )
     }
 
-    /// One rising edge.
+    /// Simulates one rising edge.
     ///
     /// # Panics
-    /// If a memory is read and written in a way that is undefined in silicon, which would be a fault in the design.
+    /// A memory is read and written in a way that is undefined in silicon, which would be a fault of the design.
     pub fn clock(&mut self, inputs: Inputs) {
         if inputs.reset {
             self.registers = Registers::after_reset(self.config);
@@ -147,7 +148,7 @@ impl ClockModel {
         now.contexts.clock(&was, &wires, self.config.contexts, self.defect);
         now.seeder.clock(&was, &wires);
         now.solo.clock(&was, &wires, &self.tables, &self.memory);
-        now.progress.clock(&was);
+        now.finished_points.clock(&was);
         now.watchdog.clock(&was, &wires, self.config);
         now.counters.clock(&was, &wires, &self.pipeline);
         now.counted = was.counters;

@@ -1,4 +1,6 @@
-//! The model as a device: words in, words out.
+//! The model by commands as a device: words in, words out.
+//!
+//! Hardware twin: the core behind its command port and responder, without clocks.
 
 use crate::mesh::Mesh;
 use crate::predicate::Point;
@@ -7,17 +9,17 @@ use protocol::{answer_header, Counter, Identity, InsertReport, Layout, Opcode, S
 use std::collections::VecDeque;
 use std::fmt;
 
-/// Version of the model and of the core it predicts, `major << 16 | minor << 8 | patch`.
+/// Version of the model, and of the core that it predicts: `major << 16 | minor << 8 | patch`.
 pub const CORE_VERSION: u32 = protocol::CORE_VERSION;
 
-/// A parameter the model cannot be built with.
+/// A parameter with which the model cannot be built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ModelError {
-    /// Coordinate bits outside 1 to 31.
+    /// The width of coordinates is outside 1 to 31 bits.
     CoordBits(u32),
-    /// Capacity outside 4 to [`protocol::MAX_MODEL_POINTS`] points.
+    /// The capacity is outside 4 to [`protocol::MAX_MODEL_POINTS`] points.
     Capacity(u32),
-    /// Boundary list outside 3 to 64 entries.
+    /// The length of the boundary list is outside 3 to 64 entries.
     Ring(u32),
 }
 
@@ -26,20 +28,25 @@ impl fmt::Display for ModelError {
         match self {
             Self::CoordBits(given) => write!(
                 f,
-                "the model takes coordinates of {} to {} bits, not {given}",
+                "the model cannot take coordinates of {given} bits: choose {} to {}",
                 protocol::MIN_COORD_BITS,
                 protocol::MAX_COORD_BITS
             ),
             Self::Capacity(given) => {
                 write!(
                     f,
-                    "the model holds {} to {} points, not {given}",
+                    "the model cannot hold {given} points: choose a number from {} to {}",
                     protocol::MIN_POINTS,
                     protocol::MAX_MODEL_POINTS
                 )
             }
             Self::Ring(given) => {
-                write!(f, "a boundary list holds {} to {} edges, not {given}", protocol::MIN_RING, protocol::MAX_RING)
+                write!(
+                    f,
+                    "a boundary list cannot hold {given} edges: choose a number from {} to {}",
+                    protocol::MIN_RING,
+                    protocol::MAX_RING
+                )
             }
         }
     }
@@ -47,8 +54,9 @@ impl fmt::Display for ModelError {
 
 impl std::error::Error for ModelError {}
 
-/// What the next words mean. They are read here anew, not by the protocol's `CommandReader`: the core's own reading is compared with this one, so
-/// it shares no code with a host that writes commands.
+/// The meaning of the next word. The model reads commands with code of its own and not with the protocol's
+/// `CommandReader`, because the core's reading is compared with the model's, which must share no code with a
+/// host that writes commands.
 #[derive(Clone, Copy, Debug)]
 enum Awaited {
     Command,
@@ -58,29 +66,29 @@ enum Awaited {
     ReadCount(Range, u32),
 }
 
-/// What is read of records.
+/// The part of the records that a command reads.
 #[derive(Clone, Copy, Debug)]
 enum Range {
     Records,
     Vertices,
 }
 
-/// The model driven by whole commands. It carries out each command as its last word arrives.
+/// A model that is driven by whole commands. Each command is carried out when its last word arrives.
 #[derive(Debug)]
 pub struct CommandModel {
     identity: Identity,
     layout: Layout,
     mesh: Mesh,
     awaited: Awaited,
-    /// First word of a point that takes two and was cut off by the end of a piece.
+    /// First word of a point of two words, if a piece of the command stream ended between them.
     half_point: Option<u32>,
     answers: VecDeque<u32>,
-    /// A range being read: of records `.1` to `.2` this is yet to be turned into words.
+    /// The range being read: records from the first number up to the second have not been turned into words yet.
     reading: (Range, u32, u32),
 }
 
 impl CommandModel {
-    /// A model with an empty mesh. Memory is taken as points arrive, not up to the capacity.
+    /// A model with an empty mesh. Memory is allocated as points arrive, not for the whole capacity.
     pub fn new(coord_bits: u32, capacity: u32, ring_capacity: u32) -> Result<Self, ModelError> {
         if !(protocol::MIN_COORD_BITS..=protocol::MAX_COORD_BITS).contains(&coord_bits) {
             return Err(ModelError::CoordBits(coord_bits));
@@ -110,26 +118,26 @@ impl CommandModel {
         })
     }
 
-    /// The same as if it had so many contexts, 1 to 255: it then takes as many jobs side by side in a batch. Its points come one after the
-    /// other all the same.
+    /// The same model with this many contexts, 1 to 255. In a batch it then takes that many jobs side by side, but its
+    /// points are still inserted one after the other.
     #[must_use]
     pub fn with_contexts(mut self, contexts: u32) -> Self {
         self.identity.contexts = contexts.clamp(1, 255);
         self
     }
 
-    /// The mesh as it stands.
+    /// The mesh in its current state.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }
 
-    /// True if a command has begun whose answer has not been handed out.
+    /// Whether a command has begun and its answer has not been handed out completely.
     pub fn is_busy(&self) -> bool {
         let is_between = matches!(self.awaited, Awaited::Command);
         !is_between || !self.answers.is_empty() || self.reading.1 != self.reading.2
     }
 
-    /// Takes any piece of the command stream.
+    /// Takes a piece of the command stream, of any length.
     pub fn send(&mut self, words: &[u32]) {
         let mut rest = words;
         while let Some((&word, after)) = rest.split_first() {
@@ -157,7 +165,7 @@ impl CommandModel {
         }
     }
 
-    /// Hands out answer words that are ready and returns how many.
+    /// Hands out answer words that are ready, and returns their number.
     pub fn receive(&mut self, buffer: &mut [u32]) -> usize {
         let mut filled = 0;
         while filled < buffer.len() {
@@ -173,9 +181,10 @@ impl CommandModel {
         filled
     }
 
-    /// Turns the next few records of the range being read into words; false if none is left.
+    /// Turns the next records of the range being read into words; false if none is left.
     ///
-    /// Only a window is held, so reading a large mesh takes no memory of its size. Its size is even: the ids of a window fill whole words.
+    /// Only a window is converted at a time, so reading a large mesh takes no memory of the mesh's size. The window has
+    /// an even number of records, so that its ids fill whole words.
     fn read_on(&mut self) -> bool {
         const WINDOW: u32 = 4096;
         let (range, first, end) = self.reading;
@@ -204,7 +213,7 @@ impl CommandModel {
         true
     }
 
-    /// Finishes the range being read, before another answer or a change of the mesh.
+    /// Converts the rest of the range being read, before another answer or a change of the mesh.
     fn finish_reading(&mut self) {
         while self.read_on() {}
     }
@@ -239,7 +248,7 @@ impl CommandModel {
                 let words = self.counter_words();
                 self.answer(opcode, Status::Ok, &words);
             }
-            // The model by commands takes no time.
+            // In the model by commands, insertions take no time.
             Some(Opcode::Latencies) => self.answer(opcode, Status::Ok, &[0; protocol::LATENCY_BUCKETS]),
             None => self.answer(opcode, Status::UnknownOpcode, &[]),
         }
@@ -258,7 +267,7 @@ impl CommandModel {
         }
     }
 
-    /// Inserts the points in `words`, at most `left`; returns the words behind them.
+    /// Inserts the points in `words`, at most `left` of them, and returns the words behind them.
     fn take_points<'a>(&mut self, left: u32, words: &'a [u32]) -> &'a [u32] {
         let mask = u32::MAX >> (32 - self.identity.coord_bits);
         let mut left = left;

@@ -1,11 +1,12 @@
 //! Bit-exact software model of the incircle core.
 //!
-//! Two ways to drive it. [`CommandModel`] takes the command stream whole and is fast; it is the default back end
-//! of the host library. [`ClockModel`] predicts every root port of the core at every clock; lock-step tests compare
-//! it with the Verilog. Both hold the same records under the same ids, written in the same order.
+//! The model comes in two forms. [`CommandModel`] takes whole commands and is fast; it is the default back end of the
+//! host library. [`ClockModel`] predicts every root port of the core at every clock, and lock-step tests compare it
+//! with the Verilog. Both hold the same records under the same ids, written in the same order.
 //!
-//! The algorithm is incremental insertion: a visibility walk, a Bowyer-Watson cavity whose boundary is a ring split in
-//! place, and a commit that reuses the removed triangles' ids. Ties follow the canonical rule (see [`predicate`]).
+//! The algorithm is incremental insertion: a visibility walk, a Bowyer-Watson cavity whose boundary is a ring
+//! that is split in place, and a commit that reuses the ids of the removed triangles. Ties follow the
+//! canonical rule (see [`predicate`]).
 
 mod clock;
 mod command;

@@ -1,4 +1,5 @@
-//! The triangulation as the core stores it, and insertion into it, one point after the other.
+//! The triangulation as the core stores it, and the insertion of points into it, one after the other. The insertion
+//! engine of the core does the same in many contexts at once.
 
 mod approach;
 mod cavity;
@@ -13,23 +14,23 @@ use cavity::Cavity;
 use incircle_protocol::infinite_vertex;
 pub use record::Record;
 
-/// Records of a first triangle and its ghosts.
+/// Number of records of a first triangle: the triangle and three ghost triangles.
 const SEED_RECORDS: u32 = 4;
 
-/// What became of a point.
+/// The outcome for one point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Insertion {
-    /// It is a vertex of the mesh now, or one of the first three of a job, which wait for each other.
+    /// The point is a vertex of the mesh now, or is one of the first three of a job, which become a triangle together.
     Inserted,
-    /// It fell onto a vertex.
+    /// The point equals a vertex.
     Duplicate,
-    /// It completes a collinear triple; nothing was inserted, and nothing will be before a clear.
+    /// The point completes a collinear triple. Nothing was inserted, and nothing will be until a clear.
     Collinear,
-    /// It was refused: the memory is full, or the start was collinear.
+    /// The point was refused: the memory is full, or the first three points were collinear.
     Refused,
 }
 
-/// Events since the last clear; see `incircle_protocol::Counter`.
+/// Numbers of events since the last clear; see `incircle_protocol::Counter`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[allow(missing_docs)] // the names are those of `Counter`, where each is explained
 pub struct Counts {
@@ -51,7 +52,8 @@ pub struct Mesh {
     infinite: u32,
     points: Vec<Point>,
     records: Vec<Record>,
-    /// Where the next walk of each job starts: a record at its point inserted or found last. One job but in a batch.
+    /// The hint of each job: the record at which its next walk starts, which holds the point that was inserted or found
+    /// last. There is one job unless a batch is in progress.
     starts: Vec<u32>,
     collinear: bool,
     counts: Counts,
@@ -59,7 +61,7 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// An empty mesh for `capacity` points with boundary lists of `ring_capacity` entries.
+    /// An empty mesh for `capacity` points, with boundary lists of `ring_capacity` entries.
     pub fn new(capacity: u32, ring_capacity: u32) -> Self {
         Self {
             capacity,
@@ -73,38 +75,39 @@ impl Mesh {
         }
     }
 
-    /// Forgets everything but its parameters. Keeps its memory.
+    /// Forgets everything but the parameters. The allocated memory is kept.
     pub fn clear(&mut self) {
         self.clear_for(1);
     }
 
-    /// The same; what comes from then on is a batch of so many jobs, at least one, each with a mesh of its own. The first points are three
-    /// for each job, the others are dealt to them in turn.
+    /// Forgets everything and starts a batch of `jobs` jobs, at least one, each with a mesh of its own. The first
+    /// points that arrive are three for each job; the later ones are dealt to the jobs in turn.
     pub fn clear_for(&mut self, jobs: u32) {
         self.points.clear();
         self.records.clear();
-        // The first records of each job, as soon as they are written.
+        // Ids of the first records of each job, which exist as soon as the job has three points.
         self.starts = (0..jobs.max(1)).map(|job| SEED_RECORDS * job).collect();
         self.collinear = false;
         self.counts = Counts::default();
     }
 
-    /// All records, by id; empty before the third point.
+    /// All records, in the order of their ids. There are none before the third point.
     pub fn records(&self) -> &[Record] {
         &self.records
     }
 
-    /// Events since the last clear.
+    /// Numbers of events since the last clear.
     pub fn counts(&self) -> &Counts {
         &self.counts
     }
 
-    /// Whether the first three points were collinear, in a batch those of any job.
+    /// Whether the first three points were collinear; in a batch, those of any job.
     pub fn is_collinear(&self) -> bool {
         self.collinear
     }
 
-    /// Makes room for `more` points, if that many fit; a claim beyond a million is believed as the points come.
+    /// Allocates memory for `more` points, if that many fit. Memory for more than a million is allocated only
+    /// as the points come.
     pub fn reserve(&mut self, more: u32) {
         const BELIEVED: u32 = 1 << 20;
         let points = more.min(self.capacity - self.counts.arrived).min(BELIEVED) as usize;
@@ -112,7 +115,7 @@ impl Mesh {
         self.records.reserve_exact(2 * points);
     }
 
-    /// Inserts one point. The search for it begins where the last one ended.
+    /// Inserts one point. The walk to it starts where the last one ended.
     pub fn insert(&mut self, p: Point) -> Insertion {
         let Some(id) = self.arrive(p) else {
             return Insertion::Refused;
@@ -125,7 +128,7 @@ impl Mesh {
         }
     }
 
-    /// Takes a point in, and numbers it; `None` if it is refused.
+    /// Accepts and numbers a point, or returns `None` if it is refused.
     fn arrive(&mut self, p: Point) -> Option<u32> {
         if self.collinear || self.counts.arrived == self.capacity {
             self.counts.refused += 1;
@@ -137,7 +140,7 @@ impl Mesh {
         Some(id)
     }
 
-    /// The first finite triangle of a job and its three ghosts, from its first three vertices.
+    /// Writes the first finite triangle of a job and its three ghost triangles, from the job's first three vertices.
     fn seed(&mut self, first: u32) -> Insertion {
         let corner = |k: u32| self.points[(first + k) as usize];
         let turn = orient2d(corner(0), corner(1), corner(2));
@@ -164,7 +167,7 @@ impl Mesh {
         self.insert_in(id, p, root)
     }
 
-    /// Inserts a vertex whose point is in this record.
+    /// Inserts a vertex whose point this record holds.
     #[inline]
     fn insert_in(&mut self, id: u32, p: Point, root: u32) -> Insertion {
         let record = self.records[root as usize];
@@ -177,19 +180,19 @@ impl Mesh {
             self.commit(id);
         } else {
             self.counts.overflows += 1;
-            self.insert_alone(id, p, root);
+            self.insert_solo(id, p, root);
         }
         self.counts.insertions += 1;
         Insertion::Inserted
     }
 
-    /// The infinite slot of a ghost, or `None` for a finite triangle.
+    /// The slot of the infinite vertex in a ghost triangle, or `None` for a finite triangle.
     #[inline]
     fn infinite_slot(&self, v: [u32; 3]) -> Option<usize> {
         v.iter().position(|&v| v == self.infinite)
     }
 
-    /// Whether inserting `p` removes `u`, a record rotated so that slot 0 is opposite the edge that faces `p`.
+    /// Whether `p` conflicts with `u`, a record rotated so that slot 0 is opposite the edge that faces `p`.
     #[inline]
     fn in_conflict(&self, u: &Record, p: Point) -> bool {
         let at = |k: usize| self.points[u.v[k] as usize];

@@ -1,8 +1,10 @@
-//! The stream device: words in beats between two FIFOs, and the registers beside them.
+//! The device's end of the stream link: words in beats between two FIFOs, and the registers beside them.
 //!
-//! [`StreamModel`] is what stands behind an AXI4-Stream in, one out and a register block, without a clock: beats are taken while there is room,
-//! answers are given while there are some. Behind it is a [`WordStream`]. Nothing is shared with the hardware or with a host but the numbers of
-//! the protocol.
+//! Hardware twin: the blocks of `hdl/src/stream/`.
+//!
+//! [`StreamModel`] models the device behind one AXI4-Stream in each direction and a register block, without a clock:
+//! the device takes beats while there is room, and gives answers while there are some. Behind the beats is a
+//! [`WordStream`]. The model shares nothing with the hardware or with a host but the numbers of the protocol.
 //!
 //! ```
 //! use incircle_model::stream::{ModelCore, StreamModel};
@@ -31,25 +33,25 @@ use incircle_protocol::{
 
 pub use self::core::{ModelCore, WordStream};
 
-/// Bytes of a word.
+/// Number of bytes of a word.
 const WORD: usize = 4;
-/// Header and length of an answer.
+/// Number of words in front of an answer's payload: header and length.
 const HEAD_WORDS: usize = 2;
 
-/// An access to registers that the bus refuses: SLVERR.
+/// An access to registers that the bus refuses with SLVERR.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BusError;
 
-/// What was given of the answers.
+/// The result of reading answers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Given {
-    /// Bytes given: whole beats.
+    /// Number of bytes that were given, in whole beats.
     pub bytes: usize,
-    /// The last of them ends an answer.
+    /// Whether the last byte ends an answer.
     pub is_end: bool,
 }
 
-/// A word on its way out, and whether it is the last of its answer.
+/// A word of an answer in the FIFO, and whether it is the last of the answer.
 type Leaving = (u32, bool);
 
 /// A device of beats and registers.
@@ -57,11 +59,12 @@ type Leaving = (u32, bool);
 pub struct StreamModel<C> {
     core: C,
     identity: Identity,
-    /// Words of a beat.
+    /// Number of words of a beat.
     width: usize,
     commands: VecDeque<u32>,
     answers: VecDeque<Leaving>,
-    /// Words of the present answer that have come from the core, and its length once that is known.
+    /// Number of words of the current answer that have come from the core, and the length of that answer
+    /// once it is known.
     came: usize,
     length: Option<usize>,
     header: u32,
@@ -73,7 +76,7 @@ pub struct StreamModel<C> {
 }
 
 impl<C: WordStream> StreamModel<C> {
-    /// A device with beats of 64 or 128 bits around this core, after its reset.
+    /// A device around this core, with beats of 64 or 128 bits, after its reset.
     pub fn new(mut core: C, beat_bits: u32) -> Self {
         core.reset();
         Self {
@@ -93,7 +96,7 @@ impl<C: WordStream> StreamModel<C> {
         }
     }
 
-    /// Bytes of a beat.
+    /// Number of bytes of a beat.
     pub fn beat_bytes(&self) -> usize {
         WORD * self.width
     }
@@ -102,8 +105,8 @@ impl<C: WordStream> StreamModel<C> {
         STREAM_FIFO_BEATS as usize * self.width
     }
 
-    /// Takes as many whole beats as there is room for, and says how many bytes that were. Less than a beat at the end of `bytes` is
-    /// a beat with a gap: it is dropped, and an error bit tells.
+    /// Takes as many whole beats as there is room for, and returns how many bytes that were. If `bytes` ends within a
+    /// beat, that beat lacks bytes: it is dropped, and an error bit is set.
     pub fn take(&mut self, bytes: &[u8]) -> usize {
         let beat = self.beat_bytes();
         let mut taken = 0;
@@ -125,11 +128,11 @@ impl<C: WordStream> StreamModel<C> {
         bytes.len()
     }
 
-    /// Gives beats, at most what has room in `bytes`, and nothing beyond the end of an answer.
+    /// Gives beats, at most as many as fit into `bytes`, and none beyond the end of an answer.
     pub fn give(&mut self, bytes: &mut [u8]) -> Given {
         let mut given = Given::default();
         for beat in bytes.chunks_exact_mut(WORD * self.width) {
-            // An answer that has not come to its end leaves whole beats only.
+            // Within an answer only whole beats may leave; the end of an answer may fill a beat with padding.
             let is_whole = self.answers.len() >= self.width || self.answers.iter().any(|word| word.1);
             if !is_whole {
                 break;
@@ -156,7 +159,8 @@ impl<C: WordStream> StreamModel<C> {
         given
     }
 
-    /// Moves words through the core, as far as the FIFOs allow. As a core, it takes no word while it has an answer to give.
+    /// Moves words through the core, as far as the FIFOs allow. As the core does, the model takes no word while it has
+    /// an answer to give.
     fn work(&mut self) {
         loop {
             while self.answers.len() < self.fifo_words() {
@@ -176,7 +180,7 @@ impl<C: WordStream> StreamModel<C> {
         }
     }
 
-    /// Puts a word into the FIFO towards the host: the second one of an answer tells its length.
+    /// Puts a word into the FIFO to the host. The second word of an answer is its length.
     fn leave(&mut self, word: u32) {
         match self.came {
             0 => self.header = word,
@@ -195,12 +199,12 @@ impl<C: WordStream> StreamModel<C> {
         }
     }
 
-    /// True if a word is held, or a command without its whole answer.
+    /// Whether a word is held, or a command has not been answered completely.
     pub fn is_busy(&self) -> bool {
         !self.commands.is_empty() || !self.answers.is_empty() || self.came > 0 || self.core.is_busy()
     }
 
-    /// As after a reset of the core and of both FIFOs: what was under way is lost, the counters go on.
+    /// Resets the core and both FIFOs. Whatever was in progress is lost; the counters are kept.
     pub fn reset(&mut self) {
         self.core.reset();
         self.commands.clear();
@@ -208,10 +212,10 @@ impl<C: WordStream> StreamModel<C> {
         (self.came, self.length) = (0, None);
     }
 
-    /// Reads a register.
+    /// Reads the register at this byte offset.
     ///
     /// # Errors
-    /// There is none at this offset.
+    /// There is no register at this offset.
     pub fn read(&mut self, offset: u32) -> Result<u32, BusError> {
         let identity = &self.identity;
         Ok(match register_at(offset).ok_or(BusError)? {
@@ -231,7 +235,7 @@ impl<C: WordStream> StreamModel<C> {
             StreamRegister::CommandBeats => self.command_beats,
             StreamRegister::AnswerBeats => self.answer_beats,
             StreamRegister::Answers => self.answers_ended,
-            // Nothing here has a clock.
+            // The model has no clock to count.
             StreamRegister::Control
             | StreamRegister::ClocksLow
             | StreamRegister::ClocksHigh
@@ -251,10 +255,10 @@ impl<C: WordStream> StreamModel<C> {
         status
     }
 
-    /// Writes a register.
+    /// Writes the register at this byte offset.
     ///
     /// # Errors
-    /// There is none at this offset, or it can only be read.
+    /// There is no register at this offset, or it is read-only.
     pub fn write(&mut self, offset: u32, value: u32) -> Result<(), BusError> {
         match register_at(offset) {
             Some(StreamRegister::Control) => {
@@ -269,7 +273,7 @@ impl<C: WordStream> StreamModel<C> {
     }
 }
 
-/// The register at this byte offset, of which the lowest two bits mean nothing.
+/// The register at this byte offset. The lowest two bits of an offset have no meaning.
 fn register_at(offset: u32) -> Option<StreamRegister> {
     StreamRegister::ALL.into_iter().find(|register| register.offset() == offset & !3)
 }

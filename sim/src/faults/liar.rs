@@ -1,4 +1,5 @@
-//! A device that lies, with sound check sums: its frames are taken apart and put together again.
+//! A lying device on a serial line. The liar takes the device's frames apart, changes them, and closes them with a
+//! correct check sum, so a host cannot tell the lie from a frame of the device.
 
 use std::collections::VecDeque;
 
@@ -8,27 +9,27 @@ use incircle_protocol::{
     MAX_DEVICE_FRAME,
 };
 
-/// What a device lies about.
+/// The lie that a device tells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lie {
-    /// Its link is of another major version.
+    /// The link claims another major version.
     Version,
-    /// Its core is of another major version.
+    /// The core claims another major version of the protocol.
     Protocol,
-    /// It claims to hold 2^32 - 1 points.
+    /// The identity claims a capacity of 2^32 - 1 points.
     Capacity,
-    /// Its records name points that do not exist.
+    /// Records name points that do not exist.
     Index,
     /// The answers to `Read` never end.
     Endless,
-    /// It claims more room than there is.
+    /// Every frame claims more room than the device has.
     Credit,
-    /// It counts points that were not sent.
+    /// The report of an insertion counts points that were never sent.
     Report,
 }
 
 impl Lie {
-    /// All names.
+    /// The names of all lies, for messages.
     pub const NAMES: &'static str = "version, protocol, capacity, index, endless, credit or report";
 
     /// The lie of this name.
@@ -46,30 +47,30 @@ impl Lie {
     }
 }
 
-/// Places in the greeting.
+/// Indices of words in the greeting.
 const LINK_VERSION_WORD: usize = 1;
 const IDENTITY: usize = GREETING_WORDS - IDENTITY_WORDS;
-/// Places in the identity.
+/// Indices of words in the identity.
 const PROTOCOL_VERSION_WORD: usize = 1;
 const CAPACITY_WORD: usize = 4;
-/// Words of an answer before its payload.
+/// Number of words in front of an answer's payload.
 const HEAD_WORDS: usize = 2;
-/// Words of the first record, and of the first count of a report.
+/// Indices of the words of an answer's first record.
 const FIRST_RECORD: std::ops::Range<usize> = HEAD_WORDS..HEAD_WORDS + 3;
-/// A vertex that no small core has, and not the infinite one of any.
+/// A vertex that no small core has, and that is not the infinite vertex of any core.
 const NO_VERTEX: u32 = 0x5a5a;
-/// Frames that follow where an answer should have ended.
+/// Number of frames that are sent in place of the end of an answer that never ends.
 const ENDLESS_FRAMES: u8 = 8;
 
-/// Takes a device's bytes and gives a liar's.
+/// Turns the bytes of a device into those of a liar.
 #[derive(Debug)]
 pub(super) struct Liar {
     lie: Lie,
     line: Vec<u8>,
-    /// Words of the present answer so far, and the first of them.
+    /// Number of words of the current answer so far, and its opcode.
     words: usize,
     opcode: u8,
-    /// Check sum of what was said of it.
+    /// Check sum of the words of the current answer as they were changed.
     crc: Crc32,
     said: VecDeque<u8>,
 }
@@ -79,12 +80,12 @@ impl Liar {
         Self { lie, line: Vec::new(), words: 0, opcode: 0, crc: Crc32::default(), said: VecDeque::new() }
     }
 
-    /// The next byte that it says.
+    /// Takes the next byte of the liar.
     pub(super) fn next(&mut self) -> Option<u8> {
         self.said.pop_front()
     }
 
-    /// A byte of the device. It is kept until its frame ends.
+    /// Hands over a byte of the device. Bytes are kept until their frame ends.
     pub(super) fn take(&mut self, byte: u8) {
         if byte != FRAME_END && self.line.len() < 2 * MAX_DEVICE_FRAME {
             return self.line.push(byte);
@@ -108,7 +109,8 @@ impl Liar {
         self.said.extend(frame.to_line());
     }
 
-    /// Greeting or answer to `Hello`; the identity begins with this word.
+    /// Changes the identity in a greeting or in the answer to `Hello`. `identity` is the index of
+    /// the identity's first word.
     fn lie_of_identity(&self, bytes: &mut [u8], identity: usize) {
         let (place, value) = match self.lie {
             Lie::Version if identity == IDENTITY => (LINK_VERSION_WORD, 2 << 16),
@@ -150,7 +152,7 @@ impl Liar {
         }
     }
 
-    /// The end of an answer, or not.
+    /// Sends the last frame of an answer, or, for an answer that never ends, the same words again and again.
     fn end_answer(&mut self, mut frame: FromDevice, end: usize) {
         frame.body.truncate(end);
         if self.lie == Lie::Endless && self.opcode == Opcode::Read as u8 {
@@ -170,7 +172,7 @@ impl Liar {
     }
 }
 
-/// Changes a word, if it is there.
+/// Changes a word, if the frame has it.
 fn put(bytes: &mut [u8], word: usize, value: u32) {
     if let Some(place) = bytes.get_mut(4 * word..4 * word + 4) {
         place.copy_from_slice(&value.to_le_bytes());

@@ -1,4 +1,5 @@
-//! One direction of a line with faults.
+//! One direction of a serial line, with faults. `FaultyLine` sits between a sender of bytes and a receiver of bits:
+//! bytes go in, and symbols come out changed, late, twice or never.
 
 use std::collections::VecDeque;
 
@@ -9,46 +10,46 @@ use super::spec::{Chances, FaultSpec};
 use super::Direction;
 use crate::serial::{Symbol, SYMBOL_BITS};
 
-/// Bytes of a frame that wait for its end; more are let go in pieces, as noise has no end.
+/// Largest number of bytes that wait for the end of their frame. Longer runs are passed on in pieces, since noise may
+/// never contain the end of a frame.
 const LONGEST: usize = 2 * MAX_PAYLOAD;
-/// Most bytes of noise before a frame.
+/// Largest number of bytes of noise before a frame.
 const BABBLE: u32 = 64;
 
-/// What stands on the line.
+/// An element of the queue of a line.
 #[derive(Clone, Copy, Debug)]
 enum Item {
     Byte(u8),
-    /// Nothing, for this many nanoseconds.
+    /// An idle line for this many nanoseconds.
     Pause(u64),
 }
 
-/// A line in one direction. Bytes go in as they are sent and come out as symbols, later, otherwise, more or fewer. Times are
-/// nanoseconds of the board.
+/// One direction of a line with faults. All times are nanoseconds of the board.
 #[derive(Debug)]
 pub struct FaultyLine {
     spec: FaultSpec,
     random: Random,
-    /// The frame that is waited for.
+    /// Bytes of the frame that has not ended yet.
     frame: Vec<u8>,
     /// A frame that the next one overtakes.
     overtaken: Option<Vec<u8>>,
     /// A byte that the next one overtakes.
     held: Option<u8>,
     items: VecDeque<Item>,
-    /// Until when the line stands still.
+    /// Time at which the current pause ends.
     paused_until: u64,
-    /// Sound bits until the next one that is not.
+    /// Number of bits that pass unchanged before the next flipped bit.
     sound_bits: u64,
-    /// Bytes that went in.
+    /// Number of bytes that were sent so far.
     bytes: u64,
-    /// When the silence began.
+    /// Time at which the silence began.
     silent_since: Option<u64>,
-    /// Faults done.
+    /// Number of faults so far.
     faults: u64,
 }
 
 impl FaultyLine {
-    /// The line in this direction.
+    /// A line with those faults of `spec` that concern this direction.
     pub fn new(spec: &FaultSpec, direction: Direction) -> Self {
         let spec = spec.of(direction);
         let mut random = Random::new(spec.seed);
@@ -68,24 +69,24 @@ impl FaultyLine {
         }
     }
 
-    /// Faults done so far.
+    /// Number of faults so far.
     pub fn faults(&self) -> u64 {
         self.faults
     }
 
-    /// Nothing waits in the line.
+    /// Whether no symbol waits in the line.
     pub fn is_empty(&self) -> bool {
         self.items.is_empty()
     }
 
-    /// What waits in the line is lost.
+    /// Loses everything that waits in the line.
     pub fn clear(&mut self) {
         self.items.clear();
         self.frame.clear();
         (self.held, self.overtaken) = (None, None);
     }
 
-    /// A byte is sent.
+    /// Sends a byte into the line.
     pub fn carry(&mut self, byte: u8, now: u64) {
         self.bytes += 1;
         if self.is_silent(now) {
@@ -115,7 +116,7 @@ impl FaultyLine {
     }
 
     fn carry_frame(&mut self, mut frame: Vec<u8>) {
-        // Zeros in a row end no frame.
+        // A zero that follows a zero ends no frame, so there is nothing to stall, to precede by noise or to truncate.
         if frame.len() > 1 {
             if self.happens(self.spec.stall.0) {
                 self.items.push_back(Item::Pause(self.spec.stall.1 * 1_000_000));
@@ -169,7 +170,8 @@ impl FaultyLine {
         }
     }
 
-    /// The next symbol, if the line does not stand still. Bits are turned here, one chance each.
+    /// The next symbol, or `None` while the line is empty or stands still. Every bit of the symbol is flipped with the
+    /// chance of a bit error.
     pub fn next(&mut self, now: u64) -> Option<Symbol> {
         loop {
             if now < self.paused_until {
@@ -198,7 +200,7 @@ impl FaultyLine {
     }
 }
 
-/// What becomes of a byte or a frame.
+/// The fate of a byte or a frame.
 enum Fate {
     Lost,
     Late,
@@ -213,7 +215,7 @@ mod tests {
         FaultyLine::new(&spec.parse().unwrap(), Direction::ToDevice)
     }
 
-    /// All bytes behind the line, as long as it does not stand still for ever.
+    /// All bytes that arrive at the far end. The line must not stand still for ever.
     fn through(line: &mut FaultyLine, bytes: &[u8]) -> Vec<u8> {
         bytes.iter().for_each(|&byte| line.carry(byte, 0));
         let mut now = 0;

@@ -1,7 +1,9 @@
-//! Faults of a line, and devices that lie: what a host must survive, to be put between it and a board.
+//! Faults of a serial line, and devices that lie: everything a host must survive, to be put between the
+//! host and a board.
 //!
-//! [`FaultSpec`] says which, in the grammar of its [`FromStr`](std::str::FromStr); a [`FaultyLine`] for each direction does it. Everything follows from
-//! the seed, the bytes and the times, so a run can be repeated. [`Proxy`] has both directions and what they have in common.
+//! [`FaultSpec`] names the faults, in the grammar that its [`FromStr`](std::str::FromStr) reads, and a [`FaultyLine`]
+//! for each direction applies them. The faults follow from the seed, the bytes and the times alone, so a run can be
+//! repeated. [`Proxy`] holds both directions, the liar and the cable.
 
 mod liar;
 mod line;
@@ -15,7 +17,7 @@ pub use proxy::Proxy;
 pub(crate) use random::Random;
 pub use spec::{FaultSpec, SpecError};
 
-/// A way along the line.
+/// A direction of the line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     /// From the host to the device.

@@ -1,4 +1,4 @@
-//! Both directions of a line with faults.
+//! Both directions of a serial line with faults, the lying device behind it, and the cable that can be pulled.
 
 use std::time::Duration;
 
@@ -8,18 +8,18 @@ use super::spec::FaultSpec;
 use super::Direction;
 use crate::serial::Symbol;
 
-/// What stands between a host and a board.
+/// The faulty line between a host and a board.
 #[derive(Debug)]
 pub struct Proxy {
     to_device: FaultyLine,
     to_host: FaultyLine,
     liar: Option<Liar>,
-    /// Bytes until the cable is pulled, and for how long it then is.
+    /// Number of bytes until the cable is pulled, and the time for which it stays out.
     unplug: Option<(u64, Duration)>,
 }
 
 impl Proxy {
-    /// A line with these faults.
+    /// A line with the faults of `spec`.
     pub fn new(spec: &FaultSpec) -> Self {
         Self {
             to_device: FaultyLine::new(spec, Direction::ToDevice),
@@ -29,13 +29,14 @@ impl Proxy {
         }
     }
 
-    /// The host sends a byte.
+    /// Sends a byte of the host into the line.
     pub fn from_host(&mut self, byte: u8, now: u64) {
         self.count();
         self.to_device.carry(byte, now);
     }
 
-    /// A symbol comes from the board. One without a start bit is nothing; one without a stop bit is handed on as a host's hardware does.
+    /// Sends a symbol of the board into the line. A symbol without a start bit is lost; one without a stop bit is
+    /// passed on, as the hardware of a host does.
     pub fn from_device(&mut self, symbol: Symbol, now: u64) {
         let Some(byte) = symbol.byte() else {
             return;
@@ -64,35 +65,35 @@ impl Proxy {
     /// The next byte for the host.
     pub fn next_to_host(&mut self, now: u64) -> Option<u8> {
         loop {
-            // A start bit that was turned makes no byte.
+            // A symbol whose start bit was flipped makes no byte.
             if let Some(byte) = self.to_host.next(now)?.byte() {
                 return Some(byte);
             }
         }
     }
 
-    /// Nothing waits for the board.
+    /// Whether nothing waits for the board.
     pub fn is_empty_to_device(&self) -> bool {
         self.to_device.is_empty()
     }
 
-    /// Nothing waits in either direction.
+    /// Whether nothing waits in either direction.
     pub fn is_empty(&self) -> bool {
         self.to_device.is_empty() && self.to_host.is_empty()
     }
 
-    /// The cable is to be pulled now, for so long. It is said once.
+    /// The time for which the cable must be pulled now. Each pull is returned once.
     pub fn take_unplug(&mut self) -> Option<Duration> {
         self.unplug.take_if(|(left, _)| *left == 0).map(|(_, length)| length)
     }
 
-    /// What is on the line is lost.
+    /// Loses everything that is on the line.
     pub fn clear(&mut self) {
         self.to_device.clear();
         self.to_host.clear();
     }
 
-    /// Faults done so far.
+    /// Number of faults so far, in both directions.
     pub fn faults(&self) -> u64 {
         self.to_device.faults() + self.to_host.faults()
     }

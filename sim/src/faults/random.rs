@@ -1,11 +1,13 @@
-//! Chance that can be repeated.
+//! The random generator of the faults. `testbench/kit` has a generator for tests; this one is separate because the
+//! product must not depend on the test bench, and because a seed in a fault specification stands for one sequence of
+//! faults, which changes to the tests' generator must not alter.
 
-/// A generator of pseudo-random numbers: xorshift with a multiplier.
+/// A generator of pseudo-random numbers: xorshift followed by a multiplication.
 #[derive(Clone, Debug)]
 pub(crate) struct Random(u64);
 
 impl Random {
-    /// The generator of this seed; neighbouring seeds have nothing in common.
+    /// The generator of this seed. The seed is mixed, so that neighbouring seeds give unrelated sequences.
     pub(crate) fn new(seed: u64) -> Self {
         let mut mixed = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
         mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -13,7 +15,7 @@ impl Random {
         Self((mixed ^ (mixed >> 31)) | 1)
     }
 
-    /// A number of 32 bits.
+    /// A random number of 32 bits.
     pub(crate) fn bits(&mut self) -> u32 {
         self.0 ^= self.0 >> 12;
         self.0 ^= self.0 << 25;
@@ -21,12 +23,12 @@ impl Random {
         (self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 32) as u32
     }
 
-    /// A number below `limit`, or 0.
+    /// A random number below `limit`; 0 if `limit` is 0.
     pub(crate) fn below(&mut self, limit: u32) -> u32 {
         ((u64::from(self.bits()) * u64::from(limit)) >> 32) as u32
     }
 
-    /// True with this probability, in steps of 2^-53.
+    /// True with this probability. Probabilities are resolved to 2^-53.
     pub(crate) fn happens(&mut self, probability: f64) -> bool {
         if probability <= 0.0 {
             return false;
@@ -36,7 +38,7 @@ impl Random {
         ((high | low) as f64) < probability * (1_u64 << 53) as f64
     }
 
-    /// How many trials fail before the next one that happens with this probability.
+    /// Number of trials that fail before the next success, for trials that succeed with this probability.
     pub(crate) fn wait(&mut self, probability: f64) -> u64 {
         if probability <= 0.0 {
             return u64::MAX;
@@ -45,7 +47,7 @@ impl Random {
             return 0;
         }
         let chance = (f64::from(self.bits()) + 0.5) / 4_294_967_296.0;
-        // Saturates for tiny probabilities.
+        // A tiny probability gives a number beyond the range; the conversion then yields the largest number.
         (chance.ln() / (-probability).ln_1p()) as u64
     }
 }

@@ -1,11 +1,11 @@
-//! Which faults there are to be.
+//! The text that says which faults a serial line has.
 
 use std::str::FromStr;
 
 use super::liar::Lie;
 use super::Direction;
 
-/// Faults of a line, parsed from text.
+/// Faults of a serial line, parsed from text.
 ///
 /// ```text
 /// SPEC      = ITEM { "," ITEM }
@@ -13,56 +13,56 @@ use super::Direction;
 ///           | COUNT "=" N           N a whole number
 ///           | "direction=" ( "to-device" | "to-host" | "both" )
 ///           | "liar=" ( "version" | "protocol" | "capacity" | "index" | "endless" | "credit" | "report" )
-/// CHANCE    = "ber"                 each bit on the line, start and stop included, is the other way
+/// CHANCE    = "ber"                 each bit on the line, start and stop bits included, is flipped
 ///           | "drop" | "double" | "swap"                       each byte is lost, comes twice, comes after the next
-///           | "drop-frame" | "double-frame" | "swap-frame"     the same of frames
+///           | "drop-frame" | "double-frame" | "swap-frame"     the same for frames
 ///           | "truncate"            the end of a frame is lost, at least its last byte
-///           | "babble"              up to 64 bytes of noise stand before a frame
-///           | "stall"               before a frame the line stands still for `stall-ms`
-/// COUNT     = "stall-ms"            of the board's time, 20 unless said
-///           | "silence-after"       nothing passes behind so many bytes of a direction,
-///           | "silence-ms"          for so long, or for ever
-///           | "unplug-after"        the cable is pulled after so many bytes of both directions,
-///           | "unplug-ms"           for so long, in the host's time; 500 unless said
-///           | "seed"                1 unless said
+///           | "babble"              up to 64 bytes of noise precede a frame
+///           | "stall"               the line stands still for `stall-ms` before a frame
+/// COUNT     = "stall-ms"            milliseconds of the board; default 20
+///           | "silence-after"       nothing passes after N bytes of a direction,
+///           | "silence-ms"          for N milliseconds of the board; default for ever
+///           | "unplug-after"        the cable is pulled after N bytes of both directions together,
+///           | "unplug-ms"           for N milliseconds of the host; default 500
+///           | "seed"                seed of the random generator; default 1
 /// ```
-/// All but `unplug-…` and `liar` hold for the directions that `direction` names, both unless said.
+/// All items but `unplug-…` and `liar` hold for the directions that `direction` names; the default is both.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FaultSpec {
-    /// Chance of a bit to be the other way.
+    /// Chance that a bit on the line is flipped.
     pub ber: f64,
-    /// Chances of a byte to be lost, doubled, swapped with the next.
+    /// Chances that a byte is lost, doubled, or swapped with the next.
     pub bytes: Chances,
-    /// The same of a frame.
+    /// Chances that a frame is lost, doubled, or swapped with the next.
     pub frames: Chances,
-    /// Chance of a frame to lose its end.
+    /// Chance that a frame loses its end.
     pub truncate: f64,
-    /// Chance of noise before a frame.
+    /// Chance that noise precedes a frame.
     pub babble: f64,
-    /// Chance of a pause before a frame, and its length in milliseconds of the board.
+    /// Chance that the line pauses before a frame, and the length of the pause in milliseconds of the board.
     pub stall: (f64, u64),
-    /// Bytes after which nothing passes, and for how many milliseconds of the board.
+    /// Number of bytes after which nothing passes, and for how many milliseconds of the board; `None` means for ever.
     pub silence: Option<(u64, Option<u64>)>,
-    /// Bytes after which the cable is pulled.
+    /// Number of bytes after which the cable is pulled.
     pub unplug_after: Option<u64>,
-    /// Milliseconds of the host for which it is.
+    /// Milliseconds of the host for which the cable stays out.
     pub unplug_ms: u64,
-    /// What the device lies about.
+    /// The lie that the device tells.
     pub lie: Option<Lie>,
-    /// The only direction with faults.
+    /// The only direction with faults; `None` means both.
     pub direction: Option<Direction>,
-    /// Of the chances.
+    /// Seed of the random generator.
     pub seed: u64,
 }
 
-/// Chances of what can happen to bytes and to frames.
+/// Chances of the faults that can happen to a byte or to a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Chances {
-    /// It is lost.
+    /// Chance that the byte or frame is lost.
     pub drop: f64,
-    /// It comes twice.
+    /// Chance that the byte or frame comes twice.
     pub double: f64,
-    /// It comes after the next.
+    /// Chance that the byte or frame comes after the next one.
     pub swap: f64,
 }
 
@@ -92,7 +92,7 @@ impl Default for FaultSpec {
 }
 
 impl FaultSpec {
-    /// What happens on the way in this direction.
+    /// The faults of one direction. Each direction has a seed of its own, so that the two sequences of chances differ.
     pub(super) fn of(&self, direction: Direction) -> Self {
         let seed = 2 * self.seed + u64::from(direction == Direction::ToHost);
         if self.direction.is_none_or(|only| only == direction) {
@@ -101,37 +101,37 @@ impl FaultSpec {
         Self { seed, ..Self::default() }
     }
 
-    /// Frames are looked at, so bytes wait for the end of theirs.
+    /// Whether some fault concerns frames. Bytes then wait for the end of their frame.
     pub(super) fn holds_frames(&self) -> bool {
         self.frames.any() || self.truncate > 0.0 || self.babble > 0.0 || self.stall.0 > 0.0
     }
 }
 
-/// A text that is no [`FaultSpec`].
+/// The reason why a text is no [`FaultSpec`].
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SpecError {
-    /// An item without a value.
-    #[error("\"{0}\" has no value: write name=value, with commas between")]
+    /// An item of the text has no value.
+    #[error("\"{0}\" has no value: write name=value, and commas between items")]
     NoValue(String),
-    /// An unknown item.
-    #[error("\"{0}\" is no fault: there are {KNOWN}")]
+    /// An item of the text is unknown.
+    #[error("\"{0}\" is not a fault: choose from {KNOWN}")]
     Unknown(String),
-    /// A value that does not fit.
-    #[error("\"{name}\" wants {wanted}, not \"{value}\"")]
+    /// A value is out of range or malformed.
+    #[error("\"{name}\" must be {wanted}, not \"{value}\"")]
     Value {
-        /// The item.
+        /// Name of the item.
         name: String,
-        /// What would be right.
+        /// Description of a value that would be right.
         wanted: &'static str,
-        /// What was given.
+        /// The value in the text.
         value: String,
     },
-    /// A length without what it is the length of.
-    #[error("\"silence-ms\" says for how long nothing passes: say \"silence-after\" as well")]
+    /// `silence-ms` was given without `silence-after`.
+    #[error("\"silence-ms\" needs a beginning of the silence: give \"silence-after\" as well")]
     Silence,
 }
 
-/// All items.
+/// Names of all items, for messages.
 const KNOWN: &str =
     "ber, drop, double, swap, drop-frame, double-frame, swap-frame, truncate, babble, stall, stall-ms, \
                      silence-after, silence-ms, unplug-after, unplug-ms, direction, liar, seed";
@@ -174,7 +174,7 @@ impl FromStr for FaultSpec {
     }
 }
 
-/// An item of the text.
+/// An item of the text, split at its `=`.
 struct Field<'a> {
     name: &'a str,
     value: &'a str,
@@ -191,7 +191,7 @@ impl Field<'_> {
     }
 
     fn number(&self) -> Result<u64, SpecError> {
-        // Milliseconds of this size can be turned into clocks.
+        // Thirty-two bits of milliseconds can be converted to nanoseconds and clocks without overflow.
         let parsed = self.value.parse::<u32>().map(u64::from);
         parsed.map_err(|_| self.wants("a whole number below 4294967296"))
     }
@@ -226,14 +226,14 @@ mod tests {
     #[test]
     fn what_is_no_fault_is_refused_with_a_reason() {
         for (text, sentence) in [
-            ("ber", "\"ber\" has no value: write name=value, with commas between"),
-            ("ber=2", "\"ber\" wants a number from 0 to 1, not \"2\""),
-            ("drop=NaN", "\"drop\" wants a number from 0 to 1, not \"NaN\""),
-            ("seed=-1", "\"seed\" wants a whole number below 4294967296, not \"-1\""),
-            ("direction=up", "\"direction\" wants to-device, to-host or both, not \"up\""),
-            ("silence-ms=5", "say \"silence-after\" as well"),
-            ("gremlin=1", "\"gremlin\" is no fault: there are ber, drop,"),
-            ("liar=politics", "\"liar\" wants version, protocol,"),
+            ("ber", "\"ber\" has no value: write name=value, and commas between items"),
+            ("ber=2", "\"ber\" must be a number from 0 to 1, not \"2\""),
+            ("drop=NaN", "\"drop\" must be a number from 0 to 1, not \"NaN\""),
+            ("seed=-1", "\"seed\" must be a whole number below 4294967296, not \"-1\""),
+            ("direction=up", "\"direction\" must be to-device, to-host or both, not \"up\""),
+            ("silence-ms=5", "give \"silence-after\" as well"),
+            ("gremlin=1", "\"gremlin\" is not a fault: choose from ber, drop,"),
+            ("liar=politics", "\"liar\" must be version, protocol,"),
         ] {
             let error = text.parse::<FaultSpec>().unwrap_err().to_string();
             assert!(error.contains(sentence), "{error}");

@@ -1,4 +1,4 @@
-//! What the files of a card do: streams that block, as XDMA's, registers, and faults.
+//! The behaviour behind the files of a card: streams that block as those of the driver XDMA do, registers, and faults.
 
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -10,37 +10,37 @@ use super::faults::{CardFaultSpec, Strike};
 use super::liar::Liar;
 use crate::faults::Random;
 
-/// What a register of a card reads as that is gone.
+/// Value that every register of a vanished card reads as.
 const ALL_ONES: u32 = u32::MAX;
 /// Longest sleep of a call that waits.
 const NAP: Duration = Duration::from_millis(100);
-/// Beats behind an answer that does not end.
+/// Number of extra beats behind an answer that hides its end.
 const EXTRA_BEATS: usize = 4;
 const EXTRA_BYTE: u8 = 0x5a;
 
-/// A number of the system's, as its driver returns it.
+/// An error number of the operating system, as the driver returns it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Errno(pub i32);
 
 impl Errno {
     /// Input or output failed.
     pub const IO: Self = Self(5);
-    /// There is no such device.
+    /// The device does not exist.
     pub const NO_DEVICE: Self = Self(19);
-    /// Nothing is written to a register that can only be read.
+    /// The call is invalid: a write to a read-only register.
     pub const INVALID: Self = Self(22);
-    /// A code of the kernel's own, which XDMA returns when its time is over.
+    /// The kernel-internal code 512, which XDMA returns when a transfer has timed out.
     pub const RESTART: Self = Self(512);
 }
 
-/// What a card did.
+/// The figures of a card.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CardFigures {
-    /// Bytes of commands.
+    /// Number of bytes of commands.
     pub to_card: u64,
-    /// Bytes of answers.
+    /// Number of bytes of answers.
     pub to_host: u64,
-    /// Faults.
+    /// Number of faults so far.
     pub faults: u64,
 }
 
@@ -56,9 +56,9 @@ struct Inside {
     spec: CardFaultSpec,
     random: Random,
     liar: Liar,
-    /// Bytes behind an answer that are none.
+    /// Number of bytes still to be sent that only follow an answer because it hides its end.
     extra: usize,
-    /// The next fault that comes after so many bytes, and how often it comes after that.
+    /// The next fault that strikes after a number of bytes, with that number, and how many times one still strikes.
     strike: Option<(Strike, u64)>,
     times: u64,
     figures: CardFigures,
@@ -71,7 +71,7 @@ impl Inside {
         self.figures.to_card + self.figures.to_host
     }
 
-    /// Bytes of whole beats until the next fault, none if it is due.
+    /// Number of bytes, in whole beats, until the next fault; 0 if it is due.
     fn until_strike(&self) -> usize {
         let Some((_, after)) = self.strike else {
             return usize::MAX;
@@ -80,7 +80,7 @@ impl Inside {
         usize::try_from(left).unwrap_or(usize::MAX / 2).next_multiple_of(self.device.beat_bytes())
     }
 
-    /// Does the fault that is due, if one is. `stands` is set if the transfer goes on no more.
+    /// Applies the fault that is due, if any. Sets `stands` if the transfer stops making progress.
     fn strike(&mut self, stands: &mut Option<Strike>) -> Result<(), Errno> {
         let Some((strike, after)) = self.strike.filter(|strike| self.moved() >= strike.1) else {
             return Ok(());
@@ -102,7 +102,7 @@ impl Inside {
         Ok(())
     }
 
-    /// A transfer of at most so many bytes: by chance, only a part of them.
+    /// The size of a transfer of `bytes`: by chance, only a part of it.
     fn shorten(&mut self, bytes: usize, chance: f64) -> usize {
         let beat = self.device.beat_bytes();
         let beats = u32::try_from(bytes / beat).unwrap_or(u32::MAX);
@@ -114,7 +114,7 @@ impl Inside {
     }
 
     fn reset(&mut self) {
-        // Every device has this register.
+        // Every device has this register, so the write cannot fail.
         let _ = self.device.write(StreamRegister::Control.offset(), CONTROL_RESET);
         self.liar.reset();
         self.extra = 0;
@@ -127,7 +127,7 @@ impl Inside {
         taken
     }
 
-    /// Gives beats; true if an answer ends with them.
+    /// Gives beats: their bytes, and whether an answer ends with them.
     fn give(&mut self, bytes: &mut [u8]) -> (usize, bool) {
         let room = bytes.len().min(self.until_strike());
         let bytes = &mut bytes[..room];
@@ -147,7 +147,7 @@ impl Inside {
     }
 }
 
-/// How far a transfer is.
+/// The progress of a transfer after one step.
 enum Step {
     Done,
     Moved,
@@ -155,7 +155,7 @@ enum Step {
 }
 
 impl Card {
-    /// A card around this device.
+    /// A card around this device, with the faults of `spec`.
     pub fn new(device: Box<dyn Beats>, spec: &CardFaultSpec) -> Self {
         let inside = Inside {
             device,
@@ -176,10 +176,10 @@ impl Card {
         self.inside.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Writes commands. Returns when the card has all of them.
+    /// Writes commands, and returns when the card has all of them.
     ///
     /// # Errors
-    /// The number that the driver would return.
+    /// The error number that the driver would return.
     pub fn write(&self, bytes: &[u8]) -> Result<usize, Errno> {
         let mut inside = self.lock();
         let chance = inside.spec.short_write;
@@ -197,14 +197,14 @@ impl Card {
         Ok(done)
     }
 
-    /// Reads answers. Returns when all that is asked for has come, or the end of an answer.
+    /// Reads answers, and returns when all that was asked for has come, or at the end of an answer.
     ///
     /// # Errors
-    /// The number that the driver would return.
+    /// The error number that the driver would return.
     pub fn read(&self, bytes: &mut [u8]) -> Result<usize, Errno> {
         let mut inside = self.lock();
         let chance = inside.spec.short_read;
-        // Parts of beats do not come.
+        // The driver transfers whole beats only.
         let whole = bytes.len() / inside.device.beat_bytes() * inside.device.beat_bytes();
         let wanted = inside.shorten(whole, chance);
         let mut done = 0;
@@ -220,7 +220,7 @@ impl Card {
         Ok(done)
     }
 
-    /// Repeats a step until it is done, the driver's time is over, or a fault ends it.
+    /// Repeats a step until the transfer is done, has timed out, or is ended by a fault.
     fn transfer<'c>(
         &'c self,
         mut inside: MutexGuard<'c, Inside>,
@@ -248,7 +248,7 @@ impl Card {
                     Step::Waits => inside.device.run(),
                 };
             if goes_on {
-                // Somebody else may want to give or take.
+                // Another call may be waiting for this progress.
                 self.changed.notify_all();
                 drop(inside);
                 std::thread::yield_now();
@@ -260,7 +260,7 @@ impl Card {
         }
     }
 
-    /// By chance, waits.
+    /// Waits, by chance, before a transfer begins.
     fn stall<'c>(&'c self, mut inside: MutexGuard<'c, Inside>) -> MutexGuard<'c, Inside> {
         let (chance, milliseconds) = inside.spec.stall;
         if !inside.random.happens(chance) {
@@ -272,10 +272,10 @@ impl Card {
         self.lock()
     }
 
-    /// Reads a register.
+    /// Reads the register at this byte offset.
     ///
     /// # Errors
-    /// The number that the driver would return.
+    /// The error number that the driver would return.
     pub fn read_register(&self, offset: u32) -> Result<u32, Errno> {
         let mut inside = self.lock();
         if inside.is_closed {
@@ -288,17 +288,17 @@ impl Card {
         Ok(inside.spec.lie.map_or(value, |lie| lie.register(offset, value)))
     }
 
-    /// Writes a register.
+    /// Writes the register at this byte offset.
     ///
     /// # Errors
-    /// The number that the driver would return.
+    /// The error number that the driver would return.
     pub fn write_register(&self, offset: u32, value: u32) -> Result<(), Errno> {
         let mut inside = self.lock();
         if inside.is_closed {
             return Err(Errno::NO_DEVICE);
         }
         if inside.is_gone {
-            // Writes to a card that is gone are lost without a word.
+            // A bus reports no error for a write to a card that has vanished.
             return Ok(());
         }
         if offset == StreamRegister::Control.offset() && value & CONTROL_RESET != 0 {
@@ -310,13 +310,13 @@ impl Card {
         Ok(())
     }
 
-    /// Ends every call that waits, and every one to come.
+    /// Ends every call that waits, and every call to come.
     pub fn close(&self) {
         self.lock().is_closed = true;
         self.changed.notify_all();
     }
 
-    /// What it did so far.
+    /// The figures so far.
     pub fn figures(&self) -> CardFigures {
         self.lock().figures
     }

@@ -17,48 +17,51 @@ use rustix::mount::UnmountFlags;
 
 use super::card::{Card, Errno};
 
-/// The files, by inode from [`FIRST`] on.
+/// Names of the files, in the order of their inodes from [`FIRST`] on.
 const NAMES: [&str; 3] = ["xdma0_h2c_0", "xdma0_c2h_0", "xdma0_user"];
 const FIRST: u64 = 2;
 const COMMANDS: u64 = FIRST;
 const ANSWERS: u64 = FIRST + 1;
 const REGISTERS: u64 = FIRST + 2;
-/// Names and attributes do not change.
+/// The time for which the system may cache names and attributes, which never change.
 const TIME_TO_LIVE: Duration = Duration::from_secs(1);
-/// FUSE carries errors below this one only.
+/// Largest error number that FUSE carries.
 const MOST_ERRNO: i32 = 511;
-/// What the system says of a directory whose file system has died.
+/// Error number of the system for a directory whose file system has died.
 const NOT_CONNECTED: i32 = 107;
-/// What it opens file systems in user space with.
+/// The device through which the system opens file systems in user space.
 const FUSE_DEVICE: &str = "/dev/fuse";
-/// Bytes of a register.
+/// Number of bytes of a register.
 const WORD: u32 = 4;
 
-/// Why there is no directory with a card.
+/// The reason why there is no directory with a card.
 #[derive(Debug, thiserror::Error)]
 pub enum DirectoryError {
     /// The system has no FUSE.
-    #[error("there is no {FUSE_DEVICE}: load the kernel's module 'fuse', or give the container that device, and install fuse3")]
+    #[error(
+        "there is no {FUSE_DEVICE}: load the kernel module 'fuse' (for a container, pass the device in), and \
+         install fuse3"
+    )]
     NoFuse,
-    /// It is no directory.
+    /// The path is not an empty directory.
     #[error("{path} cannot be used: {source}: name an empty directory", path = .path.display())]
     Directory {
-        /// The directory.
+        /// The path that was asked for.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         source: io::Error,
     },
-    /// It cannot be mounted.
+    /// The directory cannot be mounted.
     #[error("{path} cannot be mounted: {source}: run as root, or install fuse3", path = .path.display())]
     Mount {
-        /// The directory.
+        /// The path that was asked for.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         source: io::Error,
     },
 }
 
-/// A mounted card.
+/// A card whose files stand in a mounted directory until this is dropped.
 pub struct CardDirectory {
     path: PathBuf,
     card: Arc<Card>,
@@ -66,10 +69,11 @@ pub struct CardDirectory {
 }
 
 impl CardDirectory {
-    /// Mounts the card at a directory, which is made if there is none. One that a killed service left is taken over.
+    /// Mounts the card at a directory, which is made if it does not exist. A mount that a killed service
+    /// left behind is replaced.
     ///
     /// # Errors
-    /// The system has no FUSE, or the directory cannot be had.
+    /// The system has no FUSE, or the directory cannot be used.
     pub fn mount(path: &Path, card: Arc<Card>) -> Result<Self, DirectoryError> {
         if !Path::new(FUSE_DEVICE).exists() {
             return Err(DirectoryError::NoFuse);
@@ -92,7 +96,7 @@ impl CardDirectory {
 }
 
 impl Drop for CardDirectory {
-    /// Ends all calls, then unmounts, though a driver may have its files open.
+    /// Ends all calls, then unmounts, even if a driver still has files open.
     fn drop(&mut self) {
         self.card.close();
         unmount(&self.path);
@@ -100,22 +104,22 @@ impl Drop for CardDirectory {
     }
 }
 
-/// Takes the file system out of the tree; it ends with the last file that is open.
+/// Takes the file system out of the tree. The file system itself ends with the last open file.
 fn unmount(path: &Path) {
     if rustix::mount::unmount(path, UnmountFlags::DETACH).is_ok() {
         return;
     }
-    // Who is not root may, through this program. If it fails there is nothing left to be tried.
+    // Only root may unmount directly; others may through this program. If it fails too, there is nothing left to try.
     let mut command = Command::new("fusermount3");
     command.args(["-u", "-z", "--"]).arg(path).stdout(Stdio::null()).stderr(Stdio::null());
     let _ = command.status();
 }
 
-/// A transfer that somebody waits for.
+/// A transfer that a call waits for: the bytes or the size, and the place for the reply.
 type Writing = (Vec<u8>, ReplyWrite);
 type Reading = (usize, ReplyData);
 
-/// The file system. Streams block, so each has a thread.
+/// The file system. The streams block, so each has a thread of its own.
 struct Files {
     card: Arc<Card>,
     writings: Sender<Writing>,
@@ -215,7 +219,8 @@ impl Filesystem for Files {
     }
 
     fn open(&self, _: &Request, _: INodeNo, _: OpenFlags, reply: ReplyOpen) {
-        // Every call of a program reaches the card as it is. Closing waits for nothing: a program that serves its own files may end meanwhile.
+        // With direct input and output every call of a program reaches the card unchanged. Without a flush, closing
+        // waits for nothing, since a program that serves its own files may end meanwhile.
         reply.opened(FileHandle(0), FopenFlags::FOPEN_DIRECT_IO | FopenFlags::FOPEN_NOFLUSH);
     }
 
@@ -231,7 +236,7 @@ impl Filesystem for Files {
         reply: ReplyData,
     ) {
         match inode.0 {
-            // If the thread were gone, so would be the card.
+            // Sending fails only if the thread has ended, and then the card is gone as well.
             ANSWERS => drop(self.readings.send((size as usize, reply))),
             REGISTERS if size == WORD => match u32::try_from(offset).map_err(|_| Errno::INVALID) {
                 Ok(offset) => match self.card.read_register(offset) {

@@ -1,4 +1,4 @@
-//! Which faults a card is to have.
+//! The text that says which faults a card has.
 
 use std::str::FromStr;
 
@@ -10,56 +10,56 @@ use super::liar::CardLie;
 /// SPEC      = ITEM { "," ITEM }
 /// ITEM      = CHANCE "=" P          P from 0 to 1
 ///           | COUNT "=" N           N a whole number
-///           | STRIKE "=" N          what happens after N bytes of both directions
-///           | "liar=" ( "magic" | "stream" | "protocol" | "capacity" | "beat" | "identity" | "report" | "index" | "length" | "endless"
-///                     | "status" )
+///           | STRIKE "=" N          the fault strikes after N bytes of both directions together
+///           | "liar=" ( "magic" | "stream" | "protocol" | "capacity" | "beat" | "identity" | "report" | "index"
+///                     | "length" | "endless" | "status" )
 /// CHANCE    = "short-read" | "short-write"                  a transfer ends early, at a beat
 ///           | "stall"               a transfer waits for `stall-ms` before it begins
 /// STRIKE    = "eio" | "errno-512"   the transfer fails at once
-///           | "timeout"             it stands still until the driver gives up on it
-///           | "hang"                it never returns
+///           | "timeout"             the transfer stands still until the driver ends it
+///           | "hang"                the transfer never returns
 ///           | "vanish"              the card falls off the bus: registers read as all ones, transfers fail with ENODEV
-///           | "reset"               the card is reset, and nobody is told
-/// COUNT     = "times"               how often that happens, each time after so many bytes; once unless said
-///           | "stall-ms"            20 unless said
-///           | "timeout-ms"          after which the driver gives up on a transfer, 10,000 unless said, as XDMA's
-///           | "seed"                1 unless said
+///           | "reset"               the card is reset, and no program is told
+/// COUNT     = "times"               number of strikes, each after another N bytes; default 1
+///           | "stall-ms"            default 20
+///           | "timeout-ms"          time after which the driver ends a transfer; default 10,000, as in XDMA
+///           | "seed"                default 1
 /// ```
-/// FUSE carries no errno from 512 on: behind it, `errno-512` and `timeout` are EIO.
+/// FUSE carries no error number from 512 on: through FUSE, `errno-512` and `timeout` become EIO.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CardFaultSpec {
-    /// Chance of a read to end early.
+    /// Chance that a read ends early.
     pub short_read: f64,
-    /// Chance of a write to.
+    /// Chance that a write ends early.
     pub short_write: f64,
-    /// Chance of a transfer to wait, and for how many milliseconds.
+    /// Chance that a transfer waits before it begins, and for how many milliseconds.
     pub stall: (f64, u64),
-    /// What happens after how many bytes, and how often.
+    /// The fault that strikes after a number of bytes, and that number.
     pub strike: Option<(Strike, u64)>,
-    /// How often it happens.
+    /// Number of times that it strikes.
     pub times: u64,
-    /// Milliseconds after which the driver gives up on a transfer.
+    /// Milliseconds after which the driver ends a transfer that stands still.
     pub timeout_ms: u64,
-    /// What the card lies about.
+    /// The lie that the card tells.
     pub lie: Option<CardLie>,
-    /// Of the chances.
+    /// Seed of the random generator.
     pub seed: u64,
 }
 
-/// What happens once in a while.
+/// A fault that strikes after a number of bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Strike {
-    /// A transfer fails with EIO.
+    /// The transfer fails with EIO.
     Eio,
-    /// A transfer fails with errno 512.
+    /// The transfer fails with errno 512.
     Errno512,
-    /// A transfer stands still until the driver gives up.
+    /// The transfer stands still until the driver ends it.
     Timeout,
-    /// A transfer never returns.
+    /// The transfer never returns.
     Hang,
-    /// The card is gone.
+    /// The card vanishes from the bus.
     Vanish,
-    /// The card is reset.
+    /// The card is reset without notice.
     Reset,
 }
 
@@ -93,31 +93,31 @@ impl Default for CardFaultSpec {
     }
 }
 
-/// A text that is no [`CardFaultSpec`].
+/// The reason why a text is no [`CardFaultSpec`].
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum CardSpecError {
-    /// An item without a value.
-    #[error("\"{0}\" has no value: write name=value, with commas between")]
+    /// An item of the text has no value.
+    #[error("\"{0}\" has no value: write name=value, and commas between items")]
     NoValue(String),
-    /// An unknown item.
-    #[error("\"{0}\" is no fault of a card: there are {KNOWN}")]
+    /// An item of the text is unknown.
+    #[error("\"{0}\" is not a fault of a card: choose from {KNOWN}")]
     Unknown(String),
-    /// A value that does not fit.
-    #[error("\"{name}\" wants {wanted}, not \"{value}\"")]
+    /// A value is out of range or malformed.
+    #[error("\"{name}\" must be {wanted}, not \"{value}\"")]
     Value {
-        /// The item.
+        /// Name of the item.
         name: String,
-        /// What would be right.
+        /// Description of a value that would be right.
         wanted: &'static str,
-        /// What was given.
+        /// The value in the text.
         value: String,
     },
-    /// Two things that happen after so many bytes.
-    #[error("\"{0}\" is the second fault that happens after so many bytes: choose one")]
+    /// The text has a second fault that strikes after a number of bytes.
+    #[error("\"{0}\" is the second fault that strikes after a number of bytes: choose one of the two")]
     Second(String),
 }
 
-/// All items.
+/// Names of all items, for messages.
 const KNOWN: &str = "short-read, short-write, stall, stall-ms, eio, errno-512, timeout, hang, vanish, reset, times, \
                      timeout-ms, liar, seed";
 
@@ -171,11 +171,11 @@ mod tests {
     fn what_is_no_fault_is_refused_with_a_reason() {
         for (text, sentence) in [
             ("eio", "\"eio\" has no value: write name=value"),
-            ("stall=2", "\"stall\" wants a number from 0 to 1, not \"2\""),
-            ("hang=-1", "\"hang\" wants a whole number"),
+            ("stall=2", "\"stall\" must be a number from 0 to 1, not \"2\""),
+            ("hang=-1", "\"hang\" must be a whole number"),
             ("eio=1,vanish=2", "\"vanish\" is the second fault"),
-            ("gremlin=1", "\"gremlin\" is no fault of a card: there are short-read,"),
-            ("liar=politics", "\"liar\" wants magic, stream,"),
+            ("gremlin=1", "\"gremlin\" is not a fault of a card: choose from short-read,"),
+            ("liar=politics", "\"liar\" must be magic, stream,"),
         ] {
             let error = text.parse::<CardFaultSpec>().unwrap_err().to_string();
             assert!(error.contains(sentence), "{error}");

@@ -2,38 +2,38 @@
 
 use incircle_protocol::{answer_header, answer_opcode, Opcode, Status, StreamRegister};
 
-/// What a card lies about.
+/// The lie that a card tells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CardLie {
-    /// Its registers begin with other letters.
+    /// The registers do not begin with the letters of the project.
     Magic,
-    /// It is of another version of the stream device.
+    /// The registers claim another major version of the stream link.
     Stream,
-    /// Its core speaks another version of the protocol.
+    /// The registers claim another major version of the protocol.
     Protocol,
-    /// It holds more points than can be.
+    /// The registers claim a capacity of 2^32 - 1 points.
     Capacity,
-    /// It has beats that there are not.
+    /// The registers claim a width of beats that does not exist.
     Beat,
-    /// Its registers are not those of its core.
+    /// The registers claim a capacity other than that of the core's identity.
     Identity,
-    /// More points arrived than were sent.
+    /// The report of an insertion counts more points than were sent.
     Report,
     /// A record names a vertex that does not exist.
     Index,
-    /// An answer announces a word less than it has.
+    /// A read-out announces one word fewer than it has.
     Length,
-    /// A read-out goes on behind its end.
+    /// A read-out goes on beyond its end.
     Endless,
     /// Every read-out is refused.
     Status,
 }
 
-/// A vertex that no core has, and not the infinite one of any.
+/// A vertex that no core has, and that is not the infinite vertex of any core.
 const NO_VERTEX: u32 = 0x5a5a_5a5a;
 
 impl CardLie {
-    /// All names.
+    /// The names of all lies, for messages.
     pub const NAMES: &'static str =
         "magic, stream, protocol, capacity, beat, identity, report, index, length, endless or status";
 
@@ -57,7 +57,7 @@ impl CardLie {
         Self::ALL.into_iter().find(|lie| lie.1 == name).map(|lie| lie.0)
     }
 
-    /// What a register says instead.
+    /// The value that a register reads as, given its true value.
     pub(super) fn register(self, offset: u32, value: u32) -> u32 {
         let (register, lie) = match self {
             Self::Magic => (StreamRegister::Magic, 0x6e6f_7065),
@@ -75,7 +75,7 @@ impl CardLie {
         }
     }
 
-    /// True if an answer to this opcode has no end.
+    /// Whether the answer to this opcode hides its end.
     pub(super) fn hides_the_end(self, opcode: u8) -> bool {
         self == Self::Endless && is_read_out(opcode)
     }
@@ -85,13 +85,12 @@ fn is_read_out(opcode: u8) -> bool {
     matches!(Opcode::from_u8(opcode), Some(Opcode::Read | Opcode::Triangles))
 }
 
-/// Follows the answers, and changes their words.
+/// Follows the answers of a card, and changes their words.
 #[derive(Debug)]
 pub(super) struct Liar {
     lie: Option<CardLie>,
-    /// Words of the present answer that have passed.
+    /// Number of words of the current answer that have passed, and its opcode.
     place: usize,
-    /// Its opcode.
     pub opcode: u8,
 }
 
@@ -100,7 +99,7 @@ impl Liar {
         Self { lie, place: 0, opcode: 0 }
     }
 
-    /// Changes beats of an answer; `is_end`: they are its last.
+    /// Changes beats of an answer. `is_end` says that they are its last.
     pub fn change(&mut self, bytes: &mut [u8], is_end: bool) {
         let (begins, ends) = (self.place == 0, is_end);
         let first = bytes.first_chunk().map(|&word| u32::from_le_bytes(word));
@@ -116,7 +115,7 @@ impl Liar {
         self.place = if ends { 0 } else { self.place + bytes.len() / 4 };
     }
 
-    /// What stands at this place of an answer instead.
+    /// The word at this place of an answer, given its true value.
     fn word(&self, lie: CardLie, place: usize, value: u32) -> u32 {
         let is_read_out = is_read_out(self.opcode);
         match (lie, place) {
@@ -129,7 +128,7 @@ impl Liar {
         }
     }
 
-    /// A reset begins a new answer.
+    /// Expects a new answer next, as after a reset of the card.
     pub fn reset(&mut self) {
         self.place = 0;
     }

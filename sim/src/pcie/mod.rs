@@ -1,8 +1,9 @@
-//! A card in a PCIe slot, as its driver XDMA shows it: three files, two of them streams that block.
+//! A card in a PCIe slot, as the driver XDMA shows it: three files, two of them streams that block.
 //!
-//! [`Card`] is what they do, around anything that takes and gives [`Beats`], with the faults of a [`CardFaultSpec`]. A test may call it as it
-//! is. [`CardDirectory`] has the files in a directory of the system, so that a driver's own calls reach them: a file system in user space,
-//! through FUSE. The program `incircle-sim` serves one.
+//! [`Card`] is the behaviour of the files, around any device that takes and gives [`Beats`], with the faults of a
+//! [`CardFaultSpec`]. A test may use a `Card` directly. [`CardDirectory`] puts the files into a directory by means of a
+//! file system in user space (FUSE), so that the system calls of a driver's user reach them. The program `incircle-sim`
+//! serves such a directory.
 
 mod beats;
 mod card;

@@ -1,4 +1,4 @@
-//! A device that does nothing, as fast as it can: what is left of a job's time is the driver's.
+//! A device that does nothing, as fast as it can. The time of a job on it is the time of the driver and the host.
 
 use std::collections::VecDeque;
 
@@ -11,33 +11,33 @@ use incircle_protocol::{
 
 use super::beats::Beats;
 
-/// Bytes of a word.
+/// Number of bytes of a word.
 const WORD: usize = 4;
 
-/// An answer, or what is left of it.
+/// An answer, or the rest of one.
 #[derive(Debug)]
 struct Answer {
     head: VecDeque<u32>,
-    /// Bytes of zeros behind that, up to the end of the last beat.
+    /// Number of zero bytes behind the head, up to the end of the last beat.
     zeros: usize,
 }
 
-/// It forgets points, counts them, and reads out zeros.
+/// A device that counts points but forgets them, and reads out zeros.
 #[derive(Debug)]
 pub struct NullDevice {
     identity: Identity,
     layout: Layout,
     beat: usize,
     commands: CommandReader,
-    /// Words of points that are still to come of the `Insert` under way.
+    /// Number of words of points that the current `Insert` still expects.
     left: Option<u64>,
-    /// Points since the last `Clear`.
+    /// Number of points since the last `Clear`.
     points: u32,
     answers: VecDeque<Answer>,
 }
 
 impl NullDevice {
-    /// A device that says it is such a core, with beats of 64 or 128 bits.
+    /// A device with the identity of this core, and with beats of 64 or 128 bits.
     pub fn new(config: Config, beat_bits: u32) -> Self {
         let identity = core_identity(config);
         Self {
@@ -61,7 +61,7 @@ impl NullDevice {
         self.answers.push_back(Answer { zeros: bytes - WORD * head.len(), head });
     }
 
-    /// Does what a command asks for. Of an `Insert` the points are still to come.
+    /// Answers a command. An `Insert` is answered later, when its points have come.
     fn begin(&mut self, command: Command<()>) {
         match command {
             Command::Hello => self.answer(Opcode::Hello, &self.identity.to_words(), 0),
@@ -79,7 +79,7 @@ impl NullDevice {
         }
     }
 
-    /// All points of an `Insert` have come.
+    /// Answers an `Insert` whose points have all come.
     fn report(&mut self) {
         let report = InsertReport {
             arrived: self.points,
@@ -90,14 +90,14 @@ impl NullDevice {
         self.answer(Opcode::Insert, &report.to_words(), 0);
     }
 
-    /// Takes points, as many bytes as are there; gives what is behind them.
+    /// Takes as many bytes of points as there are, and returns the bytes behind them.
     fn take_points<'b>(&mut self, left: u64, bytes: &'b [u8]) -> &'b [u8] {
         let here = left.min((bytes.len() / WORD) as u64);
         self.left = Some(left - here).filter(|&left| left > 0);
         if self.left.is_none() {
             self.report();
         }
-        // No more than there is, which is in memory.
+        // No more words are taken than the slice has, so the product fits.
         &bytes[here as usize * WORD..]
     }
 }

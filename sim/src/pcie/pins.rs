@@ -1,4 +1,5 @@
-//! The card itself: the Verilated `incircle_stream_top`, all its AXI ports driven at every clock.
+//! The card itself: the Verilated `incircle_stream_top`, with all its AXI ports driven at every clock. The hardware
+//! twin of this driver is a vendor's PCIe bridge.
 
 use std::collections::VecDeque;
 
@@ -10,35 +11,35 @@ use super::beats::Beats;
 use crate::error::SimError;
 use crate::models;
 
-/// What the build script puts before the name of a configuration, and the bits of a beat behind it.
+/// Prefix that the build script puts before the name of a configuration; the bits of a beat follow behind it.
 const STREAM: &str = "stream_";
-/// Clocks that the reset of the bus is held: more than a device needs.
+/// Number of clocks for which the reset of the bus is held, more than a device needs.
 const RESET_CLOCKS: u32 = 64;
-/// Clocks in which a device must be out of its reset.
+/// Number of clocks within which a device must come out of its reset.
 const START_CLOCKS: u32 = 1_000_000;
-/// Clocks that pass in a slice.
+/// Number of clocks in a slice.
 const SLICE: u32 = 2_000;
-/// Clocks in which a register answers.
+/// Number of clocks within which a register must answer.
 const REGISTER_CLOCKS: u32 = 10_000;
-/// Beats that the bridge holds, each way.
+/// Number of beats that the bridge holds in each direction.
 const BRIDGE_BEATS: usize = 1_024;
-/// Most bytes of a beat.
+/// Largest number of bytes of a beat.
 const MOST_BYTES: usize = 16;
-/// The answer of a bus that did what was asked.
+/// The response of a bus on success.
 const OKAY: u64 = 0;
 
-/// A beat, and what bytes of it are there, or whether it is an answer's last.
+/// A beat of commands with its `tkeep`, and a beat of answers with its `tlast`.
 type CommandBeat = ([u8; MOST_BYTES], u64);
 type AnswerBeat = ([u8; MOST_BYTES], bool);
 
-/// A card at its pins. Both clocks are simulated; they rise together.
+/// A card at its pins. The clock of the bus and the clock of the core are simulated, and rise together.
 #[derive(Debug)]
 pub struct PinCard {
     model: Model,
     ports: Ports,
-    /// Bytes of a beat.
+    /// Number of bytes of a beat.
     beat: usize,
-    /// Beats on their way to the device; the first is offered.
+    /// Beats on their way to the device. The first is offered if `is_offered`.
     to_card: VecDeque<CommandBeat>,
     is_offered: bool,
     from_card: VecDeque<AnswerBeat>,
@@ -86,10 +87,11 @@ impl Ports {
 }
 
 impl PinCard {
-    /// A card with the core of this configuration and beats of so many bits, after its reset.
+    /// A card with the core of this configuration and beats of `beat_bits` bits, after its reset.
     ///
     /// # Errors
-    /// [`SimError::NoCard`]: such cards were not translated when this crate was built, or do not come out of their reset.
+    /// [`SimError::NoCard`]: such cards were not translated when this crate was built, or the card does not come
+    /// out of its reset.
     pub fn new(config: Config, beat_bits: u32) -> Result<Self, SimError> {
         let name = format!("{STREAM}{}_{beat_bits}", config.name);
         let missing = || {
@@ -119,7 +121,7 @@ impl PinCard {
         Err(missing())
     }
 
-    /// Both clocks rise, and fall again.
+    /// Raises and lowers both clocks.
     fn clock(&mut self) {
         for level in [1, 0] {
             self.model.set(self.ports.bus_clock, level);
@@ -128,7 +130,7 @@ impl PinCard {
         }
     }
 
-    /// One clock, in which beats pass both ways.
+    /// Simulates one clock, in which a beat may pass in each direction.
     fn step(&mut self) {
         let [valid, ready, data, keep] = self.ports.command;
         if !self.is_offered {
@@ -165,7 +167,8 @@ impl PinCard {
         }
     }
 
-    /// Offers on channels that are `valid, ready, …`, until all were taken and `answer`, which is one as well, has come.
+    /// Makes one access: offers on these channels, each a pair of `valid` and `ready`, until all were taken and the
+    /// response channel `answer`, a pair as well, is valid.
     fn access(&mut self, offers: &[[PortId; 2]], answer: [PortId; 2]) -> Result<(), BusError> {
         let [answer_valid, answer_ready] = answer;
         let mut is_left = vec![true; offers.len()];
@@ -187,7 +190,8 @@ impl PinCard {
         Err(BusError)
     }
 
-    /// What the bridge holds must not go in front of what comes after a reset. A beat that is offered has a moment to be taken.
+    /// Drops the commands that the bridge holds, so that they do not precede the commands after a reset. A beat that is
+    /// already offered gets a moment to be taken, since AXI forbids withdrawing it.
     fn drop_commands(&mut self) {
         self.to_card.truncate(usize::from(self.is_offered));
         for _ in 0..RESET_CLOCKS {
@@ -200,7 +204,7 @@ impl PinCard {
         self.is_offered = false;
     }
 
-    /// Takes the answer to an access.
+    /// Takes the response to an access.
     fn take_answer(&mut self, ready: PortId) {
         self.model.set(ready, 1);
         self.step();
@@ -208,7 +212,7 @@ impl PinCard {
     }
 }
 
-/// A beat as words.
+/// The words of a beat.
 fn words_of(beat: &[u8; MOST_BYTES]) -> [u32; MOST_BYTES / 4] {
     let mut words = [0; MOST_BYTES / 4];
     for (word, bytes) in words.iter_mut().zip(beat.chunks_exact(4)) {
@@ -255,7 +259,7 @@ impl Beats for PinCard {
         self.access(&[[valid, ready]], [has_come, take])?;
         let (value, response) = (self.model.get(data), self.model.get(response));
         self.take_answer(take);
-        // A port of 32 bits.
+        // The port has 32 bits, so nothing is lost.
         (response == OKAY).then_some(value as u32).ok_or(BusError)
     }
 

@@ -1,4 +1,4 @@
-//! The Verilated core as a device of words, a clock at a time.
+//! The Verilated core as a device of words, one clock at a time, for the software model of the serial link.
 
 use incircle_model::serial::{Passed, WordDevice};
 use incircle_protocol::Config;
@@ -7,7 +7,7 @@ use verilated::{Model, PortId};
 use crate::device::description;
 use crate::error::SimError;
 
-/// The two streams of a Verilated core.
+/// A Verilated core and its two streams.
 #[derive(Debug)]
 pub(super) struct StreamCore {
     model: Model,
@@ -22,7 +22,7 @@ pub(super) struct StreamCore {
 }
 
 impl StreamCore {
-    /// A core of this configuration, reset.
+    /// A core of this configuration, after its reset.
     pub(super) fn new(config: Config) -> Result<Self, SimError> {
         let model = Model::new(description(config)?);
         let mut core = Self {

@@ -1,7 +1,8 @@
 //! Boards behind a serial line, in simulated time.
 //!
-//! A [`Board`] has a line to it and one from it. [`PinBoard`] is the Verilated `incircle_serial_top`, whose pins are driven and sampled bit
-//! by bit. [`QuickBoard`] is the software model of the link around the Verilated core; it skips bits and idle time.
+//! A [`Board`] has a line in each direction. [`PinBoard`] is the Verilated `incircle_serial_top`, with its pins driven
+//! and sampled bit by bit. [`QuickBoard`] is the software model of the serial link around the Verilated core; it skips
+//! bits and idle time.
 
 mod board;
 mod core;
@@ -18,30 +19,30 @@ use incircle_protocol::LinkConfig;
 
 /// A board as its serial line sees it.
 pub trait Board {
-    /// Parameters of its link.
+    /// Parameters of the board's serial link.
     fn link(&self) -> LinkConfig;
 
-    /// Clocks since it was made. They go on over a [`Board::power_cycle`].
+    /// Number of clocks since the board was made. A [`Board::power_cycle`] does not set it back.
     fn clocks(&self) -> u64;
 
-    /// Bits per second with which the host sends and samples from now on.
+    /// Sets the bits per second with which the host sends and samples from now on.
     fn set_rate(&mut self, rate: u32);
 
-    /// Puts a symbol behind those that wait for the line to the board.
+    /// Queues a symbol for the line to the board.
     fn send(&mut self, symbol: Symbol);
 
-    /// Symbols that are not on the line to the board yet.
+    /// Number of symbols that are queued and not on the line yet.
     fn waiting(&self) -> usize;
 
-    /// What came from the board next, with the clock at which its stop bit was seen.
+    /// Takes the next symbol from the board, with the clock at which its stop bit was sampled.
     fn receive(&mut self) -> Option<(u64, Symbol)>;
 
-    /// So many clocks pass.
+    /// Lets this many clocks pass.
     fn run(&mut self, clocks: u64);
 
-    /// Nothing is on the line or in the board, and time would change nothing.
+    /// Whether neither the line nor the board does anything, so that passing time would change nothing.
     fn is_at_rest(&self) -> bool;
 
-    /// As after its power was away.
+    /// Puts the board into the state after its power was cut and restored.
     fn power_cycle(&mut self);
 }

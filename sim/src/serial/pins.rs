@@ -1,4 +1,4 @@
-//! The board itself: the Verilated `incircle_serial_top`, its pins driven and sampled bit by bit.
+//! The board itself: the Verilated `incircle_serial_top`, with its pins driven and sampled bit by bit.
 
 use std::collections::VecDeque;
 
@@ -12,10 +12,10 @@ use crate::device::RESET_CLOCKS;
 use crate::error::SimError;
 use crate::models;
 
-/// Clocks after which a board that was reset has cleared its memories.
+/// Number of clocks after which a board that was reset has cleared its memories.
 const SETTLING: u64 = 100_000;
 
-/// What the build script puts before the name of a configuration.
+/// Prefix that the build script puts before the name of a configuration.
 const SERIAL: &str = "serial_";
 
 /// A board at its pins. Every clock is simulated.
@@ -27,20 +27,20 @@ pub struct PinBoard {
     rx: PortId,
     tx: PortId,
     clocks: u64,
-    /// Clocks of silence after which the session is forgotten, and a millisecond more.
+    /// Number of clocks of silence after which the session is forgotten, and a millisecond more.
     silence: u64,
-    /// Length of a bit of the host.
+    /// Length of a bit of the host, in fractions of a clock.
     bit: u64,
     sender: UartSender,
     receiver: UartReceiver,
     waiting: VecDeque<Symbol>,
     received: VecDeque<(u64, Symbol)>,
-    /// The clock from which on nothing changes, if nothing comes.
+    /// The clock from which on nothing changes unless a byte comes.
     rests_at: u64,
 }
 
 impl PinBoard {
-    /// A board with the core of this configuration and a link of [`board_link`](super::board_link).
+    /// A board with the core of this configuration and the serial link of [`board_link`](super::board_link).
     ///
     /// # Errors
     /// [`SimError::NoBoard`]: boards of this configuration were not translated when this crate was built.
@@ -77,17 +77,17 @@ impl PinBoard {
         self.model.set(self.reset, 0);
         self.model.eval();
         self.clocks += u64::from(RESET_CLOCKS);
-        // What has just been reset has no session to forget.
+        // After a reset no session is open, so no silence must pass before the board is at rest.
         self.rests_at = self.clocks + SETTLING;
     }
 
-    /// The line is in use: whatever the session was, it may still be.
+    /// Postpones rest by a silence: the line is in use, so a session may be open.
     #[inline]
     fn keep_awake(&mut self) {
         self.rests_at = self.clocks + self.silence;
     }
 
-    /// One clock: the bits due on the line to the board, and a sample of the line from it.
+    /// Simulates one clock: drives the bits that are due on the line to the board, and samples the line from it.
     #[inline]
     fn clock(&mut self) {
         if !self.waiting.is_empty() && self.sender.is_free(self.clocks) {
@@ -150,7 +150,8 @@ impl Board for PinBoard {
         }
     }
 
-    /// Pins do not show the session, so rest begins when it must be forgotten: after the silence.
+    /// The pins do not show the session, so the board is at rest only when the session must be
+    /// forgotten: after the silence.
     fn is_at_rest(&self) -> bool {
         self.waiting.is_empty() && self.received.is_empty() && self.clocks > self.rests_at
     }

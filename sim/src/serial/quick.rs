@@ -1,4 +1,5 @@
-//! A board without bits: the software model of the link around the Verilated core.
+//! A board without bits: the software model of the serial link around the Verilated core. `PinBoard` simulates the
+//! hardware of the link; `QuickBoard` exchanges whole bytes with its model, and is faster.
 
 use std::collections::VecDeque;
 
@@ -11,13 +12,13 @@ use super::uart::{bit_length, bit_length_of_step, symbol_clocks};
 use super::Board;
 use crate::error::SimError;
 
-/// Clocks that pass at once while the core works: less than a byte takes.
+/// Number of clocks that pass at once while the core works, fewer than a byte takes.
 const QUANTUM: u64 = 64;
-/// Rates differ if their difference is more than one part in so many.
+/// Two rates count as different if they differ by more than one part in this many.
 const TOLERANCE: u64 = 25;
 
-/// A board that exchanges whole bytes. Each takes as long as its bits would; idle time is skipped. Where the rates of the two ends differ,
-/// no byte arrives as it was.
+/// A board that exchanges whole bytes. Each byte takes as long as its bits would, and idle time is skipped. If the two
+/// ends have different rates, no byte arrives unchanged.
 pub struct QuickBoard {
     config: Config,
     link: LinkConfig,
@@ -25,9 +26,9 @@ pub struct QuickBoard {
     clocks: u64,
     rate: u32,
     waiting: VecDeque<Symbol>,
-    /// The symbol on the line to the board, and when it has passed.
+    /// The symbol on the line to the board, and the clock at which it has passed.
     arriving: Option<(Symbol, u64)>,
-    /// The byte on the line to the host, when it has passed, and the length of its bits.
+    /// The byte on the line to the host, the clock at which it has passed, and the length of its bits.
     leaving: Option<(u8, u64, u64)>,
     received: VecDeque<(u64, Symbol)>,
 }
@@ -36,7 +37,7 @@ impl QuickBoard {
     /// A board with the core of this configuration.
     ///
     /// # Errors
-    /// As [`SimDevice::new`](crate::SimDevice::new).
+    /// The errors of [`SimDevice::new`](crate::SimDevice::new).
     pub fn new(config: Config, link: LinkConfig) -> Result<Self, SimError> {
         Ok(Self {
             config,
@@ -51,17 +52,17 @@ impl QuickBoard {
         })
     }
 
-    /// Length of a bit of the host.
+    /// Length of a bit of the host, in fractions of a clock.
     fn host_bit(&self) -> u64 {
         bit_length(self.link.clock_hz, self.rate)
     }
 
-    /// A bit of the other end has nearly the same length.
+    /// Whether bits of the other end have nearly the length of the host's.
     fn is_near(&self, device_bit: u64) -> bool {
         device_bit.abs_diff(self.host_bit()) * TOLERANCE <= device_bit
     }
 
-    /// Whatever passes at this clock.
+    /// Puts the next byte or symbol on each line that is free.
     fn exchange(&mut self) {
         if self.leaving.is_none() {
             let bit = bit_length_of_step(self.model.rate_step());
@@ -74,7 +75,7 @@ impl QuickBoard {
         }
     }
 
-    /// What has passed by this clock.
+    /// Delivers the bytes and symbols that have passed by this clock.
     fn deliver(&mut self) {
         if let Some((symbol, _)) = self.arriving.take_if(|(_, end)| *end <= self.clocks) {
             let is_near = self.is_near(bit_length_of_step(self.model.rate_step()));
@@ -85,14 +86,14 @@ impl QuickBoard {
             }
         }
         if let Some((byte, end, bit)) = self.leaving.take_if(|(_, end, _)| *end <= self.clocks) {
-            // At another rate the stop bit is looked for where there is none.
+            // At another rate the receiver samples the wrong bits, and finds no stop bit.
             let symbol = if self.is_near(bit) { Symbol::of(byte) } else { Symbol::of(byte ^ 0x5a).flip(9) };
             self.received.push_back((end, symbol));
         }
     }
 }
 
-/// The model of the link around a fresh core.
+/// The software model of the serial link around a fresh core.
 fn powered(config: Config, link: LinkConfig) -> Result<SerialModel<StreamCore>, SimError> {
     Ok(SerialModel::new(link, core_identity(config), StreamCore::new(config)?))
 }
@@ -149,7 +150,7 @@ impl Board for QuickBoard {
     }
 
     fn power_cycle(&mut self) {
-        // It could be made before, so it can be made again.
+        // The same call succeeded when the board was made, so it succeeds again.
         if let Ok(model) = powered(self.config, self.link) {
             self.model = model;
         }

@@ -1,36 +1,37 @@
-//! Bits on a line: one start bit, eight data bits with the lowest first, one stop bit.
+//! The bits on a serial line: one start bit, eight data bits with the lowest first, one stop bit.
 
-/// Bits of a symbol.
+/// Number of bits of a symbol.
 pub const SYMBOL_BITS: u32 = 10;
-/// Times on the line are in clocks with so many bits behind the point.
+/// Times on the line are in clocks with this many fractional bits.
 const FRACTION: u32 = 16;
 
-/// What the line carries for a byte: ten bits, the first in the lowest place. A sound one has a low start and a high stop.
+/// The bits that the line carries for a byte: ten, with the first in the lowest place. A sound symbol has a low start
+/// bit and a high stop bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Symbol(u16);
 
 impl Symbol {
-    /// The symbol of a byte.
+    /// The sound symbol of a byte.
     pub fn of(byte: u8) -> Self {
         Self(u16::from(byte) << 1 | 1 << (SYMBOL_BITS - 1))
     }
 
-    /// Its eight data bits, whatever start and stop are.
+    /// The eight data bits, whatever the start and stop bits are.
     pub fn data(self) -> u8 {
         (self.0 >> 1) as u8
     }
 
-    /// Start and stop are as they must be.
+    /// Whether the start bit is low and the stop bit is high.
     pub fn is_sound(self) -> bool {
         self.0 & (1 | 1 << (SYMBOL_BITS - 1)) == 1 << (SYMBOL_BITS - 1)
     }
 
-    /// The byte; nothing if there is no start, so that a receiver would not have noticed.
+    /// The byte, or `None` if there is no start bit: a receiver would not have noticed such a symbol.
     pub fn byte(self) -> Option<u8> {
         (self.0 & 1 == 0).then_some(self.data())
     }
 
-    /// With this bit the other way.
+    /// The symbol with one bit flipped.
     pub fn flip(self, bit: u32) -> Self {
         Self(self.0 ^ 1 << bit)
     }
@@ -40,44 +41,45 @@ impl Symbol {
     }
 }
 
-/// Length of a bit in clocks, with its fraction.
+/// Length of a bit in clocks, with [`FRACTION`] fractional bits.
 pub(super) fn bit_length(clock_hz: u32, rate: u32) -> u64 {
     (u64::from(clock_hz) << FRACTION) / u64::from(rate.max(1))
 }
 
-/// Length of a bit for a step of the device's baud generator.
+/// Length of a bit in clocks for a step of the device's baud generator, with [`FRACTION`] fractional bits.
 pub(super) fn bit_length_of_step(step: u32) -> u64 {
     (1 << (incircle_protocol::PHASE_BITS + FRACTION)) / u64::from(step.max(1))
 }
 
-/// Clocks of a symbol with bits of this length, rounded up.
+/// Number of clocks of a symbol with bits of this length, rounded up.
 pub(super) fn symbol_clocks(bit: u64) -> u64 {
     (bit * u64::from(SYMBOL_BITS)).div_ceil(1 << FRACTION)
 }
 
-/// Drives a line.
+/// Drives a line, bit by bit.
 #[derive(Clone, Debug, Default)]
 pub(super) struct UartSender {
-    /// The symbol on the line, the bit that comes next, and when it does.
+    /// The symbol on the line, the number of the next bit, and the time at which that bit begins.
     sending: Option<(Symbol, u32, u64)>,
-    /// When the last symbol ends: the next one begins no earlier.
+    /// Time at which the last symbol ends; the next one begins no earlier.
     free_at: u64,
 }
 
 impl UartSender {
-    /// Nothing is on the line at this clock, so a symbol may be begun.
+    /// Whether no symbol is on the line at this clock, so that one may begin.
     pub(super) fn is_free(&self, clock: u64) -> bool {
         self.sending.is_none() && self.free_at <= clock << FRACTION
     }
 
-    /// The line goes on with this symbol at this clock, or where the last one ended since the clock before.
+    /// Begins a symbol at this clock, or, if the last symbol ended since the clock before, exactly where that ended. So
+    /// consecutive symbols take exactly ten bits each, and no rounding adds up.
     pub(super) fn begin(&mut self, symbol: Symbol, clock: u64) {
         let now = clock << FRACTION;
         let start = if self.free_at + (1 << FRACTION) > now { self.free_at } else { now };
         self.sending = Some((symbol, 0, start));
     }
 
-    /// The level that the line takes at this clock, if it takes one; high after the last bit.
+    /// The level that the line takes at this clock, if it changes now; high after the last bit.
     pub(super) fn level(&mut self, clock: u64, bit_length: u64) -> Option<bool> {
         let (symbol, bit, at) = self.sending?;
         if at > clock << FRACTION {
@@ -93,7 +95,7 @@ impl UartSender {
 /// Samples a line in the middle of each bit.
 #[derive(Clone, Debug)]
 pub(super) struct UartReceiver {
-    /// Bits so far, how many, and when the next is sampled.
+    /// The bits so far, their number, and the time of the next sample.
     sampling: Option<(u16, u32, u64)>,
     was_high: bool,
 }
@@ -105,13 +107,14 @@ impl Default for UartReceiver {
 }
 
 impl UartReceiver {
-    /// Nothing has begun.
+    /// Whether no symbol has begun.
     #[cfg(test)]
     pub(super) fn is_idle(&self) -> bool {
         self.sampling.is_none() && self.was_high
     }
 
-    /// The level at this clock; a symbol when its stop bit is sampled. A start that is high in its middle was noise.
+    /// Takes the level at this clock, and returns a symbol when its stop bit is sampled. A start bit that is high in
+    /// its middle was noise.
     #[inline]
     pub(super) fn sample(&mut self, level: bool, clock: u64, bit_length: u64) -> Option<Symbol> {
         let has_fallen = self.was_high && !level;
@@ -145,7 +148,7 @@ impl UartReceiver {
 mod tests {
     use super::*;
 
-    /// Bytes over a line between two ends of these rates.
+    /// The symbols that arrive if the two ends of a line have these rates.
     fn carry(bytes: &[u8], clock_hz: u32, sender_rate: u32, receiver_rate: u32) -> Vec<Symbol> {
         let (mut sender, mut receiver) = (UartSender::default(), UartReceiver::default());
         let (from, to) = (bit_length(clock_hz, sender_rate), bit_length(clock_hz, receiver_rate));
@@ -189,7 +192,7 @@ mod tests {
             }
             sender.level(clock, bit);
         }
-        // 104.17 clocks a symbol, and no rounding adds up.
+        // A symbol takes 104.17 clocks, and rounding must not add up.
         assert!((1000..=1001).contains(&begun), "{begun}");
     }
 

@@ -1,7 +1,8 @@
 //! A simulated board behind a pseudo-terminal, for any program that opens serial ports.
 //!
-//! Simulated time runs at most one `slow`-th as fast as real time, which also spares the processor. When nothing is on the line and the board is at rest, no
-//! session open and the first rate set, time would change nothing: it stands still until a byte comes.
+//! Simulated time runs at most `1 / slow` times as fast as real time, which also spares the processor. When the line is
+//! idle and the board is at rest (no session open, first rate set), passing time would change nothing, so simulated
+//! time stops until a byte comes.
 
 mod pace;
 mod terminal;
@@ -18,40 +19,43 @@ use pace::Pace;
 pub use terminal::LinkError;
 use terminal::Terminal;
 
-/// Clocks between two looks at the terminal: 32 microseconds of the board.
+/// Number of clocks that are simulated between two reads of the terminal: 32 microseconds of the board.
 const SLICE: u64 = 4000;
-/// Symbols that wait for the line to the board; the rest waits in the terminal, as in a computer's.
+/// Largest number of symbols that wait for the line to the board. More bytes wait in the terminal, as they would in
+/// a computer's serial port.
 const QUEUE: usize = 64;
-/// Longest sleep: so long may a signal wait.
+/// Longest sleep. A signal to end may have to wait this long.
 const NAP: Duration = Duration::from_millis(50);
-/// Bytes that wait for a host that does not read; a serial port loses what is too much.
+/// Largest number of bytes that wait for a host that does not read. As in a real serial port, bytes
+/// beyond that are lost.
 const UNREAD: usize = 1 << 16;
 
-/// What is served.
+/// The options of a service.
 #[derive(Clone, Debug)]
 pub struct Service {
     /// The symbolic link that leads to the terminal.
     pub link: PathBuf,
     /// Faults between the terminal and the board.
     pub faults: FaultSpec,
-    /// Real time over simulated time, at least.
+    /// Smallest ratio of real time to simulated time.
     pub slow: u32,
 }
 
-/// What a service did.
+/// The figures of a service that has ended.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Figures {
-    /// Bytes to the board.
+    /// Number of bytes to the board.
     pub to_board: u64,
-    /// Bytes to the host.
+    /// Number of bytes to the host.
     pub to_host: u64,
-    /// Faults of the line.
+    /// Number of faults on the line.
     pub faults: u64,
-    /// Real time over simulated time while the board worked; none if it never did.
+    /// Ratio of real time to simulated time while the board worked; `None` if it never did.
     pub slow_down: Option<f64>,
 }
 
-/// Serves the board until `stops` is set; calls `ready` once the link can be opened. The link is removed at the end.
+/// Serves the board until `stops` is set, and calls `ready` as soon as the link can be opened. The link is
+/// removed at the end.
 ///
 /// # Errors
 /// The link exists and is in use, or the system refuses a terminal.
@@ -80,19 +84,19 @@ pub fn serve(
     Ok(Figures { faults: proxy.faults(), slow_down: pace.slow_down(), ..figures })
 }
 
-/// A service under way.
+/// The state of a running service.
 struct Server<'b> {
     board: &'b mut dyn Board,
     terminal: Terminal,
     proxy: Proxy,
     pace: Pace,
-    /// Bytes that the terminal did not take.
+    /// Bytes that the terminal has not taken yet.
     unread: Vec<u8>,
     figures: Figures,
 }
 
 impl Server<'_> {
-    /// One look at the terminal, and a slice of the board's time.
+    /// Reads the terminal once, simulates one slice of clocks, and hands the answers to the terminal.
     fn turn(&mut self) -> io::Result<()> {
         let clock_hz = u64::from(self.board.link().clock_hz);
         let now = nanoseconds(self.board.clocks(), clock_hz);
@@ -128,7 +132,7 @@ impl Server<'_> {
         }
     }
 
-    /// Bytes to whoever has the terminal open; nobody hears what is said to a closed port.
+    /// Writes bytes to the terminal. If no host has the port open, the bytes are lost.
     fn hand_out(&mut self) -> io::Result<()> {
         if self.unread.is_empty() {
             return Ok(());
@@ -140,7 +144,7 @@ impl Server<'_> {
         Ok(())
     }
 
-    /// The cable is pulled, with the board's power, and plugged in again.
+    /// Pulls the cable, which also cuts the board's power, and plugs it in again after `length`.
     fn unplug(&mut self, length: Duration, service: &Service, stops: &AtomicBool) -> Result<(), LinkError> {
         self.terminal.close();
         self.proxy.clear();

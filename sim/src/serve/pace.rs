@@ -1,42 +1,42 @@
-//! Simulated time beside real time.
+//! The pace of simulated time: how fast it may run beside real time.
 
 use std::time::{Duration, Instant};
 
-/// Holds simulated time back.
+/// Keeps simulated time from running faster than the service promises.
 #[derive(Debug)]
 pub(super) struct Pace {
-    /// Real time of a clock in nanoseconds, at least.
+    /// Smallest real time of a clock in nanoseconds.
     nanoseconds: f64,
     clock_hz: u32,
-    /// Since when the board has worked without rest, and the clocks since.
+    /// Start of the current stretch of work without rest, and the number of clocks since then.
     stretch: Option<(Instant, u64)>,
-    /// Clocks of all stretches, and the time spent in them without naps.
+    /// Number of clocks of all stretches, and the real time spent in them without sleep.
     clocks: u64,
     working: Duration,
     begun: Option<Instant>,
 }
 
 impl Pace {
-    /// Real time passes at least `slow` times as fast as that of a board with this clock.
+    /// A pace at which real time passes at least `slow` times as fast as the time of a board with this clock.
     pub(super) fn new(slow: u32, clock_hz: u32) -> Self {
         let nanoseconds = f64::from(slow) * 1e9 / f64::from(clock_hz);
         Self { nanoseconds, clock_hz, stretch: None, clocks: 0, working: Duration::ZERO, begun: None }
     }
 
-    /// Time stands still.
+    /// Ends the current stretch: simulated time stands still.
     pub(super) fn rest(&mut self) {
         self.stretch = None;
     }
 
-    /// A slice begins.
+    /// Begins a slice of simulated time.
     pub(super) fn begin(&mut self) {
         let now = Instant::now();
         self.stretch.get_or_insert((now, 0));
         self.begun = Some(now);
     }
 
-    /// A slice of so many clocks has ended: how far simulated time is ahead. Where it is behind, what is lost is not caught up, as the
-    /// host's time has passed.
+    /// Ends a slice of this many clocks, and returns how far simulated time is ahead. If it is behind, the delay is not
+    /// caught up later, since the host has seen real time pass.
     pub(super) fn ahead(&mut self, clocks: u64) -> Option<Duration> {
         let now = Instant::now();
         self.clocks += clocks;
@@ -52,7 +52,7 @@ impl Pace {
         ahead
     }
 
-    /// Real time over simulated time if the board were never held back.
+    /// Ratio of real time to simulated time if the board had never been held back.
     pub(super) fn slow_down(&self) -> Option<f64> {
         let simulated = self.clocks as f64 / f64::from(self.clock_hz);
         (self.clocks > 0).then(|| self.working.as_secs_f64() / simulated)

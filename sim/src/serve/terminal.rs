@@ -1,4 +1,4 @@
-//! A pseudo-terminal behind a symbolic link.
+//! A pseudo-terminal behind a symbolic link: the serial port that a host opens.
 
 use std::fs;
 use std::io;
@@ -13,46 +13,46 @@ use rustix::io::Errno;
 use rustix::pty::{grantpt, openpt, ptsname, unlockpt, OpenptFlags};
 use rustix::termios::{tcgetattr, tcsetattr, OptionalActions};
 
-/// Where terminals of the system are.
+/// Folder of the system's pseudo-terminals.
 const TERMINALS: &str = "/dev/pts/";
-/// Between two looks whether somebody has opened the terminal.
+/// Time between two checks whether a host has opened the terminal.
 const LOOK: Duration = Duration::from_millis(10);
 
-/// Why there is no terminal at the link.
+/// The reason why there is no terminal at the link.
 #[derive(Debug, thiserror::Error)]
 pub enum LinkError {
-    /// Something is there that is not ours.
+    /// The path exists and does not belong to a service.
     #[error("{path} exists and {what}: choose another path, or remove it", path = .path.display())]
     Exists {
-        /// The path.
+        /// The path that was asked for.
         path: PathBuf,
-        /// What it is.
+        /// Description of the obstacle.
         what: &'static str,
     },
-    /// The link cannot be made.
-    #[error("{path} cannot be made: {source}", path = .path.display())]
+    /// The symbolic link cannot be created.
+    #[error("cannot make the symbolic link {path}: {source}", path = .path.display())]
     Link {
-        /// The path.
+        /// The path that was asked for.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         source: io::Error,
     },
-    /// The system gives no terminal, or ends it.
-    #[error("the pseudo-terminal does not work: {0}")]
+    /// The system refuses a terminal, or closes it.
+    #[error("the pseudo-terminal failed: {0}")]
     Terminal(#[from] io::Error),
 }
 
 /// The board's end of a pseudo-terminal. Hosts open the other end, through the link.
 #[derive(Debug)]
 pub(super) struct Terminal {
-    /// Nothing once it is closed.
+    /// The open end; `None` after `close`.
     master: Option<OwnedFd>,
     link: PathBuf,
     target: PathBuf,
 }
 
 impl Terminal {
-    /// A terminal at this link. A link that a service left behind is replaced.
+    /// Opens a terminal and makes the link to it. A link that an earlier service left behind is replaced.
     pub(super) fn new(link: &Path) -> Result<Self, LinkError> {
         let failed = |error: Errno| LinkError::Terminal(error.into());
         let master = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY | OpenptFlags::CLOEXEC).map_err(failed)?;
@@ -60,7 +60,7 @@ impl Terminal {
         unlockpt(&master).map_err(failed)?;
         let name = ptsname(&master, Vec::new()).map_err(failed)?;
         let target = PathBuf::from(name.to_string_lossy().into_owned());
-        // Without this the terminal would send every byte back until a host sets it up.
+        // In its first settings a terminal echoes every byte until a host changes that.
         let other = open(&target, OFlags::RDWR | OFlags::NOCTTY | OFlags::CLOEXEC, Mode::empty()).map_err(failed)?;
         let mut settings = tcgetattr(&other).map_err(failed)?;
         settings.make_raw();
@@ -71,28 +71,29 @@ impl Terminal {
         Ok(Self { master: Some(master), link: link.to_owned(), target })
     }
 
-    /// The end is closed, and hosts see it; the link goes as well.
+    /// Closes the board's end, which hosts notice, and removes the link.
     pub(super) fn close(&mut self) {
         if self.master.take().is_some() && fs::read_link(&self.link).is_ok_and(|target| target == self.target) {
-            // If it cannot be removed it leads nowhere, which the next service understands.
+            // A link that cannot be removed leads nowhere. The next service recognises such a link and replaces it.
             let _ = fs::remove_file(&self.link);
         }
     }
 
-    /// Bytes of a host, if there are any.
+    /// Reads bytes of a host, and returns their number.
     pub(super) fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
         let Some(master) = &self.master else {
             return Ok(0);
         };
         match rustix::io::read(master, buffer) {
             Ok(length) => Ok(length),
-            // Nothing now, or nobody has it open.
+            // No byte is there, or no host has the terminal open.
             Err(Errno::AGAIN | Errno::INTR | Errno::IO) => Ok(0),
             Err(error) => Err(error.into()),
         }
     }
 
-    /// Bytes for a host: how many are gone. If nobody has it open, all are.
+    /// Writes bytes for a host, and returns how many the caller may forget. All bytes are lost if no host
+    /// has the terminal open.
     pub(super) fn write(&self, bytes: &[u8]) -> io::Result<usize> {
         let Some(master) = &self.master else {
             return Ok(bytes.len());
@@ -116,20 +117,20 @@ impl Terminal {
         }
     }
 
-    /// Whether a host has it open; unknown if the system does not say.
+    /// Whether a host has the terminal open; `None` if the system does not say.
     fn is_open_elsewhere(&self, master: &OwnedFd) -> Option<bool> {
         let mut ends = [PollFd::new(master, PollFlags::IN)];
         poll(&mut ends, Some(&Timespec::default())).ok()?;
         Some(!ends[0].revents().contains(PollFlags::HUP))
     }
 
-    /// Sleeps until a host sends something, but not longer than this.
+    /// Sleeps until a host sends something, but no longer than `time`.
     pub(super) fn wait(&self, time: Duration) -> io::Result<()> {
         let Some(master) = &self.master else {
             std::thread::sleep(time);
             return Ok(());
         };
-        // While nobody has it open the system does not wait, so this does.
+        // While no host has the terminal open, `poll` returns at once, so the wait is a sleep.
         if self.is_open_elsewhere(master) == Some(false) {
             std::thread::sleep(time.min(LOOK));
             return Ok(());
@@ -149,19 +150,19 @@ impl Drop for Terminal {
     }
 }
 
-/// Makes the link, in the place of one that leads to a terminal that is no more.
+/// Makes the link. A link to a terminal that no longer exists is replaced.
 fn make_link(link: &Path, target: &Path) -> Result<(), LinkError> {
     let exists = |what| LinkError::Exists { path: link.to_owned(), what };
     let failed = |source| LinkError::Link { path: link.to_owned(), source };
     if let Ok(found) = fs::symlink_metadata(link) {
         if !found.is_symlink() {
-            return Err(exists("is no symbolic link"));
+            return Err(exists("is not a symbolic link"));
         }
         let old = fs::read_link(link).map_err(failed)?;
         if !old.starts_with(TERMINALS) {
-            return Err(exists("leads elsewhere than to a pseudo-terminal"));
+            return Err(exists("does not lead to a pseudo-terminal"));
         }
-        // The number may have been given to ours since.
+        // The system may have given the number of the old terminal to the new one.
         if old.exists() && old != target {
             return Err(exists("leads to a pseudo-terminal that is in use"));
         }
@@ -238,14 +239,14 @@ mod tests {
         drop(Terminal::new(&link).unwrap());
         symlink("/etc/hostname", &link).unwrap();
         let error = Terminal::new(&link).unwrap_err().to_string();
-        assert!(error.contains("leads elsewhere"), "{error}");
+        assert!(error.contains("does not lead to a pseudo-terminal"), "{error}");
         fs::remove_file(&link).unwrap();
         fs::write(&link, "mine").unwrap();
         let error = Terminal::new(&link).unwrap_err().to_string();
-        assert!(error.contains("is no symbolic link"), "{error}");
+        assert!(error.contains("is not a symbolic link"), "{error}");
         assert_eq!(fs::read_to_string(&link).unwrap(), "mine");
         let error = Terminal::new(&folder.join("no/where")).unwrap_err().to_string();
-        assert!(error.contains("cannot be made"), "{error}");
+        assert!(error.contains("cannot make the symbolic link"), "{error}");
         fs::remove_dir_all(folder).unwrap();
     }
 }

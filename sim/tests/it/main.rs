@@ -1,4 +1,4 @@
-//! The tests of the program `incircle-sim`, in one program. Modules mirror the sources.
+//! The tests of the program `incircle-sim`, in one test program whose modules mirror the sources.
 
 mod serve {
     mod pcie;

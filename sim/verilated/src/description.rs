@@ -1,29 +1,29 @@
-//! What a compiled model is: its functions and its ports. Filled in by C++ (`shim.hpp`).
+//! The description of a compiled model: its functions and its ports. The C++ of `shim.hpp` fills it in.
 #![allow(unsafe_code)] // The tables are C data; reading them is what this module is for.
 
 use std::ffi::{c_char, c_void, CStr};
 
-/// Which way a port points.
+/// The direction of a port.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
-    /// Driven by the program.
+    /// The program drives the port.
     Input,
-    /// Driven by the model.
+    /// The model drives the port.
     Output,
 }
 
 /// A port of a model's top module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Port {
-    /// Name in Verilog.
+    /// Name of the port in Verilog.
     pub name: &'static str,
-    /// Bits, 1 or more.
+    /// Number of bits, 1 or more.
     pub width: u32,
-    /// Which way it points.
+    /// Direction of the port.
     pub direction: Direction,
 }
 
-/// A port of one kind of model, found by name once and used many times.
+/// A port of one kind of model, looked up by name once and used many times.
 #[derive(Clone, Copy, Debug)]
 pub struct PortId {
     pub(crate) model: &'static ModelDescription,
@@ -33,12 +33,12 @@ pub struct PortId {
 }
 
 impl PortId {
-    /// Bits of the port.
+    /// Number of bits of the port.
     pub fn width(self) -> u32 {
         self.width
     }
 
-    /// Which way the port points.
+    /// Direction of the port.
     pub fn direction(self) -> Direction {
         self.direction
     }
@@ -49,15 +49,15 @@ impl PortId {
     }
 }
 
-/// No such port.
+/// The error of looking up a port that does not exist.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("model {model} has no port {wanted:?}; its ports are {ports}", ports = .ports.join(", "))]
 pub struct PortError {
-    /// The model.
+    /// Name of the model.
     pub model: &'static str,
-    /// The name asked for.
+    /// The name that was asked for.
     pub wanted: String,
-    /// The names there are.
+    /// The names of the ports that exist.
     pub ports: Vec<&'static str>,
 }
 
@@ -69,7 +69,7 @@ struct RawPort {
     direction: u32,
 }
 
-/// A kind of model, as the build side compiled it. Made by C++ only.
+/// A kind of model, as the build side compiled it. Only C++ makes values of this type.
 #[repr(C)]
 pub struct ModelDescription {
     name: *const c_char,
@@ -118,7 +118,7 @@ impl ModelDescription {
         })
     }
 
-    /// Whether instances can write waveforms.
+    /// Whether instances of the model can write waveforms.
     pub fn can_trace(&self) -> bool {
         self.trace_open.is_some()
     }
@@ -126,7 +126,7 @@ impl ModelDescription {
     /// The port of this name.
     ///
     /// # Errors
-    /// There is none; the error lists those there are.
+    /// The model has no such port; the error lists the ports that it has.
     pub fn port(&'static self, name: &str) -> Result<PortId, PortError> {
         let found = self.ports().enumerate().find(|(_, port)| port.name == name);
         let (index, port) = found.ok_or_else(|| PortError {

@@ -1,10 +1,10 @@
-//! Binding to Verilator: build-time translation of Verilog and a run-time handle with ports by name.
+//! A binding to Verilator: translation of Verilog at build time, and models with ports by name at run time.
 //!
-//! Two halves, one feature each:
-//! - `build`, for a `build.rs`: `build::Builder` takes Verilog texts, runs Verilator and the C++ compiler, and
-//!   links any number of models statically into the crate;
-//! - `run`, for the program: [`Model`] is one instance of such a model. [`include_models!`] brings
-//!   the descriptions that the build script left into scope.
+//! The crate has two halves, one for each feature:
+//! - `build`, for a `build.rs`: `build::Builder` takes Verilog texts, runs Verilator and the C++ compiler, and links
+//!   any number of models statically into the crate;
+//! - `run`, for the program: [`Model`] is one instance of such a model. [`include_models!`] brings the descriptions
+//!   that the build script left into scope.
 //!
 //! ```text
 //! // build.rs
@@ -14,7 +14,7 @@
 //! let mut model = Model::new(models::counter());
 //! ```
 //!
-//! Works with Verilator 5.006 and newer.
+//! The binding works with Verilator 5.006 and newer.
 
 #[cfg(any(feature = "build", test))]
 pub mod build;
@@ -32,8 +32,8 @@ pub use model::Model;
 #[cfg(feature = "run")]
 pub use trace::TraceError;
 
-/// Brings the models that the build script compiled into the present module: a function per model that gives
-/// its [`ModelDescription`], and `find(name)`, which finds one by name.
+/// Brings the models that the build script compiled into the current module: a function for each model that returns its
+/// [`ModelDescription`], and `find(name)`, which finds a model by name.
 #[macro_export]
 macro_rules! include_models {
     () => {

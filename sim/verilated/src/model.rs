@@ -1,4 +1,4 @@
-//! One running instance of a model.
+//! One running instance of a model: its ports, its clock and its time.
 #![allow(unsafe_code)] // Ports are memory of a C++ object; a call per access would cost more than the model.
 
 use std::ffi::c_void;
@@ -7,17 +7,17 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::description::{Direction, ModelDescription, PortError, PortId};
 
-/// Verilator draws random state from a generator that all threads reseed together, so instances are made one at a
-/// time: then equal seeds give equal states.
+/// Verilator draws random state from a generator that all threads reseed together. Instances are therefore made one at
+/// a time, so that equal seeds give equal states.
 static CONSTRUCTION: Mutex<()> = Mutex::new(());
 
 /// Half a clock in nanoseconds of the waveform.
 const HALF_CLOCK: u64 = 5;
 
-/// An instance of a Verilated model: ports to set and read, and time that passes when told to.
+/// An instance of a Verilated model: ports to set and read, and a time that passes on request.
 ///
-/// Inputs keep their value until set again. Outputs are those of the last [`Model::eval`] or [`Model::clock`].
-/// Access to a port of up to 64 bits is one memory access and a few comparisons.
+/// An input keeps its value until it is set again. An output has its value as of the last [`Model::eval`] or
+/// [`Model::clock`]. Access to a port of up to 64 bits costs one memory access and a few comparisons.
 #[derive(Debug)]
 pub struct Model {
     description: &'static ModelDescription,
@@ -32,20 +32,22 @@ pub struct Model {
 unsafe impl Send for Model {}
 
 impl Model {
-    /// An instance whose registers and memories are zero where the Verilog sets no initial value. All inputs are 0.
+    /// An instance whose registers and memories are zero unless the Verilog gives them an initial value.
+    /// All inputs are 0.
     pub fn new(description: &'static ModelDescription) -> Self {
         Self::create(description, 0)
     }
 
-    /// An instance with random registers and memories, the same for the same seed. Only a model that was built
-    /// with `random_initial_state` differs from [`Model::new`]. All inputs are 0.
+    /// An instance with random registers and memories, which are the same for the same seed. Only a model that was
+    /// built with `random_initial_state` differs from [`Model::new`]. All inputs are 0.
     pub fn randomized(description: &'static ModelDescription, seed: u32) -> Self {
-        // 0 stands for zero state, so the seed skips it.
+        // Seed 0 means zero state in C++, so this seed maps to another number.
         let seed = i32::from_ne_bytes(seed.to_ne_bytes());
         Self::create(description, if seed == 0 { i32::MIN } else { seed })
     }
 
-    /// Starts anew with random registers and memories; see [`Model::randomized`]. Inputs are 0 again and an open trace ends.
+    /// Replaces the instance by a new one with random registers and memories; see [`Model::randomized`]. Inputs are 0
+    /// again, and an open trace ends.
     pub fn randomize(&mut self, seed: u32) {
         *self = Self::randomized(self.description, seed);
     }
@@ -55,12 +57,12 @@ impl Model {
         let _one_at_a_time = CONSTRUCTION.lock().unwrap_or_else(PoisonError::into_inner);
         // SAFETY: `create` fills in one address per port, and `addresses` has that many places.
         let handle = unsafe { (description.create)(seed, addresses.as_mut_ptr()) };
-        // C++ `new` ends the program rather than give null, as the shim's functions let no exception out.
+        // C++ `new` ends the program rather than return null, as the functions of the shim let no exception out.
         let handle = NonNull::new(handle).expect("C++ gives an instance or ends the program");
         let mut model =
             Self { description, handle, addresses, clock: description.port("clock").ok(), time: 0, tracing: false };
         for port in description.ports() {
-            // The generator has filled the inputs too.
+            // The random generator has filled the inputs as well.
             if let (Direction::Input, Ok(id)) = (port.direction, model.port(port.name)) {
                 model.set_wide(id, &vec![0; words_of(port.width)]);
             }
@@ -69,23 +71,24 @@ impl Model {
         model
     }
 
-    /// What kind of model this is.
+    /// The kind of model that this is an instance of.
     pub fn description(&self) -> &'static ModelDescription {
         self.description
     }
 
-    /// The port of this name, to be looked up once and kept.
+    /// The port of this name. A caller looks it up once and keeps the result.
     ///
     /// # Errors
-    /// There is none; the error lists those there are.
+    /// The model has no such port; the error lists the ports that it has.
     pub fn port(&self, name: &str) -> Result<PortId, PortError> {
         self.description.port(name)
     }
 
-    /// Drives an input. Takes effect with the next [`Model::eval`] or [`Model::clock`].
+    /// Sets an input. The model sees the value at the next [`Model::eval`] or [`Model::clock`].
     ///
     /// # Panics
-    /// The port belongs to another kind of model, is an output, is wider than 64 bits, or `value` has more bits than it.
+    /// The port belongs to another kind of model, is an output, or is wider than 64 bits, or `value` needs more bits
+    /// than the port has.
     #[inline]
     pub fn set(&mut self, port: PortId, value: u64) {
         let address = self.input(port);
@@ -107,7 +110,7 @@ impl Model {
         }
     }
 
-    /// Reads a port, an input as it was set, an output as of the last evaluation.
+    /// Reads a port: an input as it was set, an output as of the last evaluation.
     ///
     /// # Panics
     /// The port belongs to another kind of model or is wider than 64 bits.
@@ -126,10 +129,10 @@ impl Model {
         }
     }
 
-    /// Drives an input of any width; word 0 holds bits 31..0.
+    /// Sets an input of any width; word 0 holds bits 31..0.
     ///
     /// # Panics
-    /// As [`Model::set`], and if `words` are not exactly as many as the port's bits fill.
+    /// The conditions of [`Model::set`], and `words` of another length than the port's bits fill.
     pub fn set_wide(&mut self, port: PortId, words: &[u32]) {
         assert!(
             words.len() == words_of(port.width),
@@ -156,10 +159,10 @@ impl Model {
         unsafe { std::ptr::copy_nonoverlapping(words.as_ptr(), address, words.len()) }
     }
 
-    /// Reads a port of any width into as many words as its bits fill; word 0 gets bits 31..0.
+    /// Reads a port of any width into as many words as its bits fill; word 0 receives bits 31..0.
     ///
     /// # Panics
-    /// As [`Model::get`] for a port of another kind of model, and if `words` are not exactly as many as the port's bits fill.
+    /// The port belongs to another kind of model, or `words` has another length than the port's bits fill.
     pub fn get_wide(&self, port: PortId, words: &mut [u32]) {
         assert!(
             words.len() == words_of(port.width),
@@ -181,15 +184,15 @@ impl Model {
         unsafe { std::ptr::copy_nonoverlapping(address, words.as_mut_ptr(), words.len()) }
     }
 
-    /// Brings all outputs up to date with the inputs. No time passes.
+    /// Updates all outputs from the current inputs. No time passes.
     #[inline]
     pub fn eval(&mut self) {
         // SAFETY: the handle is a live instance of this description.
         unsafe { (self.description.eval)(self.handle.as_ptr()) }
     }
 
-    /// One clock on the input `clock`: a rising edge that sees the inputs as set, then the falling edge. Ten
-    /// nanoseconds of the waveform pass.
+    /// Simulates one clock on the input `clock`: a rising edge that sees the inputs as they are set, then the falling
+    /// edge. In the waveform, ten nanoseconds pass.
     ///
     /// # Panics
     /// The model has no input `clock`.
@@ -201,14 +204,14 @@ impl Model {
         }
     }
 
-    /// One clock on this input; see [`Model::clock`].
+    /// Simulates one clock on this input; see [`Model::clock`].
     ///
     /// # Panics
-    /// As [`Model::set`].
+    /// The conditions of [`Model::set`].
     #[inline]
     pub fn clock_on(&mut self, clock: PortId) {
         if self.tracing {
-            // Without this the inputs would seem to change at the rising edge.
+            // Otherwise the waveform would show the inputs changing at the rising edge.
             self.eval();
             self.dump_at(self.time + 1);
         }
@@ -221,7 +224,7 @@ impl Model {
         self.dump_at(self.time);
     }
 
-    /// Nanoseconds that passed.
+    /// Nanoseconds that have passed in the waveform.
     pub fn time(&self) -> u64 {
         self.time
     }
@@ -245,7 +248,7 @@ impl Model {
 
     #[inline]
     fn address(&self, port: PortId) -> *mut c_void {
-        // The address must be that of a port of this width, or the accesses above would be unsound.
+        // The address must belong to a port of this width, or the accesses above would be unsound.
         assert!(
             std::ptr::eq(port.model, self.description),
             "port {} belongs to model {}, not to {}",
@@ -264,7 +267,7 @@ impl Drop for Model {
     }
 }
 
-/// Words that this many bits fill.
+/// Number of words that this many bits fill.
 fn words_of(width: u32) -> usize {
     width.div_ceil(32) as usize
 }

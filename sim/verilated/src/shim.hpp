@@ -1,4 +1,4 @@
-// What stands between one Verilated class and Rust: a plain C table of functions and ports.
+// The layer between a Verilated class and Rust: a plain C table of functions and ports.
 // The layout of Port and Description is repeated in src/description.rs.
 #pragma once
 #include <cerrno>
@@ -34,8 +34,8 @@ struct Description {
 };
 
 #if VM_TRACE
-// A file that remembers a failed write and goes on. The runtime would end the program, from within a lock that its own exit
-// handlers wait for: on a full disk it hangs.
+// A file that remembers a failed write and goes on. The runtime would end the program while it holds a lock for which
+// its own exit handlers wait, so that a full disk would hang the program.
 class File final : public VerilatedVcdFile {
 public:
     bool lost = false;

@@ -1,4 +1,4 @@
-//! Waveforms of a model.
+//! Waveforms of a model, in VCD files.
 #![allow(unsafe_code)] // Calls into the C++ instance.
 
 use std::ffi::CString;
@@ -6,31 +6,34 @@ use std::path::{Path, PathBuf};
 
 use crate::model::Model;
 
-/// Why no waveform can be written.
+/// The reason why no waveform can be written.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum TraceError {
-    /// Built without tracing.
+    /// The model was built without tracing.
     #[error("model {model} was built without tracing: build it with `trace(true)`")]
     NotBuilt {
-        /// The model.
+        /// Name of the model.
         model: &'static str,
     },
-    /// The file cannot be made.
-    #[error("cannot write the waveform {path}: check that its folder exists and can be written", path = .path.display())]
+    /// The file cannot be created.
+    #[error(
+        "cannot write the waveform {path}: check that its folder exists and can be written",
+        path = .path.display()
+    )]
     File {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
     },
-    /// Something could not be written.
+    /// Part of the waveform could not be written, usually because the disk is full.
     #[error("the waveform could not be written to its end: make room on the disk, or run a smaller job")]
     Lost,
 }
 
 impl Model {
-    /// Writes a VCD waveform of all signals from now on, into a new file; a trace that was open ends.
+    /// Writes a VCD waveform of all signals from now on, into a new file. A trace that was open ends.
     ///
     /// # Errors
-    /// The model was built without tracing, or the file cannot be made.
+    /// The model was built without tracing, or the file cannot be created.
     pub fn trace_to(&mut self, path: impl AsRef<Path>) -> Result<(), TraceError> {
         let path = path.as_ref();
         let open = self.description().trace_open.ok_or(TraceError::NotBuilt { model: self.description().name() })?;
@@ -50,10 +53,10 @@ impl Model {
         self.tracing
     }
 
-    /// Puts what was traced so far into the file. Dropping the model does the same.
+    /// Flushes the waveform so far into the file. Dropping the model does the same.
     ///
     /// # Errors
-    /// Something since the trace began could not be written; the file is not to be trusted.
+    /// Part of the waveform since the trace began could not be written, so the file cannot be trusted.
     pub fn trace_flush(&mut self) -> Result<(), TraceError> {
         if let (true, Some(flush)) = (self.tracing, self.description().trace_flush) {
             // SAFETY: a live instance whose trace is open.
@@ -64,7 +67,7 @@ impl Model {
         Ok(())
     }
 
-    /// Ends the waveform.
+    /// Ends the waveform, if one is open.
     pub fn trace_close(&mut self) {
         if let (true, Some(close)) = (self.tracing, self.description().trace_close) {
             // SAFETY: a live instance whose trace is open.

@@ -1,21 +1,21 @@
-//! The blocks that carry insertions through their phases, and the command streams.
+//! Blocks that take insertions through their phases, and blocks of the command streams.
 
 use incircle_protocol::{Config, LARGE, MAX_RING, SMALL, TINY};
 
 use crate::exported::block;
-use incircle_hdl::engine::{
-    AttemptLists, AttemptPoints, AttemptStep, AttemptStore, Attempts, Commit, ContextFlags, Counters, FreshIds,
-    InnerList, JobQueue, Latencies, LatencyBucket, LatencyRange, NextPoint, NextVisits, PlanTable, Progress, PushPort,
-    Release, RingReader, Seeder, Solo, SoloVisit, SoloWrites, StarId, Starter, VisitCase, Watchdog, WideCounter,
-};
-use incircle_hdl::link::{
+use incircle_hdl::commands::{
     AnswerHead, AnswerWords, ClearCommand, CommandGate, CommandPort, PointSlot, RecordBuffer, RecordReads, RecordWords,
     Responder, VertexPacker, VertexStream,
 };
+use incircle_hdl::engine::{
+    AttemptLists, AttemptPoints, AttemptStep, AttemptStore, Attempts, Commit, ContextFlags, Counters, FinishedPoints,
+    FreshIds, InnerList, JobQueue, Latencies, LatencyBucket, LatencyRange, NextPoint, NextVisits, PlanTable, PushPort,
+    Release, RingReader, Seeder, Solo, SoloVisit, SoloWrites, StarId, Starter, VisitCase, Watchdog, WideCounter,
+};
 
-/// The name of each root module, and its Verilog.
+/// Name of the root module and Verilog of each block.
 pub(crate) fn blocks() -> Vec<(String, String)> {
-    // `context` and `release` alone are words of SystemVerilog.
+    // The words `context` and `release` are keywords of SystemVerilog and cannot be names of modules.
     let longest_list = Config { ring: MAX_RING, contexts: 24, ..TINY };
     vec![
         block(Attempts::new(SMALL), "attempts_small"),
@@ -33,7 +33,7 @@ pub(crate) fn blocks() -> Vec<(String, String)> {
         block(NextPoint::default(), "next_point"),
         block(PlanTable::new(LARGE), "plan_table"),
         block(NextVisits::default(), "next_visits"),
-        block(Progress::default(), "progress"),
+        block(FinishedPoints::default(), "finished_points"),
         block(PushPort::default(), "push_port"),
         block(Release::new(TINY), "release_6"),
         block(Release::new(longest_list), "release_64"),

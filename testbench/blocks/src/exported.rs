@@ -1,4 +1,4 @@
-//! The Verilog of a block by its name.
+//! Turns a block into its name and Verilog.
 
 use incircle_hdl::export::{verilog, ExportError};
 use rust_hdl_core::prelude::*;
@@ -9,7 +9,7 @@ pub(crate) fn block<U: Block>(mut uut: U, name: &str) -> (String, String) {
     named(name, verilog(&uut, name))
 }
 
-/// The Verilog of a block, with its name.
+/// Puts the name beside the Verilog of a block.
 pub(crate) fn named(name: &str, text: Result<String, ExportError>) -> (String, String) {
     (name.to_string(), text.unwrap_or_else(|error| panic!("block {name}: {error}")))
 }

@@ -1,4 +1,4 @@
-//! The leaves, and the predicates.
+//! The leaves and the predicates.
 
 use incircle_hdl::leaf::{
     BankedMemory, BlockMemory, DeepFifo, DelayLine, Fifo, FlagDelay, LockMemory, LutMemory, Multiplier, PacedMemory,
@@ -10,7 +10,7 @@ use incircle_hdl::predicate::{
 
 use crate::exported::block;
 
-/// The name of each root module, and its Verilog.
+/// Name of the root module and Verilog of each block.
 pub(crate) fn blocks() -> Vec<(String, String)> {
     vec![
         block(Multiplier::default(), "multiplier"),

@@ -1,4 +1,4 @@
-//! Every block of the hardware that is tested alone, in the shapes in which tests run it, by name.
+//! Every block of the hardware that is tested by itself, by name, in the shapes in which tests run it.
 //!
 //! The build script of the test bench translates this list, and the tests look blocks up in it.
 
@@ -12,10 +12,10 @@ mod visit;
 
 pub use links::{HASTY_LINK, QUICK_LINK};
 
-/// Every block that is tested alone: the name of its root module, and its Verilog.
+/// Returns the name of the root module and the Verilog of every block that is tested by itself.
 ///
 /// # Panics
-/// If a block is not fit for export, which is a fault in its source.
+/// Panics if a block is not fit for export, which is a fault in its source.
 pub fn blocks() -> Vec<(String, String)> {
     [leaf::blocks(), visit::blocks(), control::blocks(), serial::blocks(), stream::blocks()].concat()
 }

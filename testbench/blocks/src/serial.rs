@@ -1,4 +1,4 @@
-//! The blocks of the serial link, and the whole of it.
+//! The blocks of the serial link, and the whole link.
 
 use incircle_protocol::SMALL;
 
@@ -11,7 +11,7 @@ use incircle_hdl::serial::{
     ReceiveFifo, Replies, SessionState, UartReceiver, UartTransmitter, WordNarrower,
 };
 
-/// The name of each root module, and its Verilog.
+/// Name of the root module and Verilog of each block.
 pub(crate) fn blocks() -> Vec<(String, String)> {
     let link = |name: &str| named(name, serial_link(SMALL, QUICK_LINK, name));
     vec![

@@ -1,4 +1,4 @@
-//! The blocks of the stream link, and the whole of it.
+//! The blocks of the stream link, and the whole link.
 
 use incircle_protocol::SMALL;
 
@@ -6,12 +6,12 @@ use crate::exported::{block, named};
 use incircle_hdl::export::stream_link;
 use incircle_hdl::leaf::{DualClockMemory, Synchroniser};
 use incircle_hdl::stream::{
-    AnswerBeats, AnswerPairs, AnswerWatch, AsyncFifo, BeatGate, BeatWords, Progress, RegisterBlock, RegisterPort,
-    ResetReply, ResetRequest,
+    AnswerBeats, AnswerPairs, AnswerWatch, AsyncFifo, BeatGate, BeatWords, CommandUnderWay, RegisterBlock,
+    RegisterPort, ResetReply, ResetRequest,
 };
 use rust_hdl_core::prelude::*;
 
-/// The name of each root module, and its Verilog.
+/// Name of the root module and Verilog of each block.
 pub(crate) fn blocks() -> Vec<(String, String)> {
     let link = |name: &str, beat_bits| named(name, stream_link(SMALL, beat_bits, name));
     vec![
@@ -28,7 +28,7 @@ pub(crate) fn blocks() -> Vec<(String, String)> {
         block(AnswerBeats::<64>::new(), "stream_answer_beats_64"),
         block(AnswerBeats::<128>::new(), "stream_answer_beats_128"),
         block(AnswerWatch::<64>::default(), "stream_answer_watch"),
-        block(Progress::default(), "stream_progress"),
+        block(CommandUnderWay::default(), "command_under_way"),
         block(ResetRequest::default(), "stream_reset_request"),
         block(ResetReply::new(), "stream_reset_reply"),
         block(RegisterPort::default(), "stream_register_port"),

@@ -1,4 +1,4 @@
-//! The blocks that a visit passes: memories, queue, reader, verdict, cavity and the writes that follow.
+//! The blocks that a visit passes: memories, queue, reader, verdict, attempt and the writes that follow.
 
 use incircle_protocol::{SMALL, TINY};
 
@@ -8,7 +8,7 @@ use incircle_hdl::engine::{
 };
 use incircle_hdl::mesh::{LockStore, TriangleStore, VertexStore};
 
-/// The name of each root module, and its Verilog.
+/// Name of the root module and Verilog of each block.
 pub(crate) fn blocks() -> Vec<(String, String)> {
     vec![
         block(LockStore::new(4, 2), "lock_store_4_2"),

@@ -1,17 +1,18 @@
-//! Batches: jobs side by side in one memory, as points in the order in which they are sent.
+//! Batches of jobs side by side in one memory: their points in the order in which they are sent.
 
 use crate::random32::Random32;
 use crate::words;
 
-/// The points of a batch of so many jobs.
+/// The points of a batch.
 #[derive(Clone, Debug)]
 pub struct Batch {
-    /// The points of each job, its first three in front.
+    /// Points of each job, with its first three in front.
     pub jobs: Vec<Vec<u32>>,
 }
 
 impl Batch {
-    /// Jobs of about `most` points each and of any kind; the first three of each span a triangle if `spans`, or may not.
+    /// Makes `jobs` jobs of about `most` points each and of any kind. With `spans` the first three points of each job
+    /// span a triangle; without, they may not.
     pub fn random(random: &mut Random32, jobs: u32, most: u32, spans: bool) -> Self {
         let mut made = Vec::new();
         for _ in 0..jobs {
@@ -31,8 +32,8 @@ impl Batch {
         Self { jobs: made }
     }
 
-    /// All points in the order in which they are sent: three of each job, then one of each in turn. A job that is over repeats its first
-    /// point until the last job is.
+    /// All points in the order in which they are sent: three of each job, then one of each job in turn. A job that has
+    /// no more points repeats its first one until the last job is sent.
     pub fn points(&self) -> Vec<u32> {
         let mut points: Vec<u32> = self.jobs.iter().flat_map(|job| job[..3].to_vec()).collect();
         let longest = self.jobs.iter().map(Vec::len).max().unwrap_or(0);

@@ -1,31 +1,32 @@
-//! The check of a mesh as it comes from a device: everything that holds of every mesh, and its canonical form.
+//! Checks a mesh as it comes from a device: everything that holds for every mesh, and its canonical form.
 
 use std::collections::{HashMap, HashSet};
 
 /// A record as a device stores it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StoredRecord {
-    /// Vertices by number of arrival, counter-clockwise.
+    /// Vertices by order of arrival, counter-clockwise.
     pub vertices: [u32; 3],
-    /// The records across the edges opposite the vertices.
+    /// Ids of the records across the edges opposite the vertices.
     pub links: [u32; 3],
-    /// Whether the lock bit is set.
+    /// True if the lock bit is set.
     pub is_locked: bool,
 }
 
-/// A mesh without ids: point words in place of vertices.
+/// A mesh without ids: point words stand in place of vertices.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Canonical {
-    /// Finite triangles, counter-clockwise, the smallest word first, in order.
+    /// Finite triangles, counter-clockwise, each from its smallest word on, sorted.
     pub triangles: Vec<[u32; 3]>,
-    /// Edges with a ghost behind them, as the ghost sees them, in order.
+    /// Edges with a ghost triangle behind them, as the ghost sees them, sorted.
     pub hull: Vec<[u32; 2]>,
 }
 
-/// The canonical form of a mesh, or the first thing that is wrong with it.
+/// Returns the canonical form of a mesh, or the first thing that is wrong with it.
 ///
-/// `points` are all that arrived, in their order. Records must be `2 n - 2` for `n` distinct points, no lock bit may be set, every
-/// directed edge must be there once and linked to its reverse, every vertex must be used, and of equal points one only.
+/// `points` are all points that arrived, in their order. For `n` distinct points there must be `2 n - 2` records. No
+/// lock bit may be set. Every directed edge must be there once and linked to its reverse. Every vertex must be used,
+/// and of equal points exactly one.
 pub fn canonical(
     records: impl ExactSizeIterator<Item = StoredRecord>,
     points: &[u32],
@@ -55,10 +56,10 @@ pub fn canonical(
     Ok(without_ids(&meshes, points, infinite))
 }
 
-/// A record: vertices and links.
+/// A record: its vertices and its links.
 type Record = ([u32; 3], [u32; 3]);
 
-/// Every directed edge once, and every link to the record with the reverse edge.
+/// Checks that every directed edge is there once, and that every link leads to the record with the reverse edge.
 fn check_links(records: &[Record]) -> Result<(), String> {
     let mut across = HashMap::with_capacity(3 * records.len());
     for (id, (v, _)) in records.iter().enumerate() {
@@ -106,7 +107,7 @@ mod tests {
     const INFINITE: u32 = 9;
     const POINTS: [u32; 3] = [0, 1, 0x1_0000];
 
-    /// One triangle and its three ghosts.
+    /// One triangle and its three ghost triangles.
     fn triangle() -> [StoredRecord; 4] {
         let record = |vertices, links| StoredRecord { vertices, links, is_locked: false };
         [

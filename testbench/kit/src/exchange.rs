@@ -1,15 +1,15 @@
-//! The exchange that a page about the serial link shows, as bytes.
+//! The exchange that the page of the serial link shows, as bytes.
 
-/// The bytes of a line without its direction and its comment.
+/// Bytes of a line of the page, without its direction and its comment.
 fn bytes(line: &str) -> Vec<u8> {
     let said = line[1..].split(';').next().expect("a first part");
     said.split_whitespace().map(|byte| u8::from_str_radix(byte, 16).expect(line)).collect()
 }
 
-/// The steps of the exchange that `protocol/SERIAL.md` shows: bytes to the device, then those that come back.
+/// Steps of the exchange that `protocol/SERIAL.md` shows: bytes to the device, then those that come back.
 ///
 /// # Panics
-/// If the page shows no exchange, or one in another form.
+/// Panics if the page shows no exchange, or one in another form.
 pub fn exchange_steps(page: &str) -> Vec<(Vec<u8>, Vec<u8>)> {
     let (_, block) = page.split_once("```line\n").expect("an exchange");
     let block = block.split("```").next().expect("its body");

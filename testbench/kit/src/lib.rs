@@ -1,5 +1,5 @@
-//! What the tests and the measurements of all crates share. The kit uses no other crate of the workspace, so every
-//! crate may use the kit in its tests, and nothing here can share code with what is under test.
+//! Everything that the tests and the measurements of all crates share. The kit uses no other crate of the workspace, so
+//! every crate may use the kit in its tests, and nothing here can share code with the tested code.
 //!
 //! - [`SplitMix64`]: the random generator. The same seed gives the same numbers on every machine.
 //! - [`generate`]: point sets by name, those of `incircle generate`.

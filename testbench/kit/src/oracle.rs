@@ -4,8 +4,8 @@
 //! four cocircular points the lexicographically smallest is lowered on the paraboloid by an infinitely small amount, so
 //! each set of points has exactly one answer.
 
-/// Twice the area of `a b c`: positive if the three turn counter-clockwise, 0 if they lie on a line. Exact for all
-/// coordinates.
+/// Twice the area of `a b c`: positive if the three turn counter-clockwise, 0 if they lie on a
+/// line, and exact for all coordinates.
 pub fn orient2d<P: Into<[u32; 2]>>(a: P, b: P, c: P) -> i128 {
     let [a, b, c] = [a.into(), b.into(), c.into()];
     let from_a = |point: [u32; 2], axis: usize| i128::from(point[axis]) - i128::from(a[axis]);
@@ -24,8 +24,8 @@ pub fn conflicts<P: Copy + Into<[u32; 2]>>(a: P, b: P, c: P, d: P) -> bool {
     if inside != 0 {
         return inside > 0;
     }
-    // Lowering a corner changes the determinant by minus the factor of the corner's lift. Lowering `d` moves `d`
-    // inside.
+    // Lowering a corner changes the determinant by minus the factor of the corner's lift. If
+    // `d` is lowered, `d` moves inside.
     match [a, b, c, d].into_iter().min() {
         Some(smallest) if smallest == a => orient2d(d, b, c) < 0,
         Some(smallest) if smallest == b => orient2d(d, c, a) < 0,
@@ -65,7 +65,7 @@ mod tests {
     fn four_points_of_a_square_are_cut_by_the_tie_rule() {
         // (0, 0) is lowered, so the circles of both triangles at (0, 0) stay empty: the diagonal starts there.
         assert_eq!(delaunay(&[[0, 0], [1, 0], [1, 1], [0, 1]]), [[0, 1, 2], [0, 2, 3]]);
-        // The same square in another order.
+        // Points in another order: the places in the answer change, the diagonal stays.
         assert_eq!(delaunay(&[[1, 1], [0, 1], [0, 0], [1, 0]]), [[0, 1, 2], [0, 2, 3]]);
     }
 
@@ -87,7 +87,7 @@ mod tests {
         let last = (1 << 31) - 1;
         let corners = [[0, 0], [last, 0], [last, last], [0, last]];
         assert_eq!(delaunay(&corners), [[0, 1, 2], [0, 2, 3]]);
-        // One grid step inside the circle of the others: no tie any more.
+        // One grid step inside the circle of the others there is no tie any more.
         let inside = [[1, 1], [last, 0], [last, last], [0, last]];
         assert_eq!(delaunay(&inside), [[0, 1, 2], [0, 2, 3]]);
         assert!(conflicts(inside[1], inside[2], inside[3], inside[0]));

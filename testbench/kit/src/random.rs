@@ -9,17 +9,17 @@ pub struct SplitMix64 {
 }
 
 impl SplitMix64 {
-    /// The sequence of this seed.
+    /// Starts the sequence of this seed.
     pub fn new(seed: u64) -> Self {
         Self { state: seed }
     }
 
-    /// The seed of the numbers that are still to come.
+    /// Returns the seed of the numbers that are still to come.
     pub fn state(&self) -> u64 {
         self.state
     }
 
-    /// The next 64 bits.
+    /// Returns the next 64 bits.
     pub fn next_u64(&mut self) -> u64 {
         self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut mixed = self.state;
@@ -28,54 +28,55 @@ impl SplitMix64 {
         mixed ^ mixed >> 31
     }
 
-    /// A number from 0 to `bound - 1`; 0 if `bound` is 0. Off from even by less than `bound` / 2^64.
+    /// Returns a number from 0 to `bound - 1`, or 0 if `bound` is 0. The bias is less than `bound` / 2^64.
     pub fn below(&mut self, bound: u64) -> u64 {
         let wide = u128::from(self.next_u64()) * u128::from(bound);
         (wide >> 64) as u64
     }
 
-    /// The same with 32 bits.
+    /// Returns a number from 0 to `bound - 1` in 32 bits, as [`Self::below`] does.
     pub fn below_u32(&mut self, bound: u32) -> u32 {
         self.below(bound.into()) as u32
     }
 
-    /// A number of so many bits, from 1 to 64.
+    /// Returns a number of `bits` bits, from 1 to 64.
     pub fn bits(&mut self, bits: u32) -> u64 {
         self.next_u64() >> (u64::BITS - bits)
     }
 
-    /// True once in `times`, by chance.
+    /// Returns true once in `times`, by chance.
     pub fn once_in(&mut self, times: u64) -> bool {
         self.below(times) == 0
     }
 
-    /// One of these, each alike.
+    /// Returns one of the items, each with equal chance.
     ///
     /// # Panics
-    /// Without items.
+    /// Panics if there are no items.
     pub fn pick<T: Copy>(&mut self, items: &[T]) -> T {
         items[self.below(items.len() as u64) as usize]
     }
 
-    /// Points of the square `[0, side)`, each place alike, as any type that pairs of coordinates turn into.
+    /// Returns points of the square `[0, side)`, each place with equal chance, as any type
+    /// that pairs of coordinates turn into.
     pub fn points<P: From<[u32; 2]>>(&mut self, count: usize, side: u32) -> Vec<P> {
         (0..count).map(|_| P::from([self.below_u32(side), self.below_u32(side)])).collect()
     }
 
-    /// A number in `[0, 1)`, a multiple of 2^-53.
+    /// Returns a number in `[0, 1)`, a multiple of 2^-53.
     pub fn unit(&mut self) -> f64 {
         const STEP: f64 = 1.0 / (1u64 << 53) as f64;
         (self.next_u64() >> 11) as f64 * STEP
     }
 
-    /// Two independent numbers of the standard normal distribution: Box and Muller's transform, 1958.
+    /// Returns two independent numbers of the standard normal distribution, by the transform of Box and Muller, 1958.
     pub fn normal_pair(&mut self) -> [f64; 2] {
         let radius = libm::sqrt(-2.0 * libm::log(1.0 - self.unit()));
         let angle = std::f64::consts::TAU * self.unit();
         [radius * libm::cos(angle), radius * libm::sin(angle)]
     }
 
-    /// Puts the items into random order: Fisher and Yates' shuffle.
+    /// Puts the items into random order, by the shuffle of Fisher and Yates.
     pub fn shuffle<T>(&mut self, items: &mut [T]) {
         for last in (1..items.len()).rev() {
             let other = self.below(last as u64 + 1) as usize;

@@ -2,16 +2,16 @@
 
 use super::random::SplitMix64;
 
-/// The numbers of [`SplitMix64`], brought below a bound of 32 bits by their remainder; the state is public. The seeds of
-/// many tests stand for these numbers.
+/// The numbers of [`SplitMix64`], brought below a bound of 32 bits by their remainder. The state is public, and the
+/// seeds in many tests were chosen for these numbers.
 #[derive(Clone, Debug)]
 pub struct Random32(pub u64);
 
 impl Random32 {
-    /// A number from 0 to `bound - 1`.
+    /// Returns a number from 0 to `bound - 1`.
     ///
     /// # Panics
-    /// If `bound` is 0.
+    /// Panics if `bound` is 0.
     pub fn below(&mut self, bound: u32) -> u32 {
         let mut random = SplitMix64::new(self.0);
         let word = random.next_u64();
@@ -19,10 +19,10 @@ impl Random32 {
         (word % u64::from(bound)) as u32
     }
 
-    /// One of these.
+    /// Returns one of the items.
     ///
     /// # Panics
-    /// Without items.
+    /// Panics if there are no items.
     pub fn pick<T: Copy>(&mut self, items: &[T]) -> T {
         items[self.below(items.len() as u32) as usize]
     }

@@ -1,5 +1,5 @@
-//! Lists what crosses between the two clocks of a core behind a stream link. The exit code is 0 only if all of it goes through synchronisers and the
-//! FIFOs' memories.
+//! Lists what crosses between the two clocks of a core behind a stream link. The exit code is 0 only if every crossing
+//! goes through a synchroniser or the memory of a FIFO.
 
 use std::error::Error;
 use std::process::ExitCode;
@@ -10,13 +10,14 @@ use incircle_hdl::top::STREAM_TOP_NAME;
 use incircle_protocol::{Config, NAMED};
 use incircle_testbench::crossings::{crossings, stream_port_clock, Way};
 
-/// What crosses between the clocks of a core behind a stream link.
+/// List the signals that cross between the clocks of a core behind a stream link
 #[derive(Parser)]
+#[command(after_help = "Example:\n  crossings --config full --width 128")]
 struct Arguments {
-    /// Configuration of the core: tiny, small, full or large.
+    /// Configuration of the core: tiny, small, full or large
     #[arg(long, default_value = "tiny", value_parser = config)]
     config: Config,
-    /// Bits of a beat: 64 or 128.
+    /// Bits of a beat: 64 or 128
     #[arg(long, default_value_t = 64)]
     width: u32,
 }

@@ -1,4 +1,4 @@
-//! Renews `testbench/cycles.md`.
+//! Renews the tables in `testbench/cycles.md`.
 
 use std::error::Error;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! Renews `testbench/goodput.md`.
+//! Renews the table in `testbench/goodput.md`.
 
 use std::error::Error;
 use std::path::Path;

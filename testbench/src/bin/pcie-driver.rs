@@ -1,4 +1,5 @@
-//! What the driver of PCIe cards costs a point, against a card that does nothing: in memory, and through the files of a directory.
+//! Measures what the driver of PCIe cards costs for each point, against a card that does nothing: in memory, and
+//! through the files of a directory.
 
 use std::error::Error;
 
@@ -6,16 +7,17 @@ use clap::Parser;
 use incircle_protocol::{Opcode, FULL};
 use incircle_testbench::card::{driver_cost, DriverCost, Jobs, Way};
 
-/// The cost of the driver, ordering of points and mapping of indices apart.
+/// Measure the driver of PCIe cards, without the ordering of points and the mapping of indices
 #[derive(Parser)]
+#[command(after_help = "Example:\n  pcie-driver -n 8192 --jobs 200")]
 struct Arguments {
-    /// Points of a job.
+    /// Points of a job
     #[arg(short, default_value_t = FULL.points, value_parser = clap::value_parser!(u32).range(3..=1 << 20))]
     n: u32,
-    /// Jobs.
+    /// Number of jobs
     #[arg(long, default_value_t = 200)]
     jobs: usize,
-    /// Print JSON.
+    /// Print the figures as JSON
     #[arg(long)]
     json: bool,
 }
@@ -39,7 +41,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("{}", serde_json::Value::Array(found.iter().map(entry).collect()));
         return Ok(());
     }
-    println!("{n} points a job, {jobs} jobs, nanoseconds a point");
+    println!("{jobs} jobs of {n} points, nanoseconds per point");
     println!("{:8} {:10} {:>8} {:>8} {:>8}", "way", "read-out", "best", "median", "target");
     for (way, read_out, cost, target) in found {
         println!("{way:8} {read_out:10} {:8.1} {:8.1} {target:8.0}", cost.best, cost.median);

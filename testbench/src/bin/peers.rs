@@ -1,4 +1,4 @@
-//! Triangulators beside each other, in one run: `cargo run --release -p incircle-testbench --bin peers -- --help`.
+//! Compares triangulators in one run: `cargo run --release -p incircle-testbench --bin peers -- --help`.
 
 use std::process::ExitCode;
 

@@ -1,4 +1,5 @@
-//! What the driver itself costs: whole jobs against a card that does nothing, without ordering points and mapping indices.
+//! Measures the cost of the PCIe driver itself: whole jobs against a card that does nothing, without the ordering of
+//! points and the mapping of indices.
 
 use std::time::{Duration, Instant};
 
@@ -9,25 +10,25 @@ use incircle_sim::pcie::{Beats, CardFaultSpec, DirectoryError, NullDevice};
 
 use super::{MemoryCard, MountedCard};
 
-/// Time for a call.
+/// Time limit of one call.
 const LIMIT: Duration = Duration::from_secs(60);
-/// Bits of a beat.
+/// Bits of a beat of the stream.
 const BEAT_BITS: u32 = 128;
 
-/// How the driver reaches the card.
+/// The way in which the driver reaches the card.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Way {
-    /// In the memory of the process.
+    /// Through calls within the memory of the process.
     Memory,
-    /// Through the files of a directory, by the system's calls.
+    /// Through the files of a directory, by calls of the system.
     Files,
 }
 
 impl Way {
-    /// Both, with what is aimed at in nanoseconds a point.
+    /// Both ways, each with its target in nanoseconds per point.
     pub const ALL: [(Self, f64); 2] = [(Self::Memory, 30.0), (Self::Files, 200.0)];
 
-    /// For reports.
+    /// Name of the way in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Memory => "memory",
@@ -36,46 +37,46 @@ impl Way {
     }
 }
 
-/// What it costs.
+/// Cost of the driver, as measured.
 #[derive(Clone, Copy, Debug)]
 pub struct DriverCost {
-    /// Nanoseconds a point of the fastest job.
+    /// Nanoseconds per point of the fastest job.
     pub best: f64,
-    /// Of the job in the middle.
+    /// Nanoseconds per point of the median job.
     pub median: f64,
 }
 
-/// Why nothing was measured.
+/// Reasons why nothing was measured.
 #[derive(Debug, thiserror::Error)]
 pub enum DriverCostError {
     /// The card cannot be opened.
     #[error(transparent)]
     Open(#[from] Error),
-    /// It does not answer.
+    /// The card does not answer.
     #[error(transparent)]
     Transport(#[from] TransportError),
-    /// There is no directory for it.
+    /// There is no directory for the card.
     #[error(transparent)]
     Directory(#[from] DirectoryError),
 }
 
-/// Jobs to be done.
+/// Jobs whose time is measured.
 #[derive(Clone, Copy, Debug)]
 pub struct Jobs {
-    /// How many.
+    /// Number of jobs to run.
     pub count: usize,
-    /// Points of each.
+    /// Points of each job.
     pub points: u32,
-    /// What the card says it is.
+    /// Configuration that the card reports.
     pub config: Config,
-    /// `Triangles` or `Read`.
+    /// Opcode of the read-out: `Triangles` or `Read`.
     pub read_out: Opcode,
 }
 
-/// Does these jobs. Each is what a session says: `Clear`, `Insert`, the read-out, `Counters` and `Latencies`.
+/// Runs the jobs. Each sends the commands of a session: `Clear`, `Insert`, the read-out, `Counters` and `Latencies`.
 ///
 /// # Errors
-/// No card could be opened, or it does not answer.
+/// No card could be opened, or the card does not answer.
 pub fn driver_cost(way: Way, jobs: Jobs) -> Result<DriverCost, DriverCostError> {
     let device: Box<dyn Beats> = Box::new(NullDevice::new(jobs.config, BEAT_BITS));
     let faults = CardFaultSpec::default();

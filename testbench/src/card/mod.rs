@@ -1,4 +1,5 @@
-//! Simulated PCIe cards for the driver: in memory, behind the files of a directory, and as a device of vfio-user; and what the driver costs before them.
+//! Simulated PCIe cards for the driver: in memory, behind the files of a directory, and as a vfio-user device.
+//! [`driver_cost`] measures what the driver costs in front of them.
 
 mod driver;
 pub mod vfio;
@@ -13,10 +14,10 @@ use std::sync::Arc;
 use incircle::transports::parts::{CardFiles, RegisterFile};
 use incircle_sim::pcie::{Beats, Card, CardDirectory, CardFaultSpec, DirectoryError, Errno};
 
-/// Names of directories, so that no two are one.
+/// Numbers the directories, so that no two cards share one.
 static MOUNTED: AtomicU32 = AtomicU32::new(0);
 
-/// A card in memory, called as the files of its driver would be.
+/// A card in memory, called as its driver's files would be.
 #[derive(Clone)]
 pub struct MemoryCard(Arc<Card>);
 
@@ -25,12 +26,12 @@ fn failed(errno: Errno) -> io::Error {
 }
 
 impl MemoryCard {
-    /// A card around this device.
+    /// Makes a card around this device.
     pub fn new(device: Box<dyn Beats>, faults: &CardFaultSpec) -> Self {
         Self(Arc::new(Card::new(device, faults)))
     }
 
-    /// Its files.
+    /// The card's three files.
     pub fn files(&self) -> CardFiles {
         CardFiles {
             commands: Box::new(self.clone()),
@@ -66,9 +67,9 @@ impl RegisterFile for MemoryCard {
     }
 }
 
-/// A card in a directory of its own, which goes with it.
+/// A card in a directory of its own. Dropping the card removes the directory.
 pub struct MountedCard {
-    /// Dropped before its path is removed.
+    /// Dropped before the path is removed.
     directory: Option<CardDirectory>,
     path: PathBuf,
 }
@@ -85,12 +86,12 @@ impl MountedCard {
         Ok(Self { directory: Some(directory), path })
     }
 
-    /// Where it is.
+    /// The directory of the card.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Its address for the library.
+    /// The card's address for the library.
     pub fn address(&self) -> String {
         format!("pcie:{}", self.path.display())
     }
@@ -99,7 +100,7 @@ impl MountedCard {
 impl Drop for MountedCard {
     fn drop(&mut self) {
         drop(self.directory.take());
-        // It is empty; should it not be, it is not ours to remove.
+        // The directory should be empty. If somebody put a file there, the test must not remove that file.
         let _ = std::fs::remove_dir(&self.path);
     }
 }

@@ -1,8 +1,10 @@
-//! What crosses between the clocks of a design: every register that sees something of another clock, out of the netlist that yosys makes.
+//! Finds what crosses between the clocks of a design: every register that depends on another clock,
+//! in the netlist that yosys makes.
 //!
-//! A crossing is sound if it is a bit of a register that goes, with nothing in between, into the first cell of a
-//! [`Synchroniser`](incircle_hdl::leaf::Synchroniser), or a word of a [`DualClockMemory`](incircle_hdl::leaf::DualClockMemory) on its way into that
-//! memory's read register, with an address of the reader's clock. Anything else is a fault.
+//! A crossing is sound in two cases. One is a bit of a register that goes, with nothing in between, into the first cell
+//! of a [`Synchroniser`](incircle_hdl::leaf::Synchroniser). The other is a word of a
+//! [`DualClockMemory`](incircle_hdl::leaf::DualClockMemory) on the way into that memory's read register, with an
+//! address of the reader's clock. Anything else is a fault.
 
 mod netlist;
 
@@ -14,29 +16,29 @@ use incircle_hdl::leaf::Synchroniser;
 use crate::gate::{self, GateError};
 use netlist::{Driver, Netlist};
 
-/// How something crosses.
+/// The kind of a crossing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Way {
-    /// A register into the first cell of a synchroniser.
+    /// A register drives the first cell of a synchroniser.
     Synchroniser,
-    /// A memory with two clocks.
+    /// A memory is written by one clock and read by another.
     Memory,
-    /// Any other: a fault.
+    /// Any other crossing, which is a fault.
     Fault,
 }
 
-/// A register that sees something of another clock.
+/// A register that depends on another clock.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Crossing {
-    /// Clock it comes from.
+    /// The clock that the value comes from.
     pub from: String,
-    /// Clock of the register.
+    /// The clock of the register.
     pub to: String,
-    /// How.
+    /// The kind of the crossing.
     pub way: Way,
-    /// The register, or the port of the design.
+    /// Name of the register, or of the port of the design.
     pub receiver: String,
-    /// Bits of it.
+    /// Number of bits that cross.
     pub bits: usize,
 }
 
@@ -51,7 +53,8 @@ impl fmt::Display for Crossing {
     }
 }
 
-/// Every crossing of the design `top`, sorted. `clock_of_port` gives the clock that each port of the design belongs to.
+/// Returns every crossing of the design `top`, sorted. `clock_of_port` names the clock to which
+/// each port of the design belongs.
 ///
 /// # Errors
 /// Yosys is missing or refuses the text, or its netlist cannot be read.
@@ -76,7 +79,7 @@ pub fn crossings(
     Ok(found.into_iter().map(crossing).collect())
 }
 
-/// The clock that a port of the stream link, or of the top around it, belongs to.
+/// The clock to which a port of the stream link, or of the top around it, belongs.
 pub fn stream_port_clock(port: &str) -> &'static str {
     let is_of_core = ["core", "command", "response", "write"].iter().any(|prefix| port.starts_with(prefix));
     if is_of_core {
@@ -86,15 +89,17 @@ pub fn stream_port_clock(port: &str) -> &'static str {
     }
 }
 
-/// What is seen of a clock: registers or ports, or words of a memory.
+/// Kinds of sources that a bit has in one clock: registers or ports, and words of a memory.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Seen {
     registers: bool,
     memories: bool,
 }
 
+/// The clocks on which a bit depends, each with the kinds of its sources.
 type Sources = BTreeMap<String, Seen>;
 
+/// The search through a netlist, with the sources of every bit seen so far in `cones`.
 struct Search<'a, F> {
     netlist: &'a Netlist,
     clock_of_port: &'a F,
@@ -102,7 +107,7 @@ struct Search<'a, F> {
 }
 
 impl<F: Fn(&str) -> &'static str> Search<'_, F> {
-    /// The clocks that a bit depends on within a clock.
+    /// The clocks on which a bit depends through logic, without a register in between.
     fn sources(&mut self, bit: usize) -> Sources {
         if let Some(known) = self.cones.get(&bit) {
             return known.clone();
@@ -119,7 +124,7 @@ impl<F: Fn(&str) -> &'static str> Search<'_, F> {
                 self.join(&mut all, address);
             }
             Some(Driver::Logic(inputs)) => {
-                // A place for it first, in case that yosys left a loop.
+                // An empty entry first, so that a loop that yosys may have left ends the search.
                 self.cones.insert(bit, Sources::new());
                 self.join(&mut all, inputs);
             }

@@ -1,30 +1,30 @@
-//! The netlist that yosys writes as JSON: who drives each bit.
+//! The netlist that yosys writes as JSON, with the driver of each bit.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::Value;
 
-/// What drives a bit.
+/// The driver of a bit.
 #[derive(Clone, Debug)]
 pub(super) enum Driver {
-    /// A port of the design.
+    /// A port of the design, by its name.
     Port(String),
-    /// A register with this clock.
+    /// A register, by its clock.
     Register(String),
-    /// A memory: the clocks that write it, and the bits of the read address.
+    /// A memory: the clocks that write it, and the bits of its read addresses.
     Memory { clocks: BTreeSet<String>, address: BTreeSet<usize> },
-    /// Logic with these inputs.
+    /// Logic, by the bits of its inputs.
     Logic(BTreeSet<usize>),
 }
 
-/// A bit that is taken over by a register, by a memory's write port, or by a port of the design.
+/// A bit that a register, the write port of a memory, or a port of the design takes.
 pub(super) struct Receiver {
     pub name: String,
     pub clock: String,
     pub bit: usize,
 }
 
-/// A flat design.
+/// A flat design, with all its instances resolved.
 #[derive(Default)]
 pub(super) struct Netlist {
     drivers: BTreeMap<usize, Driver>,
@@ -75,7 +75,7 @@ impl Netlist {
         if connections.get("CLK").is_some() && connections.get("Q").is_some() {
             let clock = clock(bits(&connections["CLK"]).first().copied().flatten())?;
             let inputs = bits(&connections["D"]);
-            // Enables and resets of a register reach all its bits.
+            // Enable and reset of a register reach all its bits.
             let others: BTreeSet<usize> = ["EN", "SRST"].iter().flat_map(|port| known(&connections[*port])).collect();
             for (output, input) in bits(&connections["Q"]).into_iter().zip(inputs) {
                 let Some(output) = output else { continue };
@@ -111,7 +111,7 @@ impl Netlist {
                 }
             }
         }
-        // Every read port's data is told to depend on all read addresses: too much rather than too little.
+        // The read data of every port counts as dependent on all read addresses: too much rather than too little.
         let address = known(&connections["RD_ADDR"]);
         for bit in known(&connections["RD_DATA"]) {
             let clocks = writers.iter().cloned().collect();
@@ -136,7 +136,7 @@ impl Netlist {
         self.drivers.get(&bit)
     }
 
-    /// All that takes over a bit at an edge, and the outputs of the design.
+    /// All bits that are taken at a clock edge, and the outputs of the design.
     pub(super) fn receivers(&self, clock_of_port: &impl Fn(&str) -> &'static str) -> Vec<Receiver> {
         let of = |receiver: &Receiver| Receiver {
             name: receiver.name.clone(),
@@ -152,7 +152,8 @@ impl Netlist {
     }
 }
 
-/// The best name of each bit: that of a port, or else the one with the fewest steps down from the top; not one that yosys made up.
+/// The best name of each bit: the name of a port, or else of the net that lies fewest levels below the top. Names that
+/// yosys made up do not count.
 fn names(module: &Value) -> BTreeMap<usize, String> {
     let mut names: BTreeMap<usize, String> = BTreeMap::new();
     let ports = module["ports"].as_object();

@@ -1,4 +1,4 @@
-//! The airports of the world, thinned to as many as asked for.
+//! The airports of the world, thinned to a given number.
 
 use incircle::quantize::{quantize, Quantize};
 use incircle::Point;
@@ -7,10 +7,10 @@ use super::{MeasureError, BITS};
 
 const FILE: &str = include_str!("../../data/airports.csv");
 
-/// `n` airports, evenly spread over the list, laid onto the grid.
+/// Returns `n` airports, evenly spread over the list, scaled to the grid.
 ///
 /// # Errors
-/// A list that is not what it should be.
+/// A line of the list is malformed.
 pub fn thinned_airports(n: usize) -> Result<Vec<Point>, MeasureError> {
     let lines: Vec<&str> = FILE.lines().skip(1).collect();
     let places = (0..n).map(|index| index * lines.len() / n);

@@ -1,13 +1,13 @@
-//! Cycles of the core, counted on the model by clock: they are exact, and the same on every machine.
+//! Cycles of the core, counted on the model clock by clock: exact figures, and the same on every machine.
 //!
-//! [`measure`] runs one job the way the host does: duplicates removed, points in rounds along the curve, dealt to the contexts.
-//! [`document`] sets many of them into the tables of `cycles.md`.
+//! [`measure`] runs one job in the way of the host: it removes duplicates, orders the points in rounds along the
+//! Hilbert curve, and deals them to the contexts. [`document`] puts many such jobs into the tables of `cycles.md`.
 
 mod airports;
 mod table;
 
 pub use airports::thinned_airports;
-pub use table::{block, document, earlier, row, BLOCKS, COLUMNS, ROWS};
+pub use table::{block, document, row, survey_counts, BLOCKS, COLUMNS, ROWS};
 
 use incircle::order::brio_hilbert_dealt;
 use incircle::Point;
@@ -17,14 +17,14 @@ use incircle_testkit::{generate, Distribution, GenerateError};
 
 /// Bits of a coordinate.
 const BITS: u32 = 16;
-/// The seed of every set.
+/// Seed of every generated set.
 const SEED: u64 = 1;
-/// Boundary edges that a context holds.
+/// Boundary edges that the list of a context holds.
 const RING: u32 = 32;
-/// Clocks of one insertion past which something is wrong.
+/// Clocks for each point after which the job is taken to hang.
 const PATIENCE: u64 = 4000;
 
-/// Why there is no figure.
+/// The reasons why there is no figure.
 #[derive(Debug, thiserror::Error)]
 pub enum MeasureError {
     /// The set cannot be made.
@@ -36,31 +36,31 @@ pub enum MeasureError {
     /// The points do not fit the grid.
     #[error("{0}")]
     Quantize(#[from] incircle::Error),
-    /// A line of the file of airports has no two numbers in front.
-    #[error("line {0} of the airports is no place")]
+    /// A line of the list of airports does not begin with two numbers.
+    #[error("line {0} of the airports does not begin with two coordinates")]
     Airport(usize),
-    /// All points on one line make no mesh.
+    /// All points lie on one line, so there is no mesh.
     #[error("all points lie on one line")]
     Collinear,
     /// The job does not end.
     #[error("the job does not end: {0}")]
     Hang(String),
-    /// Fewer points came into the mesh than were sent.
+    /// Fewer points are in the mesh than were sent.
     #[error("{inserted} of {sent} points are in the mesh")]
     Lost {
-        /// Points in the mesh.
+        /// Number of points in the mesh.
         inserted: u32,
-        /// Points sent.
+        /// Number of points sent.
         sent: usize,
     },
 }
 
-/// The counters of a job.
+/// The counters of a finished job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Counters([u32; COUNTER_WORDS]);
 
 impl Counters {
-    /// One of them; of a counter of two words, both.
+    /// Value of a counter, of all its words.
     pub fn of(&self, counter: Counter) -> u64 {
         let place = counter as usize;
         let high = match counter {
@@ -70,27 +70,28 @@ impl Counters {
         u64::from(self.0[place]) | u64::from(high) << 32
     }
 
-    /// This counter per point inserted.
+    /// Value of a counter divided by the number of inserted points.
     pub fn per_insertion(&self, counter: Counter) -> f64 {
         self.of(counter) as f64 / self.of(Counter::Insertions) as f64
     }
 }
 
-/// Counters after a job of `n` points of a distribution, duplicates removed, on a core of `contexts` contexts.
+/// Runs a job of `n` points of a distribution on a core of `contexts` contexts, and returns its counters.
 ///
-/// The core holds the next power of two of points, with boundary lists of 32 edges.
+/// Duplicate points are removed. The capacity of the core is the next power of two, and
+/// its boundary lists hold 32 edges.
 ///
 /// # Errors
-/// No core of that size, or a fault of the model.
+/// No core of that size exists, or the model is at fault.
 pub fn measure(distribution: Distribution, n: usize, contexts: u32) -> Result<Counters, MeasureError> {
     let points = generate(distribution, n, BITS, SEED)?;
     measure_points(&points.into_iter().map(|[x, y]| Point::new(x, y)).collect::<Vec<_>>(), contexts)
 }
 
-/// As [`measure`], for points at hand.
+/// Runs a job as [`measure`] does, for given points.
 ///
 /// # Errors
-/// As there.
+/// The errors of [`measure`].
 pub fn measure_points(points: &[Point], contexts: u32) -> Result<Counters, MeasureError> {
     let points = in_order(points, contexts)?;
     let capacity = (points.len() as u32).next_power_of_two().max(MIN_POINTS);
@@ -105,7 +106,8 @@ pub fn measure_points(points: &[Point], contexts: u32) -> Result<Counters, Measu
     }
 }
 
-/// The distinct points as the host sends them: dealt in rounds, and the first three span a triangle.
+/// The distinct points in the order in which the host sends them: in rounds and dealt,
+/// with the first three not collinear.
 fn in_order(points: &[Point], contexts: u32) -> Result<Vec<Point>, MeasureError> {
     let mut distinct = points.to_vec();
     distinct.sort_unstable();
@@ -124,9 +126,9 @@ fn in_order(points: &[Point], contexts: u32) -> Result<Vec<Point>, MeasureError>
     Ok(points)
 }
 
-/// Sends all words, takes every answer at once, and returns the payload of the last, which are counters.
+/// Sends all words, takes every answer at once, and returns the payload of the last answer, which has the counters.
 fn run(mut core: ClockModel, words: &[u32], limit: u64) -> Result<[u32; COUNTER_WORDS], MeasureError> {
-    // `Clear` answers two words, `Insert` seven; then come two and the counters.
+    // `Clear` answers two words and `Insert` seven; the answer to `Counters` has two words before the counters.
     const BEFORE: usize = 2 + 7 + 2;
     let mut rest = words;
     let mut answers = Vec::with_capacity(BEFORE + COUNTER_WORDS);

@@ -1,4 +1,4 @@
-//! The tables of `cycles.md`.
+//! Writes the tables of `cycles.md`.
 
 use std::fmt::Write;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -10,7 +10,7 @@ use incircle_testkit::Distribution;
 use super::airports::thinned_airports;
 use super::{measure, measure_points, Counters, MeasureError};
 
-/// The sets, a row each.
+/// The point sets. Each is a row of every table.
 pub const ROWS: [Distribution; 11] = [
     Distribution::Uniform,
     Distribution::Normal,
@@ -25,27 +25,28 @@ pub const ROWS: [Distribution; 11] = [
     Distribution::Spiral,
 ];
 
-/// Numbers of contexts, a column each.
+/// The numbers of contexts. Each is a column of every table.
 pub const COLUMNS: [u32; 5] = [1, 4, 8, 16, 24];
 
-/// Numbers of points, a table each.
+/// The numbers of points. Each has a table of its own.
 pub const BLOCKS: [usize; 4] = [1024, 4096, 8192, 16_384];
 
-/// The contexts whose limit stands beside each row, and whose time is given.
+/// The number of contexts for which the last column gives the limit, and the last table the time.
 const CONTEXTS: u32 = 16;
 
-/// Numbers of points that were published for the one earlier triangulator in an FPGA.
-const EARLIER: [usize; 4] = [477, 953, 1906, 3811];
+/// The numbers of points at which the other FPGA core was measured (see `SURVEY`).
+const SURVEY_POINTS: [usize; 4] = [477, 953, 1906, 3811];
 
-/// The clock that times are given for, in MHz.
-const CLOCK: f64 = 125.0;
+/// The clock rate for which times are given, in MHz.
+const CLOCK_MHZ: f64 = 125.0;
 
-/// Cycles per insertion below which no schedule of these visits and writes comes: each memory has one port of a kind.
+/// The cycles per insertion that no schedule of the counted visits and writes can beat, because each memory has
+/// one read port and one write port.
 pub fn limit(counters: &Counters) -> f64 {
     counters.per_insertion(Counter::IssueCycles).max(counters.per_insertion(Counter::WriteCycles))
 }
 
-/// One row of a table for `n` points.
+/// Returns the row of one point set in the table for `n` points.
 ///
 /// # Errors
 /// As [`measure`].
@@ -63,7 +64,7 @@ pub fn row(distribution: Distribution, n: usize) -> Result<String, MeasureError>
     Ok(format!("| {distribution} | {points} |{cells} {least:.2} |\n"))
 }
 
-/// The table for `n` points, with its heading.
+/// Returns the table for `n` points, with its heading.
 ///
 /// # Errors
 /// As [`measure`].
@@ -75,26 +76,26 @@ pub fn block(n: usize) -> Result<String, MeasureError> {
     Ok(heading + &rows.concat())
 }
 
-/// The table for the sizes of the earlier paper.
+/// Returns the table for the point counts of the other FPGA core, with its heading and the citation.
 ///
 /// # Errors
 /// As [`measure`].
-pub fn earlier() -> Result<String, MeasureError> {
+pub fn survey_counts() -> Result<String, MeasureError> {
     let mut text = format!(
-        "## Sizes of the earlier triangulator in an FPGA\n\n| points | uniform, cycles | µs at {CLOCK} MHz | airports, cycles | \
-         µs at {CLOCK} MHz |\n|---:|---:|---:|---:|---:|\n"
+        "{SURVEY}\n| points | uniform, cycles | µs at {CLOCK_MHZ} MHz | airports, cycles | µs at {CLOCK_MHZ} MHz |\n\
+         |---:|---:|---:|---:|---:|\n"
     );
-    for n in EARLIER {
+    for n in SURVEY_POINTS {
         let uniform = measure(Distribution::Uniform, n, CONTEXTS)?.of(Counter::InsertCycles);
         let airports = measure_points(&thinned_airports(n)?, CONTEXTS)?.of(Counter::InsertCycles);
-        let time = |cycles: u64| cycles as f64 / CLOCK;
+        let time = |cycles: u64| cycles as f64 / CLOCK_MHZ;
         // Writing to a string cannot fail.
         let _ = writeln!(text, "| {n} | {uniform} | {:.1} | {airports} | {:.1} |", time(uniform), time(airports));
     }
     Ok(text)
 }
 
-/// The whole of `cycles.md`.
+/// Returns the whole of `cycles.md`.
 ///
 /// # Errors
 /// As [`measure`].
@@ -103,25 +104,44 @@ pub fn document() -> Result<String, MeasureError> {
     for n in BLOCKS {
         parts.push(block(n)?);
     }
-    parts.push(earlier()?);
+    parts.push(survey_counts()?);
     Ok(parts.join("\n"))
 }
 
 const INTRODUCTION: &str = "\
 # Cycles per insertion
 
-Counted on the model by clock, and exact: the same on every machine. Renewed by
+For engineers who want to know how fast the core inserts points, and how close that is to what its memories allow.
+
+All figures are counted on the model clock by clock. They are exact: the same on every machine. One command renews this
+page, and the test `tests/it/cores/cycles.rs` counts everything again and compares:
 
     cargo run --release -p incircle-testbench --bin cycles
 
-`tests/it/cores/cycles.rs` counts all of it again and compares. The sets are those of `incircle generate` with 16 bits and seed 1, duplicates
-removed first, in the order of the host. K contexts, each with a boundary list of 32 edges; capacity the next power of two.
-A cell is the counter `InsertCycles` by the points inserted: from the first point accepted to the last lock released, reading out
-not included. The limit is what the counted accesses alone take: one visit and one write a clock, so the larger of
-`IssueCycles` and `WriteCycles` by the points.
+- A row is a point set of `incircle generate`, with 16-bit coordinates and seed 1. Duplicates are removed first; the
+  column \"distinct\" counts the points that remain. The points are sent in the order of the host.
+- K is the number of contexts. Each context has a boundary list of 32 edges, and the capacity of the core is the next
+  power of two.
+- A cell is the counter `InsertCycles` divided by the points inserted. The counter runs from the first point accepted to
+  the last lock released, and leaves out the read-out.
+- The limit is the time of the memory accesses alone, at one visit and one write a clock: the larger of `IssueCycles`
+  and `WriteCycles`, divided by the points inserted.
 ";
 
-/// The results of all items in their order, worked out on all processors.
+/// The heading and the text before the last table.
+const SURVEY: &str = "\
+## Point counts of the FPGA core in the survey of Elshakhs et al.
+
+The survey reviews one other core that triangulates in an FPGA: reference 27, made by high-level synthesis. Figure 16
+reports its speed at these four point counts, on samples of the Stanford Bunny. The points here are others: uniform
+sets, and airports thinned to the same counts, on 16 contexts.
+
+Y. S. Elshakhs, K. M. Deliparaschos, T. Charalambous, G. Oliva, A. Zolotas: \"A Comprehensive Survey on Delaunay
+Triangulation: Applications, Algorithms, and Implementations Over CPUs, GPUs, and FPGAs\", IEEE Access 12, 2024, pages
+12562 to 12585, <https://doi.org/10.1109/ACCESS.2024.3354709>.
+";
+
+/// Applies `work` to all items, on all processors, and returns the results in the order of the items.
 fn in_parallel<T: Sync, R: Send>(
     items: &[T],
     work: impl Fn(&T) -> Result<R, MeasureError> + Sync,

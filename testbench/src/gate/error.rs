@@ -1,47 +1,47 @@
-//! Why Verilog does not pass the gate.
+//! The reasons why Verilog does not pass the gate.
 
-/// Why Verilog does not pass.
+/// The reasons why Verilog does not pass the gate.
 #[derive(Debug, thiserror::Error)]
 pub enum GateError {
     /// The tool cannot be started.
     #[error("cannot run {tool} ({source}): install the Debian package {tool}")]
     Missing {
-        /// The program.
+        /// Name of the program.
         tool: &'static str,
-        /// What the system says.
+        /// The reason that the system gives.
         source: std::io::Error,
     },
     /// The tool ended with an error.
     #[error("{tool} refuses {top}:\n{output}")]
     Refused {
-        /// The program.
+        /// Name of the program.
         tool: &'static str,
-        /// The top module.
+        /// Name of the top module.
         top: String,
-        /// All that the tool printed.
+        /// Everything that the tool printed.
         output: String,
     },
-    /// The tool ended well but printed what is a fault in this project.
+    /// The tool ended well but printed a message that counts as a fault in this project.
     #[error("{tool} says of {top}:\n{lines}")]
     Complaint {
-        /// The program.
+        /// Name of the program.
         tool: &'static str,
-        /// The top module.
+        /// Name of the top module.
         top: String,
-        /// The lines that complain.
+        /// The lines with the faults.
         lines: String,
     },
-    /// The tool's report is not in the form known.
+    /// The tool's report does not have the known form.
     #[error("the report of {tool} on {top} cannot be read: {reason}")]
     Report {
-        /// The program.
+        /// Name of the program.
         tool: &'static str,
-        /// The top module.
+        /// Name of the top module.
         top: String,
-        /// What is wrong with it.
+        /// The fault of the report.
         reason: String,
     },
-    /// The scratch folder fails.
+    /// The scratch folder cannot be used.
     #[error("cannot use the scratch folder: {0}")]
     Scratch(#[from] std::io::Error),
 }

@@ -1,7 +1,8 @@
-//! The gate that the Verilog of every block passes: lint, then synthesis with its checks.
+//! The gate that the Verilog of every block has to pass: lint, then synthesis with its checks.
 //!
-//! rust-hdl's Rust behaviour and its Verilog can disagree without a word from rust-hdl; this gate finds the half of it that tools
-//! can see in the text (undeclared names, latches, loops, undriven nets). Co-simulation finds the other half.
+//! The Rust behaviour of a block and its Verilog can disagree, and rust-hdl does not report it. This gate
+//! finds the half of such faults that tools can see in the text: undeclared names, latches, loops, undriven
+//! nets. Co-simulation finds the other half.
 
 mod error;
 mod scratch;
@@ -13,30 +14,32 @@ use scratch::Scratch;
 pub use synthesis::{artix_cell_count, cell_count, netlist, prove, synthesise, ArtixCells, Cells};
 use tool::{complain, run};
 
-/// Lint warnings that rust-hdl's output needs waived, and why none of them hides a fault that the gate is there to find.
+/// Lint warnings that rust-hdl's output needs waived, each with the reason why no fault can hide behind the waiver.
 const WAIVED: [&str; 5] = [
     // All modules of a design come in one file.
     "DECLFILENAME",
-    // Literals are emitted as 32 bits. Real width faults hide behind this waiver: co-simulation is there to find them.
+    // Literals are emitted with 32 bits. Real width faults do hide behind this waiver; co-simulation has to find them.
     "WIDTH",
-    // A port that is connected to a local of the same name further in.
+    // A port is connected to a local of the same name one level below.
     "VARHIDDEN",
     // Every constant of a kernel is emitted, used or not.
     "UNUSEDPARAM",
-    // A kernel is one process, so two independent paths through it look like a circle. A hint on speed only: rust-hdl's own
-    // check and yosys look for circles signal by signal.
+    // A kernel is one process, so two independent paths through it look like a loop. The warning is a hint on speed
+    // only: rust-hdl's own check and yosys look for loops signal by signal.
     "UNOPTFLAT",
 ];
 
-/// Messages that are no faults though others of their kind are: the kind, and what else stands in the line.
+/// Messages that are no faults though others of their kind are: the kind, and a text that the line must contain.
 const ACCEPTED: [(&str, &str); 2] = [
-    // Channels are packed bundles, and not every block reads all of one. That a signal is not used at all reads otherwise.
+    // Channels are packed bundles, and not every block reads all bits of one. For a signal that is not
+    // used at all the message differs.
     ("UNUSEDSIGNAL: ", "Bits of signal are not used: "),
-    // The wrapper of a core without the probe leaves that output open, in so many words.
+    // The wrapper of a core without the probe leaves that output open on purpose.
     ("PINCONNECTEMPTY: ", "empty reference: 'write'"),
 ];
 
-/// Passes Verilog through `verilator --lint-only -Wall` with the waivers that rust-hdl needs, each with its reason in the source.
+/// Runs `verilator --lint-only -Wall` on the Verilog, with the waivers that rust-hdl needs; the source gives
+/// a reason for each of them.
 ///
 /// # Errors
 /// Verilator is missing, or warns.
@@ -44,20 +47,20 @@ pub fn lint(verilog: &str, top: &str) -> Result<(), GateError> {
     lint_with(verilog, top, &WAIVED)
 }
 
-/// As [`lint`] without any waiver: for Verilog written by hand.
+/// Lints as [`lint`] does but without any waiver, for Verilog written by hand.
 ///
 /// # Errors
-/// As [`lint`].
+/// The errors of [`lint`].
 pub fn lint_strictly(verilog: &str, top: &str) -> Result<(), GateError> {
     lint_with(verilog, top, &[])
 }
 
 fn lint_with(verilog: &str, top: &str, waived: &[&str]) -> Result<(), GateError> {
     let scratch = Scratch::new(top)?;
-    // Named as its top module, so that hand-written files need no waiver for their name.
+    // The file has the name of its top module, so that hand-written Verilog needs no waiver for its name.
     let file = format!("{top}.v");
     scratch.write(&file, verilog)?;
-    // Errors still end it with an exit code; warnings are judged one by one.
+    // Errors still end Verilator with an exit code; warnings are judged one by one below.
     let mut arguments = vec!["--lint-only", "-Wall", "-Wno-fatal"];
     let waivers: Vec<_> = waived.iter().map(|warning| format!("-Wno-{warning}")).collect();
     arguments.extend(waivers.iter().map(String::as_str));
@@ -75,7 +78,7 @@ fn lint_with(verilog: &str, top: &str, waived: &[&str]) -> Result<(), GateError>
 /// The whole gate: [`lint`], then [`synthesise`].
 ///
 /// # Errors
-/// Theirs.
+/// The errors of the two.
 pub fn pass(verilog: &str, top: &str) -> Result<(), GateError> {
     lint(verilog, top)?;
     synthesise(verilog, top)

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 static NEXT: AtomicU32 = AtomicU32::new(0);
 
-/// A fresh folder under cargo's target folder, shared with no other test; removed in the end.
+/// A fresh folder below cargo's target folder, shared with no other test and removed in the end.
 pub(super) struct Scratch {
     path: PathBuf,
 }
@@ -17,7 +17,7 @@ impl Scratch {
         let name = format!("{top}-{}-{number}", std::process::id());
         let path = Path::new(env!("OUT_DIR")).join("gate").join(name);
         if path.exists() {
-            // Left behind by a process of the same number that was killed.
+            // An earlier process with the same number was killed and left its folder behind.
             std::fs::remove_dir_all(&path)?;
         }
         std::fs::create_dir_all(&path)?;
@@ -39,7 +39,7 @@ impl Scratch {
 
 impl Drop for Scratch {
     fn drop(&mut self) {
-        // Nothing depends on its absence: a folder that stays only takes space until `cargo clean`.
+        // Nothing depends on the removal: a folder that stays only takes space until `cargo clean`.
         let _ = std::fs::remove_dir_all(&self.path);
     }
 }

@@ -1,4 +1,4 @@
-//! The half of the gate that is synthesis: yosys must take the Verilog, without latches or invented nets.
+//! The half of the gate that is synthesis: yosys must accept the Verilog, without latches or invented nets.
 
 use super::error::GateError;
 use super::scratch::Scratch;
@@ -6,7 +6,7 @@ use super::tool::{complain, run};
 
 const YOSYS: &str = "yosys";
 
-/// What yosys only mentions, and what is a fault here.
+/// Messages that yosys prints as remarks and that are faults in this project.
 const COMPLAINTS: [&str; 2] = [
     // A name that nobody declared becomes a net of one bit that nobody drives.
     "implicitly declared",
@@ -25,13 +25,13 @@ pub fn synthesise(verilog: &str, top: &str) -> Result<(), GateError> {
 /// Cells of an ECP5 that a block takes after mapping, without placement.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cells {
-    /// Tables of four inputs. Those of carry chains and of memory are not among them.
+    /// Look-up tables of four inputs, without those in carry chains and in memory.
     pub lut4: u64,
-    /// Carry cells, two tables each.
+    /// Carry cells, each of two look-up tables.
     pub carry: u64,
-    /// Memories of 16 x 4 bits, two tables each and two more that address them.
+    /// Memories of 16 x 4 bits. Each takes two look-up tables, and two more that address them.
     pub distributed_ram: u64,
-    /// Flip-flops.
+    /// Flip-flops of one bit.
     pub flip_flops: u64,
     /// Multipliers of 18 x 18 bits.
     pub multipliers: u64,
@@ -40,11 +40,11 @@ pub struct Cells {
 }
 
 impl Cells {
-    /// Holds that each count is within 5 % of what was measured: a memory in flip-flops, logic that a constant swept away, or a
-    /// change that doubles something, is not.
+    /// Checks that each count is within 5 % of the measured one. A memory that became flip-flops, logic that a constant
+    /// swept away, or a change that doubles something falls outside.
     ///
     /// # Errors
-    /// A sentence with the first count that is not, and what to do.
+    /// A sentence with the first count that differs, and what to do about it.
     pub fn check_near(&self, measured: &Self) -> Result<(), String> {
         let counts = [
             ("LUT4", self.lut4, measured.lut4),
@@ -58,7 +58,7 @@ impl Cells {
     }
 }
 
-/// Holds that each count, which comes with its name before and the measured one behind it, is within 5 % of that.
+/// Checks that each count is within 5 % of the measured one. An entry is a name, the count and the measured count.
 fn check_counts(counts: &[(&str, u64, u64)]) -> Result<(), String> {
     match counts.iter().find(|(_, count, measured)| 20 * count.abs_diff(*measured) > *measured) {
         None => Ok(()),
@@ -68,10 +68,11 @@ fn check_counts(counts: &[(&str, u64, u64)]) -> Result<(), String> {
     }
 }
 
-/// What a block takes in an ECP5, by `synth_ecp5 -abc9`. Takes seconds for a block, a minute or more for a core.
+/// Counts the cells that a block takes in an ECP5, by `synth_ecp5 -abc9`. A block takes seconds,
+/// a core a minute or more.
 ///
 /// # Errors
-/// As [`synthesise`], and if the report cannot be read.
+/// The errors of [`synthesise`], and a report that cannot be read.
 pub fn cell_count(verilog: &str, top: &str) -> Result<Cells, GateError> {
     let scratch = Scratch::new(top)?;
     let passes = format!("synth_ecp5 -abc9 -top {top}; tee -q -o cells.json stat -json");
@@ -86,21 +87,21 @@ pub fn cell_count(verilog: &str, top: &str) -> Result<Cells, GateError> {
 /// Cells of an Artix-7 that a block takes after mapping, without placement.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ArtixCells {
-    /// Tables of two to six inputs.
+    /// Look-up tables of one to six inputs.
     pub luts: u64,
     /// Carry cells of four bits.
     pub carry: u64,
-    /// Flip-flops.
+    /// Flip-flops of one bit.
     pub flip_flops: u64,
-    /// Block memories of 18 kbit; one of 36 counts as two.
+    /// Block memories of 18 kbit; one of 36 kbit counts as two.
     pub block_ram: u64,
 }
 
 impl ArtixCells {
-    /// As [`Cells::check_near`].
+    /// Checks the counts as [`Cells::check_near`] does.
     ///
     /// # Errors
-    /// As there.
+    /// The errors of [`Cells::check_near`].
     pub fn check_near(&self, measured: &Self) -> Result<(), String> {
         check_counts(&[
             ("LUTs", self.luts, measured.luts),
@@ -111,10 +112,10 @@ impl ArtixCells {
     }
 }
 
-/// What a block takes in an Artix-7, by `synth_xilinx`.
+/// Counts the cells that a block takes in an Artix-7, by `synth_xilinx`.
 ///
 /// # Errors
-/// As [`cell_count`].
+/// The errors of [`cell_count`].
 pub fn artix_cell_count(verilog: &str, top: &str) -> Result<ArtixCells, GateError> {
     let scratch = Scratch::new(top)?;
     let passes = format!("synth_xilinx -family xc7 -flatten -noiopad -top {top}; tee -q -o cells.json stat -json");
@@ -130,24 +131,26 @@ pub fn artix_cell_count(verilog: &str, top: &str) -> Result<ArtixCells, GateErro
     })
 }
 
-/// The flat netlist of a design as JSON: registers, memories and the logic between them, before any mapping.
+/// Returns the flat netlist of a design as JSON: registers, memories and the logic between them, before any mapping.
 ///
 /// # Errors
-/// As [`synthesise`].
+/// The errors of [`synthesise`].
 pub fn netlist(verilog: &str, top: &str) -> Result<String, GateError> {
     let scratch = Scratch::new(top)?;
     let passes = format!(
-        "hierarchy -check -top {top}; proc; flatten; opt_expr; opt_clean; memory_collect; opt_clean; write_json netlist.json"
+        "hierarchy -check -top {top}; proc; flatten; opt_expr; opt_clean; memory_collect; opt_clean; \
+         write_json netlist.json"
     );
     yosys(verilog, top, &passes, &scratch)?;
     Ok(scratch.read("netlist.json")?)
 }
 
-/// Proves every assertion in a design, by induction over its clocks, from its initial state. With several clocks their edges may come in any order and
-/// together.
+/// Proves every assertion in a design by induction over its clocks, from its initial state. The edges of several clocks
+/// may come in any order and together.
 ///
 /// # Errors
-/// As [`synthesise`]; [`GateError::Refused`] too if an assertion can fail, or if no more than `steps` steps do not prove that it cannot.
+/// The errors of [`synthesise`]; also [`GateError::Refused`] if an assertion can fail, or if `steps` steps
+/// are too few for the proof.
 pub fn prove(verilog: &str, top: &str, has_several_clocks: bool, steps: u32) -> Result<(), GateError> {
     let clocks = if has_several_clocks { "clk2fflogic; opt -full; " } else { "" };
     let passes = format!(
@@ -170,7 +173,7 @@ fn yosys_on(reader: &str, verilog: &str, top: &str, passes: &str, scratch: &Scra
     complain(YOSYS, top, &complaints)
 }
 
-/// How many cells of each type a report tells of.
+/// Number of cells of each type in a report.
 fn counts(report: &str) -> Result<impl Fn(&str) -> u64, String> {
     let report: serde_json::Value = serde_json::from_str(report).map_err(|error| error.to_string())?;
     let counts = report

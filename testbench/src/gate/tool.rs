@@ -5,10 +5,10 @@ use std::process::Command;
 use super::error::GateError;
 use super::scratch::Scratch;
 
-/// Runs a tool and gives all it printed.
+/// Runs a tool and returns everything that it printed.
 ///
 /// # Errors
-/// It cannot be started, or its exit code is not 0; then the error holds what it printed.
+/// The tool cannot be started, or its exit code is not 0; the error then holds what it printed.
 pub(super) fn run(tool: &'static str, arguments: &[&str], top: &str, scratch: &Scratch) -> Result<String, GateError> {
     let output = Command::new(tool)
         .args(arguments)
@@ -23,7 +23,7 @@ pub(super) fn run(tool: &'static str, arguments: &[&str], top: &str, scratch: &S
     }
 }
 
-/// An error, if there are complaints.
+/// Returns an error if there are complaints.
 pub(super) fn complain(tool: &'static str, top: &str, complaints: &[&str]) -> Result<(), GateError> {
     if complaints.is_empty() {
         return Ok(());

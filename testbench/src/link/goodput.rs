@@ -1,4 +1,4 @@
-//! How much of a line's payload limit the link reaches.
+//! Measures which share of a line's payload limit the serial link reaches.
 
 use std::error::Error;
 use std::fmt::Write;
@@ -10,18 +10,18 @@ use incircle_sim::faults::FaultSpec;
 use super::virtual_line::VirtualLine;
 use super::Detail;
 
-/// Rates of the table.
+/// Rates of the table, in bits per second.
 pub const RATES: [u32; 2] = [3_000_000, 12_000_000];
-/// What is aimed at, of the payload limit.
+/// Least share of the payload limit that the link has to reach.
 pub const TARGET: f64 = 0.9;
-/// Round trip besides the bits.
+/// Round trip of the line, besides the time of the bits.
 const TRIP: Duration = Duration::from_millis(1);
-/// Time for a command.
+/// Time limit of a command.
 const LIMIT: Duration = Duration::from_secs(30);
-/// The core: with one so large an answer is many windows long.
+/// Configuration of the core: with one this large, an answer is many windows long.
 const CORE: Config = FULL;
 
-/// Where payload goes.
+/// Direction of the payload.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Way {
     /// Points to the device.
@@ -30,16 +30,16 @@ pub enum Way {
     Records,
 }
 
-/// What was measured.
+/// Measurement of one direction at one rate.
 #[derive(Clone, Copy, Debug)]
 pub struct Goodput {
-    /// Bits per second of the line.
+    /// Rate of the line in bits per second.
     pub rate: u32,
-    /// Direction.
+    /// Direction of the payload.
     pub way: Way,
-    /// Bytes of words: the command with its points, or the answer with its records.
+    /// Bytes of payload words: the command with its points, or the answer with its records.
     pub bytes: usize,
-    /// From the command asked for until its answer is there.
+    /// Time from the call with the command until its answer is complete.
     pub time: Duration,
 }
 
@@ -49,16 +49,16 @@ impl Goodput {
         self.bytes as f64 / self.time.as_secs_f64()
     }
 
-    /// Of what ten bits a byte allow, if the line carried nothing but payload.
+    /// Share of the limit, which is the rate over ten: a byte takes ten bits, and all bytes would be payload.
     pub fn share(&self) -> f64 {
         self.per_second() * 10.0 / f64::from(self.rate)
     }
 }
 
-/// Both ways at a rate, with `points` points, of which the core keeps what it holds.
+/// Measures both directions at a rate, with `points` points, of which the core keeps as many as it holds.
 ///
 /// # Errors
-/// The board was not translated, or the link failed.
+/// The board is not part of this build, or the link failed.
 pub fn measure(detail: Detail, rate: u32, points: usize) -> Result<[Goodput; 2], Box<dyn Error>> {
     let mut line = VirtualLine::new(detail.board(CORE)?, rate, TRIP, &FaultSpec::default());
     line.open(LIMIT)?;
@@ -83,21 +83,25 @@ pub fn measure(detail: Detail, rate: u32, points: usize) -> Result<[Goodput; 2],
     Ok([to_device, to_host])
 }
 
-/// The table as `goodput.md` has it.
+/// Returns the text of `goodput.md`.
 ///
 /// # Errors
-/// As [`measure`].
+/// The errors of [`measure`].
 pub fn document() -> Result<String, Box<dyn Error>> {
     let mut text = String::from(
         "# Goodput of the serial link\n\n\
-         Made by `cargo run --release -p incircle-testbench --bin goodput`: the driver's protocol before the Verilated `incircle_serial_top`, its pins\n\
-         driven and sampled bit by bit, with 1 ms of round trip besides the bits, in virtual time, so the same everywhere. The core is `full`,\n\
-         its link has 16,384 bytes of FIFO.\n\n\
-         Payload is what the core and its user see: the words of one `Insert` with its points, the words of one `Read` answer with its\n\
-         records. The time is that of the whole command, from the call of the driver to the last word of the answer in its hands, so the\n\
-         round trip, frame headers, check sums, encoding, acknowledgements and the core's own work all count as losses. The limit is the\n\
-         rate over ten, as 8N1 sends ten bits a byte: what the line would carry if there were nothing but payload.\n\n\
-         | bits per second | way | payload bytes | time | bytes per second | of the limit |\n|---|---|---|---|---|---|\n",
+         For readers who want to know how much of a serial line is left for their points and triangles.\n\
+         Made by `cargo run --release -p incircle-testbench --bin goodput`: the driver's protocol runs before the\n\
+         Verilated `incircle_serial_top`, whose pins are driven and sampled bit by bit. Time is virtual, with 1 ms of\n\
+         round trip besides the bits, so the figures are the same on every machine. The core is `full`, and its link\n\
+         has a FIFO of 16,384 bytes.\n\n\
+         Payload is what the core and its user see: the words of one `Insert` with its points, or the words of one\n\
+         answer to `Read` with its records. The time is that of the whole command, from the call of the driver to the\n\
+         last word of the answer, so the round trip, frame headers, check sums, encoding, acknowledgements and the\n\
+         work of the core all count as losses. The limit is the rate over ten, because 8N1 sends ten bits a byte: the\n\
+         line would carry that much if it carried payload alone.\n\n\
+         | bits per second | way | payload bytes | time | bytes per second | of the limit |\n\
+         |---|---|---|---|---|---|\n",
     );
     for rate in RATES {
         for goodput in measure(Detail::Pins, rate, 8192)? {

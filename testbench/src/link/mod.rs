@@ -1,7 +1,8 @@
-//! The driver's protocol of the serial link before simulated boards, in virtual time, and what it reaches there.
+//! The driver of the serial link in front of simulated boards, in virtual time, and the goodput that it reaches there.
 //!
-//! [`VirtualLine`] joins the two: the same protocol that runs over ports of the operating system, a board with its pins or without, faults
-//! between, and a delay each way. It waits for no clock on the wall, so every run can be repeated. [`Served`] is a board behind a pseudo-terminal, in real time.
+//! [`VirtualLine`] joins the protocol that runs over ports of the operating system to a board with its pins or without,
+//! with faults and a delay each way in between. No clock on the wall is involved, so every run can be repeated.
+//! [`Served`] is a board behind a pseudo-terminal, in real time.
 
 mod goodput;
 mod jobs;
@@ -19,17 +20,17 @@ use incircle_protocol::Config;
 use incircle_sim::serial::{board_link, Board, PinBoard, QuickBoard};
 use incircle_sim::SimError;
 
-/// How much of a board is simulated.
+/// Level of detail at which a board is simulated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Detail {
-    /// Every clock of its pins.
+    /// Every clock of the pins.
     Pins,
     /// Bytes, and the core's clocks while it works.
     Bytes,
 }
 
 impl Detail {
-    /// For reports.
+    /// Name of the level in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Pins => "pins",
@@ -37,10 +38,10 @@ impl Detail {
         }
     }
 
-    /// A board with the core of this configuration.
+    /// Makes a board with the core of this configuration.
     ///
     /// # Errors
-    /// It was not translated.
+    /// The board is not part of this build.
     pub fn board(self, config: Config) -> Result<Box<dyn Board>, SimError> {
         Ok(match self {
             Self::Pins => Box::new(PinBoard::new(config)?),

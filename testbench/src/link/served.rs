@@ -10,10 +10,10 @@ use incircle_sim::serve::{serve, Figures, Service};
 
 use super::Detail;
 
-/// How many were made in this program: each has a path of its own.
+/// Number of boards made in this program, so that each has a path of its own.
 static MADE: AtomicUsize = AtomicUsize::new(0);
 
-/// The board, until it is dropped.
+/// A board that is served until it is dropped.
 pub struct Served {
     path: PathBuf,
     slow: u32,
@@ -22,10 +22,11 @@ pub struct Served {
 }
 
 impl Served {
-    /// A board with the core of this configuration and these faults, at least `slow` times slower than real.
+    /// Serves a board with the core of this configuration and these faults, at least `slow`
+    /// times slower than a real one.
     ///
     /// # Errors
-    /// A sentence: the board was not translated, the faults do not exist, or there is no terminal.
+    /// A sentence: the board is not part of this build, the faults do not exist, or there is no terminal.
     pub fn new(detail: Detail, config: Config, faults: &str, slow: u32) -> Result<Self, String> {
         let faults = faults.parse().map_err(|error| format!("{error}"))?;
         let name = format!("incircle-board-{}-{}", std::process::id(), MADE.fetch_add(1, Ordering::Relaxed));
@@ -37,7 +38,7 @@ impl Served {
         let thread = std::thread::spawn(move || {
             let mut board = detail.board(config).map_err(|error| error.to_string())?;
             let ready = || {
-                // Whoever waits is there until it is told.
+                // The receiver waits until it gets this message, so the send cannot fail.
                 let _ = tell.send(());
             };
             serve(board.as_mut(), &service, &raised, ready).map_err(|error| error.to_string())
@@ -45,25 +46,25 @@ impl Served {
         let mut served = Self { path, slow, stops, thread: Some(thread) };
         match told.recv() {
             Ok(()) => Ok(served),
-            // The thread ended without a word, so with an error.
+            // The thread ended without a message, and so with an error.
             Err(_) => Err(served.stop().err().unwrap_or_default()),
         }
     }
 
-    /// The link to the terminal.
+    /// Path of the terminal.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// What the library and the command open, at this rate.
+    /// Address for the library and the command, with this rate.
     pub fn address(&self, rate: u32) -> String {
         format!("serial:{}?baud={rate}&slow={}", self.path.display(), self.slow)
     }
 
-    /// Ends the board, and says what it did.
+    /// Ends the board, and returns the figures of its run.
     ///
     /// # Errors
-    /// The sentence of its error.
+    /// The sentence of the board's error.
     pub fn stop(&mut self) -> Result<Figures, String> {
         self.stops.store(true, Ordering::Relaxed);
         let ended = self.thread.take().map(JoinHandle::join);
@@ -75,7 +76,7 @@ impl Served {
 
 impl Drop for Served {
     fn drop(&mut self) {
-        // Nobody asks any more.
+        // Nobody asks for an error of the board any more.
         let _ = self.stop();
     }
 }

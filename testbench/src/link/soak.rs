@@ -1,4 +1,4 @@
-//! Many jobs over a line that turns bits.
+//! Runs many jobs over a line with bit errors.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -15,58 +15,59 @@ use super::jobs::{is_one_mesh, random_points};
 use super::virtual_line::{VirtualLine, VirtualTransport};
 use super::Detail;
 
-/// Time of the board for one command of a job.
+/// Time limit, on the board's clock, for one command of a job.
 const LIMIT: Duration = Duration::from_secs(10);
-/// Round trip besides the bits: short, as every clock of it is simulated.
+/// Round trip of the line besides the bits. It is short because every clock of it is simulated.
 const TRIP: Duration = Duration::from_micros(200);
-/// Jobs of a driver; then the next one opens a session of its own.
+/// Number of jobs of a driver; the next driver opens a session of its own.
 const JOBS_OF_DRIVER: u64 = 20;
 
-/// What is run.
+/// The jobs to run, and the line to run them over.
 #[derive(Clone, Debug)]
 pub struct Soak {
-    /// How much of the board is simulated.
+    /// Level of detail at which the board is simulated.
     pub detail: Detail,
-    /// The core.
+    /// Configuration of the core.
     pub config: Config,
-    /// Faults of the line; the seed is that of the first driver.
+    /// Faults of the line; their seed is that of the first driver.
     pub faults: FaultSpec,
-    /// Bits per second.
+    /// Rate of the line in bits per second.
     pub rate: u32,
-    /// Jobs.
+    /// Number of jobs to run.
     pub jobs: u64,
-    /// Most points of a job.
+    /// Largest number of points of a job.
     pub points: usize,
 }
 
-/// What came of it.
+/// Result of the jobs.
 #[derive(Clone, Debug, Default)]
 pub struct SoakReport {
     /// Jobs that ended with the right mesh.
     pub right: u64,
     /// Jobs that ended with another mesh.
     pub wrong: u64,
-    /// Jobs that ended with an error, by its sentence.
+    /// Number of jobs that ended with an error, by the error's sentence.
     pub errors: BTreeMap<String, u64>,
-    /// Jobs that met a fault of the line, however they ended; only these say anything about faults.
+    /// Number of jobs that met a fault of the line, however they ended. Only these jobs say anything about faults.
     pub met: u64,
-    /// Faults that the line did.
+    /// Number of faults on the line.
     pub faults: u64,
-    /// `Data` frames sent again.
+    /// Number of `Data` frames sent again.
     pub frames_resent: u64,
-    /// Answers asked for again.
+    /// Number of answers asked for again.
     pub answers_repeated: u64,
-    /// Longest job, in the board's time.
+    /// Time of the longest job, on the board's clock.
     pub longest: Duration,
 }
 
 impl SoakReport {
-    /// All jobs.
+    /// Number of all jobs.
     pub fn jobs(&self) -> u64 {
         self.right + self.wrong + self.errors.values().sum::<u64>()
     }
 
-    /// All of so many jobs ended, none with a wrong mesh, this share of them at least with the right one; and so many met a fault.
+    /// True if all `jobs` jobs ended, none with a wrong mesh, at least the share `least` with the right mesh, and at
+    /// least `met` of them met a fault.
     pub fn is_good(&self, jobs: u64, least: f64, met: u64) -> bool {
         let all_ended = jobs > 0 && self.jobs() == jobs;
         all_ended && self.wrong == 0 && self.right as f64 >= least * jobs as f64 && self.met >= met
@@ -78,7 +79,8 @@ impl fmt::Display for SoakReport {
         let errors: u64 = self.errors.values().sum();
         write!(
             f,
-            "{} jobs, {} of which met a fault: {} right, {} wrong, {errors} with an error; {} faults, {} frames sent again, {} answers asked for again; longest job {} ms",
+            "{} jobs, {} of which met a fault: {} right, {} wrong, {errors} with an error; \
+             {} faults, {} frames sent again, {} answers asked for again; longest job {} ms",
             self.jobs(),
             self.met,
             self.right,
@@ -92,10 +94,10 @@ impl fmt::Display for SoakReport {
     }
 }
 
-/// Runs the jobs. The board stays; drivers come and go.
+/// Runs the jobs. Each driver has a line and a board of its own.
 ///
 /// # Errors
-/// The board was not translated. What goes wrong on the line is in the report.
+/// The board is not part of this build. Faults of the line are in the report, not an error.
 pub fn soak(what: &Soak) -> Result<SoakReport, SimError> {
     let mut report = SoakReport::default();
     let mut job = 0;
@@ -121,7 +123,7 @@ pub fn soak(what: &Soak) -> Result<SoakReport, SimError> {
     Ok(report)
 }
 
-/// One job; false if the device cannot be used any more.
+/// Runs one job; returns false if the device cannot be used any more.
 fn run_job(
     what: &Soak,
     job: u64,

@@ -1,4 +1,4 @@
-//! The driver's protocol, a line with faults and delays, and a board, in one virtual time.
+//! The driver's protocol, a line with faults and delays, and a board, all in one virtual time.
 
 use std::cell::RefCell;
 use std::collections::VecDeque;
@@ -13,27 +13,27 @@ use incircle_protocol::Command;
 use incircle_sim::faults::{FaultSpec, Proxy};
 use incircle_sim::serial::Board;
 
-/// Clocks between two looks at the line: less than a byte takes at any rate.
+/// Clocks between two looks at the line: fewer than a byte takes at any rate.
 const SLICE: u64 = 80;
 
-/// Driver, line and board.
+/// A driver, a line and a board.
 pub struct VirtualLine {
     protocol: SerialProtocol,
     board: Box<dyn Board>,
     proxy: Proxy,
     /// Nanoseconds that a byte takes each way, besides its bits.
     delay: u64,
-    /// Bytes on their way, and when they arrive.
+    /// Bytes on the line, each with its time of arrival in nanoseconds.
     to_device: VecDeque<(u64, u8)>,
     to_host: VecDeque<(u64, u8)>,
-    /// When the protocol wants to be asked, if nothing comes.
+    /// Time at which the protocol wants to be called, even if nothing arrives.
     wakes_at: Option<u64>,
     out: Vec<u8>,
     came: Vec<u8>,
 }
 
 impl VirtualLine {
-    /// A driver that wishes for `rate`, before a board; each round trip takes `trip` besides the bits.
+    /// Connects a driver that asks for `rate` to a board; each round trip takes `trip` besides the bits.
     pub fn new(board: Box<dyn Board>, rate: u32, trip: Duration, faults: &FaultSpec) -> Self {
         Self {
             protocol: SerialProtocol::new(Params::with_rate(rate)),
@@ -48,58 +48,58 @@ impl VirtualLine {
         }
     }
 
-    /// The time.
+    /// The virtual time since the start.
     pub fn now(&self) -> Duration {
         Duration::from_nanos(self.nanoseconds())
     }
 
-    /// What the driver did.
+    /// Statistics of the driver.
     pub fn statistics(&self) -> Statistics {
         self.protocol.statistics()
     }
 
-    /// Faults of the line so far.
+    /// Number of faults on the line so far.
     pub fn faults(&self) -> u64 {
         self.proxy.faults()
     }
 
-    /// Bits per second now.
+    /// The current rate in bits per second.
     pub fn rate(&self) -> u32 {
         self.protocol.rate()
     }
 
-    /// Another driver in the place of this one, without a goodbye: as after the program was killed.
+    /// Replaces the driver by another one without a goodbye, as after the program was killed.
     pub fn restart_host(&mut self, rate: u32, session: u8) {
         self.protocol = SerialProtocol::new(Params { session, ..Params::with_rate(rate) });
         self.to_device.clear();
         self.wakes_at = Some(0);
     }
 
-    /// Opens the session, within this time.
+    /// Opens the session within this time.
     ///
     /// # Errors
-    /// As [`VirtualLine::ask`].
+    /// The errors of [`VirtualLine::ask`].
     pub fn open(&mut self, limit: Duration) -> Result<(), TransportError> {
         let now = self.now();
         self.protocol.open(now);
         self.drive(now + limit, |protocol| protocol.is_open().then_some(()))
     }
 
-    /// One command and its whole answer, within this time.
+    /// Sends one command and returns its whole answer, within this time.
     ///
     /// # Errors
-    /// The time passed, or the protocol gives up.
+    /// The time is over, or the protocol stops trying.
     pub fn ask(&mut self, command: &Command<impl AsRef<[u32]>>, limit: Duration) -> Result<Vec<u32>, TransportError> {
         let now = self.now();
         self.protocol.ask(command.borrowed(), now)?;
         self.drive(now + limit, SerialProtocol::take_answer)
     }
 
-    /// Says goodbye.
+    /// Ends the session with a goodbye.
     pub fn close(&mut self) {
         let now = self.now();
         self.protocol.close(now);
-        // Whether it was heard or not, the next driver finds its way.
+        // A goodbye that is lost does no harm: the next driver opens its session all the same.
         let _ = self.drive(now + Duration::from_secs(1), |protocol| protocol.is_closed().then_some(()));
     }
 
@@ -121,7 +121,7 @@ impl VirtualLine {
         }
     }
 
-    /// A slice of time.
+    /// Lets a slice of time pass.
     fn step(&mut self) {
         let now = self.nanoseconds();
         if self.wakes_at.is_some_and(|at| at <= now) {
@@ -167,7 +167,8 @@ impl VirtualLine {
     }
 }
 
-/// A [`VirtualLine`] as the library wants it. Deadlines of the wall are not looked at; each command has a limit in virtual time.
+/// A [`VirtualLine`] as a transport of the library. Each command has a limit in virtual time;
+/// deadlines in real time are ignored.
 pub struct VirtualTransport {
     line: Rc<RefCell<VirtualLine>>,
     limit: Duration,
@@ -176,7 +177,7 @@ pub struct VirtualTransport {
 }
 
 impl VirtualTransport {
-    /// Over this line, with this time for each command.
+    /// Makes a transport over this line with this limit for each command.
     pub fn new(line: Rc<RefCell<VirtualLine>>, limit: Duration) -> Self {
         Self { line, limit, answer: Vec::new(), taken: 0 }
     }

@@ -1,21 +1,21 @@
-//! Faults that are put into the Verilog of a core, each behind a switch, so that one translated core has all of them.
+//! Faults that are put into the Verilog of a core, each behind a switch: one translated core has all of them.
 //!
-//! The build script replaces `sound` by `faults[place] ? broken : sound` and gives the root module the port `faults`. Without a
-//! switch raised the core is sound. `Lockstep::faulty` raises switches by name.
+//! The build script replaces `sound` by `faults[place] ? broken : sound`, and gives the root module the port `faults`.
+//! While no switch is on the core is sound. `Lockstep::faulty` turns switches on by name.
 
-/// One fault: its name, and the expressions that it replaces.
+/// A fault: its name, and the expressions that it replaces.
 pub struct Fault {
-    /// Its name, for `Lockstep::faulty`.
+    /// Name of the fault, for `Lockstep::faulty`.
     pub name: &'static str,
-    /// Where it is put in.
+    /// The expressions that the fault replaces.
     pub pieces: &'static [Piece],
 }
 
 /// One expression of the Verilog.
 pub struct Piece {
-    /// The text around it, with `@` in its place; it stands in the Verilog once.
+    /// The text around the expression, with `@` in its place. The Verilog holds this text exactly once.
     pub around: &'static str,
-    /// The expression as it is exported.
+    /// The expression as exported.
     pub sound: &'static str,
     /// The expression of the broken core.
     pub broken: &'static str,
@@ -25,9 +25,9 @@ const fn piece(around: &'static str, sound: &'static str, broken: &'static str) 
     Piece { around, sound, broken }
 }
 
-/// All faults; the place of each is its bit of the port `faults`.
+/// All faults. The place of a fault in this list is its bit of the port `faults`.
 pub const FAULTS: &[Fault] = &[
-    // One comparison reversed: which of two sides is lower, in the walk.
+    // One comparison of the walk reversed, which decides which of two sides is lower.
     Fault {
         name: "comparison",
         pieces: &[piece(
@@ -36,9 +36,9 @@ pub const FAULTS: &[Fault] = &[
             "(~edges[(64'h6)+:(1)]) & (~edges[(64'h8)+:(1)])",
         )],
     },
-    // One link column never written.
+    // One column of neighbours that is never written.
     Fault { name: "link", pieces: &[piece("links$2$write_enable = @;", "enables[(64'h3)+:(1)]", "1'b0")] },
-    // One tie wrong: the apex is not asked.
+    // One tie decided wrongly: the apex is not asked.
     Fault {
         name: "tie",
         pieces: &[piece(
@@ -47,27 +47,27 @@ pub const FAULTS: &[Fault] = &[
             "order[(64'h1)+:(1)] & order[(64'h2)+:(1)]",
         )],
     },
-    // L1: a test does not mind that another context holds the lock.
+    // L1: a test ignores that another context holds the lock.
     Fault {
         name: "foreign_lock",
         pieces: &[
             piece("test_counts$d = @;", "tests & (~foreign)", "tests"),
-            piece("test_is_refused$d = @;", "tests & foreign & (~is_waiter)", "1'b0"),
+            piece("test_is_refused$d = @;", "tests & foreign & (~holds_priority)", "1'b0"),
         ],
     },
-    // L1: an attempt that fails releases its locks while visits of it are still out.
+    // L1: an attempt that aborts releases its locks while visits of it are still out.
     Fault {
         name: "drain",
         pieces: &[piece("step[(64'h0)+:(1)] = @;", "ends_here", "ends_here | found[(64'hf)+:(1)]")],
     },
-    // L1: an attempt that has failed does not rest.
+    // L1: a context does not rest after an abort.
     Fault { name: "rest", pieces: &[piece("is_rested = @;", "(~busy[index]) & rests_over", "~busy[index]")] },
-    // L2: nobody takes the waiting token.
+    // L2: no context acquires the priority.
     Fault {
-        name: "token",
+        name: "priority",
         pieces: &[piece("takes = @;", "outcome[(64'h8)+:(1)] & (~state$q[(64'h78)+:(1)])", "1'b0")],
     },
-    // L3: the others do not yield to the context that waits.
+    // L3: the others do not yield to the context that holds the priority.
     Fault {
         name: "yield",
         pieces: &[piece(
@@ -100,13 +100,13 @@ pub const FAULTS: &[Fault] = &[
     },
     // L6: a context opens a cavity while its own commit or release is due.
     Fault { name: "busy", pieces: &[piece("context_is_busy$d = @;", "is_busy", "1'b0")] },
-    // L7: a walk does not mind that a record is not written yet, or is being written.
+    // L7: a walk ignores that a record is not written yet, or is being written.
     Fault { name: "watermark", pieces: &[piece("again1$d = @;", "is_torn | (~is_written)", "is_torn")] },
     Fault {
         name: "torn",
         pieces: &[piece(
             "is_torn = @;",
-            "write[(64'h0)+:(1)] & (write[(64'h1)+:(15)] == issue$token[(64'h28)+:(15)])",
+            "write[(64'h0)+:(1)] & (write[(64'h1)+:(15)] == issue$visit[(64'h28)+:(15)])",
             "1'b0",
         )],
     },
@@ -117,12 +117,13 @@ pub const FAULTS: &[Fault] = &[
         name: "own_lock",
         pieces: &[piece(
             "foreign = @;",
-            "met_clear3$q | (takes3$q & found_set$q & (~holder_is_owner))",
+            "met_clear3$q | (takes3$q & found_set$q & (~holder_is_own))",
             "met_clear3$q | (takes3$q & found_set$q)",
         )],
     },
-    // The watchdog, and each place that hears of it, but for `CommandGate`: a core that gets stuck over a lock has its first triangle, and the
-    // gate has nothing to hold then. `tests/it/blocks/link/command_gate.rs` holds the gate.
+    // The watchdog, and each place that hears of it except `CommandGate`. A core that
+    // gets stuck over a lock has its first triangle already, so the gate holds nothing
+    // back then; `tests/it/blocks/commands/command_gate.rs` tests the gate.
     Fault { name: "watchdog_is_silent", pieces: &[piece("is_stuck$d = @;", "1'b1", "1'b0")] },
     Fault {
         name: "command_port_ignores_stuck",
@@ -144,7 +145,7 @@ pub const FAULTS: &[Fault] = &[
         name: "answer_ignores_stuck",
         pieces: &[piece("answer_head$stuck = @;", "engine$state[(64'h3)+:(1)]", "1'b0")],
     },
-    // Blocks without their reset.
+    // Blocks that lack their reset.
     Fault { name: "command_port_without_reset", pieces: &[piece("command_port$reset = @;", "reset", "1'b0")] },
     Fault { name: "responder_without_reset", pieces: &[piece("responder$reset = @;", "reset", "1'b0")] },
     Fault { name: "engine_without_reset", pieces: &[piece("engine$reset = @;", "reset", "1'b0")] },

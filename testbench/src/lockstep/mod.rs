@@ -1,4 +1,5 @@
-//! Lock-step: the Verilated core and the model clock by clock, driven alike, compared at every root port at every clock.
+//! Lock-step: the Verilated core and the model run side by side, with equal inputs, and every root
+//! port is compared at every clock.
 
 mod faults;
 mod recording;
@@ -40,21 +41,22 @@ const OUTPUTS: [&str; 15] = [
     "write_n2",
 ];
 
-/// Clocks before a mismatch that its waveform shows.
+/// Number of clocks before a mismatch that the waveform shows.
 const TRACED: usize = 2000;
 
-/// Clocks of the first reset. One is enough in a core that runs; at power-up registers without reset may hold what they
-/// never hold later, such as a context beyond the last, and these are overwritten clock by clock from those with reset.
+/// Clocks of the first reset. One clock is enough in a running core. At power-up, registers without
+/// reset may hold values that they never hold later, such as a context beyond the last; registers with
+/// reset overwrite them within these clocks.
 const FIRST_RESET: usize = 4;
 
-/// Input port of cores with faults behind switches.
+/// Input port of cores that have faults behind switches.
 const SWITCHES: &str = "faults";
 
-/// A run that leaves no waveform.
+/// The reasons why a run leaves no waveform.
 #[derive(Debug, thiserror::Error)]
 pub enum WaveformError {
-    /// Inputs from the start of the run are no longer in memory.
-    #[error("the run is longer than the {KEPT} clocks that are kept: start anew more often")]
+    /// The first inputs of the run are no longer in memory.
+    #[error("the run is longer than the {KEPT} clocks that are kept: split it into shorter runs")]
     TooLong,
     /// The file cannot be made, or the core was built without waveforms.
     #[error("{0}")]
@@ -65,7 +67,7 @@ pub enum WaveformError {
 pub struct Lockstep {
     name: String,
     seed: Option<u32>,
-    /// The port [`SWITCHES`] for the whole run.
+    /// Value of the port [`SWITCHES`] for the whole run.
     faults: u64,
     core: Model,
     model: ClockModel,
@@ -77,34 +79,36 @@ pub struct Lockstep {
 }
 
 impl Lockstep {
-    /// The Verilated core `name` (see `testbench/build.rs`) and the model of its configuration, after a reset out of random
-    /// registers and memories.
+    /// Makes the Verilated core `name` (see `testbench/build.rs`) and the model of its configuration. Both come out of
+    /// a reset; before it the core's registers and memories are random.
     ///
     /// # Panics
-    /// If there is no such core, or one of its ports is missing.
+    /// Panics if there is no such core, or one of its ports is missing.
     pub fn new(name: &str, config: Config, seed: u32) -> Self {
         Self::from_state(name, config, Some(seed), 0)
     }
 
-    /// As [`Lockstep::new`], out of registers and memories that are all zero: the state that an ECP5 has after configuration.
+    /// Makes the pair as [`Lockstep::new`] does, but out of registers and memories of zeros, the
+    /// state of an ECP5 after configuration.
     ///
     /// # Panics
-    /// As [`Lockstep::new`].
+    /// Panics as [`Lockstep::new`] does.
     pub fn configured(name: &str, config: Config) -> Self {
         Self::from_state(name, config, None, 0)
     }
 
-    /// As [`Lockstep::new`], for a core with switches, these [`FAULTS`] of which are raised.
+    /// Makes the pair as [`Lockstep::new`] does, for a core with switches, and turns
+    /// on the switches of these [`FAULTS`].
     ///
     /// # Panics
-    /// As [`Lockstep::new`], and if there is no fault of such a name.
+    /// Panics as [`Lockstep::new`] does, and if there is no fault of such a name.
     pub fn faulty(name: &str, config: Config, seed: u32, faults: &[&str]) -> Self {
         let place = |name: &&str| FAULTS.iter().position(|fault| fault.name == *name);
         let switch = |name| 1 << place(name).unwrap_or_else(|| panic!("no fault {name:?}"));
         Self::from_state(name, config, Some(seed), faults.iter().map(switch).sum())
     }
 
-    /// The model leaves out a rule, as the core does that is beside it.
+    /// Lets the model leave out a rule, as the core beside it does.
     pub fn with_defect(mut self, defect: Defect) -> Self {
         self.model = self.model.with_defect(defect);
         self
@@ -120,7 +124,7 @@ impl Lockstep {
         Self { name, seed, faults, core, model, inputs, outputs, recording, history: History::default(), clocks: 1 }
     }
 
-    /// Replays everything since the start on a fresh core, and leaves the last clocks of it as a waveform.
+    /// Replays the whole run on a fresh core, and writes the last clocks as a waveform.
     ///
     /// # Errors
     /// The run is longer than [`KEPT`], the file cannot be made, or the core was built without waveforms.
@@ -139,17 +143,17 @@ impl Lockstep {
         Ok(())
     }
 
-    /// Clocks since the start.
+    /// Number of clocks since the start.
     pub fn clocks(&self) -> u64 {
         self.clocks
     }
 
-    /// What the model shows now; the core shows the same, or the last clock was a mismatch.
+    /// Outputs of the model. The core has the same ones, or the last clock was a mismatch.
     pub fn outputs(&self) -> Outputs {
         self.model.outputs()
     }
 
-    /// One clock. Both are compared before the edge.
+    /// Runs one clock. The outputs of both are compared before the edge.
     ///
     /// # Errors
     /// The first port that differs.
@@ -172,7 +176,8 @@ impl Lockstep {
     }
 }
 
-/// A core with these faults after its first reset, out of random registers and memories, or zero ones.
+/// Makes a core with these faults after its first reset, out of random registers and memories,
+/// or of zeros without a seed.
 fn started(name: &str, seed: Option<u32>, faults: u64) -> Model {
     let mut core = seed.map_or_else(|| blocks::model(name), |seed| blocks::randomized(name, seed));
     let reset = core.port(INPUTS[0]).unwrap_or_else(|error| panic!("{error}"));
@@ -193,7 +198,7 @@ fn drive(core: &mut Model, ports: &[PortId; INPUTS.len()], inputs: &Inputs) {
     core.set(ports[3], u64::from(inputs.response_ready));
 }
 
-/// The model's outputs as the core's ports carry them.
+/// The model's outputs in the form of the core's ports.
 fn words_of(outputs: &Outputs) -> [u64; OUTPUTS.len()] {
     let Write { valid, id, vertices, links, record } = outputs.write;
     let links = u64::from(links[0]) | u64::from(links[1]) << 1 | u64::from(links[2]) << 2;

@@ -1,10 +1,10 @@
-//! What was driven into a core, so that its last clocks can be shown once more.
+//! The inputs of a run, so that its last clocks can be shown once more.
 
 use std::collections::VecDeque;
 
 use incircle_model::Inputs;
 
-/// Clocks that are kept: 32 MiB of them. A run that starts anew before can be replayed.
+/// Number of clocks that are kept, in 32 MiB. A run of fewer clocks can be replayed.
 pub const KEPT: usize = 1 << 22;
 
 /// The last inputs of a run, at most a fixed number of them.
@@ -12,12 +12,12 @@ pub const KEPT: usize = 1 << 22;
 pub(super) struct Recording {
     inputs: VecDeque<Inputs>,
     limit: usize,
-    /// Inputs that were dropped, because more came than are kept.
+    /// Number of inputs that were dropped because more came than are kept.
     dropped: u64,
 }
 
 impl Recording {
-    /// Nothing yet; keeps so many clocks.
+    /// Makes an empty recording that keeps `limit` clocks.
     pub(super) fn keeping(limit: usize) -> Self {
         Self { inputs: VecDeque::new(), limit, dropped: 0 }
     }
@@ -31,7 +31,7 @@ impl Recording {
         self.inputs.push_back(inputs);
     }
 
-    /// The inputs since the start; nothing if some were dropped.
+    /// All inputs since the start, or `None` if some were dropped.
     pub(super) fn whole(&self) -> Option<&VecDeque<Inputs>> {
         (self.dropped == 0).then_some(&self.inputs)
     }

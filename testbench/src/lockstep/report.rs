@@ -1,24 +1,24 @@
-//! What a mismatch tells: clock, port, both values, and the last events.
+//! The report of a mismatch: clock, port, both values, and the last events.
 
 use incircle_model::{Inputs, Outputs};
 use std::collections::VecDeque;
 use std::fmt;
 
-/// Events kept for the report.
+/// Number of events kept for the report.
 const KEPT: usize = 24;
 
-/// The first port that differs.
+/// The first port that differs, and what led to it.
 #[derive(Debug)]
 pub struct Mismatch {
-    /// Clock since the start.
+    /// Number of clocks since the start.
     pub clock: u64,
-    /// The port.
+    /// Name of the port.
     pub port: &'static str,
-    /// What the model says.
+    /// Value of the model.
     pub expected: u64,
-    /// What the core says.
+    /// Value of the core.
     pub found: u64,
-    /// What the model is doing.
+    /// Activity of the model at that clock.
     pub doing: String,
     events: Vec<String>,
 }
@@ -44,7 +44,7 @@ pub(super) struct History {
 }
 
 impl History {
-    /// Notes the clock, if anything happens in it.
+    /// Notes the events of a clock, if there are any.
     pub(super) fn note(&mut self, clock: u64, inputs: Inputs, outputs: Outputs) {
         let takes = inputs.command_valid && outputs.command_ready;
         let gives = inputs.response_ready && outputs.response_valid;

@@ -1,11 +1,11 @@
-//! Drives a command stream through the pair, with idle clocks and back-pressure.
+//! Drives a stream of commands through the core and its model, with idle clocks and back-pressure.
 
 use super::report::Mismatch;
 use super::Lockstep;
 use incircle_model::Inputs;
 use incircle_protocol::{batch_word, clear_word, command_word, Config, Opcode, PADDING};
 
-/// How often each side of the core stalls.
+/// Frequency of stalls on each side of the core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stalls {
     /// The host offers no word in this many of 256 clocks.
@@ -15,9 +15,9 @@ pub struct Stalls {
 }
 
 impl Stalls {
-    /// Neither.
+    /// No stalls on either side.
     pub const NONE: Self = Self { idle: 0, back_pressure: 0 };
-    /// The crossing of both.
+    /// Every combination of three frequencies on each side.
     pub const ALL: [Self; 9] = {
         let rates = [0, 64, 230];
         let mut all = [Self::NONE; 9];
@@ -29,41 +29,41 @@ impl Stalls {
         all
     };
 
-    /// What the host does in a clock, by a random number: offers the next of `words` or idles, takes an answer or not.
+    /// Inputs of a clock, by a random number: the host offers the next of `words` or idles, and takes an answer or not.
     pub fn inputs(self, words: &[u32], chance: u64) -> Inputs {
         let is_idle = (chance & 0xff) < u64::from(self.idle);
         let offered = words.first().filter(|_| !is_idle);
         Inputs {
             reset: false,
             command_valid: offered.is_some(),
-            // What stands on the port of an idle clock must not matter.
+            // The data of an idle clock must not matter, so it is random.
             command_data: offered.copied().unwrap_or((chance >> 32) as u32),
             response_ready: (chance >> 8 & 0xff) >= u64::from(self.back_pressure),
         }
     }
 }
 
-/// One command stream with everything a job does, and the number of answer words.
+/// A stream of commands with everything that a job does, and the number of answer words.
 #[derive(Clone, Debug)]
 pub struct Job {
-    /// Command words.
+    /// Words of the commands.
     pub commands: Vec<u32>,
-    /// Answer words it leads to.
+    /// Number of answer words that the commands lead to.
     pub answers: usize,
 }
 
 impl Job {
-    /// Clears, inserts the points in the given pieces with this many contexts (0: all), reads all triangles and all records, latencies and
-    /// counters, with padding between the commands;
-    /// the number of answer words comes from the model by commands.
+    /// Makes a job that clears, inserts the points in pieces of the given length with this many contexts (0 for all),
+    /// and reads all triangles, all records, latencies and counters, with padding between the commands. The model by
+    /// commands tells the number of answer words.
     pub fn of(points: &[u32], piece: usize, contexts: u32, config: Config) -> Self {
         let mut job = Self::beginning_with(command_word(Opcode::Clear), points, piece, config);
-        // The model by commands works on one point after the other, however many contexts the core has.
+        // The model by commands inserts one point after another, however many contexts the core has.
         job.commands[1] = clear_word(contexts);
         job
     }
 
-    /// The same for a batch of so many jobs (0: as many as the core has contexts).
+    /// Makes such a job for a batch of so many jobs (0 for as many as the core has contexts).
     pub fn batch_of(points: &[u32], piece: usize, jobs: u32, config: Config) -> Self {
         Self::beginning_with(batch_word(jobs), points, piece, config)
     }
@@ -98,13 +98,13 @@ impl Job {
 }
 
 impl Lockstep {
-    /// Runs a job to its last answer word and returns all of them.
+    /// Runs a job to its last answer word, and returns all answer words.
     ///
     /// # Errors
-    /// The first mismatch.
+    /// The first mismatch between core and model.
     ///
     /// # Panics
-    /// If the job takes more clocks than any job of its size can.
+    /// Panics if the job takes more clocks than any job of its size can.
     pub fn run(&mut self, job: &Job, stalls: Stalls, random: &mut impl FnMut() -> u64) -> Result<Vec<u32>, Mismatch> {
         let mut answers = Vec::with_capacity(job.answers);
         let mut rest = job.commands.as_slice();

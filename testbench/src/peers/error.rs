@@ -1,20 +1,20 @@
-//! Why there is no comparison.
+//! The reasons why there is no comparison.
 
-/// Why there is no comparison.
+/// The reasons why there is no comparison.
 #[derive(Debug, thiserror::Error)]
 pub enum PeerError {
     /// The set cannot be made.
     #[error("{0}")]
     Generate(#[from] incircle_testkit::GenerateError),
-    /// Our own work failed.
+    /// Our own triangulator failed.
     #[error("{0}")]
     Ours(#[from] incircle::Error),
-    /// A peer stopped in the middle, or answered nonsense.
+    /// A peer stopped in the middle of a run, or its answer is malformed.
     #[error("{peer}: {reason}")]
     Peer {
-        /// Its name.
+        /// Name of the peer.
         peer: &'static str,
-        /// What happened.
+        /// The event in words.
         reason: String,
     },
     /// The results cannot be printed.

@@ -1,4 +1,4 @@
-//! Who takes part: our engines, two libraries in this process, and two that are other programs.
+//! The contestants: our back end `cpu` twice, two libraries in this process, and two other programs.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -10,7 +10,7 @@ use super::contestant::{Contestant, Missing, Run};
 use super::error::PeerError;
 use super::process::{cgal, triangle};
 
-/// Clocks of a call.
+/// The clocks that run during a call.
 struct Watch {
     since: Instant,
     busy_since: f64,
@@ -33,10 +33,10 @@ fn busy() -> f64 {
     time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64
 }
 
-/// Who runs, and who is missing.
+/// The contestants that run, and those that are missing.
 pub(super) type Field = (Vec<Box<dyn Contestant>>, Vec<Missing>);
 
-/// Those that are there, ours with one thread first, and those that are not.
+/// All contestants that are installed, ours with one thread first, and those that are not.
 pub(super) fn all(bits: u32) -> Result<Field, PeerError> {
     let mut present: Vec<Box<dyn Contestant>> = vec![
         Box::new(Ours { name: "cpu", device: Device::open("cpu?threads=1")? }),
@@ -55,7 +55,7 @@ pub(super) fn all(bits: u32) -> Result<Field, PeerError> {
     Ok((present, missing))
 }
 
-/// A device of ours.
+/// A back end of ours.
 struct Ours {
     name: &'static str,
     device: Device,
@@ -76,6 +76,7 @@ impl Contestant for Ours {
     }
 }
 
+/// The library `spade`, by bulk load.
 struct Spade;
 
 impl Contestant for Spade {
@@ -93,6 +94,7 @@ impl Contestant for Spade {
     }
 }
 
+/// The library `delaunator`, by its one function.
 struct Delaunator;
 
 impl Contestant for Delaunator {

@@ -1,10 +1,15 @@
-//! Triangulators beside each other: what each takes for the same points, in one run, in turn, with fresh points each time.
+//! Compares triangulators: the time that each takes for the same points, in one run, in
+//! turns, with fresh points each time.
 //!
-//! Times are of the whole call, from a list of points to a mesh in the form of the library; each must have as many triangles as ours.
-//! Each does other points of the set just before (the airports: the same in another order), untimed: what the system takes to hand out memory says much of a machine and little of an algorithm. Four million
-//! points take some 10 ns longer each without the untimed run, and more than 200 where a virtual machine has lent its free memory to others.
-//! Ratios are medians over the repetitions of times taken next to each other, so that what else the machine does touches both; objects
-//! also have the processor's time on the calling thread ("busy"), which others disturb less.
+//! A time is that of the whole call, from a list of points to a mesh in the form of the library, and each contestant
+//! should find as many triangles as ours. Just before its timed run each contestant triangulates other points of the
+//! set, untimed (for the airports, the same points in another order). Handing out memory says much about a machine and
+//! little about an algorithm: without the untimed run four million points take some 10 ns longer each, and more than
+//! 200 ns where a virtual machine has lent its free memory to others.
+//!
+//! Ratios are medians, over the repetitions, of times taken next to each other, so that other work on
+//! the machine touches both. The JSON objects also have the processor's time on the calling thread
+//! ("busy"), which other work disturbs less.
 
 mod arguments;
 mod contestant;
@@ -26,17 +31,17 @@ pub use arguments::Arguments;
 pub use error::PeerError;
 pub use points::Set;
 
-/// Timed points of all repetitions together, unless their number is given.
+/// Number of timed points in all repetitions together, unless the number of repetitions is given.
 const POINTS: usize = 6_000_000;
-/// Makes a seed one of the untimed points, which no repetition has.
+/// Turns a seed into one for the untimed points, which no repetition has.
 const OTHERS: u64 = 1 << 63;
 /// Fewest and most repetitions unless their number is given.
 const REPETITIONS: std::ops::RangeInclusive<usize> = 3..=101;
 
-/// Runs the comparison and prints it, a row or an object for each set and number of points.
+/// Runs the comparison and prints it, one row or object for each set and number of points.
 ///
 /// # Errors
-/// A set that cannot be made, or a contestant that fails.
+/// A set cannot be made, or a contestant fails.
 pub fn compare(arguments: &Arguments) -> Result<(), PeerError> {
     let (mut contestants, missing) = field::all(arguments.bits)?;
     let names: Vec<_> = contestants.iter().map(|contestant| contestant.name()).collect();
@@ -56,7 +61,7 @@ pub fn compare(arguments: &Arguments) -> Result<(), PeerError> {
     Ok(())
 }
 
-/// All repetitions of one set.
+/// Runs all repetitions of one set.
 fn measure(
     contestants: &mut [Box<dyn Contestant>],
     set: Set,
@@ -78,7 +83,8 @@ fn measure(
         let seed = arguments.seed.wrapping_add(repetition as u64);
         let points = set.points(n, arguments.bits, seed)?;
         let before = if arguments.cold { None } else { Some(set.points(n, arguments.bits, seed ^ OTHERS)?) };
-        // By chance: whoever always came after a program that has just given its memory back would wait for the system each time, most of all when cold.
+        // The turns are random. A contestant that always follows a program which has just freed its memory would wait
+        // for the system each time, above all with `--cold`.
         let mut random = SplitMix64::new(seed);
         let mut turns: Vec<usize> = (0..contestants.len()).collect();
         turns.sort_by_cached_key(|_| random.next_u64());
@@ -107,7 +113,7 @@ mod tests {
     use std::cell::RefCell;
     use std::rc::Rc;
 
-    /// It keeps what it is given.
+    /// A contestant that keeps the points it is given.
     struct Listener(Rc<RefCell<Vec<Vec<Point>>>>);
 
     impl Contestant for Listener {
@@ -129,7 +135,7 @@ mod tests {
                 ["peers", "--repetitions", "3", "--seed", "18446744073709551615"].into_iter().chain(option),
             );
             let heard = Rc::new(RefCell::new(Vec::new()));
-            // Ours are two.
+            // Our back end takes part twice in a comparison, so two listeners stand for it.
             let mut field: Vec<Box<dyn Contestant>> =
                 vec![Box::new(Listener(heard.clone())), Box::new(Listener(Rc::default()))];
             let outcome = measure(&mut field, Set::usual()[0], 50, &arguments).expect("a set");

@@ -1,4 +1,4 @@
-//! The sets.
+//! The point sets of the comparison.
 
 use std::fmt;
 use std::str::FromStr;
@@ -15,20 +15,20 @@ const AIRPORTS_NAME: &str = "airports";
 /// A set of points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Set {
-    /// Generated.
+    /// A set that the kit generates.
     Distribution(Distribution),
-    /// The airports of the world, as many as there are.
+    /// The airports of the world, as many as the list has.
     Airports,
 }
 
 impl Set {
-    /// Those that are compared unless others are asked for.
+    /// The sets that are compared by default.
     pub fn usual() -> Vec<Self> {
         let generated = Distribution::LITERATURE.into_iter().chain([Distribution::Lattice]).map(Self::Distribution);
         generated.chain([Self::Airports]).collect()
     }
 
-    /// Points of this set: `n`, or fewer if there are no more. Each seed gives others.
+    /// Points of this set: `n`, or fewer if the set has no more. Each seed gives other points.
     pub(super) fn points(self, n: usize, bits: u32, seed: u64) -> Result<Vec<Point>, PeerError> {
         match self {
             Self::Distribution(distribution) => {

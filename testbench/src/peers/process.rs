@@ -1,6 +1,8 @@
-//! Peers that are programs of their own: they take points on standard input and tell seconds, those of the processor, and triangles.
+//! Peers that are programs of their own. A program reads points from standard input and answers with its seconds, those
+//! of the processor, and the number of triangles.
 //!
-//! A request is the number of points as 64 bits, then as many pairs of doubles, all little-endian; the answer is a line.
+//! A request is the number of points in 64 bits and then as many pairs of doubles, all
+//! little-endian; the answer is a line.
 
 use std::io::{BufRead, BufReader, Write};
 use std::path::PathBuf;
@@ -14,7 +16,7 @@ use super::error::PeerError;
 const CGAL_SOURCE: &str = include_str!("cgal.cpp");
 const TRIANGLE_SOURCE: &str = include_str!("triangle.py");
 
-/// A program that runs.
+/// A peer that runs as a program.
 pub(super) struct Process {
     name: &'static str,
     child: Child,
@@ -22,19 +24,19 @@ pub(super) struct Process {
     output: BufReader<ChildStdout>,
 }
 
-/// CGAL, if its headers are where the compiler finds them: a small program that is compiled now. `CPLUS_INCLUDE_PATH` and `LIBRARY_PATH`
-/// help where they are elsewhere.
+/// Starts CGAL if the compiler finds its headers: a small program, compiled on the spot. `CPLUS_INCLUDE_PATH` and
+/// `LIBRARY_PATH` help if the headers are elsewhere.
 pub(super) fn cgal() -> Result<Process, Missing> {
     let absent = |reason: String| Missing { name: "cgal", reason };
     let folder = std::env::temp_dir().join(format!("incircle-peers-{}", std::process::id()));
-    // What is compiled there is run: it must be a new folder that is ours alone.
+    // The folder must be new and private: the program that is compiled there is run.
     let mut builder = std::fs::DirBuilder::new();
     #[cfg(unix)]
     std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
     builder.create(&folder).map_err(|error| absent(format!("{}: {error}", folder.display())))?;
     let program = compile(&folder).map_err(absent);
     let started = program.and_then(|program| Process::start("cgal", Command::new(program)));
-    // The running program needs its file no more.
+    // The running program does not need its file any more.
     let _ = std::fs::remove_dir_all(&folder);
     started
 }
@@ -53,7 +55,7 @@ fn compile(folder: &std::path::Path) -> Result<PathBuf, String> {
     Err(format!("not installed: {}", first.unwrap_or("g++ failed").trim()))
 }
 
-/// Triangle, if the Python named by `PYTHON`, or else `python3`, has the package `triangle`.
+/// Starts Triangle if the Python in `PYTHON`, or else `python3`, has the package `triangle`.
 pub(super) fn triangle() -> Result<Process, Missing> {
     let python = std::env::var_os("PYTHON").unwrap_or_else(|| "python3".into());
     let has_it = Command::new(&python).args(["-c", "import triangle"]).output();
@@ -124,10 +126,10 @@ impl Contestant for Process {
 }
 
 impl Drop for Process {
-    /// The end of its input ends it.
+    /// Ends the program by closing its input.
     fn drop(&mut self) {
         self.input = None;
-        // It has nothing more to tell.
+        // The program has nothing more to report.
         let _ = self.child.wait();
     }
 }

@@ -1,4 +1,4 @@
-//! What is printed: a table for people, objects for scripts.
+//! Prints the results: a table for people, objects for scripts.
 
 use serde_json::{json, Map, Value};
 
@@ -6,11 +6,11 @@ use super::arguments::Arguments;
 use super::contestant::{Missing, Run};
 use super::outcome::Outcome;
 
-/// Widths of the set and of a column.
+/// Widths of the column with the set and of the other columns.
 const SET: usize = 16;
 const COLUMN: usize = 12;
 
-/// The middle of some numbers; `None` of none.
+/// The median of some numbers, or `None` if there are none.
 fn median(mut values: Vec<f64>) -> Option<f64> {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied()
@@ -26,18 +26,18 @@ impl Outcome {
         median(self.runs[place].iter().map(|run| self.nanoseconds(run)).collect())
     }
 
-    /// The same, of the processor's time on one thread.
+    /// Nanoseconds per point that the processor spent on one thread.
     fn busy_time(&self, place: usize) -> Option<f64> {
         median(self.runs[place].iter().map(|run| run.busy * 1e9 / self.points.max(1) as f64).collect())
     }
 
-    /// The time of one contestant by that of another.
+    /// Time of one contestant divided by that of another.
     fn ratio(&self, one: usize, other: usize, time: fn(&Run) -> f64) -> Option<f64> {
         let pairs = self.runs[one].iter().zip(&self.runs[other]);
         median(pairs.map(|(one, other)| time(one) / time(other)).collect())
     }
 
-    /// The repetitions in which a contestant has another number of triangles than ours.
+    /// Number of repetitions in which a contestant found another number of triangles than ours.
     fn differing(&self, place: usize) -> usize {
         let pairs = self.runs[place].iter().zip(&self.runs[0]);
         pairs.filter(|(one, ours)| one.triangles != ours.triangles).count()
@@ -78,7 +78,7 @@ pub(super) fn row(outcome: &Outcome) -> String {
     text + &format!("{:>6.0} %\n", 100.0 * order)
 }
 
-/// The object of an outcome.
+/// The JSON object of an outcome.
 pub(super) fn json(outcome: &Outcome, missing: &[Missing]) -> String {
     let contestants = outcome.names.iter().enumerate().map(|(place, &name)| {
         let least = outcome.runs[place].iter().map(|run| outcome.nanoseconds(run)).min_by(f64::total_cmp);

@@ -1,4 +1,4 @@
-//! The tests of the test bench, in one program: linking the Verilated models takes longer than most of the tests.
+//! All tests of the test bench in one program: linking the Verilated models takes longer than most of the tests.
 
 mod blocks;
 mod boards;

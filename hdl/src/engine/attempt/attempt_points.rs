@@ -1,8 +1,10 @@
-//! The point that each context inserts, and when it took it.
+//! The point that each context inserts, and the clock count when the context took it. A commit needs both: the new
+//! vertex for its records, the clock count for the latency.
 //!
-//! 1. There is no reset: what a context has taken is arbitrary until it takes something.
+//! 1. There is no reset: the point of a context is arbitrary until the context takes one.
 //!
-//! Latency: a point is there 2 clocks after it is taken, long before any visit of it completes. A context is answered at once.
+//! Latency: 2 clocks from `start` to `vertex` and `since`, long before any visit for the point
+//! completes; none from `context_id`.
 //!
 //! Context 1 takes point 7 at time 3:
 //! ```text
@@ -10,27 +12,26 @@
 //! taker             1  .  .  .
 //! taken_id          7  .  .  .
 //! now               3  .  .  .
-//! owner             .  .  1  .
-//! p                 .  .  7  .
+//! context_id        .  .  1  .
+//! vertex            .  .  7  .
 //! since             .  .  3  .
 //! ```
 
 use crate::engine::types::{context_bits, Clocks, ContextId, Start, VertexId, CONTEXT_BITS, LATENCY_BITS, VERTEX_BITS};
 use crate::leaf::LutMemory;
+use crate::prelude::*;
 use incircle_protocol::Config;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
-/// The points at hand; see the top of this file.
+/// The points of the contexts; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AttemptPoints {
     pub clock: Signal<In, Clock>,
-    /// A context that starts may take a point at this edge; the time.
+    /// A context that starts and may take a point at this edge; the clock count.
     pub start: Signal<In, Start>,
     pub now: Signal<In, Clocks>,
-    /// A context; its point, and when it was taken.
-    pub owner: Signal<In, ContextId>,
-    pub p: Signal<Out, VertexId>,
+    /// The context that is asked about; its point, and the clock count when it took the point.
+    pub context_id: Signal<In, ContextId>,
+    pub vertex: Signal<Out, VertexId>,
     pub since: Signal<Out, Clocks>,
     points: LutMemory<CONTEXT_BITS, VERTEX_BITS>,
     times: LutMemory<CONTEXT_BITS, LATENCY_BITS>,
@@ -41,7 +42,7 @@ pub struct AttemptPoints {
 }
 
 impl AttemptPoints {
-    /// The points of a configuration.
+    /// Builds the table of a configuration.
     pub fn new(config: Config) -> Self {
         let bits = context_bits(config);
         Self { points: LutMemory::new(bits, VERTEX_BITS), times: LutMemory::new(bits, LATENCY_BITS), ..Self::default() }
@@ -54,7 +55,7 @@ impl Logic for AttemptPoints {
         dff_setup!(self, clock, has_taken, last_taker, last_taken, taken_at);
         clock!(self, clock, points, times);
         self.has_taken.d.next = self.start.val().takes;
-        self.last_taker.d.next = self.start.val().owner;
+        self.last_taker.d.next = self.start.val().context;
         self.last_taken.d.next = self.start.val().id;
         self.taken_at.d.next = self.now.val();
         self.points.write_address.next = self.last_taker.q.val();
@@ -63,9 +64,9 @@ impl Logic for AttemptPoints {
         self.times.write_address.next = self.last_taker.q.val();
         self.times.write_data.next = self.taken_at.q.val();
         self.times.write_enable.next = self.has_taken.q.val();
-        self.points.read_address.next = self.owner.val();
-        self.times.read_address.next = self.owner.val();
-        self.p.next = self.points.read_data.val();
+        self.points.read_address.next = self.context_id.val();
+        self.times.read_address.next = self.context_id.val();
+        self.vertex.next = self.points.read_data.val();
         self.since.next = self.times.read_data.val();
     }
 }

@@ -1,10 +1,13 @@
 //! The state of an attempt after one of its tests.
 //!
-//! 1. A test is one visit less; if it passes through its edge, two more and one more entry.
-//! 2. A failed attempt drains: it is over when its last visit is, not before, because a visit that is out may take a lock (L1).
-//! 3. A cavity triangle brings two open edges, the root three; when the last is passed it is an inner one.
+//! 1. A test that completes leaves one visit fewer in flight. If the tested record joins the cavity, two new visits and
+//!    one new entry come.
+//! 2. An aborted attempt drains: it is over when its last visit completes and not before, because a visit in flight may
+//!    still take a lock (L1).
+//! 3. A record that joins the cavity brings two open edges, the root brings three. When the last of them is passed, the
+//!    record is an inner one.
 //!
-//! Latency: none (combinational).
+//! Latency: none, the block is combinational.
 
 use super::attempt_store::Held;
 use crate::engine::types::{Attempt, Case, LockCount, RingCount, Step};
@@ -13,13 +16,13 @@ use rust_hdl_core::prelude::*;
 /// The step of an attempt; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AttemptStep {
-    /// The state before, and what stands beside it.
+    /// The state before the test, with the flags that stand beside it.
     pub held: Signal<In, Held>,
     /// The visit took a lock.
     pub took: Signal<In, Bit>,
-    /// What the visit means.
+    /// The case of the visit.
     pub found: Signal<In, Case>,
-    /// The state afterwards.
+    /// The state after the test, and its effect on the attempt.
     pub after: Signal<Out, Attempt>,
     pub step: Signal<Out, Step>,
     attempt: Signal<Local, Attempt>,
@@ -51,16 +54,17 @@ impl Logic for AttemptStep {
         self.logged.next = self.attempt.val().logged;
         self.half_open.next = self.attempt.val().half_open;
 
-        // L1: a failed attempt is over when its last visit is in.
-        self.fails.next = self.attempt.val().drains | self.found.val().gives_up | self.found.val().overflows;
+        // L1: visits in flight may still take locks, so an aborted attempt lasts until its last visit has completed.
+        self.fails.next = self.attempt.val().drains | self.found.val().aborts | self.found.val().overflows;
         self.ends_here.next = self.found.val().is_test
             & self.held.val().is_last
             & (!self.found.val().splits)
-            & (!self.found.val().repeats);
+            & (!self.found.val().revisits);
         self.step.next.is_over = self.ends_here.val();
         self.step.next.succeeds = self.ends_here.val() & (!self.fails.val());
 
-        // Does the cavity triangle behind the edge keep another one?
+        // The root has three edges and so two bits: its first edge sets bit 0, the second bit 1, and only the third
+        // makes the root an inner record. For all other cavity records the second edge does.
         self.root_keeps_an_edge.next = self.entry_bit.val().get_bit(0) & (!self.half_open.val().get_bit(1));
         self.passes_last_edge.next =
             self.found.val().splits & self.held.val().edge_was_passed & (!self.root_keeps_an_edge.val());
@@ -72,7 +76,7 @@ impl Logic for AttemptStep {
         self.after.next = self.attempt.val();
         self.after.next.drains = self.fails.val();
         self.after.next.outstanding = self.outstanding.val() - self.one.val();
-        if self.found.val().repeats {
+        if self.found.val().revisits {
             self.after.next.outstanding = self.outstanding.val();
         }
         if self.took.val() {

@@ -1,33 +1,33 @@
-//! The states of the attempts of all contexts, each at hand in the clock in which a visit of its context completes.
+//! The states of the attempts of all contexts. The state of a context is at hand in the clock in which one of its
+//! visits completes, and changes in the same clock, because the next visit of the context may complete a clock later.
 //!
-//! 1. Every visit is announced by `early_token` in the clock before its own. There may be pauses.
-//! 2. A visit sees what all visits before it have left, also a test of the clock before. The visit that opens an attempt is the only one
-//!    of its context: the next one comes later.
-//! 3. An attempt begins with the three tests of the root's neighbours and its one lock.
-//! 4. `is_last`, `is_full` and `edge_was_passed` say nothing that is not in `attempt`; they are ready sooner.
+//! 1. `early_visit` announces every visit in the clock before its own. There may be pauses.
+//! 2. A visit sees the effects of all visits before it, also of a test in the clock before. The visit that opens a
+//!    cavity is the only one of its context, so the next one comes later.
+//! 3. A cavity opens with three tests, of the neighbours of the root, and with one lock.
+//! 4. `is_last`, `is_full` and `edge_was_passed` repeat what `attempt` says. They are ready sooner.
 //!
-//! Latency: 1 clock from `early_token` to `held`. What is written in a clock is seen in the next.
+//! Latency: 1 clock from `early_visit` to `held`. The next clock sees what is written in a clock.
 //!
-//! Source: a memory in LUTs, read a clock ahead, with a way round it.
+//! Source: a memory in LUTs that is read a clock ahead, with a bypass around it.
 
 use crate::engine::types::{
-    context_bits, ring_bits, Attempt, Case, RingCount, RingEntry, Step, Token, ATTEMPT_BITS, CONTEXT_BITS, ENTRY_BITS,
+    context_bits, ring_bits, Attempt, Case, RingCount, RingEntry, Step, Visit, ATTEMPT_BITS, CONTEXT_BITS, ENTRY_BITS,
 };
 use crate::leaf::{LutMemory, Parameter, Unpack};
+use crate::prelude::*;
 use incircle_protocol::Config;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 crate::packed! {
-    /// An attempt, and what is ready sooner because it stands beside it.
+    /// An attempt, with flags that are ready sooner because they are kept apart from it.
     pub struct Held {
         pub attempt: Attempt,
-        /// One visit is out; the list holds as many entries as it can.
+        /// Only one visit of the attempt is out; or the list has no room for another entry (`is_full`).
         pub is_last: bool,
         pub is_full: bool,
-        /// `attempt.half_open` at `f_entry` of the visit.
+        /// The bit of `attempt.half_open` for the visit's `cavity_entry`.
         pub edge_was_passed: bool,
-        /// `f_entry` of the visit, a bit each.
+        /// The bit of the visit's `cavity_entry` alone.
         pub entry_bit: Bits<64>,
     }
 }
@@ -36,14 +36,16 @@ crate::packed! {
 #[derive(LogicBlock, Default)]
 pub struct AttemptStore {
     pub clock: Signal<In, Clock>,
-    /// Entries a boundary list holds, a constant.
-    pub ring: Signal<In, RingCount>,
-    /// The visit that completes in the next clock, and the one of this clock: context and `f_entry` count.
-    pub early_token: Signal<In, Token>,
-    pub token: Signal<In, Token>,
+    /// The number of entries that a ring can have, a constant.
+    pub ring_capacity: Signal<In, RingCount>,
+    /// The visit that completes in the next clock, and the one that completes in this clock. Only
+    /// `context` and `cavity_entry` count.
+    pub early_visit: Signal<In, Visit>,
+    pub visit: Signal<In, Visit>,
     /// The attempt of the visit of this clock.
     pub held: Signal<Out, Held>,
-    /// What the visit means, and what it makes of its attempt: if the second edge of the root is passed, bit 1 of `half_open` goes up.
+    /// The case of the visit, and the step of its attempt. If the step passes the second edge of the root, bit
+    /// 1 of `half_open` rises.
     pub found: Signal<In, Case>,
     pub step: Signal<In, Step>,
     /// The state after a test.
@@ -56,7 +58,7 @@ pub struct AttemptStore {
     written_flags: Signal<Local, Bits<2>>,
     state: DFF<Attempt>,
     flag_bits: DFF<Bits<2>>,
-    /// Whether the edge has been passed, in the state that goes round and in the one that was stored, and which of the two counts.
+    /// The bit of `half_open`, in the bypassed state and in the stored one; `went_round` tells which of the two counts.
     kept_passed: DFF<Bit>,
     stored_passed: DFF<Bit>,
     went_round: DFF<Bit>,
@@ -83,12 +85,12 @@ pub struct AttemptStore {
     three: Signal<Local, RingCount>,
     one: Signal<Local, RingCount>,
     second_entry: Signal<Local, RingEntry>,
-    /// A bit for each entry that a list of this configuration may have: those above are never kept.
+    /// A bit for each entry that a ring of this configuration can have: the memory does not store the bits above.
     all_entries: Parameter<Bits<64>>,
 }
 
 impl AttemptStore {
-    /// The states of a configuration.
+    /// Builds the store of a configuration.
     pub fn new(config: Config) -> Self {
         let bits = context_bits(config);
         let entries = 1 << ring_bits(config);
@@ -119,13 +121,13 @@ impl Logic for AttemptStore {
             self.held.next.edge_was_passed = self.kept_passed.q.val();
         }
 
-        // The flags after a test, from what stands in registers.
+        // The flags come from registers and not from `after`, whose sums would make the path longer.
         self.outstanding.next = self.state.q.val().outstanding;
         self.count.next = self.state.q.val().count;
-        self.before_full.next = self.ring.val() - self.one.val();
+        self.before_full.next = self.ring_capacity.val() - self.one.val();
         self.becomes_last.next = self.outstanding.val() == self.two.val();
         self.becomes_full.next = self.flag_bits.q.val().get_bit(1);
-        if self.found.val().repeats {
+        if self.found.val().revisits {
             self.becomes_last.next = self.flag_bits.q.val().get_bit(0);
         }
         if self.found.val().splits {
@@ -142,10 +144,10 @@ impl Logic for AttemptStore {
         }
         self.flags_after.next = self.last_flag.val() | self.full_flag.val();
 
-        // What is written: that, or the state of an attempt that begins.
+        // A test writes the state after it; the visit that opens a cavity writes a new state.
         self.written.next = self.after.val();
         self.written_flags.next = self.flags_after.val();
-        self.opens_full.next = self.ring.val() == self.three.val();
+        self.opens_full.next = self.ring_capacity.val() == self.three.val();
         if self.found.val().opens {
             self.written.next.drains = false;
             self.written.next.outstanding = 3.into();
@@ -160,27 +162,27 @@ impl Logic for AttemptStore {
         }
         self.written_bits.next = self.written.val().into();
 
-        // The memory.
-        self.states.write_address.next = self.token.val().owner;
+        self.states.write_address.next = self.visit.val().context;
         self.states.write_data.next = self.written_bits.val();
         self.states.write_enable.next = self.found.val().is_test | self.found.val().opens;
-        self.states.read_address.next = self.early_token.val().owner;
-        self.flags.write_address.next = self.token.val().owner;
+        self.states.read_address.next = self.early_visit.val().context;
+        self.flags.write_address.next = self.visit.val().context;
         self.flags.write_data.next = self.written_flags.val();
         self.flags.write_enable.next = self.found.val().is_test | self.found.val().opens;
-        self.flags.read_address.next = self.early_token.val().owner;
+        self.flags.read_address.next = self.early_visit.val().context;
         self.stored.bits.next = self.states.read_data.val();
 
-        // The edge that the next visit asks for.
-        self.entry.next = self.early_token.val().f_entry;
+        // The bit of `half_open` is chosen a clock ahead. The test of this clock may change that bit, so the bypassed
+        // state is tried beside the stored one.
+        self.entry.next = self.early_visit.val().cavity_entry;
         self.first_bit.next = 1.into();
-        self.wide_entry.next = bit_cast::<64, 6>(self.early_token.val().f_entry);
+        self.wide_entry.next = bit_cast::<64, 6>(self.early_visit.val().cavity_entry);
         self.named_entry.d.next = self.first_bit.val() << self.wide_entry.val();
         self.held.next.entry_bit = self.named_entry.q.val() & self.all_entries.val();
         self.kept_edges.next = self.state.q.val().half_open;
         self.stored_edges.next = self.stored.value.val().half_open;
-        self.is_same_entry.next = self.early_token.val().f_entry == self.token.val().f_entry;
-        self.is_second_entry.next = self.early_token.val().f_entry == self.second_entry.val();
+        self.is_same_entry.next = self.early_visit.val().cavity_entry == self.visit.val().cavity_entry;
+        self.is_second_entry.next = self.early_visit.val().cavity_entry == self.second_entry.val();
         self.stored_passed.d.next = self.stored_edges.val().get_bit(self.entry.val().index());
         self.kept_passed.d.next = self.kept_edges.val().get_bit(self.entry.val().index())
             | (self.found.val().splits & self.is_same_entry.val())
@@ -188,8 +190,9 @@ impl Logic for AttemptStore {
 
         self.edges_after.next = self.after.val().half_open;
 
-        // What the next visit sees: the memory, or what goes into it now.
-        self.goes_round.next = self.found.val().is_test & (self.early_token.val().owner == self.token.val().owner);
+        // The memory shows a write only in the next clock. Tests of one context in consecutive clocks
+        // therefore need the bypass.
+        self.goes_round.next = self.found.val().is_test & (self.early_visit.val().context == self.visit.val().context);
         self.went_round.d.next = self.goes_round.val();
         self.state.d.next = self.stored.value.val();
         self.flag_bits.d.next = self.flags.read_data.val();

@@ -1,15 +1,17 @@
-//! Takes each visit that completes to the next step of its context: the heart of the engine.
+//! Takes each completed visit to the next step of its context: the heart of the engine.
 //!
-//! 1. A visit changes the state of its own context only, which is read a clock ahead, and changed and written back in one clock; so
-//!    visits of all contexts complete in any order, one a clock.
-//! 2. A failed attempt drains: its visits run out, locks that they take are logged, and then all its locks are released (L1).
-//! 3. All outputs belong to the visit of this clock. `seeded`, `busy` and the waiting token are looked at a clock ahead.
+//! 1. A visit changes the state of its own context only. The state is read a clock ahead, and is changed and written
+//!    back in one clock. So the visits of all contexts may complete in any order, one a clock.
+//! 2. An aborted attempt drains: its visits in flight complete, the locks that they take are logged, and then all its
+//!    locks are released (L1).
+//! 3. All outputs belong to the visit of this clock. `seeded`, the busy contexts and the priority are looked
+//!    at a clock ahead.
 //!
-//! Latency: 1 clock from the early inputs to the outputs; the state is there for the visit of the next clock.
+//! Latency: 1 clock from `early` to the outputs; the state is there for the visit of the next clock.
 //!
-//! A walk finds its triangle, the root is locked, and its three neighbours are tested; the second one joins the cavity, and the visits
-//! that this asks for find its two edges final. Visits take two clocks here; the locks of the root and of its neighbours are places 0
-//! to 3:
+//! A walk finds its record, the root is locked, and the three neighbours are tested. The second one joins the cavity,
+//! and the two visits that follow find their edges final. Visits take two clocks here; the locks of the root and its
+//! neighbours have the places 0 to 3:
 //! ```text
 //! early_done      /^^\__/^^\__/^^^^^^^^\__/^^^^^\_____
 //! walk_visit      ___/^^\_____________________________
@@ -25,7 +27,7 @@
 //! commit_enable   ______________________________/^^\__
 //! ```
 //!
-//! Source: Bowyer and Watson's cavity; the ring that is split in place is ours.
+//! Source: the cavity of Bowyer and Watson. The ring that is split in place is our own.
 
 use super::aftermath::Aftermath;
 use super::attempt_lists::AttemptLists;
@@ -36,43 +38,44 @@ use super::next_visits::NextVisits;
 use super::visit_case::VisitCase;
 use crate::engine::types::{
     Attempt, Clocks, CommitRequest, Completion, ContextId, ContextSet, ContextState, EntryWrite, Follow, InnerWrite,
-    LockWrite, Outcome, ReleaseRequest, RingCount, Start, Token, Turned, Upcoming, Verdict, VisitEvents,
+    LockWrite, Outcome, ReleaseRequest, RingCount, Start, Turned, Upcoming, Verdict, Visit, VisitEvents,
 };
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 
-/// The completion of visits; see the top of this file.
+/// The effects of completed visits; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Attempts {
     pub clock: Signal<In, Clock>,
-    /// Entries a boundary list holds, a constant.
-    pub ring: Signal<In, RingCount>,
-    /// The visit that completes in the next clock and is none of an insertion alone, and the same visit a clock later.
+    /// The number of entries that a ring can have, a constant.
+    pub ring_capacity: Signal<In, RingCount>,
+    /// The visit that completes in the next clock, unless it belongs to a solo insertion; and the same
+    /// visit a clock later.
     pub early: Signal<In, Upcoming>,
-    pub visit: Signal<In, Completion>,
-    /// The first triangle stands.
+    pub completion: Signal<In, Completion>,
+    /// Every first triangle is in the mesh.
     pub seeded: Signal<In, Bit>,
-    /// Contexts with a commit or release due, and who holds the waiting token.
+    /// The state of the contexts, of which the busy contexts and the priority are used.
     pub contexts: Signal<In, ContextState>,
-    /// A context that starts may take a point at this edge; the time.
+    /// A context that starts and may take a point at this edge; the clock count.
     pub start: Signal<In, Start>,
     pub now: Signal<In, Clocks>,
-    /// A visit completes.
+    /// A visit completes in this clock.
     pub is_done: Signal<Out, Bit>,
-    /// The visits that follow it.
+    /// The visits that follow the completed visit.
     pub follow: Signal<Out, Follow>,
-    /// What becomes of its context.
+    /// The consequences for the context of the completed visit.
     pub outcome: Signal<Out, Outcome>,
-    /// It is the look at the first three points.
+    /// The completed visit is the look at the first three points.
     pub looks: Signal<Out, Bit>,
-    /// What it adds to the lists of its context.
+    /// Additions to the lists of the context: a final entry, an inner record, a lock.
     pub entry: Signal<Out, EntryWrite>,
     pub inner: Signal<Out, InnerWrite>,
     pub lock: Signal<Out, LockWrite>,
-    /// A ring is finished; locks are to be released.
+    /// A ring is complete; or the locks of an attempt are to be released.
     pub commit: Signal<Out, CommitRequest>,
     pub releases: Signal<Out, ReleaseRequest>,
-    /// For the counters.
+    /// The events of completed visits, for the counters.
     pub events: Signal<Out, VisitEvents>,
     store: AttemptStore,
     points: AttemptPoints,
@@ -81,8 +84,8 @@ pub struct Attempts {
     visits: NextVisits,
     aftermath: Aftermath,
     lists: AttemptLists,
-    early_token: Signal<Local, Token>,
-    token: Signal<Local, Token>,
+    early_visit: Signal<Local, Visit>,
+    visit: Signal<Local, Visit>,
     turned: Signal<Local, Turned>,
     verdict: Signal<Local, Verdict>,
     attempt: Signal<Local, Attempt>,
@@ -93,7 +96,7 @@ pub struct Attempts {
 }
 
 impl Attempts {
-    /// The attempts of a configuration.
+    /// Builds the attempts of a configuration.
     pub fn new(config: Config) -> Self {
         Self { store: AttemptStore::new(config), points: AttemptPoints::new(config), ..Self::default() }
     }
@@ -104,36 +107,35 @@ impl Logic for Attempts {
     fn update(&mut self) {
         clock!(self, clock, store, points, meaning, visits);
         self.two.next = 2.into();
-        self.early_token.next = self.early.val().token;
-        self.token.next = self.visit.val().token;
-        self.turned.next = self.visit.val().turned;
-        self.verdict.next = self.visit.val().verdict;
+        self.early_visit.next = self.early.val().visit;
+        self.visit.next = self.completion.val().visit;
+        self.turned.next = self.completion.val().turned;
+        self.verdict.next = self.completion.val().verdict;
 
-        // The context's state.
-        self.store.ring.next = self.ring.val();
-        self.store.early_token.next = self.early_token.val();
-        self.store.token.next = self.token.val();
+        self.store.ring_capacity.next = self.ring_capacity.val();
+        self.store.early_visit.next = self.early_visit.val();
+        self.store.visit.next = self.visit.val();
         self.attempt.next = self.store.held.val().attempt;
         self.count.next = self.attempt.val().count;
-        self.points.owner.next = self.token.val().owner;
+        self.points.context_id.next = self.visit.val().context;
         self.points.start.next = self.start.val();
         self.points.now.next = self.now.val();
 
-        // What the visit means.
-        self.context_index.next = self.early_token.val().owner;
+        // `busy` and the priority are chosen by the early visit: a choice among 24 flags takes long, and
+        // the verdict comes late.
+        self.context_index.next = self.early_visit.val().context;
         self.busy.next = self.contexts.val().busy;
         self.meaning.early.next = self.early.val();
         self.meaning.verdict.next = self.verdict.val();
         self.meaning.seeded.next = self.seeded.val();
         self.meaning.is_busy.next = self.busy.val().get_bit(self.context_index.val().index());
-        self.meaning.is_waiter.next =
-            self.contexts.val().waiter_valid & (self.contexts.val().waiter == self.early_token.val().owner);
+        self.meaning.holds_priority.next = self.contexts.val().priority_is_held
+            & (self.contexts.val().priority_context == self.early_visit.val().context);
         self.meaning.drains.next = self.attempt.val().drains;
         self.meaning.is_full.next = self.store.held.val().is_full;
         self.is_done.next = self.meaning.found.val().is_done;
         self.looks.next = self.meaning.found.val().looks;
 
-        // The state afterwards.
         self.step.held.next = self.store.held.val();
         self.step.took.next = self.turned.val().took;
         self.step.found.next = self.meaning.found.val();
@@ -141,8 +143,7 @@ impl Logic for Attempts {
         self.store.step.next = self.step.step.val();
         self.store.after.next = self.step.after.val();
 
-        // The visits that follow.
-        self.visits.early_token.next = self.early_token.val();
+        self.visits.early_visit.next = self.early_visit.val();
         self.visits.early_turned.next = self.early.val().turned;
         self.visits.found.next = self.meaning.found.val();
         self.visits.walk_next.next = self.verdict.val().walk_next;
@@ -151,19 +152,17 @@ impl Logic for Attempts {
         self.follow.next.may_ask = self.meaning.found.val().may_ask;
         self.follow.next.bundle = self.visits.bundle.val();
 
-        // What becomes of the context.
-        self.aftermath.token.next = self.token.val();
+        self.aftermath.visit.next = self.visit.val();
         self.aftermath.found.next = self.meaning.found.val();
         self.aftermath.step.next = self.step.step.val();
         self.aftermath.walk_next.next = self.verdict.val().walk_next;
         self.aftermath.hands_over.next = self.lists.commit.val().valid | self.lists.releases.val().valid;
         self.outcome.next = self.aftermath.outcome.val();
 
-        // What the lists take.
-        self.lists.visit.next = self.visit.val();
+        self.lists.completion.next = self.completion.val();
         self.lists.attempt.next = self.attempt.val();
         self.lists.after.next = self.step.after.val();
-        self.lists.p.next = self.points.p.val();
+        self.lists.vertex.next = self.points.vertex.val();
         self.lists.since.next = self.points.since.val();
         self.lists.found.next = self.meaning.found.val();
         self.lists.step.next = self.step.step.val();
@@ -175,16 +174,16 @@ impl Logic for Attempts {
         self.commit.next = self.lists.commit.val();
         self.releases.next = self.lists.releases.val();
 
-        // For the counters.
+        // A cavity with `n` boundary edges has `n - 2` records, as the polygon has no vertex inside.
         self.events.next.walk_visit = self.meaning.found.val().is_walk;
         self.events.next.root_visit = self.meaning.found.val().is_root;
         self.events.next.test = self.meaning.found.val().is_test;
-        self.events.next.revisit = self.meaning.found.val().repeats;
+        self.events.next.revisit = self.meaning.found.val().revisits;
         self.events.next.overflows = self.meaning.found.val().overflows;
         self.events.next.flip = false;
-        self.events.next.gives_up = self.aftermath.outcome.val().asks_to_wait;
-        self.events.next.retries = self.meaning.found.val().retries;
-        self.events.next.takes_token = false;
+        self.events.next.aborts = self.aftermath.outcome.val().asks_for_priority;
+        self.events.next.root_changed = self.meaning.found.val().root_changed;
+        self.events.next.takes_priority = false;
         self.events.next.cavity_ends = self.lists.commit.val().valid;
         self.events.next.cavity_triangles = self.count.val() - self.two.val();
     }

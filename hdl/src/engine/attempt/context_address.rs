@@ -1,36 +1,38 @@
-//! Where a context's word stands in a memory with as many words for each context.
+//! The address of a context's word in a memory that has the same number of words for each context. The lists of all
+//! contexts share such memories.
 //!
-//! Latency: none. No logic: both sides are the same wires.
+//! Latency: none; the block has no logic, because both sides are the same wires.
 
 use rust_hdl_core::prelude::*;
 
 /// An address; see the top of this file.
 #[derive(LogicBlock)]
 pub struct ContextAddress<const P: usize, const A: usize> {
-    /// The context.
-    pub owner: Signal<In, Bits<5>>,
-    /// Its word; less than `2^place_bits`.
+    /// The context that the word belongs to.
+    pub context_id: Signal<In, Bits<5>>,
+    /// The place of the word among those of the context, less than `2^place_bits`.
     pub place: Signal<In, Bits<P>>,
-    /// `owner * 2^place_bits + place`.
+    /// The address `context_id * 2^place_bits + place`.
     pub address: Signal<Out, Bits<A>>,
-    wide_owner: Signal<Local, Bits<A>>,
+    wide_context: Signal<Local, Bits<A>>,
     wide_place: Signal<Local, Bits<A>>,
     base: Signal<Local, Bits<A>>,
     place_bits: Constant<Bits<A>>,
 }
 
 impl<const P: usize, const A: usize> ContextAddress<P, A> {
-    /// Addresses of `2^place_bits` words a context.
+    /// Builds the addresses of a memory with `2^place_bits` words for each context.
     ///
     /// # Panics
+    ///
     /// If `place_bits` is not in `1..=P`.
     pub fn new(place_bits: usize) -> Self {
         assert!((1..=P).contains(&place_bits), "a word of a context has 1 to {P} bits here, not {place_bits}");
         Self {
-            owner: Signal::default(),
+            context_id: Signal::default(),
             place: Signal::default(),
             address: Signal::default(),
-            wide_owner: Signal::default(),
+            wide_context: Signal::default(),
             wide_place: Signal::default(),
             base: Signal::default(),
             place_bits: Constant::new(Bits::from(place_bits as u64)),
@@ -47,9 +49,9 @@ impl<const P: usize, const A: usize> Default for ContextAddress<P, A> {
 impl<const P: usize, const A: usize> Logic for ContextAddress<P, A> {
     #[hdl_gen]
     fn update(&mut self) {
-        self.wide_owner.next = bit_cast::<A, 5>(self.owner.val());
+        self.wide_context.next = bit_cast::<A, 5>(self.context_id.val());
         self.wide_place.next = bit_cast::<A, P>(self.place.val());
-        self.base.next = self.wide_owner.val() << self.place_bits.val();
+        self.base.next = self.wide_context.val() << self.place_bits.val();
         self.address.next = self.base.val() | self.wide_place.val();
     }
 }

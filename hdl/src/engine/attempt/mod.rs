@@ -1,21 +1,23 @@
 //! Decides, when a visit completes, what its context does next.
 //!
 //! ```text
-//! visit, record, verdict -> VisitCase -> AttemptStep -> AttemptLists -> entries, inner triangles, locks, jobs: CommitPath
+//! visit, record, verdict -> VisitCase -> AttemptStep -> AttemptLists -> entries, inner records, locks: CommitPath
 //!                              |            ^   |           ^
 //!                              |            |   v           |
 //!                              |        AttemptStore    AttemptPoints
 //!                              v        (cavity)        (point of each context)
 //!                          NextVisits -> up to three visits: PushPort
 //! ```
-//! One insertion walks to the triangle of its point, locks it, and digs the cavity by tests, many of them in flight. Its whole state is
-//! one word of [`AttemptStore`], which is read a clock before one of its visits completes, and changed and written back in the clock in
-//! which the visit does. So the visits of all contexts may complete in any order, one in each clock.
+//! An insertion walks to the record of its point, locks this root, and digs the cavity by tests, many of which are in
+//! flight at once. The whole state of an attempt is one word of [`AttemptStore`]. The word is read a clock before one
+//! of the visits completes, and is changed and written back in the clock in which the visit completes. So the visits of
+//! all contexts may complete in any order, one in each clock.
 //!
-//! Lock rules (see `docs/engine.md`): L1, an attempt that meets a foreign lock drains and releases ([`VisitCase`], [`AttemptStep`],
-//! [`Aftermath`]); L2, the holder of the waiting token asks again instead ([`VisitCase`]); L5, the located triangle is visited once more
-//! under its lock ([`VisitCase`], [`NextVisits`]); L6, a walk visits its triangle again while its context's last commit or
-//! release is due ([`VisitCase`]); L7, a walk visits a record again that was not written ([`VisitCase`]).
+//! Lock rules (see `docs/engine.md`): L1, an attempt that meets a foreign lock drains and releases ([`VisitCase`],
+//! [`AttemptStep`], [`Aftermath`]); L2, the context with the priority visits the record again instead ([`VisitCase`]);
+//! L5, the located root is visited once more under its lock ([`VisitCase`], [`NextVisits`]); L6, a walk visits the
+//! located record again while the last commit or release of its context is due ([`VisitCase`]); L7, a walk visits a
+//! record again that was not written or was being written ([`VisitCase`]).
 
 mod aftermath;
 mod attempt_lists;

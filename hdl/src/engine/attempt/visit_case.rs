@@ -1,15 +1,19 @@
-//! What a visit that completes means for its context.
+//! The meaning of a completed visit for its context.
 //!
-//! 1. Who meets a lock of another context gives up (L1), unless it holds the waiting token: then it asks again (L2).
-//! 2. A walk holds no locks. It looks again at a record that is not written yet or being written (L7), and at its goal while the
-//!    context still has locks of its last point (L6).
-//! 3. The located triangle is visited again under its lock, so what the walk saw need not be true any more (L5).
-//! 4. At most one of `looks` to `root_duplicate` of the case is high; none is for a test of an attempt that drains.
-//! 5. What does not depend on the verdict is decided a clock ahead; so are `is_busy` and `is_waiter`.
+//! 1. A root visit or a test that meets a foreign lock aborts its attempt (L1). If its context holds the priority, the
+//!    record is visited again instead (L2).
+//! 2. A walk holds no locks. It makes its visit again if the record is not written yet or is being written (L7), and if
+//!    the record holds the point while the context still has locks of its last point (L6).
+//! 3. The root is visited again under its lock, because the findings of the walk need not be true any more (L5).
+//! 4. At most one of `looks` to `root_duplicate` in the case is high, except that `waits` comes with `revisits`. None
+//!    is high for a test of an attempt that drains.
+//! 5. All that does not depend on the verdict is decided a clock ahead. `is_busy` and `holds_priority` are inputs
+//!    of that clock too.
 //!
 //! Latency: 1 clock from the early inputs; none from `verdict`, `drains` and `is_full`.
 //!
-//! A walk that ends at its goal, which is visited again and opens; a neighbour whose lock another context holds:
+//! A walk ends at a record that holds its point. The record is visited again as root and opens the cavity. Then another
+//! context holds the lock of a neighbour:
 //! ```text
 //! early_done      ___/^^\__/^^\__/^^\________
 //! early.rotates   _______________/^^\________
@@ -19,41 +23,41 @@
 //! is_walk         ______/^^\_________________
 //! locates         ______/^^\_________________
 //! opens           ____________/^^\___________
-//! gives_up        __________________/^^\_____
+//! aborts          __________________/^^\_____
 //! asks            ______/^^\__/^^\___________
 //! may_ask         ______/^^\__/^^\__/^^\_____
 //! ```
 
-use crate::engine::types::{Case, Token, Turned, Upcoming, Verdict};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::engine::types::{Case, Turned, Upcoming, Verdict, Visit};
+use crate::prelude::*;
 
-/// What a visit means; see the top of this file.
+/// The meaning of a visit; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VisitCase {
     pub clock: Signal<In, Clock>,
     /// The visit that completes in the next clock.
     pub early: Signal<In, Upcoming>,
-    /// The first triangle stands.
+    /// Every first triangle is in the mesh.
     pub seeded: Signal<In, Bit>,
     /// A commit or a release of the context of that visit is due.
     pub is_busy: Signal<In, Bit>,
-    /// This context holds the waiting token.
-    pub is_waiter: Signal<In, Bit>,
-    /// What the visit that completes in this clock has found out.
+    /// The context of that visit holds the priority.
+    pub holds_priority: Signal<In, Bit>,
+    /// The findings of the visit that completes in this clock.
     pub verdict: Signal<In, Verdict>,
-    /// Its attempt has failed; its list is full.
+    /// The attempt of that visit has aborted; or its list is full.
     pub drains: Signal<In, Bit>,
     pub is_full: Signal<In, Bit>,
     pub found: Signal<Out, Case>,
     completed: DFF<Bit>,
     looked: DFF<Bit>,
     walked: DFF<Bit>,
-    /// A walk's record counts, or it must look again.
+    /// The record of a walk is whole; or it is torn, and the visit must be made again.
     walk_counts: DFF<Bit>,
     walk_is_torn: DFF<Bit>,
     context_is_busy: DFF<Bit>,
-    /// The lock of a root or of a tested triangle is the context's own, or it waits for it, or gives up.
+    /// A root visit completes. Its lock belongs to the context now; or the context waits for the lock; or it aborts.
+    /// The flags of a test follow in the same order.
     rooted: DFF<Bit>,
     root_is_held: DFF<Bit>,
     root_is_awaited: DFF<Bit>,
@@ -63,7 +67,7 @@ pub struct VisitCase {
     test_is_awaited: DFF<Bit>,
     test_is_refused: DFF<Bit>,
     may_ask_anyway: DFF<Bit>,
-    token: Signal<Local, Token>,
+    visit: Signal<Local, Visit>,
     turned: Signal<Local, Turned>,
     walks: Signal<Local, Bit>,
     visits_root: Signal<Local, Bit>,
@@ -84,13 +88,14 @@ impl Logic for VisitCase {
         dff_setup!(self, clock, root_is_awaited, root_is_refused, tested, test_counts, test_is_awaited);
         dff_setup!(self, clock, test_is_refused, may_ask_anyway, completed);
 
-        self.token.next = self.early.val().token;
+        self.visit.next = self.early.val().visit;
         self.turned.next = self.early.val().turned;
 
-        // A clock ahead: the kind of visit, and what became of its lock.
-        self.walks.next = self.early.val().done & (!self.token.val().rotates) & (!self.token.val().locks);
-        self.visits_root.next = self.early.val().done & (!self.token.val().rotates) & self.token.val().locks;
-        self.tests.next = self.early.val().done & self.token.val().rotates;
+        // Everything but the verdict is known a clock ahead. The kind of the visit and the outcome for its lock are
+        // therefore decided here, which leaves the next clock to the verdict.
+        self.walks.next = self.early.val().done & (!self.visit.val().rotates) & (!self.visit.val().locks);
+        self.visits_root.next = self.early.val().done & (!self.visit.val().rotates) & self.visit.val().locks;
+        self.tests.next = self.early.val().done & self.visit.val().rotates;
         self.foreign.next = self.turned.val().foreign;
         self.looked.d.next = self.walks.val() & (!self.seeded.val());
         self.walked.d.next = self.walks.val() & self.seeded.val();
@@ -99,13 +104,13 @@ impl Logic for VisitCase {
         self.context_is_busy.d.next = self.is_busy.val();
         self.rooted.d.next = self.visits_root.val();
         self.root_is_held.d.next = self.visits_root.val() & (!self.foreign.val());
-        self.root_is_awaited.d.next = self.visits_root.val() & self.foreign.val() & self.is_waiter.val();
-        self.root_is_refused.d.next = self.visits_root.val() & self.foreign.val() & (!self.is_waiter.val());
+        self.root_is_awaited.d.next = self.visits_root.val() & self.foreign.val() & self.holds_priority.val();
+        self.root_is_refused.d.next = self.visits_root.val() & self.foreign.val() & (!self.holds_priority.val());
         self.tested.d.next = self.tests.val();
         self.test_counts.d.next = self.tests.val() & (!self.foreign.val());
-        self.test_is_awaited.d.next = self.tests.val() & self.foreign.val() & self.is_waiter.val();
-        self.test_is_refused.d.next = self.tests.val() & self.foreign.val() & (!self.is_waiter.val());
-        self.may_ask_anyway.d.next = self.early.val().done & ((!self.token.val().rotates) | self.foreign.val());
+        self.test_is_awaited.d.next = self.tests.val() & self.foreign.val() & self.holds_priority.val();
+        self.test_is_refused.d.next = self.tests.val() & self.foreign.val() & (!self.holds_priority.val());
+        self.may_ask_anyway.d.next = self.early.val().done & ((!self.visit.val().rotates) | self.foreign.val());
         self.completed.d.next = self.early.val().done;
         self.found.next.is_done = self.completed.q.val();
         self.found.next.is_walk = self.walked.q.val();
@@ -113,7 +118,9 @@ impl Logic for VisitCase {
         self.found.next.is_test = self.tested.q.val();
         self.found.next.looks = self.looked.q.val();
 
-        // A walk. L7: a torn record says nothing. L6: a commit still reads what the next cavity would overwrite.
+        // L7: a torn record says nothing about the point.
+        //
+        // L6: a root visit logs its lock in the lists of the context, which the commit or release still due reads.
         self.is_located.next = self.verdict.val().located & (!self.verdict.val().falls_onto_corner);
         self.is_corner.next = self.verdict.val().located & self.verdict.val().falls_onto_corner;
         self.looks_again.next = self.walk_is_torn.q.val()
@@ -122,24 +129,26 @@ impl Logic for VisitCase {
         self.found.next.walk_duplicate = self.walk_counts.q.val() & self.is_corner.val();
         self.found.next.locates = self.walk_counts.q.val() & self.is_located.val() & (!self.context_is_busy.q.val());
 
-        // The visit of the root. L5: only what is seen under the lock counts.
-        self.found.next.gives_up_root = self.root_is_refused.q.val();
+        // L5: only findings under the lock count, because another context may have changed the root after the walk.
+        self.found.next.aborts_root = self.root_is_refused.q.val();
         self.found.next.opens = self.root_is_held.q.val() & self.is_located.val();
         self.found.next.root_duplicate = self.root_is_held.q.val() & self.is_corner.val();
-        self.found.next.retries = self.root_is_held.q.val() & (!self.verdict.val().located);
+        self.found.next.root_changed = self.root_is_held.q.val() & (!self.verdict.val().located);
 
-        // A test. L1: a foreign lock fails the attempt, whatever the verdict.
+        // L1: a foreign lock aborts the attempt whatever the verdict, because the other context may be about
+        // to change the record.
         self.is_live.next = self.test_counts.q.val() & (!self.drains.val());
         self.passes.next = self.is_live.val() & self.verdict.val().conflict & (!self.is_full.val());
-        self.found.next.gives_up = self.test_is_refused.q.val() & (!self.drains.val());
+        self.found.next.aborts = self.test_is_refused.q.val() & (!self.drains.val());
         self.found.next.settles = self.is_live.val() & (!self.verdict.val().conflict);
         self.found.next.overflows = self.is_live.val() & self.verdict.val().conflict & self.is_full.val();
         self.found.next.splits = self.passes.val();
 
-        // Visits that follow. L2: the holder of the waiting token asks again instead of failing.
+        // L2: the context with the priority waits at a foreign lock. No other context waits with locks held, so waits
+        // cannot form a cycle.
         self.asks_again.next = self.root_is_awaited.q.val() | (self.test_is_awaited.q.val() & (!self.drains.val()));
         self.found.next.waits = self.asks_again.val();
-        self.found.next.repeats = self.looks_again.val() | self.asks_again.val();
+        self.found.next.revisits = self.looks_again.val() | self.asks_again.val();
         self.found.next.asks = self.walk_is_torn.q.val()
             | (self.walk_counts.q.val() & (!self.is_corner.val()))
             | (self.root_is_held.q.val() & self.is_located.val())

@@ -1,16 +1,19 @@
-//! One pass over a finished ring writes the star of the new point; one ring follows the other without a pause.
+//! Writes the star of a new point in one pass over its ring; one ring follows another without a pause.
 //!
-//! 1. Entry `i` writes the record `v = (p, a, b)`, `n = (u, id of i + 1, id of i - 1)`, then the link of `u` unless it is right.
-//! 2. Its id is that of the cavity triangle behind it, unless the entry before or the first entry took it: then an inner
-//!    triangle's, or a new one. Two new ones are taken in all. An id given so is never that of the triangle behind the entry.
-//! 3. The first entry's record is written last, because it needs the last one's id.
-//! 4. A ring has three entries or more. Its inner triangles are listed before its first entry is offered.
+//! 1. Entry `i` writes the record of the new vertex, the first vertex of entry `i` and that of entry `i + 1`. The
+//!    neighbours of this record are the outside record and the records of entries `i + 1` and `i - 1`. Then the entry
+//!    writes the link of the outside record back to the star, unless that link is right already.
+//! 2. The record takes the id of the cavity record behind its entry, unless the entry before or the first entry has
+//!    taken that id. Then it takes the id of an inner record, or a new one: two new ids for each ring. An id given in
+//!    this way is never that of the cavity record behind the entry.
+//! 3. The record of the first entry is written last, because it needs the id of the last one.
+//! 4. A ring has three entries or more. Its inner records are listed before its first entry is offered.
 //!
-//! Latency: entries + links + 1 clocks from the first entry on the head to `committed`, and up to three more for each inner triangle
-//! given back.
+//! Latency: entries + links + 1 clocks from the first entry on `head` to `committed`, and up to three more for each
+//! inner record whose id is used.
 //!
-//! Four entries behind two triangles: ids 0, 10, 1, 11, of which 10 and 11 are new; 7 and 8 are triangles outside. The next
-//! ring follows.
+//! Four entries lie along two cavity records. The star has the ids 0, 10, 1, 11, of which 10 and 11 are new; 7 and 8
+//! are records outside. The next ring follows.
 //! ```text
 //! head_valid      ___/^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^\__
 //! takes           ___/^^^^^^^^^^^\________/^^^^^^^^^^^\__
@@ -26,9 +29,8 @@ use super::inner_list::InnerList;
 use super::star_id::StarId;
 use crate::engine::types::{CommitJob, Committed, Entry, InnerWrite, RingHead, Slot, TriangleId, VertexId, Write};
 use crate::engine::write::{LinkWrite, RecordWrite};
+use crate::prelude::*;
 use incircle_protocol::Config;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The commit; see the top of this file.
 #[derive(LogicBlock, Default)]
@@ -36,17 +38,17 @@ pub struct Commit {
     pub clock: Signal<In, Clock>,
     /// Reset drops the ring.
     pub reset: Signal<In, Bit>,
-    /// An entry of the list, and its ring; the ring is looked at with the first entry.
+    /// The next entry of the ring reader, and the job of its ring, which counts with the first entry.
     pub head: Signal<In, RingHead>,
     pub head_job: Signal<In, CommitJob>,
     /// The entry is taken at this edge, if there is one.
     pub takes: Signal<Out, Bit>,
-    /// An inner triangle joins the list of a context.
+    /// An inner record joins the list of a context.
     pub inner: Signal<In, InnerWrite>,
-    /// The next new id; it is taken.
+    /// The next new id; the commit takes it at this edge (`takes_fresh`).
     pub fresh: Signal<In, TriangleId>,
     pub takes_fresh: Signal<Out, Bit>,
-    /// A record or a link, registered; its data count while it is valid.
+    /// A record or a link, from a register; the data count while it is valid.
     pub write: Signal<Out, Write>,
     /// The last write of a ring is requested at this edge.
     pub committed: Signal<Out, Committed>,
@@ -57,9 +59,9 @@ pub struct Commit {
     current: DFF<Entry>,
     current_id: DFF<TriangleId>,
     before_id: DFF<TriangleId>,
-    second_a: DFF<VertexId>,
+    second_vertex: DFF<VertexId>,
     second_id: DFF<TriangleId>,
-    link_u: DFF<TriangleId>,
+    link_record: DFF<TriangleId>,
     link_slot: DFF<Slot>,
     request: DFF<Write>,
     steps: CommitSteps,
@@ -71,7 +73,7 @@ pub struct Commit {
 }
 
 impl Commit {
-    /// The commit of a configuration.
+    /// Builds the commit of a configuration.
     pub fn new(config: Config) -> Self {
         Self { inner_list: InnerList::new(config), ..Self::default() }
     }
@@ -80,17 +82,17 @@ impl Commit {
 impl Logic for Commit {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, ring, first, current, current_id, before_id, second_a, second_id);
-        dff_setup!(self, clock, link_u, link_slot, request);
+        dff_setup!(self, clock, ring, first, current, current_id, before_id, second_vertex, second_id);
+        dff_setup!(self, clock, link_record, link_slot, request);
         clock!(self, clock, steps, inner_list);
         self.entry.next = self.head.val().entry;
         self.write.next = self.request.q.val();
         self.committed.next.valid = self.steps.is_close.val();
         self.committed.next.job = self.ring.q.val();
-        self.committed.next.hint = self.first.q.val().f;
+        self.committed.next.hint = self.first.q.val().cavity_record;
         self.is_at_work.next = self.steps.is_at_work.val();
 
-        // The entry ahead and its id.
+        // The id of the next record must be known before the current one is written, which names it as neighbour.
         self.steps.reset.next = self.reset.val();
         self.steps.head.next = self.head.val();
         self.steps.awaits_id.next = self.inner_list.is_awaited.val();
@@ -98,7 +100,7 @@ impl Logic for Commit {
         self.takes.next = self.steps.takes.val();
         self.takes_fresh.next = self.steps.advances.val() & self.star_id.is_fresh.val();
         self.inner_list.inner.next = self.inner.val();
-        self.inner_list.reader.next = self.head_job.val().owner;
+        self.inner_list.reader.next = self.head_job.val().context;
         self.inner_list.inners.next = self.head_job.val().inners;
         self.inner_list.restarts.next = self.steps.loads.val();
         self.inner_list.steps.next = self.steps.advances.val() & self.star_id.is_inner.val();
@@ -109,19 +111,20 @@ impl Logic for Commit {
         self.star_id.inner_is_used_up.next = self.inner_list.is_used_up.val();
         self.star_id.fresh.next = self.fresh.val();
 
-        // The writes; when the ring closes, the current entry is the first again.
+        // When the ring closes, the current entry is the first one again. The second entry has long left the head, so
+        // its vertex and id come from registers.
         self.record.id.next = self.current_id.q.val();
-        self.record.v0.next = self.ring.q.val().p;
-        self.record.v1.next = self.current.q.val().a;
-        self.record.v2.next = self.star_id.ahead.val().a;
-        self.record.n0.next = self.current.q.val().u;
+        self.record.v0.next = self.ring.q.val().vertex;
+        self.record.v1.next = self.current.q.val().first_vertex;
+        self.record.v2.next = self.star_id.ahead.val().first_vertex;
+        self.record.n0.next = self.current.q.val().outside_record;
         self.record.n1.next = self.star_id.id.val();
         self.record.n2.next = self.before_id.q.val();
         if self.steps.is_close.val() {
-            self.record.v2.next = self.second_a.q.val();
+            self.record.v2.next = self.second_vertex.q.val();
             self.record.n1.next = self.second_id.q.val();
         }
-        self.link.id.next = self.link_u.q.val();
+        self.link.id.next = self.link_record.q.val();
         self.link.slot.next = self.link_slot.q.val();
         self.link.value.next = self.before_id.q.val();
         self.request.d.next = self.record.write.val();
@@ -132,10 +135,10 @@ impl Logic for Commit {
 
         if self.steps.advances.val() {
             if self.steps.opens.val() {
-                self.second_a.d.next = self.star_id.ahead.val().a;
+                self.second_vertex.d.next = self.star_id.ahead.val().first_vertex;
                 self.second_id.d.next = self.star_id.id.val();
             }
-            self.link_u.d.next = self.current.q.val().u;
+            self.link_record.d.next = self.current.q.val().outside_record;
             self.link_slot.d.next = self.current.q.val().slot;
             self.before_id.d.next = self.current_id.q.val();
             self.current.d.next = self.star_id.ahead.val();
@@ -145,7 +148,7 @@ impl Logic for Commit {
             self.ring.d.next = self.head_job.val();
             self.first.d.next = self.entry.val();
             self.current.d.next = self.entry.val();
-            self.current_id.d.next = self.entry.val().f;
+            self.current_id.d.next = self.entry.val().cavity_record;
         }
         if self.reset.val() {
             self.request.d.next.valid = false;

@@ -1,9 +1,9 @@
-//! From finished rings to written stars and released locks.
+//! From complete rings to written stars and released locks.
 //!
-//! 1. The locks of a ring are released when its last record is on its way to the memory: it is there before the first lock is
-//!    clear (L4).
-//! 2. Locks are logged a clock after they come: the log lies far from the logic that finds them. The job that comes with the last of
-//!    them is not read from until two clocks later.
+//! 1. The locks of a ring are released when its last write is on the way to the memory. The write arrives before the
+//!    first of the locks is clear (L4).
+//! 2. Locks are logged a clock after they come, because the log lies far from the logic that finds them. The job that
+//!    comes with the last of the locks reads the log two clocks later at the earliest.
 
 use super::commit::Commit;
 use super::fresh_ids::FreshIds;
@@ -13,11 +13,10 @@ use crate::engine::types::{
     CommitJob, CommitRequest, Committed, EntryWrite, InnerWrite, LockClear, LockWrite, ReleaseJob, ReleaseRequest,
     Released, TriangleId, Write,
 };
+use crate::prelude::*;
 use incircle_protocol::Config;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
-/// Rings to stars; see the top of this file.
+/// From rings to stars; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CommitPath {
     pub clock: Signal<In, Clock>,
@@ -26,24 +25,26 @@ pub struct CommitPath {
     pub clears: Signal<In, Bit>,
     /// The highest record id, a constant.
     pub last_id: Signal<In, TriangleId>,
-    /// What a visit adds to the lists of its context.
+    /// Additions to the lists of a context: a final entry, an inner record, a lock.
     pub entry: Signal<In, EntryWrite>,
     pub inner: Signal<In, InnerWrite>,
     pub lock: Signal<In, LockWrite>,
-    /// A ring is finished; the locks of a failed attempt are due.
+    /// A ring is complete; or the locks of an attempt that ended without a commit are due.
     pub commit: Signal<In, CommitRequest>,
     pub releases: Signal<In, ReleaseRequest>,
-    /// The first four records, two more records are written by others; only while nothing is at work.
+    /// Others write new records: four of a first triangle, or two of a solo insertion; only while no commit is at work.
     pub seeds: Signal<In, Bit>,
     pub solo_inserts: Signal<In, Bit>,
     /// A record or a link.
     pub write: Signal<Out, Write>,
+    /// The last write of a ring is requested at this edge.
     pub committed: Signal<Out, Committed>,
-    /// Records from this id on are not written yet; the next new id.
+    /// Records from `records` on are not written yet; `fresh` is the next new id.
     pub records: Signal<Out, TriangleId>,
     pub fresh: Signal<Out, TriangleId>,
     /// A ring is being written.
     pub is_at_work: Signal<Out, Bit>,
+    /// A lock to clear at this edge; with the last lock of a context also `released`.
     pub clear: Signal<Out, LockClear>,
     pub released: Signal<Out, Released>,
     /// The lock memory is being cleared after reset.
@@ -58,7 +59,7 @@ pub struct CommitPath {
 }
 
 impl CommitPath {
-    /// The path of a configuration.
+    /// Builds the path of a configuration.
     pub fn new(config: Config) -> Self {
         Self {
             rings: RingReader::new(config),
@@ -79,12 +80,10 @@ impl Logic for CommitPath {
         self.ids.reset.next = self.reset.val();
         self.locks.reset.next = self.reset.val();
 
-        // Entry by entry into the ring reader, whole rings out of it.
         self.rings.entry.next = self.entry.val();
         self.rings.commit.next = self.commit.val();
         self.rings.takes.next = self.star.takes.val();
 
-        // The star.
         self.star.inner.next = self.inner.val();
         self.star.head.next = self.rings.head.val();
         self.star.head_job.next = self.rings.head_job.val();
@@ -93,7 +92,6 @@ impl Logic for CommitPath {
         self.committed.next = self.star.committed.val();
         self.is_at_work.next = self.star.is_at_work.val();
 
-        // Its ids.
         self.ids.takes.next = self.star.takes_fresh.val();
         self.ids.ends.next = self.star.committed.val().valid;
         self.ids.solo_inserts.next = self.solo_inserts.val();
@@ -102,10 +100,11 @@ impl Logic for CommitPath {
         self.records.next = self.ids.records.val();
         self.fresh.next = self.ids.fresh.val();
 
-        // The locks. L4: those of a ring are due at its last write, not when the ring is finished.
+        // L4: the locks of a ring are due at its last write, not when the ring is complete. A lock released earlier
+        // would let another context read a record that is only half replaced.
         self.logged.d.next = self.lock.val();
         self.job.next = self.star.committed.val().job;
-        self.written_locks.next.owner = self.job.val().owner;
+        self.written_locks.next.context = self.job.val().context;
         self.written_locks.next.locks = self.job.val().locks;
         self.locks.last_id.next = self.last_id.val();
         self.locks.lock.next = self.logged.q.val();

@@ -1,25 +1,24 @@
-//! The steps of a commit: which entry of the ring is taken when, and what is written in which clock.
+//! The steps of a commit: which entry of the ring is taken in which clock, and what is written.
 //!
-//! 1. An entry is loaded or advanced to as soon as it is on the head, unless its id must wait for an inner triangle.
-//! 2. Between two records stands the link of the triangle outside, if that one must learn a new id.
-//! 3. The first entry's record is written last, because it needs the last one's id.
+//! 1. An entry is taken as soon as it is on the head, unless its record must wait for the id of an inner record.
+//! 2. The link of the outside record is written between two records, if that record must learn a new id.
+//! 3. The record of the first entry is written last, because it needs the id of the last one.
 //!
 //! Latency: 1 clock; `takes` is a function of registers and `awaits_id`.
 
 use crate::engine::types::RingHead;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
-/// What the commit does.
+/// The state of the commit.
 #[derive(Clone, Copy, Debug, PartialEq, LogicState)]
 pub enum CommitState {
-    /// Awaits a ring.
+    /// No ring is being written.
     Idle,
-    /// Writes the record of the current entry, once the id of the one ahead is known.
+    /// The record of the current entry is written, once the id of the next one is known.
     Record,
-    /// Writes the link of the triangle outside it.
+    /// The link of the outside record is written.
     Link,
-    /// Writes the record of the first entry.
+    /// The record of the first entry is written.
     Close,
 }
 
@@ -29,29 +28,31 @@ pub struct CommitSteps {
     pub clock: Signal<In, Clock>,
     /// Reset drops the ring.
     pub reset: Signal<In, Bit>,
+    /// The next entry of the ring reader.
     pub head: Signal<In, RingHead>,
-    /// The inner triangle that the entry on the head may need is not there yet.
+    /// The entry on the head may need the id of an inner record that is not there yet.
     pub awaits_id: Signal<In, Bit>,
-    /// The entry ahead takes an id that is not that of the triangle behind it.
+    /// The entry ahead takes another id than that of the cavity record behind it.
     pub changes_id: Signal<In, Bit>,
     /// The entry on the head is taken at this edge, if there is one.
     pub takes: Signal<Out, Bit>,
-    /// It is the first of its ring; or the entry ahead becomes the current one.
+    /// The first entry of a ring is loaded; or the entry ahead becomes the current one (`advances`).
     pub loads: Signal<Out, Bit>,
     pub advances: Signal<Out, Bit>,
-    /// The current entry is the first, before the last one's id is known; or the last.
+    /// The current entry is the first one, before the id of the last is known; or it is the last one (`is_last`).
     pub opens: Signal<Out, Bit>,
     pub is_last: Signal<Out, Bit>,
-    /// What is written at this edge, if anything is: a link, or the last record of the ring.
+    /// A link is written at this edge; or the last record of the ring is (`is_close`).
     pub is_link: Signal<Out, Bit>,
     pub is_close: Signal<Out, Bit>,
     /// A ring is being written.
     pub is_at_work: Signal<Out, Bit>,
     state: DFF<CommitState>,
-    /// The state is one that takes an entry, unless it must wait for an inner triangle.
+    /// The state takes an entry, unless it must wait for the id of an inner record. A register of its
+    /// own keeps `takes` short.
     wants: DFF<Bit>,
     current_is_last: DFF<Bit>,
-    /// The triangle outside the current entry must learn its id.
+    /// The record outside the current entry must learn the new id.
     needs_link: DFF<Bit>,
     current_opens: DFF<Bit>,
     /// The ring closes after the link.

@@ -1,11 +1,13 @@
-//! Counts the records of the mesh: new ids as they are taken, and the records that are written.
+//! Counts the records of the mesh twice: new ids as they are taken, and the records that are written. Ids in between
+//! belong to records that no walk may trust yet.
 //!
-//! 1. New ids of a ring count as written when its last record has passed the write port and stands in the memory (L7).
-//! 2. At most one of `takes`, `ends`, `solo_inserts`, `seeds`, `clears` at a time, and the last three only while all new ids are
-//!    written: `fresh` and `records` are equal then.
+//! 1. The new ids of a ring count as written when its last record has passed the write port and stands
+//!    in the memory (L7).
+//! 2. At most one of `takes`, `ends`, `solo_inserts`, `seeds`, `clears` is high at a time. The last three come only
+//!    while all new ids are written, when `fresh` and `records` are equal.
 //! 3. A ring ends at the earliest three clocks after the one before it.
 //!
-//! Latency: 1 clock to `fresh`; from `ends` to `records` 3 clocks.
+//! Latency: 1 clock to `fresh`; 3 clocks from `ends` to `records`.
 //!
 //! The first triangle, then a ring that takes two ids:
 //! ```text
@@ -16,10 +18,9 @@
 //! records           0  0  4  4  4  4  4  4  4  4  6
 //! ```
 
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
-/// The count of records; see the top of this file.
+/// The counts of records; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FreshIds {
     pub clock: Signal<In, Clock>,
@@ -27,23 +28,23 @@ pub struct FreshIds {
     pub reset: Signal<In, Bit>,
     /// A ring takes the next new id.
     pub takes: Signal<In, Bit>,
-    /// The last record of a ring is written.
+    /// The last write of a ring is requested.
     pub ends: Signal<In, Bit>,
-    /// An insertion alone has written two new records.
+    /// A solo insertion has written two new records.
     pub solo_inserts: Signal<In, Bit>,
-    /// A first triangle and its ghosts are written, four records.
+    /// A first triangle and its ghost triangles are written, four records.
     pub seeds: Signal<In, Bit>,
-    /// Forgets all records.
+    /// The mesh is cleared, with all its records.
     pub clears: Signal<In, Bit>,
     /// The next new id.
     pub fresh: Signal<Out, Bits<15>>,
-    /// Ids from here on are not written yet.
+    /// Records from this id on are not written yet.
     pub records: Signal<Out, Bits<15>>,
     taken: DFF<Bits<15>>,
     written: DFF<Bits<15>>,
-    /// What `written` becomes once the ring that has ended is in the memory.
+    /// The value that `written` takes once the ring that has ended is in the memory.
     ended: DFF<Bits<15>>,
-    /// A ring ended one clock ago, and two.
+    /// A ring ended one clock ago, and two clocks ago.
     ended_before_1: DFF<Bit>,
     ended_before_2: DFF<Bit>,
     step: Signal<Local, Bits<15>>,
@@ -65,7 +66,7 @@ impl Logic for FreshIds {
         self.fresh.next = self.taken.q.val();
         self.records.next = self.written.q.val();
 
-        // The sum does not wait for `takes`.
+        // The sum is made before `takes` is known, which comes late.
         self.step.next = self.one.val();
         if self.solo_inserts.val() {
             self.step.next = self.two.val();
@@ -78,7 +79,7 @@ impl Logic for FreshIds {
             self.taken.d.next = self.raised.val();
         }
 
-        // L7: the ids count once their records are in the memory: the write port takes a clock, the memory another.
+        // L7: the ids count once their records are in the memory. The write port takes one clock, the memory another.
         self.ended_before_1.d.next = self.ends.val();
         self.ended_before_2.d.next = self.ended_before_1.q.val();
         if self.ends.val() {

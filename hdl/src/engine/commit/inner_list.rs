@@ -1,12 +1,14 @@
-//! The inner triangles of every cavity: those without an edge on the boundary, whose ids a commit gives back first.
+//! The inner records of every cavity, which have no edge on the boundary. A commit uses their ids first, before
+//! it takes new ones.
 //!
-//! 1. `steps` only while neither `is_used_up` nor `is_awaited`.
-//! 2. A list is not written in the clock before one in which it is read, nor while it is.
+//! 1. `steps` comes only while neither `is_used_up` nor `is_awaited` is high.
+//! 2. A list is not written in the clock before it is read, nor while it is being read.
 //!
-//! Latency: three clocks from `restarts` or `steps` to the next `inner_id` (block RAM, its output register, and one away from it);
-//! outputs are registers. There is no reset: the first `restarts` makes everything known.
+//! Latency: three clocks from `restarts` or `steps` to the next `inner_id` (block RAM, its output register, and one
+//! register away from it). The outputs are registers. There is no reset, because the first
+//! `restarts` sets every register.
 //!
-//! A list of two, 20 and 21:
+//! A list of two records, 20 and 21:
 //! ```text
 //! restarts        ___/^^\________________________________
 //! steps           __________________/^^\________/^^\_____
@@ -20,38 +22,37 @@ use crate::engine::types::{
     context_bits, ring_bits, ContextId, InnerWrite, RingCount, TriangleId, ENTRY_BITS, RING_ADDRESS_BITS, TRIANGLE_BITS,
 };
 use crate::leaf::BlockMemory;
+use crate::prelude::*;
 use incircle_protocol::Config;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
-/// The lists of inner triangles; see the top of this file.
+/// The lists of inner records; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct InnerList {
     pub clock: Signal<In, Clock>,
-    /// An inner triangle joins the list of a context.
+    /// An inner record joins the list of a context.
     pub inner: Signal<In, InnerWrite>,
-    /// Another list is read from its start: its context and length.
+    /// Another list is read from its start: its context and its length.
     pub restarts: Signal<In, Bit>,
     pub reader: Signal<In, ContextId>,
     pub inners: Signal<In, RingCount>,
-    /// The triangle on the output is used.
+    /// The record on the output is used.
     pub steps: Signal<In, Bit>,
-    /// None is left.
+    /// No record is left in the list.
     pub is_used_up: Signal<Out, Bit>,
-    /// There is one, and it is not on the output yet.
+    /// A record is left, but has not come to the output yet.
     pub is_awaited: Signal<Out, Bit>,
-    /// It, else.
+    /// The id of the next inner record, unless one of these flags is high.
     pub inner_id: Signal<Out, TriangleId>,
     memory: BlockMemory<RING_ADDRESS_BITS, TRIANGLE_BITS>,
     written: DFF<InnerWrite>,
-    list_owner: DFF<ContextId>,
+    list_context: DFF<ContextId>,
     list_inners: DFF<RingCount>,
     index: DFF<RingCount>,
-    /// The next triangle is the last one, one clock late: it is looked at later still.
+    /// The next record is the last one. The flag comes a clock late, but is looked at later still.
     one_is_left: DFF<Bit>,
     used_up: DFF<Bit>,
     awaited: DFF<Bit>,
-    /// The address has stood for one clock, and for two.
+    /// The address has stood still for one clock, and for two.
     stood_1: DFF<Bit>,
     stood_2: DFF<Bit>,
     arrival: DFF<TriangleId>,
@@ -63,7 +64,7 @@ pub struct InnerList {
 }
 
 impl InnerList {
-    /// The lists of a configuration.
+    /// Builds the lists of a configuration.
     pub fn new(config: Config) -> Self {
         let bits = ring_bits(config);
         Self {
@@ -78,19 +79,19 @@ impl InnerList {
 impl Logic for InnerList {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, written, list_owner, list_inners);
+        dff_setup!(self, clock, written, list_context, list_inners);
         dff_setup!(self, clock, index, one_is_left, used_up, awaited, stood_1, stood_2, arrival);
         clock!(self, clock, memory);
         self.one.next = 1.into();
         self.first_place.next = 0.into();
         self.written.d.next = self.inner.val();
-        self.write_at.owner.next = self.written.q.val().owner;
+        self.write_at.context_id.next = self.written.q.val().context;
         self.write_at.place.next = self.written.q.val().place;
         self.memory.write_address.next = self.write_at.address.val();
         self.memory.write_data.next = self.written.q.val().id;
         self.memory.write_enable.next = self.written.q.val().valid;
 
-        self.read_at.owner.next = self.list_owner.q.val();
+        self.read_at.context_id.next = self.list_context.q.val();
         self.read_at.place.next = self.index.q.val().get_bits::<6>(0);
         self.memory.read_address.next = self.read_at.address.val();
         self.arrival.d.next = self.memory.read_data.val();
@@ -110,7 +111,7 @@ impl Logic for InnerList {
         }
         if self.restarts.val() {
             self.index.d.next = self.first_place.val();
-            self.list_owner.d.next = self.reader.val();
+            self.list_context.d.next = self.reader.val();
             self.list_inners.d.next = self.inners.val();
             self.used_up.d.next = self.inners.val() == self.first_place.val();
             self.awaited.d.next = self.inners.val() != self.first_place.val();

@@ -1,9 +1,11 @@
-//! Jobs of contexts, first come first served.
+//! A queue of jobs of contexts, first come, first served. A commit or a release takes many clocks, and
+//! others become due meanwhile.
 //!
-//! 1. Every context has one job here at most, so there is a place for each.
+//! 1. Every context has at most one job in a queue, so there is a place for each.
 //!
-//! Latency: 1 clock. The job stands in a register first: those who find out that there is one need all of their clock. `takes` may
-//! come as late: a job is stored even if it is taken at once, so only the pointer to the oldest one waits for that.
+//! Latency: 1 clock. A job first goes into a register, because those who find out that there is one need all of their
+//! clock. `takes` may come as late: a job is stored even if it is taken at once, so only the pointer to the oldest
+//! job waits for `takes`.
 //! ```text
 //! enable          ___/^^\__/^^^^^\______________
 //! job               .  5  .  6  7  .  .  .  .  .
@@ -14,8 +16,7 @@
 
 use crate::engine::types::CONTEXT_BITS;
 use crate::leaf::{LutMemory, Parameter};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// A queue of jobs; see the top of this file.
 #[derive(LogicBlock, Default)]
@@ -23,10 +24,10 @@ pub struct JobQueue<const D: usize> {
     pub clock: Signal<In, Clock>,
     /// Reset forgets all jobs.
     pub reset: Signal<In, Bit>,
-    /// A job comes.
+    /// A job enters the queue at this edge.
     pub enable: Signal<In, Bit>,
     pub job: Signal<In, Bits<D>>,
-    /// There is a job; the oldest one.
+    /// A job waits, and `head` is the oldest one.
     pub waits: Signal<Out, Bit>,
     pub head: Signal<Out, Bits<D>>,
     /// The head is taken at this edge, if there is one.
@@ -34,7 +35,7 @@ pub struct JobQueue<const D: usize> {
     arrived: DFF<Bit>,
     arrival: DFF<Bits<D>>,
     jobs: LutMemory<CONTEXT_BITS, D>,
-    /// A job that came earlier waits.
+    /// A job waits that came before the one in the register.
     holds_jobs: DFF<Bit>,
     newest: DFF<Bits<CONTEXT_BITS>>,
     oldest: DFF<Bits<CONTEXT_BITS>>,
@@ -47,9 +48,10 @@ pub struct JobQueue<const D: usize> {
 }
 
 impl<const D: usize> JobQueue<D> {
-    /// A queue of `2^context_bits` jobs.
+    /// Builds a queue of `2^context_bits` jobs.
     ///
     /// # Panics
+    ///
     /// If `context_bits` is not in `1..=CONTEXT_BITS`.
     pub fn new(context_bits: usize) -> Self {
         Self {

@@ -1,5 +1,5 @@
-//! Replaces a cavity by the star of its point, and releases the locks of attempts that are over. A *ring* is the closed boundary of
-//! a cavity.
+//! Replaces a cavity by the star of its point, and releases the locks of attempts that are over. A *ring* is the closed
+//! boundary of a cavity.
 //!
 //! ```text
 //! entries, rings -> RingReader -> Commit -----------------> WritePort
@@ -7,15 +7,15 @@
 //!                   RingList         |                        v
 //!                                    | last write        triangle memory
 //!                                    v
-//! locks, failures ---------------> Release -> LockStore: one lock cleared in each clock
+//! locks, aborts -----------------> Release -> LockStore: one lock cleared in each clock
 //!                                  JobQueue
 //! ```
-//! A ring is written in one pass, an entry or a link in each clock, while the context that dug it walks on with its next point. The
-//! cavity's records are written in place under their old ids, and two new ids are taken.
+//! A ring is written in one pass, a record or a link in each clock, while its context already walks with the next
+//! point. The star overwrites the records of the cavity under their old ids and takes two new ids.
 //!
-//! Lock rules (see `docs/engine.md`): L1, the locks of a failed attempt are released when its visits have run out ([`Release`]); L4, the
-//! locks of a ring are released after its last write ([`CommitPath`], [`Release`]); L7, new ids count as not written until their commit
-//! has ended ([`FreshIds`]).
+//! Lock rules (see `docs/engine.md`): L1, the locks of an aborted attempt are released when its visits have completed
+//! ([`Release`]); L4, the locks of a ring are released after its last write ([`CommitPath`], [`Release`]); L7, new ids
+//! count as not written until their commit has ended ([`FreshIds`]).
 
 #[expect(clippy::module_inception, reason = "the room carries the name of its main block")]
 mod commit;

@@ -1,25 +1,27 @@
-//! Releases the locks of finished and of failed insertions, one a clock. After reset it clears the whole lock memory.
+//! Releases the locks of attempts that are over, one a clock. After reset, clears the whole lock memory. The memory
+//! clears one lock in each clock, so the locks of each attempt are logged and wait here.
 //!
-//! 1. Locks of rings go first; among equals, those that came first.
-//! 2. A context has one job at a time, of at least one lock, and its log is not written from the job on until `released`. The
-//!    log is complete when the job comes, or at the same edge.
-//! 3. While anything is due, a lock is cleared in every clock: there is no pause between jobs.
-//! 4. Nothing is due while the memory is swept: no visit is made then.
+//! 1. Locks of rings go before locks of aborted attempts. Among equals, those that came first go first.
+//! 2. A context has one job at a time, of at least one lock. Its log is not written from the job on until `released`,
+//!    and is complete when the job comes or at the same edge.
+//! 3. While a job is due, a lock is cleared in every clock: there is no pause between jobs.
+//! 4. No job is due while the memory is swept, because no visit is made then.
 //!
-//! Latency: 5 clocks from an idle unit's job to its first `clear`; the sweep takes one clock for each record.
+//! Latency: 5 clocks from the job to its first `clear` if the block is idle; the sweep takes one clock for each record.
 //!
-//! A sweep of four records; then two failures, of contexts 1 and 0, and a ring of context 3, which overtakes the second one:
+//! A sweep of four records; then two aborted attempts, of contexts 1 and 0, and a ring of context 3,
+//! which overtakes the second:
 //! ```text
-//! reset           /^^\_______________________________________________
-//! sweeps          ___/^^^^^^^^^^^\___________________________________
-//! lock_enable     _________/^^^^^^^^\__/^^\__________________________
-//! lock_id           .  .  . 27 28 26  . 25  .  .  .  .  .  .  .  .  .
-//! failure_enable  __________________/^^^^^\__________________________
-//! commit_enable   ________________________/^^\_______________________
-//! clear_enable    ______/^^^^^^^^^^^\______________/^^^^^^^^^^^\_____
-//! clear_id          .  .  0  1  2  3  .  .  .  .  . 27 28 26 25  .  .
-//! released        ____________________________________/^^^^^^^^\_____
-//! released_owner    .  .  .  .  .  .  .  .  .  .  .  .  1  3  0  .  .
+//! reset            /^^\_______________________________________________
+//! sweeps           ___/^^^^^^^^^^^\___________________________________
+//! lock_enable      _________/^^^^^^^^\__/^^\__________________________
+//! lock_id            .  .  . 27 28 26  . 25  .  .  .  .  .  .  .  .  .
+//! failure_enable   __________________/^^^^^\__________________________
+//! commit_enable    ________________________/^^\_______________________
+//! clear_enable     ______/^^^^^^^^^^^\______________/^^^^^^^^^^^\_____
+//! clear_id           .  .  0  1  2  3  .  .  .  .  . 27 28 26 25  .  .
+//! released         ____________________________________/^^^^^^^^\_____
+//! released_context   .  .  .  .  .  .  .  .  .  .  .  .  1  3  0  .  .
 //! ```
 
 use super::job_queue::JobQueue;
@@ -29,15 +31,14 @@ use crate::engine::types::{
     TriangleId, LOG_ADDRESS_BITS, LOG_BITS, RELEASE_JOB_BITS, TRIANGLE_BITS,
 };
 use crate::leaf::{BlockMemory, Unpack};
+use crate::prelude::*;
 use incircle_protocol::Config;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
-/// The lock log and its release; see the top of this file.
+/// The log of locks and its release; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Release {
     pub clock: Signal<In, Clock>,
-    /// Reset forgets all that is due and starts the sweep.
+    /// Reset forgets all jobs and starts the sweep.
     pub reset: Signal<In, Bit>,
     /// The highest record id, a constant.
     pub last_id: Signal<In, TriangleId>,
@@ -45,11 +46,11 @@ pub struct Release {
     pub lock: Signal<In, LockWrite>,
     /// The last record of a ring is written: its locks are due (L4).
     pub commit: Signal<In, ReleaseRequest>,
-    /// A failed attempt has run out: its locks are due (L1).
+    /// An attempt has ended without a commit, and all its visits have completed: its locks are due (L1).
     pub failure: Signal<In, ReleaseRequest>,
     /// The lock memory is being cleared after reset.
     pub sweeps: Signal<Out, Bit>,
-    /// A lock to clear at this edge; it is the last one of its context.
+    /// A lock to clear at this edge; with the last lock of its context also `released`.
     pub clear: Signal<Out, LockClear>,
     pub released: Signal<Out, Released>,
     commits: JobQueue<RELEASE_JOB_BITS>,
@@ -63,26 +64,26 @@ pub struct Release {
     log: BlockMemory<LOG_ADDRESS_BITS, TRIANGLE_BITS>,
     write_at: ContextAddress<LOG_BITS, LOG_ADDRESS_BITS>,
     read_at: ContextAddress<LOG_BITS, LOG_ADDRESS_BITS>,
-    /// The job at work and its next place in the log.
+    /// The job at work, and its next place in the log.
     works: DFF<Bit>,
     at_work: DFF<ReleaseJob>,
     place: DFF<LockCount>,
-    /// Its next lock is the last one, or the one before that.
+    /// The next lock of the job is the last one, or the one before that.
     one_is_left: DFF<Bit>,
     two_are_left: DFF<Bit>,
     left: DFF<LockCount>,
-    /// A lock in the log's array, and in its output register.
+    /// A lock in the array of the log's memory, and one in its output register.
     array_valid: DFF<Bit>,
     array_is_last: DFF<Bit>,
-    array_owner: DFF<ContextId>,
+    array_context: DFF<ContextId>,
     output_valid: DFF<Bit>,
     output_is_last: DFF<Bit>,
-    output_owner: DFF<ContextId>,
-    /// The lock being cleared; during the sweep it counts.
+    output_context: DFF<ContextId>,
+    /// The lock that is cleared in this clock; during the sweep `cleared` counts up.
     clears: DFF<Bit>,
     cleared: DFF<TriangleId>,
     is_last: DFF<Bit>,
-    owner: DFF<ContextId>,
+    cleared_context: DFF<ContextId>,
     sweeping: DFF<Bit>,
     takes: Signal<Local, Bit>,
     fetches_last: Signal<Local, Bit>,
@@ -98,7 +99,7 @@ pub struct Release {
 }
 
 impl Release {
-    /// The log of a configuration: an insertion sets at most `2 * ring - 2` locks.
+    /// Builds the log of a configuration: an attempt takes at most `2 * ring - 2` locks.
     pub fn new(config: Config) -> Self {
         let bits = ring_bits(config) + 1;
         Self {
@@ -116,8 +117,19 @@ impl Logic for Release {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, one_is_left, two_are_left, left);
-        dff_setup!(self, clock, works, at_work, place, array_valid, array_is_last, array_owner);
-        dff_setup!(self, clock, output_valid, output_is_last, output_owner, clears, cleared, is_last, owner, sweeping);
+        dff_setup!(self, clock, works, at_work, place, array_valid, array_is_last, array_context);
+        dff_setup!(
+            self,
+            clock,
+            output_valid,
+            output_is_last,
+            output_context,
+            clears,
+            cleared,
+            is_last,
+            cleared_context,
+            sweeping
+        );
         clock!(self, clock, commits, failures, log);
         self.one.next = 1.into();
         self.one_place.next = 1.into();
@@ -127,19 +139,18 @@ impl Logic for Release {
         self.clear.next.valid = self.clears.q.val();
         self.clear.next.id = self.cleared.q.val();
         self.released.next.valid = self.is_last.q.val();
-        self.released.next.owner = self.owner.q.val();
+        self.released.next.context = self.cleared_context.q.val();
 
-        // The log.
-        self.write_at.owner.next = self.lock.val().owner;
+        self.write_at.context_id.next = self.lock.val().context;
         self.write_at.place.next = self.lock.val().place;
         self.log.write_address.next = self.write_at.address.val();
         self.log.write_data.next = self.lock.val().id;
         self.log.write_enable.next = self.lock.val().valid;
-        self.read_at.owner.next = self.at_work.q.val().owner;
+        self.read_at.context_id.next = self.at_work.q.val().context;
         self.read_at.place.next = self.place.q.val();
         self.log.read_address.next = self.read_at.address.val();
 
-        // The job at work, and the next one with its last lock.
+        // The next job is taken together with the last lock of the job at work, so that no clock is lost between jobs.
         self.after_place.next = self.place.q.val() + self.one_place.val();
         self.fetches_last.next = self.works.q.val() & self.one_is_left.q.val();
         self.takes.next = (!self.works.q.val()) | self.fetches_last.val();
@@ -159,7 +170,7 @@ impl Logic for Release {
         if self.commits.waits.val() {
             self.upcoming.bits.next = self.commits.head.val();
         }
-        // How many are left is counted down, so that the last one is known ahead.
+        // The locks left are counted down, so that the last one is known ahead without a comparison behind the sum.
         self.three_places.next = 3.into();
         self.two_places.next = 2.into();
         self.place.d.next = self.after_place.val();
@@ -175,17 +186,16 @@ impl Logic for Release {
             self.two_are_left.d.next = self.upcoming.value.val().locks == self.two_places.val();
         }
 
-        // A lock on its way through the log's memory.
         self.array_valid.d.next = self.works.q.val();
         self.array_is_last.d.next = self.fetches_last.val();
-        self.array_owner.d.next = self.at_work.q.val().owner;
+        self.array_context.d.next = self.at_work.q.val().context;
         self.output_valid.d.next = self.array_valid.q.val();
         self.output_is_last.d.next = self.array_is_last.q.val();
-        self.output_owner.d.next = self.array_owner.q.val();
+        self.output_context.d.next = self.array_context.q.val();
         self.clears.d.next = self.output_valid.q.val() | self.sweeping.q.val();
         self.cleared.d.next = self.log.read_data.val();
         self.is_last.d.next = self.output_is_last.q.val();
-        self.owner.d.next = self.output_owner.q.val();
+        self.cleared_context.d.next = self.output_context.q.val();
 
         self.after_cleared.next = self.cleared.q.val() + self.one.val();
         self.before_last.next = self.last_id.val() - self.one.val();

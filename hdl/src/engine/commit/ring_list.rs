@@ -1,13 +1,13 @@
-//! The boundary lists of all contexts: entries as they become final, and a ring's entries in their order.
+//! The rings of all contexts: entries come as they become final, and are read in the order of their ring.
 //!
-//! 1. An entry is read two clocks after the one in which it becomes final or later, and not written again before it has left the
-//!    output.
-//! 2. `read` comes from afar: it goes into a register before anything is made of it.
+//! 1. An entry is read two clocks after it becomes final or later, and is not written again before it
+//!    has left the output.
+//! 2. `read` comes from far away and goes into a register before any logic uses it.
 //!
 //! Latency: none from `read_place` to `after`, so that one entry a clock can be followed; two moves to `read`.
 //!
-//! Source: what leads on is in LUTs, the rest in block RAM. What is written stands in a register first, where it is found out which
-//! entry is the last: those who read have no time for that.
+//! Source: the `after` of each entry is in LUTs, the rest in block RAM. A write first goes into a register, where the
+//! last entry of a ring is recognised, because a reader has no time for that.
 
 use crate::engine::attempt::ContextAddress;
 use crate::engine::types::{
@@ -15,34 +15,34 @@ use crate::engine::types::{
     RING_ADDRESS_BITS,
 };
 use crate::leaf::{BankedMemory, PacedMemory, Unpack};
+use crate::prelude::*;
 use incircle_protocol::Config;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
-/// Bits of what leads on from an entry.
+/// Width in bits of the word that leads on from an entry.
 const FOLLOWER_BITS: usize = ENTRY_BITS + 1;
 
-/// The boundary lists; see the top of this file.
+/// The rings of all contexts; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RingList {
     pub clock: Signal<In, Clock>,
+    /// A final entry joins the ring of a context.
     pub entry: Signal<In, EntryWrite>,
-    /// The entry to read; its context as a bit, too.
+    /// The entry to read: its context as a number and as a bit, and its place.
     pub reader: Signal<In, ContextId>,
     pub reader_bit: Signal<In, ContextSet>,
     pub read_place: Signal<In, RingEntry>,
-    /// It is read at this edge, and the one before it comes on the output.
+    /// The entry is read at this edge, and the one before it comes to the output.
     pub moves: Signal<In, Bit>,
-    /// The entry after it, at once; there is none.
+    /// The entry after the one to read, at once; or none follows (`is_last`).
     pub after: Signal<Out, RingEntry>,
     pub is_last: Signal<Out, Bit>,
     /// The entry that was read two moves ago; its `after` is 0.
     pub read: Signal<Out, Entry>,
     written: DFF<EntryWrite>,
     written_entry: Signal<Local, Entry>,
-    /// Of each entry, lowest bit first: whether it is the last one, and the entry after it.
+    /// For each entry, lowest bit first: whether it is the last one, and the entry after it.
     followers: BankedMemory<24, 5, ENTRY_BITS, FOLLOWER_BITS>,
-    /// All of an entry but `after`, which is its last field.
+    /// Each entry without `after`, which is its last field.
     edges: PacedMemory<RING_ADDRESS_BITS, ENTRY_WORD_BITS>,
     write_at: ContextAddress<ENTRY_BITS, RING_ADDRESS_BITS>,
     read_at: ContextAddress<ENTRY_BITS, RING_ADDRESS_BITS>,
@@ -56,7 +56,7 @@ pub struct RingList {
 }
 
 impl RingList {
-    /// The lists of a configuration.
+    /// Builds the rings of a configuration.
     pub fn new(config: Config) -> Self {
         let bits = ring_bits(config);
         let address_bits = context_bits(config) + bits;
@@ -78,7 +78,7 @@ impl Logic for RingList {
         self.first_place.next = 0.into();
         self.written.d.next = self.entry.val();
         self.written_entry.next = self.written.q.val().entry;
-        self.write_at.owner.next = self.written.q.val().owner;
+        self.write_at.context_id.next = self.written.q.val().context;
         self.write_at.place.next = self.written.q.val().place;
         self.entry_bits.next = self.written_entry.val().into();
         self.one.next = 1.into();
@@ -88,7 +88,7 @@ impl Logic for RingList {
         if self.written_entry.val().after == self.first_place.val() {
             self.last_bit.next = 1.into();
         }
-        self.followers.write_bank.next = self.written.q.val().owner;
+        self.followers.write_bank.next = self.written.q.val().context;
         self.followers.write_address.next = self.written.q.val().place;
         self.followers.write_data.next = self.raised_after.val() | self.last_bit.val();
         self.followers.write_enable.next = self.written.q.val().valid;
@@ -96,7 +96,7 @@ impl Logic for RingList {
         self.edges.write_data.next = self.entry_bits.val();
         self.edges.write_enable.next = self.written.q.val().valid;
 
-        self.read_at.owner.next = self.reader.val();
+        self.read_at.context_id.next = self.reader.val();
         self.read_at.place.next = self.read_place.val();
         self.followers.read_banks.next = self.reader_bit.val();
         self.followers.read_address.next = self.read_place.val();

@@ -1,30 +1,31 @@
-//! Reads finished boundary rings in their order, an entry a clock, one ring after the other.
+//! Reads complete rings in the order of their entries, an entry a clock, one ring after another. A list in memory takes
+//! several clocks to follow, so the reader works ahead of the commit.
 //!
 //! 1. A ring starts at entry 0 and follows `after` until that is 0. It has three entries or more.
-//! 2. All its entries are final when `commit` comes, or become so at the same edge; none is written again until the last one
-//!    has been taken.
-//! 3. Without `takes` the head is held.
-//! 4. Five stages move together, when the head is free or taken: the pointer, the array of the list memory, its output register,
-//!    a register away from it, and the head. So the entries of a ring follow each other without a gap.
-//! 5. What is decided about an entry is decided on its way to the head; the head is a function of registers.
-//!    Whether an entry is the last one is known when it is in the array: the pointer runs one place too far, and between two rings one
-//!    place on the way is empty. Who takes the head has the end of a ring to see to in that clock.
+//! 2. All entries of a ring are final when `commit` comes, or become so at the same edge. None is written again until
+//!    the last one has been taken.
+//! 3. The head is held until `takes`.
+//! 4. Five stages move together when the head is free or taken: the pointer, the array of the list memory, its output
+//!    register, a register away from it, and the head. So the entries of a ring follow each other without a gap.
+//! 5. All decisions about an entry are made on its way to the head, and the head is a function of registers. The last
+//!    entry of a ring is known only when it is in the array. So the pointer runs one place too far, and one place
+//!    between two rings stays empty. The commit writes the end of a ring in that clock and needs no entry.
 //! 6. A context has one ring here at a time.
 //!
 //! Latency: 6 clocks from `commit` to `head` if no ring is before it.
 //!
-//! Two rings of three, of contexts 1 and 0, whose entries stand in the order 0, 2, 1 with `a` = 10, 12, 11 and 20, 22, 21; behind
-//! the first two of each lies one triangle:
+//! Two rings of three, of contexts 1 and 0. Their entries stand in the order 0, 2, 1 and have the first vertices 10,
+//! 12, 11 and 20, 22, 21. The first two entries of each ring lie along one cavity record:
 //! ```text
-//! entry_enable    ___/^^^^^^^^^^^^^^^^^\_____________________________
-//! entry_place       .  0  1  2  0  1  2  .  .  .  .  .  .  .  .  .  .
-//! job_enable      _________/^^\_____/^^\_____________________________
-//! head_valid      ___________________________/^^^^^^^^^^^\__/^^^^^^^^
-//! head.a            .  .  .  .  .  .  .  .  . 10 12 12 11  . 20 22 21
-//! head_is_last    ____________________________________/^^\________/^^
-//! head_shares     ______________________________/^^^^^\________/^^\__
-//! head_job.owner    .  .  .  .  .  .  .  .  .  1  .  .  .  .  0  .  .
-//! takes           ___________________________/^^\__/^^^^^\__/^^^^^^^^
+//! entry_enable      ___/^^^^^^^^^^^^^^^^^\_____________________________
+//! entry_place         .  0  1  2  0  1  2  .  .  .  .  .  .  .  .  .  .
+//! job_enable        _________/^^\_____/^^\_____________________________
+//! head_valid        ___________________________/^^^^^^^^^^^\__/^^^^^^^^
+//! head.first_vertex   .  .  .  .  .  .  .  .  . 10 12 12 11  . 20 22 21
+//! head_is_last      ____________________________________/^^\________/^^
+//! head_shares       ______________________________/^^^^^\________/^^\__
+//! head_job.context    .  .  .  .  .  .  .  .  .  1  .  .  .  .  0  .  .
+//! takes             ___________________________/^^\__/^^^^^\__/^^^^^^^^
 //! ```
 
 use super::job_queue::JobQueue;
@@ -34,9 +35,8 @@ use crate::engine::types::{
     COMMIT_JOB_BITS,
 };
 use crate::leaf::Unpack;
+use crate::prelude::*;
 use incircle_protocol::Config;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The reader of rings; see the top of this file.
 #[derive(LogicBlock, Default)]
@@ -46,11 +46,10 @@ pub struct RingReader {
     pub reset: Signal<In, Bit>,
     /// An entry of a context becomes final.
     pub entry: Signal<In, EntryWrite>,
-    /// A ring is finished.
+    /// A ring is complete.
     pub commit: Signal<In, CommitRequest>,
-    /// The next entry; its `after` is 0.
+    /// The next entry, whose `after` is 0; and the job of its ring, which counts with the first entry.
     pub head: Signal<Out, RingHead>,
-    /// Its ring; with the first entry.
     pub head_job: Signal<Out, CommitJob>,
     /// The head is taken at this edge, if there is one.
     pub takes: Signal<In, Bit>,
@@ -59,9 +58,8 @@ pub struct RingReader {
     job: Signal<Local, CommitJob>,
     job_bits: Signal<Local, Bits<COMMIT_JOB_BITS>>,
     list: RingList,
-    /// The ring that the pointer is in.
+    /// The ring that the pointer is in, and its context as a bit.
     ring: DFF<CommitJob>,
-    /// Its context, a bit each.
     ring_bit: DFF<ContextSet>,
     pointer_valid: DFF<Bit>,
     pointer_is_first: DFF<Bit>,
@@ -72,8 +70,8 @@ pub struct RingReader {
     output_valid: DFF<Bit>,
     output_is_first: DFF<Bit>,
     output_is_last: DFF<Bit>,
-    /// The ring of the output register's entry: the pointer is in it still when its first entry comes there. That one is on the
-    /// head before another ring's can follow, two entries behind.
+    /// The ring of the entry in the output register. The pointer is still in that ring when its first entry comes
+    /// there. That entry is on the head before one of the next ring can follow, two entries behind.
     output_ring: DFF<CommitJob>,
     arrival_valid: DFF<Bit>,
     arrival_is_first: DFF<Bit>,
@@ -82,10 +80,10 @@ pub struct RingReader {
     entry_valid: DFF<Bit>,
     entry_is_last: DFF<Bit>,
     entry_shares: DFF<Bit>,
-    /// The head; the next one is compared with it.
+    /// The head, with which the next entry is compared.
     last_entry: DFF<Entry>,
-    /// The triangle behind the first entry of its ring.
-    first_f: DFF<TriangleId>,
+    /// The cavity record behind the first entry of the ring.
+    first_cavity_record: DFF<TriangleId>,
     moves: Signal<Local, Bit>,
     ring_is_through: Signal<Local, Bit>,
     /// The pointer is at an entry, not past the last one.
@@ -94,7 +92,7 @@ pub struct RingReader {
     shares_with_first: Signal<Local, Bit>,
     first_place: Signal<Local, RingEntry>,
     first_bit: Signal<Local, ContextSet>,
-    wide_owner: Signal<Local, ContextSet>,
+    wide_context: Signal<Local, ContextSet>,
     oldest_bit: Signal<Local, ContextSet>,
 }
 
@@ -111,7 +109,7 @@ impl Logic for RingReader {
         dff_setup!(self, clock, ring, ring_bit, pointer_valid, pointer_is_first, pointer, array_valid, array_is_first);
         dff_setup!(self, clock, array_is_last, output_valid, output_is_first, output_is_last, output_ring);
         dff_setup!(self, clock, arrival_valid, arrival_is_first, arrival_is_last, arrival);
-        dff_setup!(self, clock, entry_valid, entry_is_last, entry_shares, last_entry, first_f);
+        dff_setup!(self, clock, entry_valid, entry_is_last, entry_shares, last_entry, first_cavity_record);
         clock!(self, clock, rings, list);
         self.first_place.next = 0.into();
         self.head.next.valid = self.entry_valid.q.val();
@@ -121,14 +119,13 @@ impl Logic for RingReader {
         self.head_job.next = self.output_ring.q.val();
         self.moves.next = (!self.entry_valid.q.val()) | self.takes.val();
 
-        // The list.
         self.list.entry.next = self.entry.val();
-        self.list.reader.next = self.ring.q.val().owner;
+        self.list.reader.next = self.ring.q.val().context;
         self.list.reader_bit.next = self.ring_bit.q.val();
         self.list.read_place.next = self.pointer.q.val();
         self.list.moves.next = self.moves.val();
 
-        // The pointer follows its ring, whose last entry leads to place 0 again, and there begins the next ring.
+        // The last entry of a ring leads to place 0 again, where the next ring begins.
         self.ring_is_through.next = (!self.pointer_valid.q.val()) | self.array_is_last.q.val();
         self.pointer_counts.next = self.pointer_valid.q.val() & (!self.array_is_last.q.val());
         self.job.next = self.commit.val().job;
@@ -139,10 +136,10 @@ impl Logic for RingReader {
         self.rings.takes.next = self.moves.val() & self.ring_is_through.val();
         self.oldest.bits.next = self.rings.head.val();
         self.first_bit.next = 1.into();
-        self.wide_owner.next = bit_cast::<24, 5>(self.oldest.value.val().owner);
-        self.oldest_bit.next = self.first_bit.val() << self.wide_owner.val();
-        self.shares_with_last.next = self.arrival.q.val().f == self.last_entry.q.val().f;
-        self.shares_with_first.next = self.arrival.q.val().f == self.first_f.q.val();
+        self.wide_context.next = bit_cast::<24, 5>(self.oldest.value.val().context);
+        self.oldest_bit.next = self.first_bit.val() << self.wide_context.val();
+        self.shares_with_last.next = self.arrival.q.val().cavity_record == self.last_entry.q.val().cavity_record;
+        self.shares_with_first.next = self.arrival.q.val().cavity_record == self.first_cavity_record.q.val();
         if self.moves.val() {
             self.pointer_is_first.d.next = self.ring_is_through.val();
             if self.ring_is_through.val() {
@@ -173,7 +170,7 @@ impl Logic for RingReader {
                 (!self.arrival_is_first.q.val()) & (self.shares_with_last.val() | self.shares_with_first.val());
             self.last_entry.d.next = self.arrival.q.val();
             if self.arrival_is_first.q.val() {
-                self.first_f.d.next = self.arrival.q.val().f;
+                self.first_cavity_record.d.next = self.arrival.q.val().cavity_record;
             }
         }
         if self.reset.val() {

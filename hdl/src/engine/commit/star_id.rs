@@ -1,31 +1,33 @@
-//! What lies ahead of the current entry of a commit: the entry after it, and the id of the record that one becomes.
+//! The entry ahead of the current entry of a commit, and the id that its record takes.
 //!
-//! 1. An entry takes the id of the cavity triangle behind it, unless the entry before or the first entry took that.
-//! 2. The ring entries behind which one cavity triangle lies follow each other, so these two tell all.
+//! 1. A record takes the id of the cavity record behind its entry, unless the entry before or the first entry
+//!    has taken that id.
+//! 2. Ring entries along one cavity record follow each other, so a comparison with these two finds every
+//!    id that is taken.
 //!
-//! Latency: none (combinational).
+//! Latency: none, the block is combinational.
 
 use crate::engine::types::{Entry, RingHead, TriangleId};
 use rust_hdl_core::prelude::*;
 
-/// The id rule of the commit; see the top of this file.
+/// The choice of an id; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct StarId {
-    /// The next entry of the list; rule 1 may deny it its cavity triangle's id.
+    /// The next entry of the ring reader; its flag `shares` says that rule 1 denies it the id of its cavity record.
     pub head: Signal<In, RingHead>,
-    /// The first entry.
+    /// The first entry of the ring.
     pub first: Signal<In, Entry>,
     /// The ring closes: the first entry lies ahead.
     pub current_is_last: Signal<In, Bit>,
-    /// The next inner triangle, unless there is none left.
+    /// The id of the next inner record, unless the list is used up.
     pub inner_id: Signal<In, TriangleId>,
     pub inner_is_used_up: Signal<In, Bit>,
     /// The next new id.
     pub fresh: Signal<In, TriangleId>,
-    /// The entry ahead, and its id.
+    /// The entry ahead, and the id of its record.
     pub ahead: Signal<Out, Entry>,
     pub id: Signal<Out, TriangleId>,
-    /// The id is the inner triangle's, or the new one.
+    /// The id is that of an inner record (`is_inner`) or a new one (`is_fresh`).
     pub is_inner: Signal<Out, Bit>,
     pub is_fresh: Signal<Out, Bit>,
     entry: Signal<Local, Entry>,
@@ -40,7 +42,7 @@ impl Logic for StarId {
         self.is_inner.next = self.shares.val() & (!self.inner_is_used_up.val());
         self.is_fresh.next = self.shares.val() & self.inner_is_used_up.val();
         self.ahead.next = self.entry.val();
-        self.id.next = self.entry.val().f;
+        self.id.next = self.entry.val().cavity_record;
         if self.shares.val() {
             self.id.next = self.inner_id.val();
             if self.inner_is_used_up.val() {
@@ -49,7 +51,7 @@ impl Logic for StarId {
         }
         if self.current_is_last.val() {
             self.ahead.next = self.first.val();
-            self.id.next = self.first.val().f;
+            self.id.next = self.first.val().cavity_record;
         }
     }
 }

@@ -1,19 +1,19 @@
-//! The event counters, and the clock that latencies are taken from.
+//! The event counters, and the clock count from which latencies are taken.
 //!
-//! 1. Cycle counts are two words of 32 bits; the high one follows a clock after the low one has wrapped.
+//! 1. Cycle counts are two words of 32 bits; the high word follows a clock after the low one has wrapped.
+//! 2. Every event, and `clears`, goes into a register first. A count that is read while events come is that
+//!    of the clock before.
 //!
-//! 2. Every event, and `clears`, goes into a register first. A count that is read while events come is that of the clock before.
-//!
-//! Latency: an event is counted at the second edge, the range of latencies at the third; `value` follows `select` by 2 clocks.
+//! Latency: an event is counted at the second edge, the range of latencies at the third; `value` follows
+//! `select` by 2 clocks.
 
 use super::cycle_counters::CycleCounters;
 use super::event_counter::EventCounter;
 use super::latency_range::LatencyRange;
 use super::visit_counters::VisitCounters;
 use crate::engine::types::{Clocks, Events};
+use crate::prelude::*;
 use incircle_protocol::Counter;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The event counters; see the top of this file.
 #[derive(LogicBlock, Default)]
@@ -22,28 +22,29 @@ pub struct Counters {
     /// Reset and clear set all counters to zero.
     pub reset: Signal<In, Bit>,
     pub clears: Signal<In, Bit>,
-    /// A job is under way; it has no point to work on; a read-out is under way.
+    /// A job is under way; the job has no point to work on; a read-out is under way.
     pub inserting: Signal<In, Bit>,
     pub waiting: Signal<In, Bit>,
     pub reading: Signal<In, Bit>,
+    /// The events of this edge.
     pub events: Signal<In, Events>,
-    /// Points refused, counted where they are refused.
+    /// The number of points refused, counted where they are refused.
     pub refused: Signal<In, Bits<32>>,
-    /// Word to read: its place in the answer to `Counters`.
+    /// The word to read, by its place in the answer to `Counters`.
     pub select: Signal<In, Bits<5>>,
-    /// That word, 2 clocks later.
+    /// The word selected 2 clocks ago.
     pub value: Signal<Out, Bits<32>>,
-    /// Two of them.
+    /// Two of the words, for the command port.
     pub insertions: Signal<Out, Bits<32>>,
     pub duplicates: Signal<Out, Bits<32>>,
-    /// Clocks since reset, modulo 2^22; clear does not stop it.
+    /// The number of clocks since reset, modulo 2^22; clear does not stop this count.
     pub now: Signal<Out, Clocks>,
-    /// The latency of the commit that ended with the last edge.
+    /// The latency of the commit that ended at the last edge.
     pub latency_comes: Signal<Out, Bit>,
     pub latency: Signal<Out, Clocks>,
     ticks: DFF<Clocks>,
     zeroes: DFF<Bit>,
-    /// The group of the word, one of the third group, and the word.
+    /// The group that the selected word belongs to, the selected word of the third group, and the answer.
     group: DFF<Bits<2>>,
     other: DFF<Bits<32>>,
     chosen: DFF<Bits<32>>,
@@ -65,7 +66,7 @@ const _: () = assert!(
         && Counter::Duplicates as usize == 7
         && Counter::Refused as usize == 8
         && Counter::WalkVisits as usize == 9
-        && Counter::WaitingTokens as usize == 18
+        && Counter::PrioritiesTaken as usize == 18
         && Counter::LatencyMin as usize == 23
         && Counter::LatencyMax as usize == 24,
     "the words of this block follow the protocol"
@@ -117,7 +118,7 @@ impl Logic for Counters {
         self.insertions.next = self.inserted.q.val();
         self.duplicates.next = self.duplicated.value.val();
 
-        // A word is chosen within its group first: clocks, visits, others.
+        // Each group chooses a word of its own first, so that no clock holds a choice among all words.
         self.value.next = self.chosen.q.val();
         self.group.d.next = 2.into();
         self.other.d.next = self.inserted.q.val();

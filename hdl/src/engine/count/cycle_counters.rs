@@ -1,22 +1,21 @@
-//! Counts of clocks, by what the core does in them.
+//! Counts of clocks, by the work that the core does in them.
 //!
-//! 1. The first three are two words each; the high one follows a clock after the low one has wrapped.
+//! 1. The first three counts are two words each; the high word follows a clock after the low one has wrapped.
 //! 2. A lock that is cleared counts while a job is under way, not in the sweep after reset.
 //!
-//! Latency: 2 clocks; `value` follows `select` by 1.
+//! Latency: 2 clocks to a count; `value` follows `select` by 1.
 
 use super::event_counter::{EventCounter, WideCounter};
+use crate::prelude::*;
 use incircle_protocol::Counter;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// Counts of clocks; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CycleCounters {
     pub clock: Signal<In, Clock>,
-    /// `zero` forgets the clocks before.
+    /// All counts go to zero at this edge.
     pub zero: Signal<In, Bit>,
-    /// A job is under way; it has no point to work on; a read-out is under way.
+    /// A job is under way; the job has no point to work on; a read-out is under way.
     pub inserting: Signal<In, Bit>,
     pub waiting: Signal<In, Bit>,
     pub reading: Signal<In, Bit>,
@@ -26,9 +25,9 @@ pub struct CycleCounters {
     /// A commit is at work; a lock is cleared.
     pub is_committing: Signal<In, Bit>,
     pub is_releasing: Signal<In, Bit>,
-    /// Word to read: its place in the answer to `Counters`.
+    /// The word to read, by its place in the answer to `Counters`.
     pub select: Signal<In, Bits<5>>,
-    /// That word, if it is one of these, a clock later.
+    /// The selected word a clock later, if it is one of this block.
     pub value: Signal<Out, Bits<32>>,
     chosen: DFF<Bits<32>>,
     insert_cycles: WideCounter<32>,

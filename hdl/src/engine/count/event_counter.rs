@@ -1,21 +1,21 @@
-//! Counts: one of a word, and one of two words.
+//! Counters of events: one of a word, and one of two words.
 //!
-//! A clock is noted at its edge and counted at the next one, so that what says `count` does not reach the carries of a word.
+//! An event is noted at its edge and counted at the next one, so that the logic behind `count` does not reach the
+//! carries of a word.
 //!
-//! Latency: 2 clocks.
+//! Latency: 2 clocks to the count.
 
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
-/// A counter of a word; see the top of this file.
+/// A counter of one word; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct EventCounter {
     pub clock: Signal<In, Clock>,
-    /// `zero` forgets the clocks before.
+    /// The count goes to zero at this edge.
     pub zero: Signal<In, Bit>,
-    /// This clock counts.
+    /// An event happens in this clock.
     pub count: Signal<In, Bit>,
-    /// Clocks that counted, modulo 2^32.
+    /// The number of clocks with an event, modulo 2^32.
     pub value: Signal<Out, Bits<32>>,
     counts: DFF<Bit>,
     word: DFF<Bits<32>>,
@@ -42,11 +42,11 @@ impl Logic for EventCounter {
 #[derive(LogicBlock)]
 pub struct WideCounter<const N: usize> {
     pub clock: Signal<In, Clock>,
-    /// Forgets the clocks before.
+    /// The count goes to zero at this edge.
     pub zero: Signal<In, Bit>,
-    /// This clock counts.
+    /// An event happens in this clock.
     pub count: Signal<In, Bit>,
-    /// The words; `high` follows a clock after `low` has wrapped.
+    /// The two words of the count; `high` follows a clock after `low` has wrapped.
     pub low: Signal<Out, Bits<N>>,
     pub high: Signal<Out, Bits<N>>,
     counts: DFF<Bit>,

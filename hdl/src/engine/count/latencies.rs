@@ -1,9 +1,11 @@
-//! The histogram of latencies: how many insertions took how long.
+//! The histogram of latencies: the number of insertions in each bucket of latencies.
 //!
-//! 1. The memory has one read port: it serves what comes first, then `select`. Nobody reads while points are inserted.
+//! 1. The memory has one read port, which serves a latency that comes before it serves `select`. The host does not read
+//!    while points are inserted.
 //! 2. Latencies come at least three clocks apart.
 //!
-//! Latency: a latency is counted at the fifth edge: its bucket is found in three clocks, read, and written; a sweep takes 128 clocks.
+//! Latency: a latency is counted at the fifth edge; its bucket takes three clocks, the read one, the write one. A
+//! sweep takes 128 clocks.
 //!
 //! The end of a sweep, and two insertions of 22 clocks:
 //! ```text
@@ -16,11 +18,10 @@
 use super::latency_bucket::LatencyBucket;
 use crate::engine::types::Clocks;
 use crate::leaf::LutMemory;
+use crate::prelude::*;
 use incircle_protocol::LATENCY_BUCKETS;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
-/// Bits of a bucket's count: each of up to 16384 points is counted once.
+/// Width of a bucket's count in bits: each of up to 16384 points is counted once.
 const COUNT_BITS: usize = 15;
 
 const _: () = assert!(LATENCY_BUCKETS == 128, "the address of this block's memory has seven bits");
@@ -32,14 +33,14 @@ pub struct Latencies {
     /// Reset and clear start a sweep.
     pub reset: Signal<In, Bit>,
     pub clears: Signal<In, Bit>,
-    /// An insertion took that long; not while it sweeps.
+    /// An insertion took so many clocks; not during a sweep.
     pub comes: Signal<In, Bit>,
     pub latency: Signal<In, Clocks>,
     /// The buckets are being cleared, one a clock.
     pub sweeps: Signal<Out, Bit>,
-    /// Bucket to read; see `latency_bucket` of the protocol.
+    /// The bucket to read; see `latency_bucket` of the protocol.
     pub select: Signal<In, Bits<7>>,
-    /// Insertions in it, a clock later, while none comes.
+    /// The number of insertions in that bucket a clock later, while no latency comes.
     pub value: Signal<Out, Bits<32>>,
     is_sweeping: DFF<Bit>,
     sweep_bucket: DFF<Bits<7>>,
@@ -66,7 +67,8 @@ impl Logic for Latencies {
         self.one.next = 1.into();
         self.sweeps.next = self.is_sweeping.q.val();
 
-        // A latency finds its bucket in three clocks, reads its count in the next, and writes it in the fifth.
+        // The count is read in the fourth clock and written in the fifth. Latencies come three clocks apart, so none
+        // reads a count that is about to change.
         self.bucket.latency.next = self.latency.val();
         self.shifts.d.next = self.comes.val();
         self.seeks.d.next = self.shifts.q.val();

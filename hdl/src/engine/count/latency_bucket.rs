@@ -1,20 +1,21 @@
-//! The bucket of a latency: eight to an octave from 16 clocks on; the first takes all below 18, the last all from 2^20 - 2^16 on.
+//! The bucket of a latency: eight buckets to an octave from 16 clocks on. The first one takes all latencies below 18,
+//! the last one all from 2^20 - 2^16 on. The buckets between are an eighth of their latencies wide at most, so short
+//! and long insertions are told apart equally well.
 //!
-//! 1. The highest bit that is set says the octave, the three below it the place.
+//! 1. The highest bit that is set gives the octave, the three bits below it the place in the octave.
 //!
-//! Latency: 2 clocks: there are registers behind the step of eight octaves and behind that of four.
+//! Latency: 2 clocks, because registers stand behind the step of eight octaves and behind that of four.
 
 use crate::engine::types::Clocks;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The bucket of a latency; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct LatencyBucket {
     pub clock: Signal<In, Clock>,
-    /// Clocks.
+    /// The latency, in clocks.
     pub latency: Signal<In, Clocks>,
-    /// Four bits of the octave, then three of the place in it.
+    /// The number of the bucket: four bits of the octave, then three of the place in it.
     pub bucket: Signal<Out, Bits<7>>,
     /// The latency from bit 1 up, shifted until its highest bit that is set stands at the top.
     from8: Signal<Local, Bits<19>>,
@@ -22,7 +23,7 @@ pub struct LatencyBucket {
     from2: DFF<Bits<19>>,
     from1: Signal<Local, Bits<19>>,
     top: Signal<Local, Bits<19>>,
-    /// Eight, four, two octaves, and one.
+    /// The steps of eight, four, two octaves and one.
     octave8: DFF<Bits<7>>,
     octave4: Signal<Local, Bits<7>>,
     high_octave: DFF<Bits<7>>,
@@ -75,7 +76,7 @@ impl Logic for LatencyBucket {
             self.top.next = self.from1.val();
         }
 
-        // Below 16 clocks no bit comes to the top.
+        // Below 16 clocks no bit comes to the top, so the bucket is the first.
         self.place.next = bit_cast::<7, 3>(self.top.val().get_bits::<3>(15));
         self.bucket.next = 0.into();
         if self.top.val().get_bit(18) {

@@ -1,34 +1,33 @@
-//! The latency of insertions, and the least and the most of all.
+//! The latency of each insertion, and the least and the most of all.
 //!
-//! 1. The first one counts as the least; as the first counts whatever comes while the most is 0.
-//! 2. Insertions are finished at least three clocks apart, as each commit writes three records and more: a latency is compared
-//!    while it stands, and stored after that.
+//! 1. The first latency counts as the least. Any latency counts as the first while the most is 0.
+//! 2. Insertions are finished at least three clocks apart, as each commit writes three records or more. So a latency is
+//!    compared in one clock and stored in the next, while it still stands.
 //!
 //! Latency: 1 clock to `latency`, 3 to `least` and `most`.
 
 use crate::engine::types::Clocks;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// Latencies of insertions; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct LatencyRange {
     pub clock: Signal<In, Clock>,
-    /// `zero` forgets all.
+    /// All latencies are forgotten at this edge.
     pub zero: Signal<In, Bit>,
     /// An insertion is finished at this edge.
     pub commit_ends: Signal<In, Bit>,
-    /// The clock count, and what it was when the point was taken; both modulo 2^22.
+    /// The clock count now, and when the point was taken; both modulo 2^22.
     pub now: Signal<In, Clocks>,
     pub since: Signal<In, Clocks>,
     /// The latency of the insertion that was finished at the last edge.
     pub latency_comes: Signal<Out, Bit>,
     pub latency: Signal<Out, Clocks>,
-    /// Of all; 0 if there was none.
+    /// The least and the most of all latencies; 0 if there was none.
     pub least: Signal<Out, Clocks>,
     pub most: Signal<Out, Clocks>,
     comes: DFF<Bit>,
-    /// It is the least, and the most.
+    /// The latency is the least, or the most, so far.
     is_least: DFF<Bit>,
     is_most: DFF<Bit>,
     taken: DFF<Clocks>,

@@ -1,12 +1,12 @@
-//! What the core counts, for the answers to the commands `Counters` and `Latencies`.
+//! Counts events of the core, for the answers to the commands `Counters` and `Latencies`.
 //!
 //! ```text
 //! Events -> Counters     -> CycleCounters, VisitCounters, LatencyRange: one EventCounter for each word
 //!        -> Latencies    -> LatencyBucket: a histogram in a memory
 //! ```
-//! Counters show where the clocks of a job went. Nothing in the engine depends on them.
+//! Counters show on what the clocks of a job were spent. Nothing in the engine depends on them.
 //!
-//! Lock rules: none.
+//! Lock rules: none, because counters only watch.
 
 mod counters;
 mod cycle_counters;

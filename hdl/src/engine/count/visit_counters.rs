@@ -1,23 +1,23 @@
-//! Counts of what visits have come to.
+//! Counts of completed visits and their effects.
 //!
-//! Latency: 2 clocks; `value` follows `select` by 1.
+//! Latency: 2 clocks to a count; `value` follows `select` by 1.
 
 use super::event_counter::EventCounter;
 use crate::engine::types::{RingCount, VisitEvents};
+use crate::prelude::*;
 use incircle_protocol::Counter;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// Counts of visits; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VisitCounters {
     pub clock: Signal<In, Clock>,
-    /// `zero` forgets the clocks before.
+    /// All counts go to zero at this edge.
     pub zero: Signal<In, Bit>,
+    /// The events of visits at this edge.
     pub events: Signal<In, VisitEvents>,
-    /// Word to read: its place in the answer to `Counters`.
+    /// The word to read, by its place in the answer to `Counters`.
     pub select: Signal<In, Bits<5>>,
-    /// That word, if it is one of these, a clock later.
+    /// The selected word a clock later, if it is one of this block.
     pub value: Signal<Out, Bits<32>>,
     chosen: DFF<Bits<32>>,
     last_triangles: DFF<RingCount>,
@@ -30,7 +30,7 @@ pub struct VisitCounters {
     revisits: EventCounter,
     aborts: EventCounter,
     root_retries: EventCounter,
-    waiting_tokens: EventCounter,
+    priorities_taken: EventCounter,
     wide_triangles: Signal<Local, Bits<32>>,
 }
 
@@ -45,7 +45,7 @@ const _: () = assert!(
         && Counter::Revisits as usize == 15
         && Counter::Aborts as usize == 16
         && Counter::RootRetries as usize == 17
-        && Counter::WaitingTokens as usize == 18,
+        && Counter::PrioritiesTaken as usize == 18,
     "the words of this block follow the protocol"
 );
 
@@ -54,7 +54,7 @@ impl Logic for VisitCounters {
     fn update(&mut self) {
         dff_setup!(self, clock, chosen, last_triangles, triangles);
         clock!(self, clock, walk_visits, tests, overflowed, flips, root_visits);
-        clock!(self, clock, revisits, aborts, root_retries, waiting_tokens);
+        clock!(self, clock, revisits, aborts, root_retries, priorities_taken);
         self.walk_visits.zero.next = self.zero.val();
         self.tests.zero.next = self.zero.val();
         self.overflowed.zero.next = self.zero.val();
@@ -63,16 +63,16 @@ impl Logic for VisitCounters {
         self.revisits.zero.next = self.zero.val();
         self.aborts.zero.next = self.zero.val();
         self.root_retries.zero.next = self.zero.val();
-        self.waiting_tokens.zero.next = self.zero.val();
+        self.priorities_taken.zero.next = self.zero.val();
         self.walk_visits.count.next = self.events.val().walk_visit;
         self.tests.count.next = self.events.val().test;
         self.overflowed.count.next = self.events.val().overflows;
         self.flips.count.next = self.events.val().flip;
         self.root_visits.count.next = self.events.val().root_visit;
         self.revisits.count.next = self.events.val().revisit;
-        self.aborts.count.next = self.events.val().gives_up;
-        self.root_retries.count.next = self.events.val().retries;
-        self.waiting_tokens.count.next = self.events.val().takes_token;
+        self.aborts.count.next = self.events.val().aborts;
+        self.root_retries.count.next = self.events.val().root_changed;
+        self.priorities_taken.count.next = self.events.val().takes_priority;
         self.last_triangles.d.next = 0.into();
         if self.events.val().cavity_ends {
             self.last_triangles.d.next = self.events.val().cavity_triangles;
@@ -112,7 +112,7 @@ impl Logic for VisitCounters {
                 self.chosen.d.next = self.root_retries.value.val();
             }
             _ => {
-                self.chosen.d.next = self.waiting_tokens.value.val();
+                self.chosen.d.next = self.priorities_taken.value.val();
             }
         }
     }

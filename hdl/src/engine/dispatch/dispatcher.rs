@@ -1,49 +1,57 @@
-//! Hands points to contexts, and knows when all are finished or nothing is any more.
+//! Hands points to contexts, and knows when every point is finished or the work has come to a halt.
 //!
-//! 1. What becomes of a context is noted a clock after its visit completes: from then on it may start, and is asked whether it waits.
+//! 1. The consequences of a visit for its context are noted a clock after the visit completes. From then on the context
+//!    may start again, and its foreign locks count.
 
 use super::context_flags::ContextFlags;
-use super::progress::Progress;
+use super::finished_points::FinishedPoints;
 use super::starter::Starter;
 use super::watchdog::Watchdog;
 use crate::engine::types::{
     Clocks, Committed, ContextId, ContextSet, ContextState, Deal, Fetched, Outcome, Released, SeedProgress,
     SoloProgress, SoloStart, Start, VertexId,
 };
+use crate::prelude::*;
 use incircle_protocol::Config;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
-/// Contexts at work; see the top of this file.
+/// The dispatcher; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Dispatcher {
     pub clock: Signal<In, Clock>,
     /// Reset and clear put all contexts to sleep.
     pub reset: Signal<In, Bit>,
     pub clears: Signal<In, Bit>,
-    /// Contexts that are built, clocks without a finished point: constants.
-    pub all: Signal<In, ContextSet>,
+    /// Constants: the contexts that are built, and the number of clocks without a finished point
+    /// before the watchdog reports.
+    pub built_contexts: Signal<In, ContextSet>,
     pub patience: Signal<In, Clocks>,
-    /// Contexts that work, and which points are theirs.
+    /// The rule by which points belong to contexts.
     pub deal: Signal<In, Deal>,
-    /// Points that have come; one is being stored.
+    /// The number of points that have come; a point is being stored at this edge (`came`).
     pub arrived: Signal<In, VertexId>,
     pub came: Signal<In, Bit>,
+    /// The progress of the first triangles.
     pub seed: Signal<In, SeedProgress>,
-    /// A visit completes; what becomes of its context; it may ask for others: the queue is not free for a start.
+    /// A visit completes, with these consequences for its context. While it may ask for visits, the queue is not
+    /// free for a start.
     pub is_done: Signal<In, Bit>,
     pub outcome: Signal<In, Outcome>,
     pub may_ask: Signal<In, Bit>,
+    /// The last write of a commit is requested; or the last lock of a context is cleared.
     pub committed: Signal<In, Committed>,
     pub released: Signal<In, Released>,
+    /// The progress of a solo insertion.
     pub solo: Signal<In, SoloProgress>,
+    /// A context that starts to walk, and later the coordinates of the point that it has taken.
     pub start: Signal<Out, Start>,
     pub fetched: Signal<Out, Fetched>,
+    /// The state of all contexts.
     pub contexts: Signal<Out, ContextState>,
+    /// A context starts the solo insertion of its point.
     pub solo_start: Signal<Out, SoloStart>,
-    /// Event: the waiting token is taken.
-    pub takes_token: Signal<Out, Bit>,
-    /// Every point is finished; nothing is finished any more.
+    /// The priority is taken at this edge, for the counters.
+    pub takes_priority: Signal<Out, Bit>,
+    /// Every point is finished; or the watchdog has reported (`stuck`).
     pub is_quiet: Signal<Out, Bit>,
     pub stuck: Signal<Out, Bit>,
     found: DFF<Outcome>,
@@ -53,12 +61,12 @@ pub struct Dispatcher {
     taker2: DFF<ContextId>,
     flags: ContextFlags,
     starter: Starter,
-    progress: Progress,
+    finished_points: FinishedPoints,
     watchdog: Watchdog,
 }
 
 impl Dispatcher {
-    /// The dispatcher of a configuration.
+    /// Builds the dispatcher of a configuration.
     pub fn new(config: Config) -> Self {
         Self { starter: Starter::new(config), ..Self::default() }
     }
@@ -68,39 +76,37 @@ impl Logic for Dispatcher {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, found, taken1, taken2, taker1, taker2);
-        clock!(self, clock, flags, starter, progress, watchdog);
+        clock!(self, clock, flags, starter, finished_points, watchdog);
         self.flags.reset.next = self.reset.val();
         self.starter.reset.next = self.reset.val();
-        self.progress.reset.next = self.reset.val();
+        self.finished_points.reset.next = self.reset.val();
         self.watchdog.reset.next = self.reset.val();
         self.flags.clears.next = self.clears.val();
         self.starter.clears.next = self.clears.val();
-        self.progress.clears.next = self.clears.val();
+        self.finished_points.clears.next = self.clears.val();
 
-        // What a visit leads to is known late: it is noted in the next clock.
+        // The outcome of a visit is known late in the clock, so all flags take it from a register.
         self.found.d.next = self.outcome.val();
         if self.reset.val() {
             self.found.d.next.sleeps = false;
-            self.found.d.next.keeps = false;
+            self.found.d.next.will_retry = false;
             self.found.d.next.hands_over = false;
-            self.found.d.next.asks_to_wait = false;
+            self.found.d.next.asks_for_priority = false;
             self.found.d.next.waits = false;
-            self.found.d.next.stops_waiting = false;
+            self.found.d.next.returns_priority = false;
             self.found.d.next.overflows = false;
             self.found.d.next.duplicate = false;
         }
 
-        // What each context is at.
-        self.flags.all.next = self.all.val();
+        self.flags.built_contexts.next = self.built_contexts.val();
         self.flags.outcome.next = self.found.q.val();
         self.flags.start.next = self.starter.start.val();
         self.flags.released.next = self.released.val();
         self.flags.committed.next = self.committed.val();
         self.flags.solo_ends.next = self.solo.val().ends;
         self.contexts.next = self.flags.contexts.val();
-        self.takes_token.next = self.flags.takes_token.val();
+        self.takes_priority.next = self.flags.takes_priority.val();
 
-        // Who starts.
         self.starter.deal.next = self.deal.val();
         self.starter.arrived.next = self.arrived.val();
         self.starter.came.next = self.came.val();
@@ -114,26 +120,25 @@ impl Logic for Dispatcher {
         self.start.next = self.starter.start.val();
         self.solo_start.next = self.starter.solo_start.val();
 
-        // The coordinates of a point that is taken come 2 clocks later.
+        // The vertex memory answers after 2 clocks, so the context is delayed as long.
         self.taken1.d.next = self.starter.start.val().takes & (!self.reset.val());
         self.taken2.d.next = self.taken1.q.val() & (!self.reset.val());
-        self.taker1.d.next = self.starter.start.val().owner;
+        self.taker1.d.next = self.starter.start.val().context;
         self.taker2.d.next = self.taker1.q.val();
         self.fetched.next.valid = self.taken2.q.val();
-        self.fetched.next.owner = self.taker2.q.val();
+        self.fetched.next.context = self.taker2.q.val();
 
-        // What is finished.
-        self.progress.arrived.next = self.arrived.val();
-        self.progress.seeds.next = self.seed.val().seeds;
-        self.progress.commit_ends.next = self.committed.val().valid;
-        self.progress.solo_ends.next = self.solo.val().ends;
-        self.progress.duplicate.next = self.found.q.val().duplicate;
-        self.progress.has_no_start.next = self.seed.val().has_no_start;
-        self.progress.all_rest.next = self.flags.contexts.val().all_rest;
-        self.is_quiet.next = self.progress.is_quiet.val();
+        self.finished_points.arrived.next = self.arrived.val();
+        self.finished_points.seeds.next = self.seed.val().seeds;
+        self.finished_points.commit_ends.next = self.committed.val().valid;
+        self.finished_points.solo_ends.next = self.solo.val().ends;
+        self.finished_points.duplicate.next = self.found.q.val().duplicate;
+        self.finished_points.has_no_start.next = self.seed.val().has_no_start;
+        self.finished_points.all_rest.next = self.flags.contexts.val().all_rest;
+        self.is_quiet.next = self.finished_points.is_quiet.val();
         self.watchdog.patience.next = self.patience.val();
-        self.watchdog.finishes.next = self.progress.finishes.val();
-        self.watchdog.is_quiet.next = self.progress.is_quiet.val();
+        self.watchdog.finishes.next = self.finished_points.finishes.val();
+        self.watchdog.is_quiet.next = self.finished_points.is_quiet.val();
         self.stuck.next = self.watchdog.stuck.val();
     }
 }

@@ -1,12 +1,14 @@
-//! The vertex that a context takes next, and the one after a vertex that is taken.
+//! The first vertex of a context, and the vertex that follows one it takes.
 //!
-//! 1. Context 0 takes vertex 2, whose arrival completes the first triangle, and then those below 16 one by one (L8).
-//! 2. From there on points are dealt: vertex `j` belongs to context `(j - 16) mod contexts`.
-//! 3. In a batch context `c` takes vertex `3c + 2`, the third of its own first triangle, whose first record is `4c`. From
-//!    `dealt_from = 3 contexts` on vertex `j` belongs to context `(j - dealt_from) mod contexts`. That a vertex is such a third is known when
-//!    it is chosen, a clock ahead of what follows it: a comparison with `dealt_from` before the sum would set the clock of the core.
+//! 1. Context 0 takes vertex 2, whose arrival completes the first triangle, and then the vertices below 16
+//!    one by one (L8).
+//! 2. From vertex 16 on points are dealt: vertex `j` belongs to context `(j - 16) mod contexts`.
+//! 3. In a batch, context `c` takes vertex `3c + 2` first, the third of its own first triangle, whose first record is
+//!    `4c`. From `dealt_from = 3 contexts` on, vertex `j` belongs to context `(j - dealt_from) mod contexts`. The flag
+//!    `is_seed` says that a vertex is such a third one. The flag is made when the vertex is chosen, a clock ahead of
+//!    the sum: a comparison with `dealt_from` in front of the sum would limit the clock of the core.
 //!
-//! Latency: none (combinational).
+//! Latency: none, the block is combinational.
 
 use crate::engine::types::{ContextId, Deal, Plan, TriangleId, VertexId};
 use incircle_protocol::FIRST_ROUND;
@@ -16,26 +18,26 @@ crate::packed! {
     /// The context that the pointer stands at.
     pub struct Pointer {
         pub turn: ContextId,
-        /// `3 turn + 2`: in a batch, the third vertex of that context's own first triangle.
+        /// The sum `3 turn + 2`: in a batch, the third vertex of the context's own first triangle.
         pub third: Bits<7>,
     }
 
     /// The context that the pointer has left, and the vertex that it would take.
     pub struct Passed {
-        pub owner: ContextId,
+        pub context: ContextId,
         pub id: VertexId,
-        /// That is the third of its first triangle, in a batch; the vertex after it.
+        /// The vertex is the third of the context's own first triangle, in a batch; then `dealt` follows it.
         pub is_seed: bool,
         pub dealt: Bits<7>,
     }
 
-    /// What follows for that context.
+    /// The plan of that context after it has taken its vertex.
     pub struct Following {
-        /// Its vertex is behind the first round.
+        /// The vertex that it takes is one of the dealt ones, behind the first round.
         pub is_dealt: bool,
-        /// The vertex that it takes after that.
+        /// The vertex that it takes next.
         pub id: VertexId,
-        /// The first record of its mesh.
+        /// The first record of the context's mesh.
         pub first_record: TriangleId,
     }
 }
@@ -43,13 +45,14 @@ crate::packed! {
 /// The next vertex of a context; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct NextPoint {
-    /// Contexts that work, and whether each has a mesh of its own.
+    /// The number of contexts that work, and whether each has a mesh of its own.
     pub deal: Signal<In, Deal>,
+    /// The context under the pointer.
     pub pointer: Signal<In, Pointer>,
-    /// The vertex that the context under the pointer takes first, and the one after that, in a batch.
+    /// The vertex that the context under the pointer takes first; in a batch, the one after that (`first_dealt`).
     pub first: Signal<Out, Plan>,
     pub first_dealt: Signal<Out, Bits<7>>,
-    /// Another context.
+    /// Another context, with the vertex that it takes, and the vertex that follows.
     pub passed: Signal<In, Passed>,
     pub following: Signal<Out, Following>,
     taken: Signal<Local, VertexId>,
@@ -69,7 +72,8 @@ pub struct NextPoint {
     two: Signal<Local, VertexId>,
 }
 
-// The kernel writes it as a literal, because rust-hdl takes no constants of Rust; a change in the protocol must come here.
+// The kernel writes the number as a literal, because rust-hdl takes no constants of Rust; a change in the
+// protocol must come here.
 const _: () = assert!(FIRST_ROUND == 16, "the first round of this block follows the protocol");
 
 impl Logic for NextPoint {
@@ -82,15 +86,15 @@ impl Logic for NextPoint {
         self.is_batch.next = self.deal.val().is_batch;
         self.taken.next = self.passed.val().id;
         self.wide_turn.next = bit_cast::<15, 5>(self.pointer.val().turn);
-        self.wide_taker.next = bit_cast::<15, 5>(self.passed.val().owner);
+        self.wide_taker.next = bit_cast::<15, 5>(self.passed.val().context);
         self.narrow_turn.next = bit_cast::<7, 5>(self.pointer.val().turn);
         self.dealt_from.next = self.deal.val().dealt_from;
         self.first_dealt.next = self.dealt_from.val() + self.narrow_turn.val();
-        // Not compared with 16: that would be a carry chain in front of the sum.
+        // A comparison with 16 would be a carry chain in front of the sum, so the upper bits are tested instead.
         self.rounds.next = self.taken.val().get_bits::<11>(4);
         self.is_dealt.next = self.rounds.val().any();
         self.following.next.is_dealt = self.is_dealt.val();
-        // L8: below the first round the next vertex is context 0's again.
+        // L8: below the first round the next vertex belongs to context 0 again.
         self.is_early.next = (!self.is_dealt.val()) & (!self.is_batch.val());
         self.from.next = self.taken.val();
         self.step.next = bit_cast::<15, 5>(self.deal.val().contexts);
@@ -107,7 +111,7 @@ impl Logic for NextPoint {
             self.following.next.first_record = self.wide_taker.val() << self.two.val();
         }
         self.first.next.id = self.wide_turn.val() + self.first_round.val();
-        // That of context 0 is 2 either way.
+        // Context 0 takes vertex 2 first in either case.
         if self.is_batch.val() | (self.pointer.val().turn == self.first_context.val()) {
             self.first.next.id = bit_cast::<15, 7>(self.pointer.val().third);
         }

@@ -1,9 +1,12 @@
-//! What each context takes next: written down in the pointer's first round, and whenever a context takes a vertex.
+//! The next vertex of each context: written down in the first round of the pointer, and whenever a context takes a
+//! vertex. A start then needs no sum to know its vertex.
 //!
-//! 1. Nothing is cleared: until the pointer has gone round, each context's first vertex comes from its number, and is written down.
-//! 2. What a context takes next is read without asking whether it has had a point: to choose one flag of 24 takes long.
+//! 1. The table is never cleared. Until the pointer has gone round once, the first vertex of a context comes from its
+//!    number, and is written down.
+//! 2. The table is read without asking whether the context has had a point, because to choose one flag
+//!    of 24 takes long.
 //!
-//! Latency: none to read; what is written is read from the next clock on.
+//! Latency: none to read; a write is read from the next clock on.
 //!
 //! Source: a table in LUTs beside [`NextPoint`].
 
@@ -17,26 +20,29 @@ crate::packed! {
     /// A context takes a vertex at this edge, and this one after it; only once all contexts are planned.
     pub struct PlanWrite {
         pub valid: bool,
-        pub owner: ContextId,
+        pub context: ContextId,
         pub id: VertexId,
     }
 }
 
-/// What each context takes next; see the top of this file.
+/// The plans of the contexts; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct PlanTable {
     pub clock: Signal<In, Clock>,
-    /// Contexts that work, and which points are theirs.
+    /// The rule by which points belong to contexts.
     pub deal: Signal<In, Deal>,
+    /// The context under the pointer.
     pub pointer: Signal<In, Pointer>,
     /// The pointer has stood at every context since the last clear.
     pub is_planned: Signal<In, Bit>,
-    /// What the context under the pointer takes next; the vertex after its first, in a batch.
+    /// The vertex that the context under the pointer takes next; in a batch, the one after
+    /// its first vertex (`first_dealt`).
     pub due: Signal<Out, Plan>,
     pub first_dealt: Signal<Out, Bits<7>>,
-    /// Another context, with what stood on `due` and `first_dealt` for it.
+    /// Another context, with `due` and `first_dealt` as they stood for it; and the plan that follows its vertex.
     pub passed: Signal<In, Passed>,
     pub following: Signal<Out, Following>,
+    /// The new plan of a context that takes a vertex.
     pub write: Signal<In, PlanWrite>,
     points: NextPoint,
     plans: LutMemory<CONTEXT_BITS, PLAN_BITS>,
@@ -46,7 +52,7 @@ pub struct PlanTable {
 }
 
 impl PlanTable {
-    /// The table of a configuration.
+    /// Builds the table of a configuration.
     pub fn new(config: Config) -> Self {
         Self { plans: LutMemory::new(context_bits(config), PLAN_BITS), ..Self::default() }
     }
@@ -68,7 +74,7 @@ impl Logic for PlanTable {
         self.due.next = self.points.first.val();
         self.written.next = self.points.first.val();
         if self.is_planned.val() {
-            self.plans.write_address.next = self.write.val().owner;
+            self.plans.write_address.next = self.write.val().context;
             self.due.next = self.plan.value.val();
             self.written.next.id = self.write.val().id;
             self.written.next.is_seed = false;

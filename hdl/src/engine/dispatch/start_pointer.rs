@@ -1,29 +1,31 @@
 //! The pointer that goes round the contexts at work, one a clock.
 //!
-//! 1. It stands still without `moves`. Reset and clear bring it back to context 0, before its first round.
-//! 2. Every fourth round is one in which contexts that try again may start.
+//! 1. The pointer stands still without `moves`. Reset and clear bring it back to context 0, before its first round.
+//! 2. In every fourth round retries may start.
 //!
 //! Latency: 1 clock; the outputs are registers.
 
 use super::next_point::Pointer;
 use crate::engine::types::ContextId;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The pointer; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct StartPointer {
     pub clock: Signal<In, Clock>,
+    /// The pointer goes back to context 0.
     pub restarts: Signal<In, Bit>,
-    /// Contexts that work.
+    /// The number of contexts that work.
     pub contexts: Signal<In, ContextId>,
+    /// The pointer moves to the next context at this edge.
     pub moves: Signal<In, Bit>,
+    /// The context under the pointer.
     pub pointer: Signal<Out, Pointer>,
-    /// It has gone round once.
+    /// The pointer has gone round once.
     pub is_planned: Signal<Out, Bit>,
-    /// It is in a round in which contexts that try again start.
+    /// The present round is one in which retries may start.
     pub rests_over: Signal<Out, Bit>,
-    /// `3 turn + 2` goes along with `turn`: two sums in a row would set the clock of the core.
+    /// The sum `3 turn + 2` goes along with `turn`, because two sums in a row would limit the clock of the core.
     place: DFF<Pointer>,
     round: DFF<Bits<2>>,
     planned: DFF<Bit>,

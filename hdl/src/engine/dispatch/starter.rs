@@ -1,35 +1,40 @@
-//! Wakes sleeping contexts: a pointer goes round them, one a clock, and starts a walk where one is due.
+//! Wakes sleeping contexts: a pointer goes round them, one a clock, and a walk starts where one is due.
 //!
-//! 1. A context starts if it sleeps and has a point to try again, no commit or release is due, and it has rested: contexts that try again
-//!    start in every fourth round of the pointer only, which spreads them (L1), and not beside one that has waited for long (L3).
-//! 2. Or if it sleeps and its next point has come. Until context 0 has taken vertex 16, no other context works, but in a batch (L8).
-//!    A start that may find the queue taken, or the vertex memory's port, is made in the next clock. The pointer waits, and does so
-//!    whenever a visit completes: what that asks for is known late.
-//! 3. The walk of a new point starts at the star of the context's last commit, at the first record of its mesh if there is none.
-//! 4. Who wants to be alone starts when everybody rests and the pointer has passed it.
-//! 5. In the first round of the pointer nobody starts: `PlanTable` writes down what each context takes first.
-//! 6. The pointer is two contexts ahead. In the clock after it has stood at a context, that one's next vertex is there, and it is
-//!    decided whether it is due and where it would start; in the clock after that it starts, unless somebody else has the queue.
+//! 1. A context starts a retry if it is asleep, keeps its point, has no commit or release due, and has rested. Retries
+//!    start only in every fourth round of the pointer, which spreads them (L1), and not beside a context that has
+//!    waited for long (L3).
+//! 2. A context starts with a new point if it is asleep, has none, and its next point has come. Until context 0 has
+//!    taken vertex 16, no other context works, except in a batch (L8).
+//! 3. A start that may find the queue or the port of the vertex memory taken is made in the next clock instead. While a
+//!    start is due, the pointer waits in every clock in which a visit completes, because the visits that
+//!    follow are known late.
+//! 4. The walk of a new point starts at the star of the context's last commit, or at the first record of its mesh if
+//!    there was no commit.
+//! 5. A context that asks for a solo insertion starts it when all contexts rest and the pointer has passed it.
+//! 6. In the first round of the pointer no context starts: `PlanTable` writes down the first vertex of each.
+//! 7. The pointer is two contexts ahead. In the clock after it has stood at a context, the next vertex of that context
+//!    is there, and the starter decides whether the context is due and where it would start. In the clock after that
+//!    the context starts, unless the queue is taken.
 //!
 //! Latency: 2 clocks from the pointer to `starts`.
 //!
-//! Of two contexts, 0 takes vertex 2 when that has come, the first round is over and the queue is free. It falls asleep, keeps its point,
-//! and tries it again from record 9 in the next round that is a fourth one:
+//! There are two contexts. Context 0 takes vertex 2 when that has come, the first round is over and the queue is
+//! free. It falls asleep, keeps its point, and retries from record 9 in the next round that is a fourth one:
 //! ```text
 //! arrived           2  3  3  3  3  3  3  3  3  3  3  3  3  3  3  3
 //! came            ___/^^\_________________________________________
 //! is_done         ____________/^^^^^\_____________________________
 //! is_blocked      ____________/^^\________________________________
 //! asleep            3  3  3  3  3  3  2  2  3  3  3  3  3  2  2  2
-//! keeping           0  0  0  0  0  0  0  0  1  1  1  1  1  0  0  0
-//! owner             .  .  0  1  0  0  0  1  0  1  0  1  0  1  0  1
+//! retrying          0  0  0  0  0  0  0  0  1  1  1  1  1  0  0  0
+//! context           .  .  0  1  0  0  0  1  0  1  0  1  0  1  0  1
 //! starts          _______________/^^\_________________/^^\________
 //! takes           _______________/^^\_____________________________
 //! taken_id          .  .  .  .  .  2  .  .  .  .  .  .  .  .  .  .
-//! u                 .  .  .  .  .  0  .  .  .  .  .  .  9  .  .  .
+//! record            .  .  .  .  .  0  .  .  .  .  .  .  9  .  .  .
 //! ```
 //!
-//! Source: points dealt to contexts lie in the vertex memory, which is their queue.
+//! Source: points that are dealt to contexts lie in the vertex memory, which is the queue of all contexts.
 
 use super::due_check::DueCheck;
 use super::next_point::Passed;
@@ -40,24 +45,23 @@ use crate::engine::types::{
     CONTEXT_BITS, TRIANGLE_BITS, VERTEX_BITS,
 };
 use crate::leaf::LutMemory;
+use crate::prelude::*;
 use incircle_protocol::Config;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 crate::packed! {
-    /// A context two clocks behind the pointer: what it would take, and from where.
+    /// A context two clocks behind the pointer, with all that its start needs.
     pub struct Candidate {
-        pub owner: ContextId,
+        pub context: ContextId,
         pub id: VertexId,
-        /// `id` is behind the first round; the vertex that the context takes after it.
+        /// The vertex `id` is one of the dealt ones, behind the first round; the context takes `plan` after it.
         pub is_dealt: bool,
         pub plan: VertexId,
         /// The point that the context has.
         pub point: VertexId,
-        /// The record at which it would start.
+        /// The record at which the walk would start.
         pub from: TriangleId,
-        /// It wants to be alone.
-        pub is_alone: bool,
+        /// The context asks for a solo insertion.
+        pub is_solo: bool,
     }
 }
 
@@ -65,37 +69,39 @@ crate::packed! {
 #[derive(LogicBlock, Default)]
 pub struct Starter {
     pub clock: Signal<In, Clock>,
-    /// Reset and clear start at context 0.
+    /// Reset and clear bring the pointer back to context 0.
     pub reset: Signal<In, Bit>,
     pub clears: Signal<In, Bit>,
-    /// Contexts that work, and which points are theirs.
+    /// The rule by which points belong to contexts.
     pub deal: Signal<In, Deal>,
-    /// Points that have come; one is being stored: the vertex memory's port is taken.
+    /// The number of points that have come; a point is being stored (`came`) and takes the port of the vertex memory.
     pub arrived: Signal<In, VertexId>,
     pub came: Signal<In, Bit>,
-    /// The first triangle stands.
+    /// Every first triangle is in the mesh.
     pub seeded: Signal<In, Bit>,
+    /// The state of all contexts.
     pub contexts: Signal<In, ContextState>,
-    /// An insertion alone is at work.
+    /// A solo insertion is at work.
     pub solo_is_at_work: Signal<In, Bit>,
-    /// A visit completes; the queue may take the visits that follow it at this edge.
+    /// A visit completes; the queue may take the visits that follow it at this edge (`is_blocked`).
     pub is_done: Signal<In, Bit>,
     pub is_blocked: Signal<In, Bit>,
-    /// Where a context goes on when it tries again.
+    /// The consequences of a visit, among them the record at which a retry starts.
     pub outcome: Signal<In, Outcome>,
-    /// Where its next walk starts.
+    /// A commit whose star is the hint of the context's next walk.
     pub committed: Signal<In, Committed>,
+    /// A context that starts to walk.
     pub start: Signal<Out, Start>,
-    /// A context inserts its point alone.
+    /// A context starts the solo insertion of its point.
     pub solo_start: Signal<Out, SoloStart>,
     /// The context that the pointer has left last, and the point that it has.
     passed: DFF<Passed>,
     passed_point: DFF<VertexId>,
-    /// The one before, and whether it is due, with its point or a new one.
+    /// The context before that one; it is due for a retry (`wants_again`) or with a new point (`wants_new`).
     candidate: DFF<Candidate>,
     wants_again: DFF<Bit>,
     wants_new: DFF<Bit>,
-    /// The first round is over, or there is none.
+    /// The first 16 points are taken, or there is no such first round.
     all_work: DFF<Bit>,
     points: LutMemory<CONTEXT_BITS, VERTEX_BITS>,
     roots: LutMemory<CONTEXT_BITS, TRIANGLE_BITS>,
@@ -114,7 +120,7 @@ pub struct Starter {
 }
 
 impl Starter {
-    /// The starter of a configuration.
+    /// Builds the starter of a configuration.
     pub fn new(config: Config) -> Self {
         let bits = context_bits(config);
         let table = || LutMemory::new(bits, VERTEX_BITS);
@@ -130,7 +136,6 @@ impl Logic for Starter {
         self.one_turn.next = 1.into();
         self.contexts_at_work.next = self.deal.val().contexts;
 
-        // The context under the pointer: which vertex it would take.
         self.points.read_address.next = self.pointer.pointer.val().turn;
         self.plans.pointer.next = self.pointer.pointer.val();
         self.plans.is_planned.next = self.pointer.is_planned.val();
@@ -139,7 +144,6 @@ impl Logic for Starter {
         self.pointer.restarts.next = self.reset.val() | self.clears.val();
         self.pointer.contexts.next = self.contexts_at_work.val();
 
-        // The one before: is it due?
         self.check.contexts.next = self.contexts.val();
         self.check.passed.next = self.passed.q.val();
         self.check.arrived.next = self.arrived.val();
@@ -149,10 +153,11 @@ impl Logic for Starter {
         self.check.all_work.next = self.all_work.q.val();
         self.check.may_be_starting.next =
             (self.wants_again.q.val() | self.wants_new.q.val()) & (self.contexts_at_work.val() == self.one_turn.val());
-        self.roots.read_address.next = self.passed.q.val().owner;
-        self.hints.read_address.next = self.passed.q.val().owner;
+        self.roots.read_address.next = self.passed.q.val().context;
+        self.hints.read_address.next = self.passed.q.val().context;
 
-        // The one before that: does it start?
+        // The pointer moves on `is_done` and not on `is_blocked`, which comes too late in the clock to steer it. A
+        // start that is made while the pointer waits must not be made twice, so it clears its own wish below.
         self.wants.next = (self.wants_again.q.val() | self.wants_new.q.val()) & (!self.contexts.val().solo_valid);
         self.lacks_port.next = self.wants_new.q.val() & self.came.val();
         self.moves.next = !(self.wants.val() & (self.is_done.val() | self.lacks_port.val()));
@@ -160,34 +165,33 @@ impl Logic for Starter {
         self.begins.next = self.wants.val() & (!self.is_blocked.val()) & (!self.lacks_port.val());
         self.is_taken.next = self.wants_new.q.val() & self.begins.val();
         self.start.next.valid = self.begins.val();
-        self.start.next.owner = self.candidate.q.val().owner;
-        self.start.next.u = self.candidate.q.val().from;
+        self.start.next.context = self.candidate.q.val().context;
+        self.start.next.record = self.candidate.q.val().from;
         self.start.next.takes = self.is_taken.val();
         self.start.next.id = self.candidate.q.val().id;
         self.solo_start.next.valid = self.contexts.val().solo_valid
             & self.contexts.val().all_rest
             & (!self.solo_is_at_work.val())
-            & self.candidate.q.val().is_alone;
-        self.solo_start.next.owner = self.contexts.val().solo_owner;
-        self.solo_start.next.p = self.candidate.q.val().point;
-        self.solo_start.next.u = self.candidate.q.val().from;
+            & self.candidate.q.val().is_solo;
+        self.solo_start.next.context = self.contexts.val().solo_context;
+        self.solo_start.next.vertex = self.candidate.q.val().point;
+        self.solo_start.next.record = self.candidate.q.val().from;
 
-        // The tables.
-        self.points.write_address.next = self.candidate.q.val().owner;
+        self.points.write_address.next = self.candidate.q.val().context;
         self.points.write_data.next = self.candidate.q.val().id;
         self.points.write_enable.next = self.is_taken.val();
         self.plans.write.next.valid = self.is_taken.val();
-        self.plans.write.next.owner = self.candidate.q.val().owner;
+        self.plans.write.next.context = self.candidate.q.val().context;
         self.plans.write.next.id = self.candidate.q.val().plan;
-        self.roots.write_address.next = self.outcome.val().owner;
+        self.roots.write_address.next = self.outcome.val().context;
         self.roots.write_data.next = self.outcome.val().root;
         self.roots.write_enable.next = self.outcome.val().root_enable;
         self.job.next = self.committed.val().job;
-        self.hints.write_address.next = self.job.val().owner;
+        self.hints.write_address.next = self.job.val().context;
         self.hints.write_data.next = self.committed.val().hint;
         self.hints.write_enable.next = self.committed.val().valid;
 
-        // L8: before all work, nobody but context 0 takes anything.
+        // L8: context 0 alone takes points until it has taken vertex 16.
         if self.is_taken.val() & self.candidate.q.val().is_dealt {
             self.all_work.d.next = true;
         }
@@ -196,14 +200,14 @@ impl Logic for Starter {
             self.wants_new.d.next = false;
         }
         if self.moves.val() {
-            self.candidate.d.next.owner = self.passed.q.val().owner;
+            self.candidate.d.next.context = self.passed.q.val().context;
             self.candidate.d.next.id = self.passed.q.val().id;
             self.candidate.d.next.is_dealt = self.plans.following.val().is_dealt;
             self.candidate.d.next.plan = self.plans.following.val().id;
             self.candidate.d.next.point = self.passed_point.q.val();
             self.wants_again.d.next = self.check.wants_again.val();
             self.wants_new.d.next = self.check.wants_new.val();
-            self.candidate.d.next.is_alone = self.passed.q.val().owner == self.contexts.val().solo_owner;
+            self.candidate.d.next.is_solo = self.passed.q.val().context == self.contexts.val().solo_context;
             self.candidate.d.next.from = self.plans.following.val().first_record;
             if self.check.is_hinted.val() {
                 self.candidate.d.next.from = self.hints.read_data.val();
@@ -211,7 +215,7 @@ impl Logic for Starter {
             if self.check.tries_again.val() {
                 self.candidate.d.next.from = self.roots.read_data.val();
             }
-            self.passed.d.next.owner = self.pointer.pointer.val().turn;
+            self.passed.d.next.context = self.pointer.pointer.val().turn;
             self.passed.d.next.id = self.plans.due.val().id;
             self.passed.d.next.is_seed = self.plans.due.val().is_seed;
             self.passed.d.next.dealt = self.plans.first_dealt.val();
@@ -220,7 +224,7 @@ impl Logic for Starter {
         if self.reset.val() | self.clears.val() {
             self.wants_again.d.next = false;
             self.wants_new.d.next = false;
-            self.candidate.d.next.is_alone = false;
+            self.candidate.d.next.is_solo = false;
             self.all_work.d.next = self.deal.val().is_batch & (!self.reset.val());
         }
     }

@@ -1,8 +1,7 @@
-//! Notices that nothing is finished any more.
+//! Reports that no point is finished any more, so that commands are answered with an error instead of silence.
 //!
-//! 1. `stuck` stays until reset.
-//!
-//! 2. Its inputs and the comparison go into registers first.
+//! 1. `stuck` stays high until reset.
+//! 2. The inputs and the comparison go into registers first.
 //!
 //! Latency: three clocks more than `patience`.
 //!
@@ -14,8 +13,7 @@
 //! ```
 
 use crate::engine::types::Clocks;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The watchdog; see the top of this file.
 #[derive(LogicBlock, Default)]
@@ -23,13 +21,13 @@ pub struct Watchdog {
     pub clock: Signal<In, Clock>,
     /// Reset forgets the fault.
     pub reset: Signal<In, Bit>,
-    /// A point is in the mesh, or known to be a duplicate, at this edge.
+    /// A point is finished at this edge: it is in the mesh, or is known to be a duplicate.
     pub finishes: Signal<In, Bit>,
-    /// There is nothing to do.
+    /// No work is left.
     pub is_quiet: Signal<In, Bit>,
-    /// Clocks to wait, a constant; see `patience` of the protocol.
+    /// The number of clocks to wait, a constant; see `patience` of the protocol.
     pub patience: Signal<In, Clocks>,
-    /// A fault: that many clocks have passed without either.
+    /// The fault: so many clocks have passed with work to do and no point finished.
     pub stuck: Signal<Out, Bit>,
     rests: DFF<Bit>,
     clocks: DFF<Clocks>,

@@ -1,7 +1,7 @@
-//! The records of a first triangle and its ghosts.
+//! The records of a first triangle and its ghost triangles.
 //!
-//! With `a` the first vertex, `b = a + 1`, `c = a + 2` if they turn left and the other way round if not, and ids that count from the
-//! first record:
+//! Let `a` be the first vertex, `b = a + 1` and `c = a + 2` if the three turn left, otherwise `b` and `c` the other way
+//! round. With ids that count from the first record:
 //! ```text
 //! id  v              n          behind the hull edge
 //! 0   (a, b, c)      1, 2, 3
@@ -9,7 +9,7 @@
 //! 2   (a, c, inf)    1, 3, 0    c -> a
 //! 3   (b, a, inf)    2, 1, 0    a -> b
 //! ```
-//! Latency: none (combinational).
+//! Latency: none, the block is combinational.
 
 use crate::engine::types::Write;
 use crate::engine::write::RecordWrite;
@@ -18,16 +18,17 @@ use rust_hdl_core::prelude::*;
 /// The first records; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct SeedWrites {
-    /// 0: its vertices as they came, for the look which way they turn; 1: the triangle; 2 to 4: the ghosts.
+    /// The record to write. 0: the vertices as they came, for the look at which way they turn; 1: the triangle; 2 to
+    /// 4: the ghost triangles.
     pub step: Signal<In, Bits<3>>,
-    /// The first of its three vertices and of the four records, a multiple of 4.
+    /// The first of the three vertices; and the first of the four records, a multiple of 4.
     pub first_vertex: Signal<In, Bits<15>>,
     pub first_record: Signal<In, Bits<15>>,
-    /// They turn left.
+    /// The three vertices turn left.
     pub turns_left: Signal<In, Bit>,
-    /// The infinite vertex.
+    /// The number of the infinite vertex.
     pub infinite: Signal<In, Bits<15>>,
-    /// The record.
+    /// The record to write.
     pub write: Signal<Out, Write>,
     record: RecordWrite,
     a: Signal<Local, Bits<15>>,
@@ -80,7 +81,7 @@ impl Logic for SeedWrites {
         self.id2.next = self.first_record.val() | self.two.val();
         self.id3.next = self.first_record.val() | self.three.val();
 
-        // The last ghost, unless another record is asked for.
+        // The last ghost triangle is the default, so that the other cases change only what differs.
         self.record.id.next = self.id3.val();
         self.record.v0.next = self.b.val();
         self.record.v1.next = self.a.val();

@@ -1,13 +1,14 @@
-//! Makes the first triangle and its ghosts out of the first three points, in a batch one after the other for each job.
+//! Makes the first triangle and its ghost triangles from the first three points; in a batch, for one job after another.
 //!
-//! 1. When the first of three points comes, a record with their vertices is written for the look, which says on which side of the first
-//!    two the third lies; collinear points write nothing more.
-//! 2. Job `c` of a batch has the vertices `3c` to `3c + 2` and the records `4c` to `4c + 3`. No point of the next job comes before its
-//!    first triangle stands, because `start_is_open` holds it back.
+//! 1. The orientation of the three points is found by a *look*, a visit of a provisional record with their vertices.
+//!    The seeder writes that record when the first of the points comes. The look says on which side of the first two
+//!    points the third lies. If the points are collinear, no other record is written.
+//! 2. Job `c` of a batch has the vertices `3c` to `3c + 2` and the records `4c` to `4c + 3`. No point of the next job
+//!    comes before the first triangle of this one is in the mesh, because `start_is_open` holds it back.
 //!
 //! Latency: 4 clocks from the look to `seeds`; 1 from `arrived` to `start_is_open` and `has_no_start`.
 //!
-//! Of a batch of two jobs, the three points of job 0, which turn left, and the first of job 1:
+//! In a batch of two jobs, the three points of job 0, which turn left, and the first point of job 1:
 //! ```text
 //! came            /^^\__/^^\__/^^\_______________________/^^\_____
 //! looks           _____________________/^^\_______________________
@@ -21,8 +22,7 @@
 
 use super::seed_writes::SeedWrites;
 use crate::engine::types::{Arrival, ContextId, Deal, SeedProgress, TriangleId, Verdict, VertexId, Write};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The first triangles; see the top of this file.
 #[derive(LogicBlock, Default)]
@@ -31,30 +31,31 @@ pub struct Seeder {
     /// Reset and clear forget the first triangles.
     pub reset: Signal<In, Bit>,
     pub clears: Signal<In, Bit>,
-    /// The infinite vertex, a constant.
+    /// The number of the infinite vertex, a constant.
     pub infinite: Signal<In, VertexId>,
     /// Whether there is a batch, and of how many jobs.
     pub deal: Signal<In, Deal>,
-    /// A point is stored at this edge; points that have come.
+    /// A point that is stored at this edge; the number of points that have come.
     pub arrival: Signal<In, Arrival>,
     pub arrived: Signal<In, VertexId>,
-    /// The visit that completes is the look at three points, for the third of them.
+    /// The completed visit is the look at three points, with this verdict on the third of them.
     pub looks: Signal<In, Bit>,
     pub verdict: Signal<In, Verdict>,
+    /// The progress of the first triangles.
     pub progress: Signal<Out, SeedProgress>,
-    /// Three points for the first triangle that is due have come, and it does not stand yet.
+    /// The three points of the first triangle that is due have come, but the triangle is not in the mesh yet.
     pub start_is_open: Signal<Out, Bit>,
-    /// Such three are collinear, and no more triangles will be made.
+    /// These three points are collinear, and no first triangle will be made any more.
     pub collinear: Signal<Out, Bit>,
-    /// A record, registered.
+    /// A record, from a register.
     pub write: Signal<Out, Write>,
     step: DFF<Bits<3>>,
     is_seeded: DFF<Bit>,
     is_collinear: DFF<Bit>,
     turns_left: DFF<Bit>,
     request: DFF<Write>,
-    /// The job whose first triangle is due: its first vertex and record, the points that have come with its third, and the number of the
-    /// job after it.
+    /// The job whose first triangle is due: its first vertex and record, the number of points that have come once its
+    /// third point has, and the number of the job after it.
     vertex: DFF<VertexId>,
     record: DFF<TriangleId>,
     triple: DFF<VertexId>,

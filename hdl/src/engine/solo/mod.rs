@@ -1,16 +1,16 @@
-//! The insertion alone: a point whose boundary is longer than a list, inserted by flips while everybody else sleeps.
+//! Solo insertion: a point whose boundary is longer than its list is inserted by flips, while all other contexts sleep.
 //!
 //! ```text
-//! Dispatcher -> Solo -> visit -> PushPort           SoloSteps: locates the point, then turns round it, test by test
+//! Dispatcher -> Solo -> visit -> PushPort           SoloSteps: locates the point, then goes round its star
 //!                |
-//!                +-> SoloStar -> SoloWrites -> WritePort     the first triangle is split, then edges are flipped
+//!                +-> SoloStar -> SoloWrites -> WritePort     the located record is split, then edges are flipped
 //!                       |
 //!                       +-> SoloVisit: the visit that follows
 //! ```
-//! The state is constant however large the star becomes, so no list can overflow. It is slow and rare.
+//! The state is constant however large the star becomes, so no list can overflow. A solo insertion is slow and rare.
 //!
-//! Lock rules: none. No other visit is out and no lock is held while an insertion is alone; [`ContextFlags`](super::ContextFlags) and
-//! [`Starter`](super::Starter) see to that.
+//! Lock rules: none. No other visit is out and no lock is held during a solo insertion;
+//! [`ContextFlags`](super::ContextFlags) and [`Starter`](super::Starter) see to that.
 
 #[expect(clippy::module_inception, reason = "the room carries the name of its main block")]
 mod solo;

@@ -1,28 +1,32 @@
-//! Insertion alone, in constant state: locates the point, splits the triangle into three, then flips once round the star.
+//! Solo insertion in constant state: locates the point, splits its triangle into three, then goes once round the
+//! star and flips edges.
 //!
-//! 1. The mesh has changed since the attempt that overflowed, so the point is located again, from the triangle that held it then.
-//! 2. Its visits set no locks, and at most one is out.
-//! 3. While the triangle outside the star triangle at work is in conflict, the edge is flipped and the same position is tested again;
-//!    otherwise the link that leads back is mended and the next star triangle is taken. It ends where the round began.
-//! 4. All outputs come a clock later than they could: other blocks have their clock for themselves, and speed is no matter here.
+//! 1. The mesh has changed since the attempt that overflowed. So the point is located again, from the root
+//!    that held it then.
+//! 2. Visits of a solo insertion take no locks, and at most one is out.
+//! 3. While the record outside the star record at work conflicts with the point, the edge between them is flipped and
+//!    the same position is tested again. Otherwise the link from outside is mended, and the next star record is at
+//!    work. The insertion ends where the round began.
+//! 4. All outputs come a clock later than they could. The other blocks then have the whole clock for themselves, and
+//!    the speed of a solo insertion does not matter.
 //!
 //! ```text
 //!        apex                  apex
-//!        /  \                  /| \            star triangle  (p, a, apex)
+//!        /  \                  /| \            star record    (p, a, apex)
 //!      a ---- b     ----->    a |  b           flipped        (p, apex, b)
 //!        \  /                  \| /
 //!         p                     p
 //! ```
-//! Latency, with `w` triangles walked through and `f` flips: `w + 3 f + 8` visits one after the other (2 mends, `f + 3` fetches,
-//! `2 f + 3` tests), each two clocks more than the visit latency, and `3 f + 5` clocks. A duplicate takes `w` visits and
-//! two clocks.
+//! Latency, with `w` records in the walk and `f` flips: `w + 3 f + 8` visits one after the other (2 mends, `f + 3`
+//! fetches, `2 f + 3` tests), each two clocks longer than the visit latency, and `3 f + 5` clocks besides. A duplicate
+//! takes `w` visits and two clocks.
 //!
-//! A walk of two triangles, the split, and the first mend, with visits of two clocks:
+//! A walk of two records, the split, and the first mend, with visits of two clocks:
 //! ```text
 //! starts          ___/^^\_________________________________________
 //! is_at_work      _________/^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
 //! push            _________/^^\________/^^\_________________/^^\__
-//! bundle.u          .  .  .  2  .  .  .  0  .  .  .  .  .  .  2  .
+//! bundle.record     .  .  .  2  .  .  .  0  .  .  .  .  .  .  2  .
 //! done            _______________/^^\________/^^\_________________
 //! located           .  .  .  .  .___  .  .  ./^^  .  .  .  .  .  .
 //! write.valid     ____________________________________/^^^^^^^^\__
@@ -36,25 +40,25 @@ use super::solo_steps::SoloSteps;
 use crate::engine::types::{
     Completion, ContextId, Push, SoloProgress, SoloStart, TriangleId, Turned, Verdict, VertexId, Write,
 };
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
-/// Insertion alone; see the top of this file.
+/// The solo insertion; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Solo {
     pub clock: Signal<In, Clock>,
     /// Reset ends the insertion.
     pub reset: Signal<In, Bit>,
-    /// Begin at this edge: no visit is out and no lock held; only while idle.
+    /// A solo insertion begins at this edge, with no visit out and no lock held; only while none is at work.
     pub start: Signal<In, SoloStart>,
     /// The next new id.
     pub records: Signal<In, TriangleId>,
-    pub visit: Signal<In, Completion>,
-    /// A visit to make; it bears the owner.
+    /// The visit that completes in this clock.
+    pub completion: Signal<In, Completion>,
+    /// A visit to make, for the context of the insertion.
     pub push: Signal<Out, Push>,
-    /// A record or a link, registered.
+    /// A record or a link, from a register.
     pub write: Signal<Out, Write>,
-    /// `is_at_work` from the clock after `start` has been taken to `ends`.
+    /// The progress; `is_at_work` is high from the clock after `start` has been taken to the clock of `ends`.
     pub progress: Signal<Out, SoloProgress>,
     awaits: DFF<Bit>,
     at_work_for: DFF<ContextId>,
@@ -76,23 +80,23 @@ impl Logic for Solo {
     fn update(&mut self) {
         dff_setup!(self, clock, awaits, at_work_for, vertex, root_id, root, works, asks, ended, inserted);
         clock!(self, clock, steps, star);
-        self.verdict.next = self.visit.val().verdict;
+        self.verdict.next = self.completion.val().verdict;
         self.steps.reset.next = self.reset.val();
         self.steps.starts.next = self.start.val().valid;
-        self.steps.done.next = self.visit.val().done;
+        self.steps.done.next = self.completion.val().done;
         self.steps.verdict.next = self.verdict.val();
         self.steps.is_round.next = self.star.is_round.val();
         self.works.d.next = (!self.steps.is_idle.val()) & (!self.reset.val());
 
         self.star.reset.next = self.reset.val();
-        self.star.owner.next = self.at_work_for.q.val();
+        self.star.context_id.next = self.at_work_for.q.val();
         self.star.phase.next = self.steps.phase.val();
         self.star.step.next = self.steps.step.val();
-        self.star.p.next = self.vertex.q.val();
+        self.star.vertex.next = self.vertex.q.val();
         self.star.records.next = self.records.val();
         self.star.root_id.next = self.root_id.q.val();
         self.star.root.next = self.root.q.val();
-        self.star.visit.next = self.visit.val();
+        self.star.completion.next = self.completion.val();
         self.write.next = self.star.write.val();
 
         self.is_visiting.next = self.steps.phase.val().is_locate
@@ -100,7 +104,7 @@ impl Logic for Solo {
             | self.steps.phase.val().is_fetch
             | self.steps.phase.val().is_test;
         self.asks.d.next = self.is_visiting.val() & (!self.awaits.q.val()) & (!self.reset.val());
-        self.awaits.d.next = self.is_visiting.val() & (!self.visit.val().done) & (!self.reset.val());
+        self.awaits.d.next = self.is_visiting.val() & (!self.completion.val().done) & (!self.reset.val());
         self.push.next.valid = self.asks.q.val();
         self.push.next.bundle = self.star.bundle.val();
 
@@ -113,12 +117,12 @@ impl Logic for Solo {
         self.progress.next.ends = self.ended.q.val();
 
         if self.steps.is_idle.val() & self.start.val().valid {
-            self.at_work_for.d.next = self.start.val().owner;
-            self.vertex.d.next = self.start.val().p;
-            self.root_id.d.next = self.start.val().u;
+            self.at_work_for.d.next = self.start.val().context;
+            self.vertex.d.next = self.start.val().vertex;
+            self.root_id.d.next = self.start.val().record;
         }
-        if self.steps.phase.val().is_locate & self.visit.val().done {
-            self.root.d.next = self.visit.val().turned;
+        if self.steps.phase.val().is_locate & self.completion.val().done {
+            self.root.d.next = self.completion.val().turned;
             if !self.verdict.val().located {
                 self.root_id.d.next = self.verdict.val().walk_next;
             }

@@ -1,21 +1,21 @@
-//! The star of a point that is inserted alone: the triangle at work, the one outer it, the visits that read both and the writes that
-//! change them.
+//! The star of a solo insertion: the star record at work, the record outside it, the visits that read both, and the
+//! writes that change them.
 //!
-//! 1. The star triangle at work has `p` in slot 0: `v = (p, a, b)`, `n = (outer, after, preceding)`.
-//! 2. The second mend makes the split root the star triangle at work; a test without conflict, the one after it.
-//! 3. A flip puts the second of its two triangles outer, and leaves the first at work, towards the apex.
+//! 1. The star record at work has the new vertex `p` in slot 0: `v = (p, a, b)`, `n = (outer, after, preceding)`.
+//! 2. The second mend makes the split root the star record at work. A test without conflict makes the following star
+//!    record the one at work.
+//! 3. A flip turns the two records at the edge into two star records. The first, between `a` and the apex, stays at
+//!    work; the second takes the id of the outside record.
+//! 4. All inputs that change go into registers first, so phases and visits take effect a clock later. The context, the
+//!    new vertex, the next new id and the located record stand still for longer than that.
 //!
-//! 4. All inputs that change go into registers first: what is done and the visit are looked at a clock later. The context, the new
-//!    vertex, the next new id and the located triangle stand still for longer than that.
-//!
-//! Latency: 2 clocks from a visit that completes to `write`; `bundle`, `tests` and `flips` are of the clock before.
+//! Latency: 2 clocks from a visit that completes to `write`; `bundle`, `tests` and `flips` come a clock earlier.
 
 use super::solo_visit::SoloVisit;
 use super::solo_writes::SoloWrites;
 use super::star_state::{Beyond, SoloPhase, SoloTurn, StarTriangle};
-use crate::engine::types::{Bundle, Completion, ContextId, Slot, Token, TriangleId, Turned, Verdict, VertexId, Write};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::engine::types::{Bundle, Completion, ContextId, Slot, TriangleId, Turned, Verdict, VertexId, Visit, Write};
+use crate::prelude::*;
 
 /// The star; see the top of this file.
 #[derive(LogicBlock, Default)]
@@ -23,24 +23,27 @@ pub struct SoloStar {
     pub clock: Signal<In, Clock>,
     /// Reset drops the write.
     pub reset: Signal<In, Bit>,
+    /// The phase of the insertion; and within the phase, the number of the record, link or write (`step`).
     pub phase: Signal<In, SoloPhase>,
-    /// Which record of the split, link of the mend, write of the flip.
     pub step: Signal<In, Bits<2>>,
-    pub owner: Signal<In, ContextId>,
-    pub p: Signal<In, VertexId>,
+    /// The context and its point.
+    pub context_id: Signal<In, ContextId>,
+    pub vertex: Signal<In, VertexId>,
     /// The next new id.
     pub records: Signal<In, TriangleId>,
+    /// The located record: its id and its content.
     pub root_id: Signal<In, TriangleId>,
     pub root: Signal<In, Turned>,
-    pub visit: Signal<In, Completion>,
+    /// The visit that completes in this clock.
+    pub completion: Signal<In, Completion>,
     /// The visit that is due, if one is.
     pub bundle: Signal<Out, Bundle>,
-    /// A test or a flip is finished.
+    /// A test is complete; or a flip is (`flips`).
     pub tests: Signal<Out, Bit>,
     pub flips: Signal<Out, Bit>,
-    /// The star triangle at work is the last one of the round; looked at when its test completes.
+    /// The star record at work is the last one of the round; looked at when its test completes.
     pub is_round: Signal<Out, Bit>,
-    /// A record or a link, registered.
+    /// A record or a link, from a register.
     pub write: Signal<Out, Write>,
     done_phase: DFF<SoloPhase>,
     turn: DFF<SoloTurn>,
@@ -52,12 +55,12 @@ pub struct SoloStar {
     triangle: DFF<StarTriangle>,
     beyond: DFF<Beyond>,
     request: DFF<Write>,
-    /// What is known long before it is asked for.
+    /// Two values that stand long before they are asked for: the last star record of the round, and the second new id.
     is_last: DFF<Bit>,
     third: DFF<TriangleId>,
     visits: SoloVisit,
     writes: SoloWrites,
-    token: Signal<Local, Token>,
+    visit: Signal<Local, Visit>,
     verdict: Signal<Local, Verdict>,
     rests: Signal<Local, Bit>,
     is_flipped: Signal<Local, Bit>,
@@ -79,14 +82,13 @@ impl Logic for SoloStar {
         self.one.next = 1.into();
         self.last_write.next = 2.into();
         self.one_more.next = 1.into();
-        self.token.next = self.visit.val().token;
-        self.verdict.next = self.visit.val().verdict;
+        self.visit.next = self.completion.val().visit;
+        self.verdict.next = self.completion.val().verdict;
         self.is_last.d.next = self.triangle.q.val().b == self.root.val().v1;
         self.third.d.next = self.records.val() + self.one_more.val();
         self.is_round.next = self.is_last.q.val();
         self.write.next = self.request.q.val();
 
-        // All of it in registers first.
         self.is_first.next = self.step.val() == self.first_write.val();
         self.is_second.next = self.step.val() == self.one.val();
         self.is_last_write.next = self.step.val() == self.last_write.val();
@@ -99,14 +101,14 @@ impl Logic for SoloStar {
         self.turn.d.next.mend1 = self.phase.val().is_mend & self.is_first.val();
         self.turn.d.next.mend2 = self.phase.val().is_mend & self.is_second.val();
         self.ends_flip.d.next = self.phase.val().is_flip & self.is_last_write.val() & (!self.reset.val());
-        self.comes.d.next = self.visit.val().done;
-        self.visited.d.next = self.token.val().u;
-        self.found.d.next = self.visit.val().turned;
+        self.comes.d.next = self.completion.val().done;
+        self.visited.d.next = self.visit.val().record;
+        self.found.d.next = self.completion.val().turned;
         self.is_conflict.d.next = self.verdict.val().conflict;
         self.tests.next = self.done_phase.q.val().is_test & self.comes.q.val();
         self.flips.next = self.ends_flip.q.val();
 
-        self.visits.owner.next = self.owner.val();
+        self.visits.context_id.next = self.context_id.val();
         self.visits.phase.next = self.done_phase.q.val();
         self.visits.is_second.next = self.turn.q.val().mend2;
         self.visits.root_id.next = self.root_id.val();
@@ -115,7 +117,7 @@ impl Logic for SoloStar {
         self.bundle.next = self.visits.bundle.val();
         self.writes.turn.next = self.turn.q.val();
         self.writes.is_test.next = self.done_phase.q.val().is_test;
-        self.writes.p.next = self.p.val();
+        self.writes.vertex.next = self.vertex.val();
         self.writes.second.next = self.records.val();
         self.writes.third.next = self.third.q.val();
         self.writes.root_id.next = self.root_id.val();
@@ -125,7 +127,7 @@ impl Logic for SoloStar {
         self.writes.visited.next = self.visited.q.val();
         self.writes.slot.next = self.found.q.val().slot;
 
-        // A link that leads back to the star triangle at work already needs no write.
+        // If the outside record leads back to the star record at work already, a write of that link would be wasted.
         self.rests.next = self.done_phase.q.val().is_test & self.comes.q.val() & (!self.is_conflict.q.val());
         self.is_flipped.next = self.triangle.q.val().back != self.triangle.q.val().id;
         self.request.d.next = self.writes.write.val();

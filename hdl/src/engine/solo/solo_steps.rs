@@ -1,31 +1,32 @@
-//! What an insertion alone does next: it walks to the point's triangle, splits it, and goes round the star by tests and flips.
+//! The phases of a solo insertion: it walks to the record of the point, splits it, and goes round the star
+//! by tests and flips.
 //!
-//! 1. A visit is awaited in `is_locate`, `is_mend`, `is_fetch` and `is_test`; the other phases take a clock for each write.
-//! 2. The insertion ends when the walk finds the point on a corner, or when the last test of a round finds its edge final.
+//! 1. `is_locate`, `is_mend`, `is_fetch` and `is_test` wait for a visit. The other phases take a clock for each write.
+//! 2. The insertion ends when the walk finds that the point equals a corner, or when the last test of a round
+//!    finds its edge final.
 //!
 //! Latency: 1 clock; the phase is a function of registers.
 
 use super::star_state::SoloPhase;
 use crate::engine::types::{Slot, Verdict};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
-/// What an insertion alone does.
+/// The state of a solo insertion.
 #[derive(Clone, Copy, Debug, PartialEq, LogicState)]
 pub enum SoloState {
-    /// Awaits an insertion.
+    /// No insertion is at work.
     Idle,
-    /// Walks to the triangle that holds the point.
+    /// The walk to the record that holds the point.
     Locate,
-    /// Writes the three records that replace it.
+    /// The writes of the three records that replace it.
     Split,
-    /// Mends the links of the outer neighbours of the second and third.
+    /// The visits and writes that mend the links from outside to the second and third record.
     Mend,
-    /// Reads the star triangle at work.
+    /// The visit that reads the star record at work.
     Fetch,
-    /// Tests the triangle outside.
+    /// The visit that tests the record outside.
     Test,
-    /// Flips the edge between the two.
+    /// The writes that flip the edge between the two.
     Flip,
 }
 
@@ -35,18 +36,20 @@ pub struct SoloSteps {
     pub clock: Signal<In, Clock>,
     /// Reset ends the insertion.
     pub reset: Signal<In, Bit>,
-    /// An insertion begins; only while idle.
+    /// An insertion begins; only while none is at work.
     pub starts: Signal<In, Bit>,
-    /// A visit completes; what it found out.
+    /// A visit completes with this verdict.
     pub done: Signal<In, Bit>,
     pub verdict: Signal<In, Verdict>,
     /// The test is the last one of its round.
     pub is_round: Signal<In, Bit>,
+    /// The phase, a bit each; or no insertion is at work (`is_idle`).
     pub phase: Signal<Out, SoloPhase>,
     pub is_idle: Signal<Out, Bit>,
-    /// Which record of the split, link of the mend, write of the flip.
+    /// Within the phase, the number of the record, link or write.
     pub step: Signal<Out, Slot>,
-    /// The insertion ends at this edge, with its point in the mesh or because that is a duplicate.
+    /// The insertion ends at this edge (`ends`), with its point in the mesh (`inserts`) or because the
+    /// point is a duplicate.
     pub inserts: Signal<Out, Bit>,
     pub ends: Signal<Out, Bit>,
     state: DFF<SoloState>,

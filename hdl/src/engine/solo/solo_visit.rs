@@ -1,24 +1,26 @@
-//! The visit that an insertion alone makes, by what it does.
+//! The visit that a solo insertion makes in each phase.
 //!
-//! Latency: none (combinational).
+//! Latency: none, the block is combinational.
 
 use super::star_state::{SoloPhase, StarTriangle};
 use crate::engine::types::{Bundle, ContextId, TriangleId, Turned};
 use rust_hdl_core::prelude::*;
 
-/// Visits of an insertion alone; see the top of this file.
+/// Visits of a solo insertion; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct SoloVisit {
-    /// The context.
-    pub owner: Signal<In, ContextId>,
-    /// What is done; a test if nothing else. An outer neighbour of the split is the second one.
+    /// The context of the insertion.
+    pub context_id: Signal<In, ContextId>,
+    /// The phase; in no other phase, the visit is that of a test. A mend visits the first outer neighbour of the split
+    /// root, or the second.
     pub phase: Signal<In, SoloPhase>,
     pub is_second: Signal<In, Bit>,
-    /// The located triangle, or the one that the walk has come to.
+    /// The located record, or the one that the walk has come to.
     pub root_id: Signal<In, TriangleId>,
     pub root: Signal<In, Turned>,
+    /// The star record at work.
     pub triangle: Signal<In, StarTriangle>,
-    /// The visit; it sets no lock.
+    /// The visit, which takes no lock.
     pub bundle: Signal<Out, Bundle>,
 }
 
@@ -27,30 +29,30 @@ impl Logic for SoloVisit {
     fn update(&mut self) {
         self.bundle.next.is_pair = false;
         self.bundle.next.is_triple = false;
-        self.bundle.next.owner = self.owner.val();
+        self.bundle.next.context = self.context_id.val();
         self.bundle.next.rotates = (!self.phase.val().is_fetch) & (!self.phase.val().is_locate);
         self.bundle.next.locks = false;
-        self.bundle.next.x = 0.into();
+        self.bundle.next.entry = 0.into();
         self.bundle.next.after = 0.into();
-        self.bundle.next.f_entry = 0.into();
-        self.bundle.next.f = self.triangle.val().back;
-        self.bundle.next.u = self.triangle.val().outer;
+        self.bundle.next.cavity_entry = 0.into();
+        self.bundle.next.cavity_record = self.triangle.val().back;
+        self.bundle.next.record = self.triangle.val().outer;
         self.bundle.next.second_after = 0.into();
-        self.bundle.next.second_u = 0.into();
-        self.bundle.next.third_u = 0.into();
+        self.bundle.next.second_record = 0.into();
+        self.bundle.next.third_record = 0.into();
         if self.phase.val().is_fetch {
-            self.bundle.next.f = 0.into();
-            self.bundle.next.u = self.triangle.val().id;
+            self.bundle.next.cavity_record = 0.into();
+            self.bundle.next.record = self.triangle.val().id;
         }
         if self.phase.val().is_locate {
-            self.bundle.next.f = 0.into();
-            self.bundle.next.u = self.root_id.val();
+            self.bundle.next.cavity_record = 0.into();
+            self.bundle.next.record = self.root_id.val();
         }
         if self.phase.val().is_mend {
-            self.bundle.next.f = self.root_id.val();
-            self.bundle.next.u = self.root.val().n1;
+            self.bundle.next.cavity_record = self.root_id.val();
+            self.bundle.next.record = self.root.val().n1;
             if self.is_second.val() {
-                self.bundle.next.u = self.root.val().n2;
+                self.bundle.next.record = self.root.val().n2;
             }
         }
     }

@@ -1,29 +1,34 @@
-//! The writes of an insertion alone, by what it does.
+//! The write that a solo insertion makes in each phase.
 //!
-//! Latency: none (combinational).
+//! Latency: none, the block is combinational.
 
 use super::star_state::{Beyond, SoloTurn, StarTriangle};
 use crate::engine::types::{Slot, TriangleId, Turned, VertexId, Write};
 use crate::engine::write::{LinkWrite, RecordWrite};
 use rust_hdl_core::prelude::*;
 
-/// Writes of an insertion alone; see the top of this file.
+/// Writes of a solo insertion; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct SoloWrites {
-    /// What is written: one of these, or the link that a test leaves to be mended, or else that of the next star triangle.
+    /// The write that is due; without one, the link that a test leaves to be mended (`is_test`), or else the link from
+    /// the next star record.
     pub turn: Signal<In, SoloTurn>,
     pub is_test: Signal<In, Bit>,
-    pub p: Signal<In, VertexId>,
+    /// The new vertex, which is in every record of the star.
+    pub vertex: Signal<In, VertexId>,
     /// The two new ids.
     pub second: Signal<In, TriangleId>,
     pub third: Signal<In, TriangleId>,
+    /// The located record: its id and its content.
     pub root_id: Signal<In, TriangleId>,
     pub root: Signal<In, Turned>,
+    /// The star record at work, and the record outside it.
     pub triangle: Signal<In, StarTriangle>,
     pub beyond: Signal<In, Beyond>,
-    /// The record visited and its slot that leads back.
+    /// The record visited, and its slot that leads back.
     pub visited: Signal<In, TriangleId>,
     pub slot: Signal<In, Slot>,
+    /// The record or the link to write.
     pub write: Signal<Out, Write>,
     record: RecordWrite,
     link: LinkWrite,
@@ -32,9 +37,9 @@ pub struct SoloWrites {
 impl Logic for SoloWrites {
     #[hdl_gen]
     fn update(&mut self) {
-        // Records: the last of the split, unless something else is asked for.
+        // The third record of the split is the default, so that the other cases change only what differs.
         self.record.id.next = self.third.val();
-        self.record.v0.next = self.p.val();
+        self.record.v0.next = self.vertex.val();
         self.record.v1.next = self.root.val().v0;
         self.record.v2.next = self.root.val().v1;
         self.record.n0.next = self.root.val().n2;
@@ -73,7 +78,8 @@ impl Logic for SoloWrites {
             self.record.n2.next = self.triangle.val().id;
         }
 
-        // Links: that of the next star triangle to the flipped one, unless one is mended.
+        // A flip gives the second star record the id of the outside record, so the following star record must learn
+        // that id as its neighbour.
         self.link.id.next = self.triangle.val().after;
         self.link.slot.next = 2.into();
         self.link.value.next = self.triangle.val().outer;

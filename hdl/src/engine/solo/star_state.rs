@@ -1,10 +1,10 @@
-//! What an insertion alone knows of the star that it turns round.
+//! The state of a solo insertion: its phase, and the part of the star that is at work.
 
 use crate::engine::types::{TriangleId, VertexId};
 use rust_hdl_core::prelude::*;
 
 crate::packed! {
-    /// What is done; at most one.
+    /// The phase of a solo insertion; at most one bit is high.
     pub struct SoloPhase {
         pub is_locate: bool,
         pub is_split: bool,
@@ -14,35 +14,36 @@ crate::packed! {
         pub is_flip: bool,
     }
 
-    /// What is written; at most one.
+    /// The write of a solo insertion; at most one bit is high.
     pub struct SoloTurn {
-        /// The split writes its first, second, third record.
+        /// The split writes its first, second or third record.
         pub split1: bool,
         pub split2: bool,
         pub split3: bool,
-        /// The flip writes its first, second record.
+        /// The flip writes its first or second record.
         pub flip1: bool,
         pub flip2: bool,
-        /// A link is mended, the first or second after the split.
+        /// The first or the second link is mended after the split.
         pub mend1: bool,
         pub mend2: bool,
     }
 
-    /// The star triangle at work.
+    /// The star record at work.
     pub struct StarTriangle {
         pub id: TriangleId,
-        /// Its edge against the triangle outside.
+        /// The edge against the record outside, from `a` to `b`.
         pub a: VertexId,
         pub b: VertexId,
-        /// The triangle outside, and the link by which that one leads back.
+        /// The record outside; and the record to which that one leads back as its neighbour (`back`).
         pub outer: TriangleId,
         pub back: TriangleId,
-        /// The star triangles after and before it.
+        /// The star records after and before this one.
         pub after: TriangleId,
         pub preceding: TriangleId,
     }
 
-    /// The triangle outside the star triangle at work: its apex, and its links beyond `a` and `b`, which the flip hands on.
+    /// The record outside the star record at work: its apex, and its neighbours beyond `a` and `b`, which
+    /// the flip hands on.
     pub struct Beyond {
         pub apex: VertexId,
         pub apex_after_a: TriangleId,

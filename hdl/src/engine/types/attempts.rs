@@ -1,137 +1,142 @@
-//! What visits make of an attempt, and what becomes of its context.
+//! The state of an attempt, the meaning of a visit for it, and the consequences for the context.
 
 use super::widths::{ContextId, LockCount, RingCount, RingEntry, Slot, TriangleId, VertexId};
 use rust_hdl_core::prelude::*;
 
-/// Bits of [`Entry`].
+/// Width of [`Entry`] in bits.
 pub const ENTRY_WORD_BITS: usize = Entry::BITS;
 
-/// Bits of [`Attempt`].
+/// Width of [`Attempt`] in bits.
 pub const ATTEMPT_BITS: usize = Attempt::BITS;
 
 crate::packed! {
-    /// The state of a context's cavity, from the visit that locks its root. `half_open` comes last: a memory keeps as many of its
-    /// bits as a ring has entries.
+    /// The state of an attempt, from the visit that opens its cavity. `half_open` comes last, because a memory stores
+    /// only as many of its bits as a ring has entries.
     pub struct Attempt {
-        /// It has failed: its visits run out.
+        /// The attempt has aborted and waits until its visits in flight complete.
         pub drains: bool,
-        /// Visits pushed and not completed.
+        /// The number of tests that are pushed and have not completed.
         pub outstanding: RingCount,
-        /// Ring entries.
+        /// The number of ring entries, which is also the number of the next entry.
         pub count: RingCount,
-        /// Cavity triangles without a boundary edge.
+        /// The number of inner records, which have no edge on the boundary any more.
         pub inners: RingCount,
-        /// Locks in the log.
+        /// The number of locks in the log of the context.
         pub logged: LockCount,
-        /// Bit `y`: one of the two edges that entry `y`'s cavity triangle brought has been passed. The root brought three and uses
-        /// bits 0 and 1.
+        /// Bit `y` belongs to the cavity record that allocated entry `y` and so brought two new edges: one of them has
+        /// been passed, that is, the record behind the edge has joined the cavity too. The root brought three edges and
+        /// uses bits 0 and 1.
         pub half_open: Bits<64>,
     }
 
-    /// A final edge of the boundary, from `a` to the next entry's `a`.
+    /// An edge that stays on the boundary, from `first_vertex` to the `first_vertex` of the next entry.
     pub struct Entry {
-        /// Its first vertex.
-        pub a: VertexId,
-        /// The triangle outside.
-        pub u: TriangleId,
-        /// The slot of `u` that leads to `f`.
+        /// The vertex at which the edge begins, counter-clockwise.
+        pub first_vertex: VertexId,
+        /// The record outside the cavity at this edge; it stays.
+        pub outside_record: TriangleId,
+        /// The slot in which `outside_record` names `cavity_record` as its neighbour.
         pub slot: Slot,
-        /// The cavity triangle behind the edge.
-        pub f: TriangleId,
-        /// The entry after this one.
+        /// The cavity record on the inner side of the edge.
+        pub cavity_record: TriangleId,
+        /// The next entry of the ring; 0 leads back to the first entry.
         pub after: RingEntry,
     }
 
-    /// What a visit that completes means for its context. At most one of `looks` to `root_duplicate` is high.
+    /// The meaning of a completed visit for its context. At most one of `looks` to `root_duplicate` is high, except
+    /// that `waits` comes with `revisits`.
     pub struct Case {
-        /// A visit completes.
+        /// A visit completes in this clock; one of the next three flags says of which kind, unless `looks` is high.
         pub is_done: bool,
-        /// Which kind of visit it is.
         pub is_walk: bool,
         pub is_root: bool,
         pub is_test: bool,
-        /// The look at the first three points.
+        /// The visit is the look at the first three points, before a first triangle exists.
         pub looks: bool,
-        /// The same visit is made again; because another context holds the lock.
-        pub repeats: bool,
+        /// The same visit is made again; with `waits`, because a foreign lock holds up the context with the priority.
+        pub revisits: bool,
         pub waits: bool,
-        /// The walk goes on; it has found the point's triangle.
+        /// The walk goes on to a neighbour (`walks_on`), or its record holds the point and the
+        /// root visit follows (`locates`).
         pub walks_on: bool,
         pub locates: bool,
-        /// The root is locked and holds the point: its neighbours are tested.
+        /// The root is locked and holds the point: the cavity opens with the tests of the three neighbours.
         pub opens: bool,
-        /// The root no longer holds the point.
-        pub retries: bool,
-        /// A test passes through its edge; its edge is final.
+        /// The root is locked, but no longer holds the point.
+        pub root_changed: bool,
+        /// The tested record joins the cavity and its entry splits in two; or it stays and its
+        /// entry is final (`settles`).
         pub splits: bool,
         pub settles: bool,
-        /// A test would pass, and the list is full.
+        /// The tested record would join the cavity, but the list has no room for another entry.
         pub overflows: bool,
-        /// Another context holds the lock, of the root or of a tested triangle.
-        pub gives_up_root: bool,
-        pub gives_up: bool,
-        /// The point falls onto a corner.
+        /// The attempt aborts because another context holds the lock of the root, or of a tested record (`aborts`).
+        pub aborts_root: bool,
+        pub aborts: bool,
+        /// The point equals a vertex, as a visit of the walk or of the root has found.
         pub walk_duplicate: bool,
         pub root_duplicate: bool,
-        /// Visits follow: it repeats, walks on, locates, opens or splits; they may.
+        /// Visits follow: a revisit, the next step of the walk, the root visit or tests. `may_ask` is known sooner, and
+        /// is high whenever `asks` is.
         pub asks: bool,
         pub may_ask: bool,
     }
 
-    /// What a test makes of its attempt.
+    /// The effect of a test on its attempt.
     pub struct Step {
-        /// No visit of the attempt is out any more.
+        /// The test was the last visit of the attempt that was in flight.
         pub is_over: bool,
-        /// And it has not failed: the ring is finished.
+        /// The attempt is over and has not aborted: its ring is complete.
         pub succeeds: bool,
-        /// The cavity triangle behind the edge has no boundary edge left.
+        /// The cavity record behind the tested edge has lost its last edge on the boundary.
         pub finds_inner: bool,
-        /// The second edge of the root is passed.
+        /// The second of the root's three edges is passed.
         pub passes_root: bool,
     }
 
-    /// What becomes of the context whose visit completes.
+    /// The consequences of a completed visit for its context.
     pub struct Outcome {
-        pub owner: ContextId,
-        /// None of its visits is out any more.
+        pub context: ContextId,
+        /// None of the context's visits is out any more.
         pub sleeps: bool,
-        /// It will try its point again.
-        pub keeps: bool,
-        /// A commit or a release of it is due.
+        /// The context keeps its point and will retry.
+        pub will_retry: bool,
+        /// A commit or a release of the context becomes due.
         pub hands_over: bool,
-        /// It wants the waiting token; meets a foreign lock with it; needs it no more.
-        pub asks_to_wait: bool,
+        /// The context aborts and wants the priority; or meets a foreign lock while it holds the priority (`waits`); or
+        /// has finished its point and returns the priority if it holds it.
+        pub asks_for_priority: bool,
         pub waits: bool,
-        pub stops_waiting: bool,
-        /// Its list has overflowed.
+        pub returns_priority: bool,
+        /// The list of the context has overflowed: the point needs a solo insertion.
         pub overflows: bool,
-        /// Its point is one already.
+        /// The point equals a vertex.
         pub duplicate: bool,
-        /// A root's visit says where a walk for the same point would start next.
+        /// The visit was a root visit: a retry starts its walk at `root`.
         pub root_enable: bool,
         pub root: TriangleId,
     }
 
-    /// A final edge of a boundary, for the list of its context.
+    /// A final entry for place `place` in the ring of a context.
     pub struct EntryWrite {
         pub valid: bool,
-        pub owner: ContextId,
+        pub context: ContextId,
         pub place: RingEntry,
         pub entry: Entry,
     }
 
-    /// An inner triangle, for the list of its context.
+    /// An inner record for place `place` in the list of a context.
     pub struct InnerWrite {
         pub valid: bool,
-        pub owner: ContextId,
+        pub context: ContextId,
         pub place: RingEntry,
         pub id: TriangleId,
     }
 
-    /// A lock that was taken, for the log of its context.
+    /// A lock that was taken, for place `place` in the log of a context.
     pub struct LockWrite {
         pub valid: bool,
-        pub owner: ContextId,
+        pub context: ContextId,
         pub place: LockCount,
         pub id: TriangleId,
     }

@@ -1,77 +1,78 @@
-//! Finished rings and locks to release.
+//! Complete rings, and locks to release.
 
 use super::attempts::Entry;
 use super::widths::{Clocks, ContextId, LockCount, RingCount, TriangleId, VertexId};
 use rust_hdl_core::prelude::*;
 
-/// Bits of [`CommitJob`].
+/// Width of [`CommitJob`] in bits.
 pub const COMMIT_JOB_BITS: usize = CommitJob::BITS;
 
-/// Bits of [`ReleaseJob`].
+/// Width of [`ReleaseJob`] in bits.
 pub const RELEASE_JOB_BITS: usize = ReleaseJob::BITS;
 
 crate::packed! {
-    /// A finished ring, to be committed.
+    /// A complete ring that waits for its commit.
     pub struct CommitJob {
-        /// Its context.
-        pub owner: ContextId,
-        /// The new vertex.
-        pub p: VertexId,
-        /// Inner triangles.
+        /// The context that dug the cavity.
+        pub context: ContextId,
+        /// The new vertex, around which the star is written.
+        pub vertex: VertexId,
+        /// The number of inner records, whose ids the star takes first.
         pub inners: RingCount,
-        /// Locks in the log.
+        /// The number of locks in the log of the context.
         pub locks: LockCount,
-        /// When the point was taken.
+        /// The clock count when the context took the point.
         pub since: Clocks,
     }
 
-    /// The locks of an attempt, to be released.
+    /// The locks of one attempt, which are to be released.
     pub struct ReleaseJob {
-        /// Its context.
-        pub owner: ContextId,
-        /// Locks in the log, at least one.
+        /// The context that holds the locks.
+        pub context: ContextId,
+        /// The number of locks in the log of the context, at least one.
         pub locks: LockCount,
     }
 
-    /// A ring is finished.
+    /// Asks for the commit of a ring that is complete at this edge.
     pub struct CommitRequest {
         pub valid: bool,
         pub job: CommitJob,
     }
 
-    /// Locks are due.
+    /// Asks for the release of locks at this edge.
     pub struct ReleaseRequest {
         pub valid: bool,
         pub job: ReleaseJob,
     }
 
-    /// The entry at the head of the ring reader.
+    /// The ring entry that the ring reader offers to the commit.
     pub struct RingHead {
         pub valid: bool,
         pub entry: Entry,
-        /// It ends its ring.
+        /// The entry is the last one of its ring.
         pub is_last: bool,
-        /// The same cavity triangle lies behind the entry before it, or behind the first of its ring.
+        /// The entry has the same cavity record behind it as the entry before it or as the first entry of its ring, so
+        /// it needs another id for its star record.
         pub shares: bool,
     }
 
-    /// A ring is written.
+    /// The last write of a commit is requested at this edge.
     pub struct Committed {
         pub valid: bool,
         pub job: CommitJob,
-        /// A record of its star.
+        /// A record of the new star, where the next walk of the context starts.
         pub hint: TriangleId,
     }
 
-    /// A lock to clear.
+    /// The lock of record `id` is cleared at this edge.
     pub struct LockClear {
         pub valid: bool,
         pub id: TriangleId,
     }
 
-    /// The last lock of a context is released.
+    /// The last lock of a context is cleared at this edge.
     pub struct Released {
         pub valid: bool,
-        pub owner: ContextId,
+        pub context: ContextId,
     }
 }

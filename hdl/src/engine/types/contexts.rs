@@ -1,136 +1,136 @@
-//! Contexts, their points, and what the engine is at.
+//! The contexts and their points, and the state of the engine as a whole.
 
 use super::widths::{Clocks, ContextId, ContextSet, RingCount, TriangleId, VertexId};
 use crate::predicate::Point;
 use rust_hdl_core::prelude::*;
 
-/// Bits of [`Plan`].
+/// Width of [`Plan`] in bits.
 pub const PLAN_BITS: usize = Plan::BITS;
 
 crate::packed! {
-    /// What a context takes next.
+    /// The vertex that a context takes next.
     pub struct Plan {
-        /// The vertex.
         pub id: VertexId,
-        /// It is the third of the context's own first triangle, in a batch.
+        /// In a batch: the vertex is the third one of the context's own first triangle.
         pub is_seed: bool,
     }
 
-    /// How points are dealt to contexts.
+    /// The rule by which points are dealt to contexts.
     pub struct Deal {
-        /// Contexts that work.
+        /// The number of contexts that work.
         pub contexts: ContextId,
-        /// Each of them has a mesh of its own.
+        /// Each of these contexts has a mesh of its own.
         pub is_batch: bool,
-        /// The first vertex of those that are dealt in turn: 16, or three for each context in a batch.
+        /// The first vertex that is dealt in turn: 16, or in a batch three for each context.
         pub dealt_from: Bits<7>,
     }
 
-    /// A context starts to walk.
+    /// A context starts to walk at this edge.
     pub struct Start {
         pub valid: bool,
-        pub owner: ContextId,
-        /// The record at which it starts.
-        pub u: TriangleId,
-        /// It takes this new point.
+        pub context: ContextId,
+        /// The record at which the walk starts.
+        pub record: TriangleId,
+        /// The context takes the new point `id`; without this flag it retries the point that it has.
         pub takes: bool,
         pub id: VertexId,
     }
 
-    /// The coordinates of the point that a context has taken stand on the vertex memory's port.
+    /// The coordinates of the point that the context has taken stand on the port of the vertex memory.
     pub struct Fetched {
         pub valid: bool,
-        pub owner: ContextId,
+        pub context: ContextId,
     }
 
-    /// A context starts to insert its point alone.
+    /// A context starts the solo insertion of its point.
     pub struct SoloStart {
         pub valid: bool,
-        pub owner: ContextId,
-        pub p: VertexId,
-        /// The record at which its walk starts.
-        pub u: TriangleId,
+        pub context: ContextId,
+        pub vertex: VertexId,
+        /// The record at which the walk of the solo insertion starts.
+        pub record: TriangleId,
     }
 
-    /// The insertion alone.
+    /// The progress of a solo insertion.
     pub struct SoloProgress {
-        /// Every visit that completes is its own.
+        /// A solo insertion is at work: every visit that completes is its own.
         pub is_at_work: bool,
-        /// It was over at the last edge; it has inserted its point, which is no duplicate.
+        /// The solo insertion ended at the last edge; its point is inserted (`inserts`) or equals a vertex.
         pub ends: bool,
         pub inserts: bool,
-        /// A test or a flip of it was finished at the last edge.
+        /// A test or a flip of the solo insertion was completed at the last edge.
         pub tests: bool,
         pub flips: bool,
     }
 
-    /// The first triangles.
+    /// The progress of the first triangles.
     pub struct SeedProgress {
-        /// Every first triangle stands.
+        /// Every first triangle is in the mesh.
         pub seeded: bool,
-        /// No first triangle is being made, and none can be from the points that have come.
+        /// No first triangle is being made, because the points that have come are too few or collinear.
         pub has_no_start: bool,
-        /// The last record of one is written at this edge.
+        /// The last record of a first triangle is written at this edge.
         pub seeds: bool,
     }
 
-    /// What each context is at, a bit each; who waits, and who wants to be alone.
+    /// The state of all contexts, a bit each; and which of them holds the priority or asks for a solo insertion.
     pub struct ContextState {
-        /// No visit is out.
+        /// None of the context's visits is out.
         pub asleep: ContextSet,
-        /// The point is tried again.
-        pub keeping: ContextSet,
-        /// A commit or a release is due.
+        /// The context keeps its point and will retry.
+        pub retrying: ContextSet,
+        /// A commit or a release of the context is due.
         pub busy: ContextSet,
-        /// There has been a point; a commit.
+        /// The context has had a point; it has had a commit (`hinted`), so its next walk has a hint.
         pub began: ContextSet,
         pub hinted: ContextSet,
-        /// Somebody holds the waiting token; who; it has waited for long: nobody else may try again.
-        pub waiter_valid: bool,
-        pub waiter: ContextId,
+        /// The priority is held by `priority_context`. Once that context has met 8 foreign locks (`is_urgent`),
+        /// no other may retry.
+        pub priority_is_held: bool,
+        pub priority_context: ContextId,
         pub is_urgent: bool,
-        /// Somebody wants to be alone: nobody starts; who.
+        /// The context `solo_context` asks for a solo insertion or is at it: no context starts.
         pub solo_valid: bool,
-        pub solo_owner: ContextId,
-        /// No visit is out and no lock held; said a clock after it has come true.
+        pub solo_context: ContextId,
+        /// No visit is out and no lock is held; known a clock after it has come true.
         pub all_rest: bool,
     }
 
-    /// What stays as the core was built.
+    /// The constants of the configuration.
     pub struct Limits {
-        /// The infinite vertex.
+        /// The number of the infinite vertex.
         pub infinite: VertexId,
-        /// Entries of a boundary list.
-        pub ring: RingCount,
+        /// The number of entries that a ring can have.
+        pub ring_capacity: RingCount,
         /// The highest record id.
         pub last_id: TriangleId,
-        /// Contexts that are built, a bit each.
-        pub all: ContextSet,
-        /// Clocks without a finished point before the watchdog speaks.
+        /// The contexts that are built, a bit each.
+        pub built_contexts: ContextSet,
+        /// The number of clocks without a finished point after which the watchdog reports.
         pub patience: Clocks,
     }
 
     /// A point that is stored at this edge.
     pub struct Arrival {
-        /// There is one; the others mean nothing without it.
+        /// A point comes; without this flag the other fields are arbitrary.
         pub came: bool,
         pub id: VertexId,
         pub point: Point,
     }
 
-    /// What the link sees of the engine.
+    /// The state of the engine as the command port sees it.
     pub struct EngineState {
-        /// Three points for the first triangle that is due have come, and it does not stand yet.
+        /// The three points of the first triangle that is due have come, but the triangle is not in the mesh yet.
         pub start_is_open: bool,
-        /// Such three are collinear, and no more triangles will be made.
+        /// These three points are collinear, and no first triangle will be made any more.
         pub collinear: bool,
         /// Every point is finished, and no lock is held.
         pub is_quiet: bool,
-        /// Nothing is finished any more.
+        /// The watchdog has reported: no point was finished for too long.
         pub stuck: bool,
         /// The lock memory is being cleared after reset.
         pub sweeps: bool,
-        /// Records of the mesh.
+        /// The number of records of the mesh.
         pub records: TriangleId,
     }
 }

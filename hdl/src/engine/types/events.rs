@@ -1,45 +1,46 @@
-//! What the counters count.
+//! The events that the counters count.
 
 use super::widths::{Clocks, RingCount};
 use rust_hdl_core::prelude::*;
 
 crate::packed! {
-    /// What visits do at an edge, for the counters.
+    /// The events of visits at one edge; each flag counts one event.
     pub struct VisitEvents {
-        /// A visit of a walk, of a root, a test; of an insertion alone, too.
+        /// A visit of this kind completes: walk, root visit or test. Tests of a solo insertion count too.
         pub walk_visit: bool,
         pub root_visit: bool,
         pub test: bool,
-        /// It is made again.
+        /// The visit that completes is made again.
         pub revisit: bool,
-        /// A list overflows.
+        /// A test would need one more ring entry than the list of its context has.
         pub overflows: bool,
-        /// A flip of an insertion alone is finished.
+        /// A solo insertion has finished a flip.
         pub flip: bool,
-        /// An attempt is given up for a foreign lock; a root had changed.
-        pub gives_up: bool,
-        pub retries: bool,
-        /// The waiting token is taken.
-        pub takes_token: bool,
-        /// A ring is finished; its cavity's triangles.
+        /// An attempt aborts at a foreign lock; or (`root_changed`) a root visit finds that the root no
+        /// longer holds the point.
+        pub aborts: bool,
+        pub root_changed: bool,
+        /// A context takes the priority.
+        pub takes_priority: bool,
+        /// A ring is complete, and its cavity has so many records.
         pub cavity_ends: bool,
         pub cavity_triangles: RingCount,
     }
 
-    /// What happens in the engine at an edge, for the counters.
+    /// The events of the engine at one edge.
     pub struct Events {
         pub visits: VisitEvents,
-        /// The first triangle is finished: three points are inserted.
+        /// A first triangle is complete, which inserts three points.
         pub seeds: bool,
-        /// A commit is finished; when its point was taken.
+        /// A commit is complete; its context took the point when the clock count was `since`.
         pub commit_ends: bool,
         pub since: Clocks,
-        /// An insertion alone is finished; it finds a duplicate.
+        /// A solo insertion has ended: its point is inserted, or the point equals a vertex.
         pub solo_inserts: bool,
         pub solo_duplicate: bool,
-        /// A duplicate is found.
+        /// A walk or a root visit finds that the point equals a vertex.
         pub duplicate: bool,
-        /// A visit is issued; a record or a link is written; a commit is at work; a lock is released.
+        /// The engine does this in this clock: issue a visit, write a record or a link, work on a commit, clear a lock.
         pub is_issuing: bool,
         pub is_writing: bool,
         pub is_committing: bool,

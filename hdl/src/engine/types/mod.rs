@@ -1,7 +1,7 @@
-//! What travels between the blocks of the engine.
+//! The signals that travel between the blocks of the engine, as structs.
 //!
-//! Widths are those of the largest core: ids of 15 bits, ring entries of 6. Memories of smaller configurations store fewer bits
-//! and return zeros above them, so synthesis removes the rest.
+//! All widths are those of the largest core: ids of 15 bits, ring entries of 6. The memories of smaller configurations
+//! store fewer bits and return zeros above them, so synthesis removes the rest.
 
 mod attempts;
 mod commits;

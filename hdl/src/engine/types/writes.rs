@@ -4,21 +4,19 @@ use super::widths::{TriangleId, VertexId};
 use rust_hdl_core::prelude::*;
 
 crate::packed! {
-    /// A write into the triangle memory: a record, or one link.
+    /// A write into the triangle memory: a whole record, or one *link*, the id of one neighbour in a record.
     pub struct Write {
-        /// There is a write.
+        /// A write is made; without it all other fields are arbitrary.
         pub valid: bool,
-        /// The record written.
+        /// The record that is written.
         pub id: TriangleId,
-        /// The vertex columns are written.
+        /// The three vertices are written.
         pub vertices: bool,
-        /// Link column 0 is written.
+        /// The neighbour in this slot is written, for slots 0 to 2.
         pub link0: bool,
-        /// Link column 1 is written.
         pub link1: bool,
-        /// Link column 2 is written.
         pub link2: bool,
-        /// Data of the columns.
+        /// The vertices, and the neighbours: `n0` lies opposite `v0`.
         pub v0: VertexId,
         pub v1: VertexId,
         pub v2: VertexId,
@@ -27,19 +25,16 @@ crate::packed! {
         pub n2: TriangleId,
     }
 
-    /// What of a [`Write`] is written into the memories, and where.
+    /// The part of a [`Write`] that concerns the memories, from registers of its own.
     pub struct WriteEnables {
-        /// The vertex columns.
+        /// The three vertices are written.
         pub vertices: bool,
-        /// Link column 0.
+        /// The neighbour in this slot is written, for slots 0 to 2.
         pub link0: bool,
-        /// Link column 1.
         pub link1: bool,
-        /// Link column 2.
         pub link2: bool,
-        /// The record, for the vertex columns.
+        /// The record that is written: once for the memories of the vertices, once for those of the neighbours.
         pub vertices_id: TriangleId,
-        /// The record, for the link columns.
         pub links_id: TriangleId,
     }
 }

@@ -1,28 +1,30 @@
-//! Queues bundles and issues their visits, one a clock, first in first out.
+//! The queue of visits: bundles come in, and their visits are issued, one in each clock, first in, first out. A cavity
+//! asks for up to three visits at once, but the read port of the triangle memory serves one a clock.
 //!
-//! 1. A bundle takes a clock for each of its one to three visits, the first visit first; see `Bundle` for what tells them apart.
-//! 2. The queue has a place for every ring entry of every context. A context never has more visits out than its ring has entries,
-//!    so it never overflows.
-//! 3. The record's id goes to all block RAMs of the triangle memory. Three registers hold it, so that each may stand near the RAMs that it
-//!    drives; reset gives each another value, or synthesis would make one register of them.
+//! 1. A bundle takes a clock for each of its one to three visits, the first visit first. `Bundle` says in
+//!    which fields they differ.
+//! 2. The queue has a place for every ring entry of every context. A context never has more visits out than its ring
+//!    has entries, so the queue never overflows.
+//! 3. The id of the record goes to all block RAMs of the triangle memory. Three registers hold the id, so that each can
+//!    stand near the RAMs that it drives. Reset gives each register another value, because synthesis would
+//!    otherwise merge the three.
 //!
-//! Latency: 1 clock from `push` to `token` when the queue is empty.
+//! Latency: 1 clock from `push` to `visit` if the queue is empty.
 //!
-//! A bundle of three visits and one of one, then a read-out:
+//! A bundle of three visits and one of a single visit, then a read-out:
 //! ```text
 //! push            ___/^^^^^\_________________
-//! bundle.x          .  1  4  .  .  .  .  .  .
-//! token_valid     ______/^^^^^^^^^^^\________
-//! token.x           .  .  1  2  3  4  .  .  .
+//! bundle.entry      .  1  4  .  .  .  .  .  .
+//! visit_valid     ______/^^^^^^^^^^^\________
+//! visit.entry       .  .  1  2  3  4  .  .  .
 //! read            __________________/^^\_____
 //! read_valid      _____________________/^^\__
-//! token.u           .  .  .  .  .  .  .  9  .
+//! visit.record      .  .  .  .  .  .  .  9  .
 //! ```
 
-use crate::engine::types::{Bundle, Push, RecordRead, Token, TriangleId, BUNDLE_BITS, RING_ADDRESS_BITS};
+use crate::engine::types::{Bundle, Push, RecordRead, TriangleId, Visit, BUNDLE_BITS, RING_ADDRESS_BITS};
 use crate::leaf::{DeepFifo, Unpack};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The queue and the issue register; see the top of this file.
 #[derive(LogicBlock, Default)]
@@ -30,23 +32,23 @@ pub struct Issue {
     pub clock: Signal<In, Clock>,
     /// Reset empties the queue.
     pub reset: Signal<In, Bit>,
-    /// A bundle enters the queue.
+    /// A bundle that enters the queue at this edge.
     pub push: Signal<In, Push>,
-    /// A read-out wants this record; only while the queue is empty.
+    /// A record that the read-out wants; only while the queue is empty.
     pub read: Signal<In, RecordRead>,
-    /// The visit issued; in a read-out `token.u` alone counts.
-    pub token_valid: Signal<Out, Bit>,
-    pub token: Signal<Out, Token>,
-    /// `token.u` from two more registers; arbitrary after a reset until the next visit or read-out.
+    /// The visit that is issued in this clock; in a read-out only `visit.record` counts.
+    pub visit_valid: Signal<Out, Bit>,
+    pub visit: Signal<Out, Visit>,
+    /// Copies of `visit.record` from two more registers; arbitrary after a reset until the next visit or read-out.
     pub vertices_id: Signal<Out, TriangleId>,
     pub links_id: Signal<Out, TriangleId>,
-    /// The issue register holds a read-out.
+    /// The issue register holds a read-out, not a visit.
     pub read_valid: Signal<Out, Bit>,
     queue: DeepFifo<RING_ADDRESS_BITS, BUNDLE_BITS>,
     head: Unpack<Bundle, BUNDLE_BITS>,
     pushed: Signal<Local, Bundle>,
     bundle_bits: Signal<Local, Bits<BUNDLE_BITS>>,
-    issued: DFF<Token>,
+    issued: DFF<Visit>,
     vertices_copy: DFF<TriangleId>,
     links_copy: DFF<TriangleId>,
     issued_valid: DFF<Bit>,
@@ -61,12 +63,13 @@ pub struct Issue {
 }
 
 impl Issue {
-    /// Fewest address bits of the queue: it is a deep one.
+    /// The smallest width that `DeepFifo` accepts for its address.
     const MIN_ADDRESS_BITS: usize = DeepFifo::<RING_ADDRESS_BITS, BUNDLE_BITS>::WINDOW_BITS + 1;
 
-    /// A queue of `2^address_bits` bundles, 32 at least.
+    /// Builds a queue of `2^address_bits` bundles, 32 at least.
     ///
     /// # Panics
+    ///
     /// If `address_bits` is above `RING_ADDRESS_BITS`.
     pub fn new(address_bits: usize) -> Self {
         Self { queue: DeepFifo::new(address_bits.max(Self::MIN_ADDRESS_BITS), BUNDLE_BITS), ..Self::default() }
@@ -94,8 +97,8 @@ impl Logic for Issue {
         self.bundle_bits.next = self.pushed.val().into();
         self.queue.push_data.next = self.bundle_bits.val();
         self.head.bits.next = self.queue.data.val();
-        self.token.next = self.issued.q.val();
-        self.token_valid.next = self.issued_valid.q.val();
+        self.visit.next = self.issued.q.val();
+        self.visit_valid.next = self.issued_valid.q.val();
         self.vertices_id.next = self.vertices_copy.q.val();
         self.links_id.next = self.links_copy.q.val();
         self.read_valid.next = self.issued_read.q.val();
@@ -109,30 +112,31 @@ impl Logic for Issue {
 
         self.issued_valid.d.next = self.queue.valid.val();
         self.issued_read.d.next = self.read.val().valid;
-        self.issued.d.next.owner = self.head.value.val().owner;
+        self.issued.d.next.context = self.head.value.val().context;
         self.issued.d.next.rotates = self.head.value.val().rotates;
         self.issued.d.next.locks = self.head.value.val().locks;
-        self.issued.d.next.f_entry = self.head.value.val().f_entry;
-        self.issued.d.next.f = self.head.value.val().f;
-        self.issued.d.next.x = self.head.value.val().x;
+        self.issued.d.next.cavity_entry = self.head.value.val().cavity_entry;
+        self.issued.d.next.cavity_record = self.head.value.val().cavity_record;
+        self.issued.d.next.entry = self.head.value.val().entry;
         self.issued.d.next.after = self.head.value.val().after;
-        self.record.next = self.head.value.val().u;
+        self.record.next = self.head.value.val().record;
         if self.second_is_due.q.val() {
-            self.issued.d.next.x = self.head.value.val().after;
+            self.issued.d.next.entry = self.head.value.val().after;
             self.issued.d.next.after = self.head.value.val().second_after;
-            self.record.next = self.head.value.val().second_u;
+            self.record.next = self.head.value.val().second_record;
         }
         if self.third_is_due.q.val() {
-            self.issued.d.next.x = self.head.value.val().second_after;
+            self.issued.d.next.entry = self.head.value.val().second_after;
             self.issued.d.next.after = 0.into();
-            self.record.next = self.head.value.val().third_u;
+            self.record.next = self.head.value.val().third_record;
         }
         if self.read.val().valid {
             self.record.next = self.read.val().id;
         }
-        self.issued.d.next.u = self.record.val();
+        self.issued.d.next.record = self.record.val();
         self.vertices_copy.d.next = self.record.val();
         self.links_copy.d.next = self.record.val();
+        // The copies reset to different values, or synthesis would make one register of all three.
         self.no_record.next = 0.into();
         if self.reset.val() {
             self.vertices_copy.d.next = self.no_record.val();

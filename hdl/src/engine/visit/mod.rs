@@ -1,4 +1,4 @@
-//! One pass over one triangle record: from the request to the verdict on its triangle.
+//! One pass of a triangle record through the pipeline, from the request of a visit to its verdict.
 //!
 //! ```text
 //! Attempts, Dispatcher, Solo
@@ -9,12 +9,14 @@
 //!                                                record                        VerdictLogic      Solo, Seeder
 //! clock       0        1 and 2                   3 and 4        5              5 to 15           16
 //! ```
-//! All contexts share one pipeline, because the read port of the triangle memory limits the speed of the core: it should read a record in
-//! every clock. Each visit takes the same time, so visits complete in the order in which they were issued and no arbiter is needed.
-//! [`VerdictLogic`] takes the step of a walk: it says which link leads nearer to the point.
+//! All contexts share one pipeline, because the read port of the triangle memory limits the speed of the core: a record
+//! should be read in every clock. Each visit takes the same time. So visits complete in the order in which they were
+//! issued, and no arbiter is needed. [`VerdictLogic`] also takes the step of a walk: its verdict names the neighbour
+//! nearer to the point.
 //!
-//! Lock rules (see `docs/engine.md`): L7, the visit of a record that is not written yet, or is being written in the same clock, is
-//! marked `again` ([`VisitPipeline`]). The locks themselves, with their owners (L9), lie in [`LockStore`](crate::mesh::LockStore).
+//! Lock rules (see `docs/engine.md`): L7, the visit of a record that is not written yet, or is being written in the
+//! same clock, is marked `again` ([`VisitPipeline`]). The locks themselves, with their holders
+//! (L9), lie in [`LockStore`](crate::mesh::LockStore).
 
 mod issue;
 mod push_port;

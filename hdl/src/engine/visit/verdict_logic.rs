@@ -1,29 +1,32 @@
-//! Turns the signs of a visit into its verdict.
+//! The verdict of a visit, from the signs of its predicates: whether the record conflicts with the point, and how
+//! a walk goes on.
 //!
-//! 1. A finite record is in conflict iff the point lies inside its circle, or on it and the tie rule says so: the
-//!    diagonal takes the lexicographically smallest of the four points.
-//! 2. A ghost is in conflict iff the point lies strictly beyond its hull edge, or on the line strictly between the edge's ends. (Of
-//!    the ends themselves the lower one counts as between; a point there is a duplicate, and no cavity is dug for it.)
-//! 3. Corners come as stored and the record turned, since only one thing depends on the turn: the tie rule, of whose diagonals one ends in
-//!    the corner that comes first. The corners of a finite record differ.
-//! 4. A walk ends in a finite triangle with no negative side and in a ghost strictly beyond whose edge the point lies. It leaves a
-//!    finite triangle over the most negative side (the first of equals), a ghost over its finite side. No walk turns its records:
-//!    `walk_next` of a finite one, `is_left` and `is_straight` count only with slot 0.
+//! 1. A triangle conflicts with the point if the point lies inside its circumcircle, or on the circle and the tie rule
+//!    says so: the diagonal ends in the lexicographically smallest of the four points.
+//! 2. A ghost triangle conflicts if the point lies strictly beyond its hull edge, or on the line of the edge and
+//!    strictly between its ends. (Of the two ends, the lower one counts as between. A point there is a duplicate, and
+//!    no cavity is dug for it.)
+//! 3. Corners come as stored, but the record comes rotated. Only the tie rule depends on the rotation: it asks for the
+//!    diagonal that ends in the first corner. The three corners of a triangle differ.
+//! 4. A walk ends in a triangle that has the point on the right of no side, and in a ghost triangle whose hull edge has
+//!    the point strictly beyond. A walk leaves a triangle across the most negative side, the first one of equals, and a
+//!    ghost triangle across its only finite side. Walks do not rotate their records, so the `walk_next` of a triangle,
+//!    `is_left` and `is_straight` count only with slot 0.
 //!
-//! Latency: none (combinational).
+//! Latency: none, the block is combinational.
 
 use crate::engine::types::{Slot, Turned, Verdict};
 use crate::predicate::{EdgeFlags, OrderFlags, Signs};
 use rust_hdl_core::prelude::*;
 
-/// Verdict of a visit; see the top of this file.
+/// The verdict of a visit; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VerdictLogic {
-    /// The record turned.
+    /// The record as the reader has rotated it.
     pub turned: Signal<In, Turned>,
-    /// The signs for its corners as stored.
+    /// The signs of the predicates for the corners as stored.
     pub signs: Signal<In, Signs>,
-    /// What the visit found out.
+    /// The findings of the visit.
     pub verdict: Signal<Out, Verdict>,
     edges: Signal<Local, EdgeFlags>,
     order: Signal<Local, OrderFlags>,
@@ -50,7 +53,8 @@ impl Logic for VerdictLogic {
         self.order.next = self.signs.val().order;
         self.is_ghost.next = self.turned.val().infinite0 | self.turned.val().infinite1 | self.turned.val().infinite2;
 
-        // The turn, undone: which corner is infinite as stored.
+        // The signs come for the corners as stored, so the flags of the infinite vertex are rotated back. A ghost
+        // triangle whose stored corners 1 and 2 are finite has the infinite vertex in corner 0.
         self.second_slot.next = 1.into();
         self.third_slot.next = 2.into();
         self.is_second.next = self.turned.val().slot == self.second_slot.val();
@@ -66,7 +70,8 @@ impl Logic for VerdictLogic {
             self.infinite2.next = self.turned.val().infinite0;
         }
 
-        // A ghost: where the point lies from its one finite side.
+        // The infinite corner of a ghost triangle lies opposite the hull edge, the only side
+        // whose sign means something.
         self.is_beyond.next = (!self.edges.val().e0_negative) & (!self.edges.val().e0_zero);
         self.is_on_hull_line.next = self.edges.val().e0_zero;
         self.is_between.next = self.order.val().p_before_r1 ^ self.order.val().p_before_r2;
@@ -81,7 +86,8 @@ impl Logic for VerdictLogic {
             self.is_between.next = self.order.val().p_before_r0 ^ self.order.val().p_before_r1;
         }
 
-        // min(p, r0) < min(r1, r2), with the corners turned.
+        // A tie is a conflict if the diagonal from the point to the first corner ends in the smallest of the four
+        // points: min(p, r0) < min(r1, r2), with rotated corners.
         self.takes_tie.next = (self.order.val().p_before_r1 & self.order.val().p_before_r2)
             | (self.order.val().r0_before_r1 & self.order.val().r0_before_r2);
         if self.is_second.val() {
@@ -99,7 +105,6 @@ impl Logic for VerdictLogic {
                 self.signs.val().incircle_positive | (self.signs.val().incircle_zero & self.takes_tie.val());
         }
 
-        // The walk.
         self.is_outside_some_side.next =
             self.edges.val().e0_negative | self.edges.val().e1_negative | self.edges.val().e2_negative;
         self.leaves_by_side2.next = (self.edges.val().e1_below_e0 & self.edges.val().e2_below_e1)

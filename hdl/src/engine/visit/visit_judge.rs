@@ -1,10 +1,11 @@
-//! The predicates of a visit and the verdict that follows from them.
+//! The predicates of a visit, and the verdict that follows from their signs.
 //!
-//! 1. Corners and point come straight from registers. New ones are taken at every edge; there is no reset.
+//! 1. Corners and point come straight from registers, and new ones may come at every edge. There is no reset, because
+//!    the pipeline's valid bits decide which verdicts count.
 //!
 //! Latency: `LATENCY` = 10 clocks from the corners to the verdict, which has no register of its own.
 //!
-//! A point that falls onto a corner of a triangle without area; a walk would leave it by its first link:
+//! A point equals a corner of a triangle without area; a walk would leave the triangle for its first neighbour:
 //! ```text
 //! r0                2  .  .  .  .  .  .  .  .  .  .  .
 //! r1                6  .  .  .  .  .  .  .  .  .  .  .
@@ -27,16 +28,16 @@ pub struct VisitJudge {
     /// Corners of the record as stored, and the point, in clock 0.
     pub corners: Signal<In, Corners>,
     pub p: Signal<In, Point>,
-    /// The record turned, when its signs are there, straight from registers, in clock 10.
+    /// The rotated record, in clock 10 with its signs, straight from registers.
     pub turned: Signal<In, Turned>,
-    /// What the visit found out, in clock 10.
+    /// The findings of the visit, in clock 10.
     pub verdict: Signal<Out, Verdict>,
     predicates: VisitPredicates,
     verdict_logic: VerdictLogic,
 }
 
 impl VisitJudge {
-    /// Clocks from the corners to the verdict.
+    /// The number of clocks from the corners to the verdict.
     pub const LATENCY: usize = VisitPredicates::LATENCY;
 }
 

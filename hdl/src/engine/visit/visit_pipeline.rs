@@ -1,25 +1,27 @@
-//! Everything a visit passes: queue, triangle memory and locks, slot and rotation, vertex memory, predicates, verdict.
+//! The whole path of a visit: queue, triangle memory with locks, rotation, vertex memory, predicates, verdict.
 //!
-//! 1. Every visit takes the same time, so visits complete in the order of their issue, at most one a clock.
-//! 2. A visit whose record is written in the clock in which it is issued, or is not written yet, completes with `turned.again` (L7). Then
-//!    vertices, links and slot of `turned` and the whole `verdict` are arbitrary; `took` and `foreign` hold all the same.
-//! 3. A visit is judged against the point that its context has 4 clocks after its issue. The user changes that point only while none
-//!    of the context's visits is out.
-//! 4. A read-out never meets a write of its record at one edge: the user reads only while nothing is at work.
+//! 1. Every visit takes the same time. So visits complete in the order of their issue, at most one a clock.
+//! 2. A visit whose record is written in the clock in which it is issued, or is not written yet, completes with
+//!    `turned.again` (L7). Vertices, neighbours and slot of `turned` and the whole `verdict` are arbitrary then; `took`
+//!    and `foreign` hold all the same.
+//! 3. A visit is judged by the point that its context has 4 clocks after the issue. The user changes that point only
+//!    while none of the context's visits is out.
+//! 4. A read-out never meets a write of its record at one edge, because the user reads only while no
+//!    insertion is at work.
 //!
-//! Latency: `STAGES` = 16 clocks from the issue register to `visit`, 17 from `push`, and 18 round the loop with the register that
-//! drives `push`. The record is there after 2, the corners after 5, the signs after 15. A read-out takes 3 clocks from `read` to
-//! `read_out`.
+//! Latency: `STAGES` = 16 clocks from the issue register to `visit`, 17 from `push`, and 18 round the loop with the
+//! register that drives `push`. The record is there after 2 clocks, the corners after 5, the signs after 15. A read-out
+//! takes 3 clocks from `read` to `read_out`.
 //!
 //! A bundle of two visits of context 1, then a read-out:
 //! ```text
 //! push            /^^\____________________________________________________________________
-//! bundle.owner      1  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .
-//! bundle.x          1  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .
+//! bundle.context    1  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .
+//! bundle.entry      1  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .
 //! is_issuing      ___/^^^^^\______________________________________________________________
 //! done            ___________________________________________________/^^^^^\______________
-//! token.owner       .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  1  1  .  .  .  .  .
-//! token.x           .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  1  2  .  .  .  .  .
+//! visit.context     .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  1  1  .  .  .  .  .
+//! visit.entry       .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  1  2  .  .  .  .  .
 //! read            _________________________________________________________/^^\___________
 //! read_done       __________________________________________________________________/^^\__
 //! ```
@@ -28,44 +30,43 @@ use super::issue::Issue;
 use super::visit_judge::VisitJudge;
 use super::visit_reader::VisitReader;
 use crate::engine::types::{
-    context_bits, ring_bits, Arrival, Completion, ContextId, LockClear, Position, Push, RecordRead, Token, TriangleId,
-    Turned, Upcoming, VertexId, Write, WriteEnables, CONTEXT_BITS, TOKEN_BITS, TURNED_BITS,
+    context_bits, ring_bits, Arrival, Completion, ContextId, LockClear, Position, Push, RecordRead, TriangleId, Turned,
+    Upcoming, VertexId, Visit, Write, WriteEnables, CONTEXT_BITS, TURNED_BITS, VISIT_BITS,
 };
 use crate::leaf::{DelayLine, LutMemory, Unpack};
 use crate::mesh::{ReadRecord, TriangleStore, VertexStore};
 use crate::predicate::{Point, POINT_BITS};
+use crate::prelude::*;
 use incircle_protocol::{triangle_id_bits, vertex_id_bits, Config};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The visit pipeline; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VisitPipeline {
     pub clock: Signal<In, Clock>,
-    /// Reset forgets all visits; memories keep their contents.
+    /// Reset forgets all visits; the memories keep their contents.
     pub reset: Signal<In, Bit>,
-    /// The id of the infinite vertex, a constant.
+    /// The number of the infinite vertex, a constant.
     pub infinite: Signal<In, VertexId>,
     /// Records from this id on are not written yet.
     pub records: Signal<In, TriangleId>,
-    /// Visits to make.
+    /// Visits for the queue.
     pub push: Signal<In, Push>,
-    /// The point that a context inserts from now on.
+    /// The coordinates of the point that a context inserts from now on.
     pub position: Signal<In, Position>,
     /// A visit reads its record in this clock.
     pub is_issuing: Signal<Out, Bit>,
-    /// The visit that completes in this clock, and the one that does in the next clock unless reset.
-    pub visit: Signal<Out, Completion>,
+    /// The visit that completes in this clock; and the one that completes in the next clock unless reset comes first.
+    pub completion: Signal<Out, Completion>,
     pub early: Signal<Out, Upcoming>,
-    /// A read-out wants a record; only while no visit is out.
+    /// A record that the read-out wants, only while no visit is out; and the record that has been read.
     pub read: Signal<In, RecordRead>,
     pub read_out: Signal<Out, ReadRecord>,
-    /// A write into the triangle memory, and the columns that it writes.
+    /// A write into the triangle memory; `enables` says which columns.
     pub write: Signal<In, Write>,
     pub enables: Signal<In, WriteEnables>,
-    /// A write into the vertex memory.
+    /// A point to store in the vertex memory.
     pub arrival: Signal<In, Arrival>,
-    /// A vertex read, 2 clocks later; only at an edge without such a write.
+    /// A vertex to read, only at an edge without such a write; its coordinates come 2 clocks later.
     pub fetch_id: Signal<In, VertexId>,
     pub fetched: Signal<Out, Point>,
     pub clear: Signal<In, LockClear>,
@@ -77,22 +78,22 @@ pub struct VisitPipeline {
     positions: LutMemory<CONTEXT_BITS, POINT_BITS>,
     is_written: Signal<Local, Bit>,
     is_torn: Signal<Local, Bit>,
-    /// The visit in clocks 1 and 2 must look again.
+    /// The visit in clock 1, and the one in clock 2, must be made again.
     again1: DFF<Bit>,
     again2: DFF<Bit>,
-    /// The context of the visit in clocks 3 and 4.
-    owner3: DFF<ContextId>,
-    owner4: DFF<ContextId>,
-    token_bits: Signal<Local, Bits<TOKEN_BITS>>,
+    /// The context of the visit in clock 3, and in clock 4.
+    context3: DFF<ContextId>,
+    context4: DFF<ContextId>,
+    visit_bits: Signal<Local, Bits<VISIT_BITS>>,
     turned_bits: Signal<Local, Bits<TURNED_BITS>>,
-    token_delay: DelayLine<TOKEN_BITS>,
+    visit_delay: DelayLine<VISIT_BITS>,
     turned_delay: DelayLine<TURNED_BITS>,
-    delayed_token: Unpack<Token, TOKEN_BITS>,
+    delayed_visit: Unpack<Visit, VISIT_BITS>,
     delayed_turned: Unpack<Turned, TURNED_BITS>,
-    /// The record in clock 15.
+    /// The record of the visit in clock 15.
     judged: DFF<Turned>,
     point: DFF<Point>,
-    /// Bit `k`: the visit issued `k + 1` clocks ago is valid; `completes` says so of the last stage.
+    /// Bit `k`: the visit issued `k + 1` clocks ago is valid. `completes` holds the valid bit of the last stage.
     valid: DFF<Bits<15>>,
     read_valid1: DFF<Bit>,
     read_valid2: DFF<Bit>,
@@ -102,12 +103,13 @@ pub struct VisitPipeline {
 }
 
 impl VisitPipeline {
-    /// Clocks from the issue register to `visit`: corners, signs, verdict.
+    /// The number of clocks from the issue register to `visit`: corners, signs, verdict.
     pub const STAGES: usize = VisitReader::LATENCY + VisitJudge::LATENCY + 1;
 
-    /// The pipeline of a configuration.
+    /// Builds the pipeline of a configuration.
     ///
     /// # Panics
+    ///
     /// If the stages do not add up to the width of the valid register, which is a fault in this source.
     pub fn new(config: Config) -> Self {
         assert_eq!(Self::STAGES, 16, "the valid register has a bit for each stage but the last");
@@ -121,7 +123,7 @@ impl VisitPipeline {
             ),
             positions: LutMemory::new(context_bits(config), POINT_BITS),
             vertices: VertexStore::new(vertex_id_bits(config.points) as usize - 1),
-            token_delay: DelayLine::new(signs - TriangleStore::LATENCY),
+            visit_delay: DelayLine::new(signs - TriangleStore::LATENCY),
             turned_delay: DelayLine::new(signs - VisitReader::TURNED_LATENCY - 1),
             ..Self::default()
         }
@@ -131,32 +133,32 @@ impl VisitPipeline {
 impl Logic for VisitPipeline {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, again1, again2, owner3, owner4, point, valid, read_valid1, read_valid2);
+        dff_setup!(self, clock, again1, again2, context3, context4, point, valid, read_valid1, read_valid2);
         dff_setup!(self, clock, judged, completes);
-        clock!(self, clock, issue, triangles, vertices, reader, positions, judge, token_delay, turned_delay);
+        clock!(self, clock, issue, triangles, vertices, reader, positions, judge, visit_delay, turned_delay);
         self.one.next = 1.into();
         self.reader.infinite.next = self.infinite.val();
         self.issue.reset.next = self.reset.val();
         self.issue.push.next = self.push.val();
         self.issue.read.next = self.read.val();
-        self.is_issuing.next = self.issue.token_valid.val();
+        self.is_issuing.next = self.issue.visit_valid.val();
 
-        // Clock 0, L7: a record that is not written yet, or being written, does not count.
-        self.is_written.next = self.issue.token.val().u < self.records.val();
-        self.is_torn.next = self.write.val().valid & (self.write.val().id == self.issue.token.val().u);
+        // L7: clock 0 marks a record that is not written yet, or is being written at this edge. Columns of such a
+        // record may come from two different triangles, so the step of a walk across such a record would mean nothing.
+        self.is_written.next = self.issue.visit.val().record < self.records.val();
+        self.is_torn.next = self.write.val().valid & (self.write.val().id == self.issue.visit.val().record);
         self.again1.d.next = self.is_torn.val() | (!self.is_written.val());
         self.again2.d.next = self.again1.q.val();
 
-        // Clocks 0 to 2: the record.
-        self.triangles.read_id.next = self.issue.token.val().u;
+        self.triangles.read_id.next = self.issue.visit.val().record;
         self.triangles.vertices_id.next = self.issue.vertices_id.val();
         self.triangles.links_id.next = self.issue.links_id.val();
-        self.triangles.read_locks.next = self.issue.token_valid.val() & self.issue.token.val().locks;
-        self.triangles.owner.next = self.issue.token.val().owner;
+        self.triangles.read_locks.next = self.issue.visit_valid.val() & self.issue.visit.val().locks;
+        self.triangles.context_id.next = self.issue.visit.val().context;
         self.triangles.write.next = self.write.val();
         self.triangles.enables.next = self.enables.val();
         self.triangles.clear.next = self.clear.val();
-        self.reader.token.next = self.issue.token.val();
+        self.reader.visit.next = self.issue.visit.val();
         self.reader.record.next = self.triangles.record.val();
         self.reader.took.next = self.triangles.took.val();
         self.reader.foreign.next = self.triangles.foreign.val();
@@ -166,7 +168,7 @@ impl Logic for VisitPipeline {
         self.read_out.next.valid = self.read_valid2.q.val();
         self.read_out.next.record = self.triangles.record.val();
 
-        // Clocks 2 to 5: the corners, and the point.
+        // Clocks 2 to 5 fetch the corners. The point is read in clock 4, so that it meets its corners in clock 5.
         self.vertices.id0.next = self.triangles.record.val().v0;
         self.vertices.id1.next = self.triangles.record.val().v1;
         self.vertices.id2.next = self.triangles.record.val().v2;
@@ -174,39 +176,39 @@ impl Logic for VisitPipeline {
         self.reader.stored_corners.next = self.vertices.corners.val();
         self.vertices.fetch_id.next = self.fetch_id.val();
         self.fetched.next = self.vertices.fetched.val();
-        self.owner3.d.next = self.reader.token_at_record.val().owner;
-        self.owner4.d.next = self.owner3.q.val();
-        self.positions.write_address.next = self.position.val().owner;
+        self.context3.d.next = self.reader.visit_at_record.val().context;
+        self.context4.d.next = self.context3.q.val();
+        self.positions.write_address.next = self.position.val().context;
         self.positions.write_data.next = self.position.val().point;
         self.positions.write_enable.next = self.position.val().valid;
-        self.positions.read_address.next = self.owner4.q.val();
+        self.positions.read_address.next = self.context4.q.val();
         self.point.d.next = self.positions.read_data.val();
 
-        // Clocks 5 to 15: the signs, and beside them the visit and its record.
+        // Clocks 5 to 15 compute the signs, while delay lines carry the visit and its record alongside.
         self.judge.corners.next = self.reader.corners.val();
         self.judge.p.next = self.point.q.val();
-        self.token_bits.next = self.reader.token_at_record.val().into();
-        self.token_delay.data_in.next = self.token_bits.val();
-        self.delayed_token.bits.next = self.token_delay.data_out.val();
+        self.visit_bits.next = self.reader.visit_at_record.val().into();
+        self.visit_delay.data_in.next = self.visit_bits.val();
+        self.delayed_visit.bits.next = self.visit_delay.data_out.val();
         self.turned_bits.next = self.reader.turned.val().into();
         self.turned_delay.data_in.next = self.turned_bits.val();
         self.delayed_turned.bits.next = self.turned_delay.data_out.val();
 
-        // Clock 14: the record comes out of the delay. Clock 15: the verdict.
+        // The delay line ends in clock 14: a register stands between it and the verdict, which is combinational.
         self.judged.d.next = self.delayed_turned.value.val();
         self.judge.turned.next = self.judged.q.val();
         self.early.next.done = self.valid.q.val().get_bit(14);
-        self.early.next.token = self.delayed_token.value.val();
+        self.early.next.visit = self.delayed_visit.value.val();
         self.early.next.turned = self.judged.q.val();
         self.completes.d.next.done = self.valid.q.val().get_bit(14) & (!self.reset.val());
-        self.completes.d.next.token = self.delayed_token.value.val();
+        self.completes.d.next.visit = self.delayed_visit.value.val();
         self.completes.d.next.turned = self.judged.q.val();
         self.completes.d.next.verdict = self.judge.verdict.val();
-        self.visit.next = self.completes.q.val();
+        self.completion.next = self.completes.q.val();
 
         self.shifted.next = self.valid.q.val() << self.one.val();
         self.valid.d.next = self.shifted.val();
-        if self.issue.token_valid.val() {
+        if self.issue.visit_valid.val() {
             self.valid.d.next = self.shifted.val() | self.one.val();
         }
         if self.reset.val() {

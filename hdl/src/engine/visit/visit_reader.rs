@@ -1,61 +1,62 @@
-//! Reads the record of a visit, turns it, and takes in the coordinates of its corners.
+//! Reads the record of a visit, rotates it by the edge it was reached through, and passes on the coordinates of its
+//! corners. A test then finds the edge it came across opposite slot 0, whatever the stored order.
 //!
-//! 1. With `token.rotates` the slot whose link is `token.f` comes first, otherwise slot 0 does. The links of a record differ.
+//! 1. With `visit.rotates` the slot whose neighbour is `visit.cavity_record` comes first, otherwise slot 0 does. The
+//!    neighbours of a record differ, so the slot is unique.
 //! 2. `took`, `foreign` and `again` pass unchanged into `turned`.
-//! 3. Nothing is computed between a memory's output and the first register: block RAM lies far from everything. That is why the corners
-//!    stay as stored; what of the verdict depends on the turn is turned there.
+//! 3. No logic stands between the output of a memory and the first register, because block RAM lies far from all other
+//!    logic. The corners therefore stay as stored, and `VerdictLogic` allows for the rotation.
 //!
-//! Latency: see the clocks above; `LATENCY` is that of the corners.
+//! Latency: see the clocks named at the ports; `LATENCY` is that of the corners.
 //!
-//! A visit that comes through link 1, so that vertex 1 comes first, and takes the lock:
+//! A visit reaches its record through neighbour 1, so that vertex 1 comes first, and takes the lock:
 //! ```text
-//! token.f          30  .  .  .  .  .  .
-//! n1                .  . 30  .  .  .  .
-//! v0                .  . 11  .  .  .  .
-//! v1                .  . 12  .  .  .  .
-//! again           ______/^^\___________
-//! took            _________/^^\________
-//! turned.v0         .  .  .  .  . 12  .
-//! turned.slot       .  .  .  .  .  1  .
-//! turned.again      .  .  .  .  ./^^  .
-//! turned.took       .  .  .  .  ./^^  .
-//! position0         .  .  .  . 51  .  .
-//! r0                .  .  .  .  . 51  .
+//! visit.cavity_record  30  .  .  .  .  .  .
+//! n1                    .  . 30  .  .  .  .
+//! v0                    .  . 11  .  .  .  .
+//! v1                    .  . 12  .  .  .  .
+//! again               ______/^^\___________
+//! took                _________/^^\________
+//! turned.v0             .  .  .  .  . 12  .
+//! turned.slot           .  .  .  .  .  1  .
+//! turned.again          .  .  .  .  ./^^  .
+//! turned.took           .  .  .  .  ./^^  .
+//! position0             .  .  .  . 51  .  .
+//! r0                    .  .  .  .  . 51  .
 //! ```
 
-use crate::engine::types::{Slot, Token, Turned, VertexId};
+use crate::engine::types::{Slot, Turned, VertexId, Visit};
 use crate::mesh::{Record, TriangleStore, VertexStore};
 use crate::predicate::Corners;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
-/// Slot search, rotation and corners; see the top of this file.
+/// Rotation and corners of a record; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VisitReader {
     pub clock: Signal<In, Clock>,
-    /// The id of the infinite vertex, a constant.
+    /// The number of the infinite vertex, a constant.
     pub infinite: Signal<In, VertexId>,
     /// The visit, in clock 0.
-    pub token: Signal<In, Token>,
-    /// Its record from the triangle memory, in clock 2.
+    pub visit: Signal<In, Visit>,
+    /// The record of the visit from the triangle memory, in clock 2.
     pub record: Signal<In, Record>,
-    /// Whether the record counts, in clock 2.
+    /// The record is not written yet or is being written; in clock 2.
     pub again: Signal<In, Bit>,
-    /// What became of its lock, in clock 3.
+    /// The outcome for the lock, in clock 3.
     pub took: Signal<In, Bit>,
     pub foreign: Signal<In, Bit>,
-    /// The coordinates of its vertices, in clock 4.
+    /// The coordinates of the vertices, in clock 4.
     pub stored_corners: Signal<In, Corners>,
-    /// The record turned, in clock 5.
+    /// The rotated record, in clock 5.
     pub turned: Signal<Out, Turned>,
-    /// The visit whose record is there, for the delay to the verdict.
-    pub token_at_record: Signal<Out, Token>,
-    /// The coordinates of its vertices, not turned, in clock 5.
+    /// The visit in clock 2, for the delay line that carries it to the verdict.
+    pub visit_at_record: Signal<Out, Visit>,
+    /// The coordinates of the vertices, not rotated, in clock 5.
     pub corners: Signal<Out, Corners>,
-    token1: DFF<Token>,
-    token2: DFF<Token>,
-    token3: DFF<Token>,
-    /// The record as it comes.
+    visit1: DFF<Visit>,
+    visit2: DFF<Visit>,
+    visit3: DFF<Visit>,
+    /// The record as it comes from the memory.
     stored: DFF<Turned>,
     /// The record as stored; `slot` is the one that will come first.
     found: DFF<Turned>,
@@ -67,25 +68,25 @@ pub struct VisitReader {
 }
 
 impl VisitReader {
-    /// Clocks from the token to the corners.
+    /// The number of clocks from the visit to the corners.
     pub const LATENCY: usize = TriangleStore::LATENCY + VertexStore::LATENCY + 1;
-    /// Clocks from the token to the turned record: the record, a register, the slot, the rotation.
+    /// The number of clocks from the visit to the rotated record: memory, register, slot search, rotation.
     pub const TURNED_LATENCY: usize = TriangleStore::LATENCY + 3;
 }
 
 impl Logic for VisitReader {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, token1, token2, token3, stored, found, rotated, kept_corners);
+        dff_setup!(self, clock, visit1, visit2, visit3, stored, found, rotated, kept_corners);
         self.first_slot.next = 0.into();
         self.second_slot.next = 1.into();
         self.third_slot.next = 2.into();
-        self.token1.d.next = self.token.val();
-        self.token2.d.next = self.token1.q.val();
-        self.token_at_record.next = self.token2.q.val();
+        self.visit1.d.next = self.visit.val();
+        self.visit2.d.next = self.visit1.q.val();
+        self.visit_at_record.next = self.visit2.q.val();
 
-        // Clock 2: the record as it comes.
-        self.token3.d.next = self.token2.q.val();
+        // Clock 2 only stores the record: the memory's output has no time left for logic.
+        self.visit3.d.next = self.visit2.q.val();
         self.stored.d.next.v0 = self.record.val().v0;
         self.stored.d.next.v1 = self.record.val().v1;
         self.stored.d.next.v2 = self.record.val().v2;
@@ -94,7 +95,8 @@ impl Logic for VisitReader {
         self.stored.d.next.n2 = self.record.val().n2;
         self.stored.d.next.again = self.again.val();
 
-        // Clock 3: the slot that comes first, the infinite vertex, and what became of the lock.
+        // Clock 3 searches the slot that comes first. The outcome for the lock joins here, because it comes a
+        // clock after the record.
         self.found.d.next = self.stored.q.val();
         self.found.d.next.took = self.took.val();
         self.found.d.next.foreign = self.foreign.val();
@@ -102,14 +104,14 @@ impl Logic for VisitReader {
         self.found.d.next.infinite1 = self.stored.q.val().v1 == self.infinite.val();
         self.found.d.next.infinite2 = self.stored.q.val().v2 == self.infinite.val();
         self.found.d.next.slot = self.first_slot.val();
-        if self.token3.q.val().rotates & (self.stored.q.val().n1 == self.token3.q.val().f) {
+        if self.visit3.q.val().rotates & (self.stored.q.val().n1 == self.visit3.q.val().cavity_record) {
             self.found.d.next.slot = self.second_slot.val();
         }
-        if self.token3.q.val().rotates & (self.stored.q.val().n2 == self.token3.q.val().f) {
+        if self.visit3.q.val().rotates & (self.stored.q.val().n2 == self.visit3.q.val().cavity_record) {
             self.found.d.next.slot = self.third_slot.val();
         }
 
-        // Clock 4: the record turned.
+        // Clock 4 rotates the record by the slot that is now known.
         self.rotated.d.next = self.found.q.val();
         if self.found.q.val().slot == self.second_slot.val() {
             self.rotated.d.next.v0 = self.found.q.val().v1;
@@ -135,7 +137,6 @@ impl Logic for VisitReader {
         }
         self.turned.next = self.rotated.q.val();
 
-        // Clock 4, too: the corners as they come.
         self.kept_corners.d.next = self.stored_corners.val();
         self.corners.next = self.kept_corners.q.val();
     }

@@ -1,9 +1,9 @@
 //! The registered write port of the triangle memory: takes the request of whichever block makes one.
 //!
 //! 1. Without a request the data are held, and `write.valid` and all `enables` are low.
-//! 2. The enables are registers of their own, so that no logic stands between this port and the many block RAMs that it drives, and so are
-//!    two copies of the record's id, so that each may stand near the RAMs that it drives. Reset gives each another value, or synthesis
-//!    would make one register of them.
+//! 2. The enables are registers of their own, so that no logic stands between this port and the many block RAMs that it
+//!    drives. For the same reason the record's id has two copies, each of which may stand near its RAMs. Reset gives
+//!    each copy another value, because synthesis would otherwise merge them.
 //!
 //! Latency: 1 clock; the memory shows the write from the clock after.
 //! ```text
@@ -17,8 +17,7 @@
 //! ```
 
 use crate::engine::types::{Write, WriteEnables};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
+use crate::prelude::*;
 
 /// The write port; see the top of this file.
 #[derive(LogicBlock, Default)]
@@ -26,13 +25,13 @@ pub struct WritePort {
     pub clock: Signal<In, Clock>,
     /// Reset drops a write.
     pub reset: Signal<In, Bit>,
-    /// Requests; at most one is valid: the last two come only while nothing else is at work.
+    /// Requests, of which at most one is valid: `solo` and `seed` come only while nothing else is at work.
     pub commit: Signal<In, Write>,
     pub solo: Signal<In, Write>,
     pub seed: Signal<In, Write>,
-    /// The write made at the next edge.
+    /// The write that is made at the next edge.
     pub write: Signal<Out, Write>,
-    /// The columns that it writes, none without a write; its record twice more.
+    /// The columns that the write concerns, none without a write; and the record's id twice more.
     pub enables: Signal<Out, WriteEnables>,
     port: DFF<Write>,
     enabled: DFF<WriteEnables>,

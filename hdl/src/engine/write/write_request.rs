@@ -1,6 +1,7 @@
-//! The two forms of a write into the triangle memory: a whole record of the new point's star, and one link.
+//! The two forms of a write into the triangle memory: a whole record of the new vertex's star, and one link. Several
+//! blocks make such writes, so the columns are filled in here.
 //!
-//! Latency: none (combinational).
+//! Latency: none, the blocks are combinational.
 
 use crate::engine::types::{Slot, TriangleId, VertexId, Write};
 use rust_hdl_core::prelude::*;
@@ -8,7 +9,7 @@ use rust_hdl_core::prelude::*;
 /// A whole record; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RecordWrite {
-    /// The record and its columns.
+    /// The id of the record, its vertices, and its neighbours.
     pub id: Signal<In, TriangleId>,
     pub v0: Signal<In, VertexId>,
     pub v1: Signal<In, VertexId>,
@@ -16,7 +17,7 @@ pub struct RecordWrite {
     pub n0: Signal<In, TriangleId>,
     pub n1: Signal<In, TriangleId>,
     pub n2: Signal<In, TriangleId>,
-    /// A write of all of them.
+    /// The write of the whole record.
     pub write: Signal<Out, Write>,
 }
 
@@ -41,12 +42,12 @@ impl Logic for RecordWrite {
 /// One link; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct LinkWrite {
-    /// The record and the column of the link.
+    /// The record, and the slot of the link that is written.
     pub id: Signal<In, TriangleId>,
     pub slot: Signal<In, Slot>,
-    /// The record that it leads to.
+    /// The neighbour that the link names from now on.
     pub value: Signal<In, TriangleId>,
-    /// A write of this column alone; `value` stands on all three.
+    /// The write of this slot alone; `value` stands in all three slots, because the enables choose.
     pub write: Signal<Out, Write>,
     slot0: Signal<Local, Slot>,
     slot1: Signal<Local, Slot>,

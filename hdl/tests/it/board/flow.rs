@@ -1,5 +1,5 @@
-//! From the source to a bitstream, with stand-ins for the tools: which clock is taken, which seed is packed, and what ends without a bitstream.
-//! With the tools themselves `./check` makes a tiny core.
+//! Goes from the source to a bitstream with stand-ins for the tools: which clock is chosen, which seed is packed, and
+//! which failures end without a bitstream. With the real tools `./check` makes a tiny core.
 
 use incircle_hdl::board::{Attempt, Report, Seed, Summary};
 use sha2::{Digest, Sha256};
@@ -15,7 +15,8 @@ fn folder(name: &str) -> PathBuf {
     folder
 }
 
-/// Runs `board colorlight-i5` with a tiny core and more options. `fmax` is what the seeds reach, whatever the clock; `fault` is what a tool does wrong.
+/// Runs `board colorlight-i5` with a tiny core and more options. `fmax` lists the clocks that the seeds reach, in their
+/// order; `fault` names the fault of a tool.
 fn build(out: &Path, options: &[&str], fmax: &str, fault: &str) -> Output {
     let stand_ins = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join("stand_ins");
     let path = std::env::var("PATH").unwrap_or_default();

@@ -1,4 +1,5 @@
-//! The boards: their folders agree with what the command knows of them, and the tables in the documents with the reports.
+//! Checks that the folders of the boards agree with what the command says of them, and the tables
+//! in the documents with the reports.
 
 use incircle_hdl::board::{held_text, pages, Board, Report, Summary, BOARDS};
 use std::collections::BTreeSet;

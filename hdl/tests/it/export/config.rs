@@ -6,13 +6,13 @@ use incircle_protocol::{Config, SMALL};
 #[test]
 fn bad_parameters_are_refused_with_their_numbers() {
     for (config, sentence) in [
-        (Config { points: 1000, ..SMALL }, "a power of two of points, 4 to 16384, not 1000"),
-        (Config { points: 2, ..SMALL }, "4 to 16384, not 2"),
-        (Config { points: 32768, ..SMALL }, "4 to 16384, not 32768"),
-        (Config { ring: 2, ..SMALL }, "3 to 64 edges, not 2"),
-        (Config { ring: 65, ..SMALL }, "3 to 64 edges, not 65"),
-        (Config { contexts: 0, ..SMALL }, "1 to 24 contexts, not 0"),
-        (Config { contexts: 25, ..SMALL }, "1 to 24 contexts, not 25"),
+        (Config { points: 1000, ..SMALL }, "cannot hold 1000 points: choose a power of two from 4 to 16384"),
+        (Config { points: 2, ..SMALL }, "cannot hold 2 points: choose a power of two from 4 to 16384"),
+        (Config { points: 32768, ..SMALL }, "cannot hold 32768 points: choose a power of two from 4 to 16384"),
+        (Config { ring: 2, ..SMALL }, "cannot hold 2 edges: choose a number from 3 to 64"),
+        (Config { ring: 65, ..SMALL }, "cannot hold 65 edges: choose a number from 3 to 64"),
+        (Config { contexts: 0, ..SMALL }, "cannot have 0 contexts: choose a number from 1 to 24"),
+        (Config { contexts: 25, ..SMALL }, "cannot have 25 contexts: choose a number from 1 to 24"),
     ] {
         let error = export::core(config, false).unwrap_err().to_string();
         assert!(error.contains(sentence), "{error}");

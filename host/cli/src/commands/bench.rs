@@ -1,4 +1,4 @@
-//! `incircle bench`: a back end on generated sets.
+//! `incircle bench`: measures a back end on generated sets.
 
 use incircle::{Point, Session};
 use incircle_testkit::Distribution;
@@ -14,10 +14,10 @@ use crate::fit::Fit;
 use crate::output;
 use crate::progress::Meter;
 
-/// Parts of a set that a board does too, for the line over the points.
+/// Divisors of the number of points, for the smaller sets that a board does as well, for the fitted line.
 const PARTS: [u32; 3] = [8, 4, 2];
 
-/// Runs the subcommand: a row as soon as its set is done, or one JSON object at the end.
+/// Runs the subcommand. Each row is printed as soon as its set is done, or one JSON object at the end.
 pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
     check_count(arguments.n)?;
     if let Some(jobs) = arguments.batch {
@@ -50,7 +50,7 @@ pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
             measured.fit = fit(&mut session, &measured, &bench)?;
         }
         if !arguments.json {
-            // The header comes with the first row: what fails before it has its sentence to itself.
+            // The header comes with the first row, so that an early failure prints its sentence alone.
             let header = if rows.is_empty() { bench.header() } else { String::new() };
             output::print(&format!("{header}{}\n", bench.row(&measured)))?;
         }
@@ -62,15 +62,14 @@ pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The clock that a board told, in MHz.
+/// The clock frequency that a board reports, in MHz; `None` if the board reports zero.
 fn clock_of(board: backend::Board) -> Option<f64> {
     Some(f64::from(board.greeting.clock_hz) / 1e6).filter(|&mhz| mhz > 0.0)
 }
 
-/// Points that the back end must hold for every set: distinct ones for a core, which is small, all of them for
-/// software.
+/// Points that the back end must hold for every set. A core in simulation counts distinct points, because it is small;
+/// all others count all points.
 fn room_for(choice: &Choice, sets: &[Distribution], arguments: &BenchArguments) -> Result<usize, Failure> {
-    // A board is what it is.
     if !choice.is_core() {
         return Ok(arguments.n as usize);
     }
@@ -94,7 +93,7 @@ fn measure(session: &mut Session<'_>, set: Distribution, runs: usize, bench: &Be
     Ok(best)
 }
 
-/// The time of jobs of several sizes, as a line.
+/// Measures smaller sets as well, and fits a line through the times of all sizes.
 fn fit(session: &mut Session<'_>, whole: &Measured, bench: &Bench<'_>) -> Result<Option<Fit>, Failure> {
     let &Bench { arguments, coord_bits, .. } = bench;
     let mut jobs = Vec::with_capacity(PARTS.len() + 1);

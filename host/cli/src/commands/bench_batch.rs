@@ -1,4 +1,4 @@
-//! `incircle bench --batch`: many jobs in one call, from the first word in to the last triangle out.
+//! `incircle bench --batch`: measures many jobs as one batch, from the first word sent to the last triangle received.
 
 use incircle::{Point, Session, Solution};
 use incircle_protocol::FULL;
@@ -12,9 +12,9 @@ use crate::failure::{counted, failure_of, Failure};
 use crate::output;
 use crate::progress::Meter;
 
-/// Width of the names of sets.
+/// Width of the column with the names of sets.
 const SET_WIDTH: usize = 15;
-/// Columns with their widths.
+/// The other columns with their widths.
 const COLUMNS: [(&str, usize); 9] = [
     ("points", 10),
     ("triangles", 11),
@@ -27,23 +27,23 @@ const COLUMNS: [(&str, usize); 9] = [
     ("ns/point", 10),
 ];
 
-/// A set and what became of its jobs.
+/// The measurement of the jobs of one set.
 struct Measured {
     set: Distribution,
-    /// Distinct points of all jobs.
+    /// Distinct points of all jobs together.
     distinct: usize,
     triangles: usize,
-    /// Clocks of all jobs, where they are counted and there are any.
+    /// Clocks of all jobs, if the back end counts clocks and did any of the jobs.
     cycles: Option<u64>,
-    /// Those of the longest job, where each job had the whole memory.
+    /// Clocks of the longest job, if all jobs were exclusive jobs.
     longest: Option<u64>,
-    /// Those in which the engine was at work, as it counts them itself, where each job had the whole memory.
+    /// Clocks in which the insertion engine worked, by its own counter, if all jobs were exclusive jobs.
     engine: Option<u64>,
-    /// Time of the whole library call.
+    /// Seconds of the whole library call.
     seconds: f64,
 }
 
-/// What all rows have in common.
+/// The facts that all rows of a table have in common.
 struct Table<'a> {
     arguments: &'a BenchArguments,
     coord_bits: u32,
@@ -55,16 +55,17 @@ struct Table<'a> {
     contexts: u32,
 }
 
-/// Most points of all jobs together: they and their meshes are in memory at once, 40 bytes a point and some hundred a
-/// job, so 3 to 10 GB.
+/// Most points of all jobs together. Points and meshes are in memory at once and take 40 bytes a point and some hundred
+/// a job, so 3 to 10 GB in all.
 const MOST_POINTS: u64 = 1 << 26;
 
-/// Runs so many jobs of each set: a row as soon as they are done, or one JSON object at the end.
+/// Runs a batch of `jobs` jobs of each set. Each row is printed as soon as its batch is done, or one JSON
+/// object at the end.
 pub fn run(arguments: &BenchArguments, jobs: u32) -> Result<(), Failure> {
     let points = u64::from(jobs) * u64::from(arguments.n);
     if points > MOST_POINTS {
         return Err(Failure::usage(format!(
-            "--batch {jobs} with -n {} is {points} points, which are in memory at once: ask for at most {MOST_POINTS}",
+            "--batch {jobs} with -n {} is {points} points, all in memory at once: ask for at most {MOST_POINTS}",
             arguments.n
         )));
     }
@@ -99,8 +100,8 @@ pub fn run(arguments: &BenchArguments, jobs: u32) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Points that the back end must hold: those of a job. A core that is not chosen is the one for a board, not the
-/// smallest that holds a job.
+/// Points that the back end must hold: those of one job. Without `--config` the core is at least the configuration
+/// `full`, which boards have, and not the smallest one that holds a job.
 fn room(choice: &Choice, arguments: &BenchArguments) -> usize {
     let least = if choice.is_core() && choice.config.is_none() { FULL.points } else { 0 };
     arguments.n.max(least) as usize
@@ -131,7 +132,7 @@ fn run_once(
     let options = arguments.job.options(&listener);
     let before = session.clocks();
     let (solutions, seconds) = timed(|| session.triangulate_batch(jobs, &options))?;
-    // None at all where no job has reached the core.
+    // The clock stands still if no job has reached the core.
     let cycles = session.clocks().zip(before).map(|(after, before)| after - before).filter(|&cycles| cycles > 0);
     let distinct = solutions.iter().map(|solution| solution.report.distinct).sum();
     let triangles = solutions.iter().map(|solution| solution.report.triangles).sum();
@@ -139,14 +140,14 @@ fn run_once(
     Ok(Measured { set, distinct, triangles, cycles, longest, engine, seconds })
 }
 
-/// Clocks of the longest job; none where jobs shared the memory.
+/// Clocks of the longest job; `None` if any jobs shared the memory.
 fn longest_of(solutions: &[Solution]) -> Option<u64> {
     let of_device = solutions.iter().filter(|solution| !solution.report.collinear);
     let clocks: Option<Vec<u64>> = of_device.map(|solution| solution.report.clocks).collect();
     clocks?.into_iter().max()
 }
 
-/// Clocks of all insertions; none where they are not counted for each job.
+/// Clocks of all insertions; `None` if they are not counted for each job.
 fn engine_of(solutions: &[Solution]) -> Option<u64> {
     let of_device = solutions.iter().filter(|solution| !solution.report.collinear);
     let cycles = |solution: &Solution| solution.report.counters.map(|counters| counters.insert_cycles);
@@ -190,7 +191,7 @@ impl Table<'_> {
         line(&measured.set.to_string(), cells)
     }
 
-    /// Time of all jobs: of the clocks at the frequency that is assumed, or of the call where nothing counts clocks.
+    /// Seconds of all jobs: the clocks at the frequency of the table, or the time of the call if nothing counts clocks.
     fn device_seconds(&self, measured: &Measured) -> Option<f64> {
         if self.config.is_none() {
             return Some(measured.seconds);
@@ -198,7 +199,7 @@ impl Table<'_> {
         measured.cycles.map(|cycles| cycles as f64 / (self.mhz * 1e6))
     }
 
-    /// From the first word in to the last triangle out, in the mean.
+    /// Clocks from the first word sent to the last triangle received, on average over the jobs.
     fn cycles_per_job(&self, measured: &Measured) -> Option<f64> {
         measured.cycles.map(|cycles| cycles as f64 / f64::from(self.jobs))
     }

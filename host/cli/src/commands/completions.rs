@@ -1,4 +1,4 @@
-//! `incircle completions`: completion scripts.
+//! `incircle completions`: prints completion scripts for shells.
 
 use clap::CommandFactory;
 
@@ -6,9 +6,9 @@ use crate::arguments::{Cli, CompletionsArguments};
 use crate::failure::Failure;
 use crate::output;
 
-/// Runs the subcommand.
+/// Prints the completion script for the chosen shell.
 pub fn run(arguments: &CompletionsArguments) -> Result<(), Failure> {
-    // Into memory first: the generator panics when it cannot write.
+    // The script is made in memory, because the generator panics if it cannot write.
     let mut script = Vec::new();
     clap_complete::generate(arguments.shell, &mut Cli::command(), "incircle", &mut script);
     output::print(&String::from_utf8_lossy(&script))

@@ -1,4 +1,4 @@
-//! `incircle devices`: the serial ports and the PCIe cards of this machine, and who is there.
+//! `incircle devices`: lists the serial ports and the PCIe cards of this machine.
 
 use std::time::Duration;
 
@@ -9,13 +9,14 @@ use crate::arguments::DevicesArguments;
 use crate::failure::{printable, Exit, Failure};
 use crate::output;
 
-/// Time for a port: a device that a killed program left at a high rate answers after two seconds.
+/// Time for the answer at a port. A device that a killed program left at a high rate answers after two seconds.
 const GREET_TIMEOUT: Duration = Duration::from_secs(4);
 
-/// Runs the subcommand: a line per port and card, with what the system knows of it, and with what is there if it is
-/// greeted.
+/// Runs the subcommand. Each port and card has a line with its description by the system, and with `--greet`
+/// also with its answer.
 pub fn run(arguments: &DevicesArguments) -> Result<(), Failure> {
-    let ports = serial::ports().map_err(|fault| Failure::new(Exit::NoDevice, format!("no ports: {fault}")))?;
+    let ports = serial::ports()
+        .map_err(|fault| Failure::new(Exit::NoDevice, format!("the serial ports cannot be listed: {fault}")))?;
     let cards = pcie::cards();
     if ports.is_empty() && cards.is_empty() {
         output::note("the system knows of no serial port and of no PCIe card; pseudo-terminals are not listed");
@@ -33,7 +34,7 @@ pub fn run(arguments: &DevicesArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What a card is, or why nobody knows.
+/// The description of a card by its registers, or the reason why it has none.
 fn greet_card(card: &CardInfo) -> String {
     match PcieTransport::open(&card.address).and_then(|mut card| card.registers()) {
         Ok(registers) => {
@@ -47,7 +48,7 @@ fn greet_card(card: &CardInfo) -> String {
     }
 }
 
-/// Who is at a port, or why nobody is known to be.
+/// The description of the device at a port by its answer, or the reason why there is none.
 fn greet(port: &PortInfo) -> String {
     match serial::greet(&Address::of_port(&*port.name), GREET_TIMEOUT) {
         Ok(greeting) => {

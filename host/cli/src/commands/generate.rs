@@ -1,4 +1,4 @@
-//! `incircle generate`: point sets by name.
+//! `incircle generate`: writes a point set that is chosen by name.
 
 use incircle::{Order, Point, MAX_POINTS};
 use incircle_testkit::{generate, Distribution, GenerateError};
@@ -9,13 +9,13 @@ use crate::formats::{csv, curve, extension, node, xyz, PointFormat};
 use crate::output::{self, Output};
 use crate::source;
 
-/// Runs the subcommand.
+/// Makes the set and writes it, as points or as a drawing of an order.
 pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
     let path = arguments.output.as_path();
     if extension(path) == "svg" {
         return draw(arguments);
     }
-    // What has no extension (standard output, a device) takes CSV.
+    // Outputs without an extension, such as standard output or a device, take CSV.
     let format = match extension(path) {
         "" => Some(PointFormat::Csv),
         extension => PointFormat::of_extension(extension),
@@ -41,7 +41,7 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
     output::finish([written], || Ok(()))
 }
 
-/// Draws an order instead of writing points.
+/// Draws an order of insertion instead of writing points.
 fn draw(arguments: &GenerateArguments) -> Result<(), Failure> {
     let Some(order) = arguments.order else {
         return Err(Failure::usage("an .svg shows an order of the points: add --order, or write .csv, .xyz or .node"));
@@ -54,7 +54,7 @@ fn draw(arguments: &GenerateArguments) -> Result<(), Failure> {
     output::finish([written], || Ok(()))
 }
 
-/// The points in an order.
+/// The points in an order of insertion.
 fn ordered(points: &[[u32; 2]], order: Order) -> Vec<[u32; 2]> {
     let grid: Vec<Point> = points.iter().copied().map(Point::from).collect();
     order.order(&grid).into_iter().map(|index| points[index as usize]).collect()
@@ -70,7 +70,7 @@ pub fn check_count(n: u32) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The points of a set, or a sentence.
+/// The points of a set, or a failure with the reason.
 pub fn make(distribution: Distribution, n: u32, bits: u32, seed: u64) -> Result<Vec<[u32; 2]>, Failure> {
     generate(distribution, n as usize, bits, seed).map_err(|error| {
         let exit = match error {

@@ -1,4 +1,4 @@
-//! `incircle info`: what a back end says of itself.
+//! `incircle info`: describes a back end.
 
 use incircle::DeviceAddress;
 
@@ -32,7 +32,7 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
     })
 }
 
-/// What is known of the line to a board.
+/// The lines about a board: its link and its clock.
 fn about_board(board: Board) -> String {
     let greeting = board.greeting;
     let link = greeting.link_version;

@@ -1,4 +1,4 @@
-//! The subcommands.
+//! The subcommands, a file each.
 
 pub mod bench;
 pub mod bench_batch;

@@ -16,7 +16,7 @@ use crate::progress::Meter;
 use crate::report::RunReport;
 use crate::{interrupt, source};
 
-/// Runs the subcommand.
+/// Reads the points, triangulates them, writes the mesh, and prints the report.
 pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
     let format = format_of(arguments)?;
     let output = prepare_mesh(arguments)?;
@@ -39,7 +39,7 @@ pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
     let Solution { mesh, report: about, .. } = triangulate(&mut backend, points, arguments)?;
     watch.stages.extend(&about.stages);
     let mut report = RunReport::new(&about, &backend, choice.coord_bits, quantization.as_ref());
-    // The simulation ends here, which completes its waveform.
+    // Dropping the back end ends a simulation, which completes its waveform.
     drop(backend);
     watch.since = Instant::now();
     let written = output.write(|out| write(&table, &mesh, format, out))?;
@@ -48,7 +48,7 @@ pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
     output::finish(trace.into_iter().chain([written]), || tell(&report, arguments))
 }
 
-/// Where the mesh goes, checked before the work.
+/// The output for the mesh, checked before the work.
 fn prepare_mesh(arguments: &TriangulateArguments) -> Result<Output, Failure> {
     let output = Output::prepare(&arguments.output, Some(&arguments.points))?;
     if arguments.json && output.is_standard() {
@@ -59,7 +59,7 @@ fn prepare_mesh(arguments: &TriangulateArguments) -> Result<Output, Failure> {
     Ok(output)
 }
 
-/// Where the waveform goes, if one is asked for; checked before the work.
+/// The output for the waveform of `--trace`, checked before the work.
 fn prepare_trace(arguments: &TriangulateArguments, choice: &Choice, mesh: &Output) -> Result<Option<Output>, Failure> {
     let Some(path) = &arguments.trace else {
         return Ok(None);
@@ -77,23 +77,23 @@ fn prepare_trace(arguments: &TriangulateArguments, choice: &Choice, mesh: &Outpu
     Ok(Some(trace))
 }
 
-/// A job over a serial line from so many seconds on is announced as long.
+/// A job that takes at least this many seconds on a serial line is announced as long.
 const LONG: f64 = 10.0;
 
-/// Says so if the line makes a job long.
+/// Prints a warning if the serial line makes the job long.
 fn tell_if_long(backend: &Backend, points: usize, arguments: &TriangulateArguments) {
     let Some(board) = backend.board.filter(|_| !arguments.quiet) else { return };
     let seconds = board.seconds(points);
     if seconds >= LONG {
         let points = counted(points, "point");
         output::note(&format!(
-            "{points} take about {seconds:.0} s over this line at {} bits per second: it is for tests and small jobs",
+            "{points} take about {seconds:.0} s over this line at {} bits per second: the line is for small jobs",
             board.rate
         ));
     }
 }
 
-/// Prints the report. It comes last, so whoever reads it finds the files in place.
+/// Prints the report. The report comes last, so that a reader finds the files in place.
 fn tell(report: &RunReport<'_>, arguments: &TriangulateArguments) -> Result<(), Failure> {
     if arguments.json {
         output::print(&format!("{}\n", report.to_json()))?;
@@ -126,12 +126,12 @@ fn triangulate(
         let session = backend.device.session();
         session.and_then(|mut session| session.triangulate_owned(points, &options))
     });
-    // Comes first, because an interrupt may show as any error.
+    // The check comes first, because an interrupt may surface as any error.
     interrupt::check()?;
     solution.map_err(|error| failure_of(&error))
 }
 
-/// The mesh goes out with the coordinates that came in, not with those of the grid.
+/// Writes the mesh with the coordinates of the input file, not with those of the grid.
 fn write(table: &PointTable, mesh: &Mesh, format: MeshFormat, out: &mut dyn std::io::Write) -> std::io::Result<()> {
     let duplicates: Vec<_> = mesh.duplicates.iter().map(|duplicate| [duplicate.index, duplicate.of]).collect();
     let view =
@@ -139,7 +139,7 @@ fn write(table: &PointTable, mesh: &Mesh, format: MeshFormat, out: &mut dyn std:
     format.write(&view, out)
 }
 
-/// Times the stages of the command.
+/// A stopwatch for the stages of the command.
 struct Watch {
     since: Instant,
     stages: Vec<(&'static str, Duration)>,

@@ -1,4 +1,4 @@
-//! `incircle verify`: is this mesh the canonical Delaunay triangulation of these points?
+//! `incircle verify`: checks that a mesh is the canonical Delaunay triangulation of its points.
 
 use incircle::{Quantization, VerifySummary};
 use incircle_protocol::CORE_COORD_BITS;
@@ -10,7 +10,7 @@ use crate::grid::Grid;
 use crate::report::quantization_json;
 use crate::{grid, output, source};
 
-/// Runs the subcommand. A mesh that is not right ends with exit code 1.
+/// Runs the subcommand. A wrong mesh leads to exit code 1.
 pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
     let table = source::read_points(&arguments.points, arguments.from)?;
     let points_name = source::name(&arguments.points);
@@ -22,7 +22,10 @@ pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
         incircle::verify(&laid.points, &triangles).map_err(|error| {
             Failure::new(
                 Exit::Rejected,
-                format!("the triangles of {mesh_name} are not the canonical Delaunay triangulation of {points_name}: {error}"),
+                format!(
+                    "the triangles of {mesh_name} are not the canonical Delaunay triangulation of {points_name}: \
+                     {error}"
+                ),
             )
         })
     });

@@ -1,9 +1,9 @@
-//! Comma-separated values: points as `x,y` rows, meshes as `a,b,c` rows.
+//! Comma-separated values: points as rows `x,y`, meshes as rows `a,b,c`.
 //!
-//! A first row without numbers is a header; names such as `x`, `y` or `lon`, `lat` choose the columns, else the first
-//! two count. The separator is a comma, or the semicolon or tab that the first row has instead. Further columns are not
-//! read, but every row must have as many as the first: a short row is a lost point. Empty rows and rows that start with
-//! `#` are left out. An empty file is an empty list of points.
+//! A first row without numbers is a header. Names such as `x`, `y` or `lon`, `lat` choose the columns; otherwise the
+//! first two columns count. The separator is a comma, or the semicolon or tab that the first row has instead. Further
+//! columns are not read, but every row must have as many as the first one, because a short row is a lost point. Empty
+//! rows and rows that start with `#` are ignored. An empty file is an empty list of points.
 
 use std::io::{self, Write};
 
@@ -14,11 +14,11 @@ use crate::formats::mesh_view::MeshView;
 use crate::points::{Place, PointTable};
 use crate::text;
 
-/// Header names of the two columns, in lower case.
+/// Names of the two columns in a header, in lower case.
 const NAMES: [(&str, &str); 6] =
     [("x", "y"), ("lon", "lat"), ("lng", "lat"), ("long", "lat"), ("longitude", "latitude"), ("easting", "northing")];
 
-/// Reads points.
+/// Reads the points of a file.
 pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     let bytes = text::without_mark(bytes)?;
     let mut reader = reader(bytes);
@@ -48,7 +48,7 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     Ok(table)
 }
 
-/// Reads triangles.
+/// Reads the triangles of a mesh.
 pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
     let bytes = text::without_mark(bytes)?;
     let mut reader = reader(bytes);
@@ -103,7 +103,7 @@ fn reader(bytes: &[u8]) -> Reader<&[u8]> {
         .from_reader(bytes)
 }
 
-/// A comma, or what the first row has instead.
+/// The separator: a comma, or the semicolon or tab that the first row has instead.
 fn delimiter(bytes: &[u8]) -> u8 {
     let mut rows = text::rows(bytes).map(|(_, row)| row);
     let first = rows.find(|row| !row.trim_ascii().is_empty() && !row.starts_with(b"#"));
@@ -117,7 +117,7 @@ fn next(reader: &mut Reader<&[u8]>, record: &mut ByteRecord) -> Result<bool, Fai
     loop {
         match reader.read_byte_record(record) {
             Ok(true) if record.len() == 1 && record[0].trim_ascii().is_empty() => {}
-            // An unclosed quote would swallow the points that follow.
+            // An unclosed quote would swallow the following points.
             Ok(true) if record.as_slice().contains(&b'\n') => {
                 let row = record.position().map_or(0, csv::Position::line);
                 return Err(Failure::input(format!(
@@ -130,7 +130,8 @@ fn next(reader: &mut Reader<&[u8]>, record: &mut ByteRecord) -> Result<bool, Fai
     }
 }
 
-/// The row of a record: the reader counts from the end of the record before, so the rows it left out come on top.
+/// The row number of a record. The reader counts from the end of the previous record, so the ignored rows
+/// in between are added.
 fn row_of(record: &ByteRecord, bytes: &[u8]) -> usize {
     let Some(start) = record.position() else {
         return 0;
@@ -158,7 +159,7 @@ fn refuse_one_column(record: &ByteRecord, row: usize) -> Result<(), Failure> {
     }
     let shown = crate::failure::quoted(record.get(0).unwrap_or_default());
     Err(Failure::input(format!(
-        "row {row} has 1 column, {shown}: a point is a row 'x,y' (for values parted by spaces: --from xyz)"
+        "row {row} has 1 column, {shown}: a point is a row 'x,y' (for values separated by spaces: --from xyz)"
     )))
 }
 

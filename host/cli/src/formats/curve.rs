@@ -1,5 +1,6 @@
-//! SVG: a drawing of the order of points, a line from each to the next. Its colour runs from blue to red, so that one
-//! sees where it begins.
+//! SVG drawings of an order of insertion: a line from each point to the next.
+//!
+//! The colour of the line runs from blue to red, so that the beginning can be seen.
 
 use std::io::{self, Write};
 
@@ -7,10 +8,10 @@ use std::io::{self, Write};
 const CANVAS: f64 = 10_000.0;
 /// Canvas units around the points.
 const MARGIN: f64 = 250.0;
-/// Pieces of the line, each of one colour.
+/// The number of pieces of the line, each of one colour.
 const PIECES: usize = 64;
 
-/// Writes the drawing.
+/// Writes the drawing of points in their order.
 pub fn write(points: &[[u32; 2]], title: &str, out: &mut dyn Write) -> io::Result<()> {
     let low = [0, 1].map(|axis| points.iter().map(|point| point[axis]).min().unwrap_or(0));
     let size = [0, 1].map(|axis| points.iter().map(|point| point[axis] - low[axis]).max().unwrap_or(0));
@@ -20,7 +21,7 @@ pub fn write(points: &[[u32; 2]], title: &str, out: &mut dyn Write) -> io::Resul
         let [x, y] = [0, 1].map(|axis| f64::from(point[axis] - low[axis]) * scale + MARGIN);
         format!("{x:.0},{:.0}", height - y)
     };
-    // As thick as a quarter of the usual distance of neighbours.
+    // The line is as thick as a quarter of the usual distance of neighbours.
     let thick = (CANVAS / (points.len().max(1) as f64).sqrt() / 4.0).clamp(2.0, 60.0);
     writeln!(out, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" width=\"1000\">")?;
     writeln!(out, "<title>{title}</title>")?;
@@ -28,7 +29,7 @@ pub fn write(points: &[[u32; 2]], title: &str, out: &mut dyn Write) -> io::Resul
     writeln!(out, "<g fill=\"none\" stroke-width=\"{thick:.0}\" stroke-linejoin=\"round\">")?;
     let length = points.len().div_ceil(PIECES).max(1);
     for (piece, start) in (0..points.len()).step_by(length).enumerate() {
-        // Each piece begins where the one before it ends.
+        // A piece begins with the last point of the previous piece, so that the line has no gaps.
         let line = &points[start.saturating_sub(1)..(start + length).min(points.len())];
         let line: Vec<String> = line.iter().map(|&point| place(point)).collect();
         let hue = 240 - 240 * piece / PIECES;

@@ -1,7 +1,9 @@
 //! `.ele`, the triangles of Shewchuk's Triangle: `N 3 attributes`, then `id a b c …`.
 //!
-//! Written with everything counted from 0. Read with ids from 0 or from 1: vertices are counted from 1 where the first
-//! id is 1 and no vertex is 0. Source: <https://www.cs.cmu.edu/~quake/triangle.ele.html>.
+//! Files are written with everything counted from 0. Ids of a file that is read begin with 0 or 1; vertices are counted
+//! from 1 if the first id is 1 and no vertex is 0.
+//!
+//! Source: <https://www.cs.cmu.edu/~quake/triangle.ele.html>.
 
 use std::io::{self, Write};
 
@@ -14,7 +16,8 @@ use crate::text;
 const HEADER: triangle::Header =
     triangle::Header { name: ".ele", row: "N 3 0", items: "triangles", second: ("number of corners", "3") };
 
-/// Reads triangles. A list that is longer or shorter than its first row promises is no right mesh, whatever it holds.
+/// Reads the triangles of a mesh. A list that is longer or shorter than its first row promises fails
+/// verification, whatever it holds.
 pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
     let (promised, rows) = triangle::open(bytes, &HEADER)?;
     let mut triangles = Vec::new();

@@ -1,7 +1,7 @@
-//! GeoJSON (RFC 7946): points in, a polygon per triangle out.
+//! GeoJSON (RFC 7946). Points are read; meshes are written with a polygon for each triangle.
 //!
-//! Points are read from `Point` and `MultiPoint` geometries, bare or in features and collections, in the order of the
-//! file; a height is not read. Any other geometry is refused, or its corners would be lost unseen.
+//! Points come from `Point` and `MultiPoint` geometries, bare or in features and collections, in the order of the file;
+//! heights are not read. Any other geometry is refused, because its corners would be lost silently.
 
 use std::io::{self, Write};
 
@@ -11,7 +11,7 @@ use crate::failure::{one_line, Failure};
 use crate::formats::mesh_view::MeshView;
 use crate::points::PointTable;
 
-/// Reads points.
+/// Reads the points of a file.
 pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     let bytes = crate::text::without_mark(bytes)?;
     if bytes.trim_ascii().is_empty() {
@@ -49,7 +49,7 @@ fn add_geometry(geometry: &Geometry, table: &mut PointTable, place: &str) -> Res
         GeometryValue::MultiPoint { coordinates } => {
             coordinates.iter().try_for_each(|position| add_position(position, table, place))
         }
-        // The JSON parser has bounded how deep collections nest.
+        // The recursion is bounded, because the JSON parser limits how deep collections nest.
         GeometryValue::GeometryCollection { geometries } => {
             geometries.iter().try_for_each(|inner| add_geometry(inner, table, place))
         }
@@ -59,7 +59,7 @@ fn add_geometry(geometry: &Geometry, table: &mut PointTable, place: &str) -> Res
 
 fn add_position(position: &Position, table: &mut PointTable, place: &str) -> Result<(), Failure> {
     match position.as_slice() {
-        // JSON has no NaN or infinity, and its parser refuses numbers too large for a double.
+        // All numbers are finite: JSON has no NaN or infinity, and its parser refuses numbers too large for a double.
         [x, y, ..] if x.is_finite() && y.is_finite() => {
             table.push([*x, *y], 0);
             Ok(())
@@ -70,7 +70,7 @@ fn add_position(position: &Position, table: &mut PointTable, place: &str) -> Res
     }
 }
 
-/// Writes a feature per triangle: its number as `id`, its corners as the property `vertices`.
+/// Writes a feature for each triangle, with its number as `id` and its corners as the property `vertices`.
 pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
     write!(out, "{{\"type\":\"FeatureCollection\",\"features\":[")?;
     for (id, &triangle) in mesh.triangles.iter().enumerate() {

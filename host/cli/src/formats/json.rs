@@ -1,7 +1,7 @@
 //! JSON: one object with `points`, `triangles`, `hull` and `duplicates`.
 //!
-//! `points` are the input points `[x, y]`, `triangles` triples of indices into them, `hull` a list of indices,
-//! `duplicates` pairs `[index, lowest index with the same place]`.
+//! `points` has the input points `[x, y]`, `triangles` triples of indices into `points`, `hull` indices, and
+//! `duplicates` pairs `[index, lowest index at the same place]`.
 
 use std::io::{self, Write};
 
@@ -12,8 +12,8 @@ use crate::formats::geojson;
 use crate::formats::mesh_view::MeshView;
 use crate::points::PointTable;
 
-/// Reads the list `points`, pairs of finite numbers; all else in the object is left out. An object without it, or with
-/// the `type` that GeoJSON wants, is read as GeoJSON.
+/// Reads the list `points`, which has pairs of finite numbers, and ignores everything else in the object. An object
+/// without that list, or with the key `type` of GeoJSON, is read as GeoJSON.
 pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     let object: Option<Value> = serde_json::from_slice(crate::text::without_mark(bytes)?).ok();
     let own = object.as_ref().filter(|object| object.get("type").is_none());
@@ -31,13 +31,13 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
             let shown = quoted(value.to_string().as_bytes());
             return Err(Failure::input(format!("points[{index}] is {shown}, not two numbers")));
         };
-        // JSON has no NaN or infinity, and its parser refuses numbers too large for a double.
+        // All numbers are finite: JSON has no NaN or infinity, and its parser refuses numbers too large for a double.
         table.push([x, y], 0);
     }
     Ok(table)
 }
 
-/// Reads `triangles`; all else in the object is left out.
+/// Reads the list `triangles` and ignores everything else in the object.
 pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
     let bytes = crate::text::without_mark(bytes)?;
     let object: Value = serde_json::from_slice(bytes).map_err(|error| Failure::input(format!("not JSON: {error}")))?;
@@ -61,7 +61,7 @@ fn read_triangle(value: &Value, index: usize) -> Result<[u32; 3], Failure> {
     })
 }
 
-/// Writes the object, an item per row.
+/// Writes the object with one item per row.
 pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
     write!(out, "{{\"points\":")?;
     write_list(out, mesh.points.iter().map(|[x, y]| format!("[{x},{y}]")))?;

@@ -1,6 +1,6 @@
-//! Meshes as writers see them.
+//! The form in which writers get a mesh.
 
-/// A mesh and the points it is of, as writers see it.
+/// A mesh with the coordinates of its input file, for writers.
 #[derive(Clone, Copy, Debug)]
 pub struct MeshView<'a> {
     /// All input points, with the coordinates of the input file.
@@ -9,13 +9,12 @@ pub struct MeshView<'a> {
     pub triangles: &'a [[u32; 3]],
     /// The hull, counter-clockwise; without triangles the distinct points along their line.
     pub hull: &'a [u32],
-    /// Pairs (duplicate, the lowest index with the same place).
+    /// Pairs of a duplicate and the lowest index at the same place.
     pub duplicates: &'a [[u32; 2]],
 }
 
 impl MeshView<'_> {
-    /// The coordinates of a vertex. Vertices that do not exist (there are none in a mesh of the library) are the
-    /// origin.
+    /// The coordinates of a vertex. A vertex that does not exist, which no mesh of the library has, is at the origin.
     pub fn position(&self, vertex: u32) -> [f64; 2] {
         self.points.get(vertex as usize).copied().unwrap_or_default()
     }

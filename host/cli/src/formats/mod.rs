@@ -1,4 +1,4 @@
-//! File formats: one file each, with all that is read and written in it.
+//! The file formats, a file each, which reads and writes its format.
 
 pub mod csv;
 pub mod curve;
@@ -26,19 +26,19 @@ pub use mesh_view::MeshView;
 /// Formats that points are read from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum PointFormat {
-    /// `x,y` rows, header optional
+    /// Rows `x,y`, header optional
     Csv,
-    /// `x y [z]` rows
+    /// Rows `x y [z]`
     Xyz,
-    /// Triangle's .node
+    /// Shewchuk's Triangle, .node
     Node,
     /// Vertices of a Wavefront OBJ
     Obj,
     /// Vertices of a PLY, ascii or binary
     Ply,
-    /// Points of a GeoJSON
+    /// Points of GeoJSON
     Geojson,
-    /// The list `points` of a JSON mesh, or a GeoJSON
+    /// The list `points` of a JSON mesh, or GeoJSON
     Json,
 }
 
@@ -57,7 +57,7 @@ impl PointFormat {
         })
     }
 
-    /// Reads all points of a file with these bytes. Every wrong value is refused with its place.
+    /// Reads all points from the bytes of a file. Every wrong value is refused with its place.
     pub fn read(self, bytes: &[u8]) -> Result<PointTable, Failure> {
         match self {
             Self::Csv => csv::read_points(bytes),
@@ -74,7 +74,7 @@ impl PointFormat {
 /// Formats that meshes are written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum MeshFormat {
-    /// Triangle's .ele: `N 3 0`, then `id a b c`, all from 0
+    /// Shewchuk's Triangle, .ele: `N 3 0`, then `id a b c`, counted from 0
     Ele,
     /// Wavefront OBJ
     Obj,
@@ -82,11 +82,11 @@ pub enum MeshFormat {
     Ply,
     /// Legacy VTK, ascii
     Vtk,
-    /// A polygon feature per triangle
+    /// GeoJSON with a polygon for each triangle
     Geojson,
     /// Points, triangles, hull and duplicates
     Json,
-    /// `a,b,c` rows
+    /// Rows `a,b,c`
     Csv,
     /// A picture
     Svg,
@@ -108,12 +108,12 @@ impl MeshFormat {
         })
     }
 
-    /// Whether a mesh can be read back from it.
+    /// Whether a mesh can be read back from the format.
     pub fn is_readable(self) -> bool {
         !matches!(self, Self::Vtk | Self::Geojson | Self::Svg)
     }
 
-    /// Writes the mesh.
+    /// Writes a mesh in this format.
     pub fn write(self, mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
         match self {
             Self::Ele => ele::write_mesh(mesh, out),
@@ -127,7 +127,7 @@ impl MeshFormat {
         }
     }
 
-    /// Reads the triangles of a mesh, as they stand in the file: nothing but their form is checked.
+    /// Reads the triangles of a mesh as they stand in the file. Only their form is checked.
     pub fn read(self, bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
         match self {
             Self::Ele => ele::read_mesh(bytes),

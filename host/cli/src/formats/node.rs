@@ -1,7 +1,8 @@
 //! `.node`, the points of Shewchuk's Triangle: `N 2 attributes markers`, then `id x y …`.
 //!
-//! Ids count from 0 or from 1, as the first one says, and must rise by one. Attributes and markers are not read. `#`
-//! starts a comment. The list must hold exactly the points that its first row promises.
+//! Ids begin with 0 or 1 and must rise by one. Attributes and markers are not read. `#` starts a comment. The file must
+//! hold exactly as many points as its first row promises.
+//!
 //! Source: <https://www.cs.cmu.edu/~quake/triangle.node.html>.
 
 use std::io::{self, Write};
@@ -14,10 +15,10 @@ use crate::text;
 const HEADER: triangle::Header =
     triangle::Header { name: ".node", row: "N 2 attributes markers", items: "points", second: ("dimension", "2") };
 
-/// Values of a row before its attributes: the id and two coordinates.
+/// The number of values of a row before its attributes: the id and two coordinates.
 const FIXED: usize = 3;
 
-/// Reads points.
+/// Reads the points of a file.
 pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     let (promised, rows) = triangle::open(bytes, &HEADER)?;
     let mut table = PointTable::of_rows([2, 3]);
@@ -44,7 +45,7 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     Ok(table)
 }
 
-/// Ids start at `base`, which must be 0 or 1, and rise by one.
+/// Checks an id: ids start at `base`, which must be 0 or 1, and rise by one.
 fn check_id(id: u32, base: u32, count: usize, row: usize) -> Result<(), Failure> {
     let expected = u64::from(base) + count as u64;
     if base <= 1 && u64::from(id) == expected {
@@ -73,7 +74,7 @@ fn read_point(content: &[u8], row: usize) -> Result<(u32, [f64; 2]), Failure> {
     Ok((id, [x, y]))
 }
 
-/// Writes points, ids from 0.
+/// Writes points with ids from 0.
 pub fn write_points(points: &[[u32; 2]], out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "{} 2 0 0", points.len())?;
     for (id, [x, y]) in points.iter().enumerate() {

@@ -1,8 +1,8 @@
-//! Wavefront OBJ: `v x y z` and `f a b c`, indices from 1.
+//! Wavefront OBJ: rows `v x y z` and `f a b c`, with indices from 1.
 //!
-//! Points are the vertices' x and y; all other statements are left out. Rows that start with no word of the format are
-//! refused: a file that is something else must not pass for an empty one. Meshes hold every input point as a vertex at
-//! height 0, so indices stay those of the input.
+//! Points are the x and y of the vertices; all other statements are ignored. Rows that do not start with a word of the
+//! format are refused, because a file of another kind must not pass for one without points. Meshes hold every input
+//! point as a vertex at height 0, so indices stay those of the input.
 
 use std::io::{self, Write};
 
@@ -11,8 +11,8 @@ use crate::formats::mesh_view::MeshView;
 use crate::points::{Place, PointTable};
 use crate::text;
 
-/// The words that a statement can start with, those of older versions included.
-/// Source: Wavefront, Advanced Visualizer Manual, appendix B1.
+/// The words that a statement can start with, including those of older versions. Source: Wavefront, Advanced
+/// Visualizer Manual, appendix B1.
 const KEYWORDS: [&str; 42] = [
     "v",
     "vt",
@@ -58,7 +58,7 @@ const KEYWORDS: [&str; 42] = [
     "bzp",
 ];
 
-/// Reads the vertices.
+/// Reads the vertices of a file as points.
 pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     let mut table = PointTable::of_rows([2, 3]);
     for (row, mut values) in statements(bytes, b"v")? {
@@ -93,7 +93,7 @@ pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
     Ok(triangles)
 }
 
-/// The statements that start with this word: their rows and the values after it.
+/// The statements that start with `word`: the row of each and the values after the word.
 fn statements<'a>(
     bytes: &'a [u8],
     keyword: &'static [u8],
@@ -106,8 +106,8 @@ fn statements<'a>(
     }))
 }
 
-/// Refuses rows that are no text or start with no word of the format. A row after a backslash goes on with its
-/// statement.
+/// Refuses rows that are not text or do not start with a word of the format. A row after a
+/// backslash continues a statement.
 fn refuse_foreign_rows(bytes: &[u8]) -> Result<(), Failure> {
     let mut goes_on = false;
     for (row, content) in text::rows(bytes) {
@@ -118,21 +118,23 @@ fn refuse_foreign_rows(bytes: &[u8]) -> Result<(), Failure> {
         let foreign = first.filter(|&word| !goes_on && !KEYWORDS.iter().any(|known| known.as_bytes() == word));
         if let Some(word) = foreign {
             let shown = quoted(word);
-            return Err(Failure::input(format!("row {row}: {shown} starts no statement of OBJ, such as 'v' or 'f'")));
+            return Err(Failure::input(format!(
+                "row {row}: {shown} does not start a statement of OBJ, such as 'v' or 'f'"
+            )));
         }
         goes_on = content.trim_ascii_end().ends_with(b"\\");
     }
     Ok(())
 }
 
-/// A corner `vertex[/texture[/normal]]`, counted from 1; back to 0.
+/// Parses a corner `vertex[/texture[/normal]]`; vertices are counted from 1 in the file and from 0 in the result.
 fn read_corner(value: &[u8], row: usize, column: usize) -> Result<u32, Failure> {
     let vertex = value.split(|&byte| byte == b'/').next().unwrap_or_default();
     let place = Place::Cell { row, column };
     let number = std::str::from_utf8(vertex).ok().and_then(|text| text.parse::<u32>().ok());
     number.and_then(|number| number.checked_sub(1)).ok_or_else(|| {
         let shown = quoted(value);
-        Failure::input(format!("{place}: {shown} is not a vertex, which are counted from 1"))
+        Failure::input(format!("{place}: {shown} is not a vertex: vertices are counted from 1"))
     })
 }
 

@@ -1,8 +1,8 @@
-//! PLY, the Stanford polygon format: ascii and both binary forms in, ascii out.
+//! PLY, the Stanford polygon format. Ascii and both binary forms are read; ascii is written.
 //!
-//! Points are `x` and `y` of the element `vertex`, triangles the list `vertex_indices` (or `vertex_index`) of `face`;
-//! all else is left out. Headers and binary elements are decoded by `ply-rs-bw`, one element at a time, so nothing is
-//! allocated because a header claims it. Meshes hold every input point at height 0, so indices stay those of the input.
+//! Points are `x` and `y` of the element `vertex`, triangles the list `vertex_indices` or `vertex_index` of `face`;
+//! everything else is ignored. `ply-rs-bw` decodes headers and binary elements, one element at a time, so the claims of
+//! a header alone allocate nothing. Meshes hold every input point at height 0, so indices stay those of the input.
 
 use std::io::{self, Write};
 
@@ -15,7 +15,7 @@ use crate::formats::mesh_view::MeshView;
 use crate::points::PointTable;
 use crate::text;
 
-/// Reads the vertices.
+/// Reads the vertices of a file as points.
 pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     let mut table = PointTable::of_items("vertex");
     read_element(bytes, "vertex", |item, index| {
@@ -56,14 +56,14 @@ pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
     Ok(triangles)
 }
 
-/// What is taken from an element.
+/// The properties that are taken from an element.
 struct Item {
     point: [Option<f64>; 2],
     corners: Vec<f64>,
 }
 
 impl Item {
-    /// Keeps a property, given as its numbers, if it is one of those that are read.
+    /// Keeps the numbers of a property if the property is one of those that are read.
     fn keep(&mut self, name: &str, values: Vec<f64>) {
         match name {
             "x" => self.point[0] = values.first().copied(),
@@ -85,7 +85,7 @@ impl PropertyAccess for Item {
     }
 }
 
-/// The numbers of a property; doubles hold each of its types exactly.
+/// The numbers of a property. Doubles hold each of its types exactly.
 fn numbers(property: Property) -> Vec<f64> {
     fn all<T: Into<f64>>(list: Vec<T>) -> Vec<f64> {
         list.into_iter().map(Into::into).collect()
@@ -112,7 +112,7 @@ fn numbers(property: Property) -> Vec<f64> {
 
 type Take<'a> = &'a mut dyn FnMut(Item, usize) -> Result<(), Failure>;
 
-/// Hands every item of the element `wanted` to `take`, with its index.
+/// Calls `take` with every item of the element `wanted` and the index of the item.
 fn read_element(
     bytes: &[u8],
     wanted: &str,
@@ -137,7 +137,7 @@ fn read_element(
     refuse_remainder(&header, rest)
 }
 
-/// Refuses what stands after the last element: a count that is too small would lose it unseen.
+/// Refuses data after the last element, which a count that is too small would lose silently.
 fn refuse_remainder(header: &Header, rest: &[u8]) -> Result<(), Failure> {
     let (left, unit) = match header.encoding {
         Encoding::Ascii => {
@@ -155,7 +155,7 @@ fn refuse_remainder(header: &Header, rest: &[u8]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Refuses a count that the bytes present cannot hold: every value takes at least one.
+/// Refuses a count that the remaining bytes cannot hold. Every value takes at least one byte.
 fn refuse_false_count(element: &ElementDef, header: &Header, rest: &[u8]) -> Result<(), Failure> {
     let name = &element.name;
     if element.properties.is_empty() {
@@ -203,7 +203,7 @@ fn binary(
     })
 }
 
-/// Takes the next text row off `rest` and reads it as an item.
+/// Takes the next text row from `rest` and reads it as an item.
 fn read_row(element: &ElementDef, rest: &mut &[u8], index: usize) -> Result<Item, Failure> {
     let end = rest.iter().position(|&byte| byte == b'\n').unwrap_or(rest.len());
     let (row, after) = rest.split_at(end);
@@ -219,7 +219,7 @@ fn read_row(element: &ElementDef, rest: &mut &[u8], index: usize) -> Result<Item
     for (name, property) in &element.properties {
         let count = match property.data_type {
             PropertyType::Scalar(_) => 1,
-            // A count that is no count becomes one that the row cannot hold or an empty list.
+            // A count that is not a whole number turns into zero, or into one that the row cannot hold.
             PropertyType::List(..) => number(words.next(), name)? as usize,
         };
         let mut values = Vec::new();

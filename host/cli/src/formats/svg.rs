@@ -1,9 +1,9 @@
-//! SVG: a picture of the mesh to look at. Written only.
+//! SVG: a picture of the mesh, which can only be written.
 //!
-//! The picture fits its frame, y points up. Triangles are grouped by size into classes; each class is one path with a
-//! colour of its own, small triangles dark and large ones light, and with lines as thin as its triangles are small.
-//! Coordinates are rounded to the canvas and written relative to each triangle's first corner, which keeps files short:
-//! about 25 bytes per triangle.
+//! The picture fits its canvas, and y points up. Triangles are grouped by size into classes. Each class is one path
+//! with a colour of its own, dark for small triangles and light for large ones, and with lines that are thin if its
+//! triangles are small. Coordinates are rounded to the canvas and written relative to the first corner of each
+//! triangle, which keeps files short: about 25 bytes per triangle.
 
 use std::io::{self, Write};
 
@@ -16,9 +16,9 @@ const CANVAS: f64 = 20_000.0;
 const MARGIN: f64 = 500.0;
 /// Width of the picture in pixels, unless the viewer chooses its own.
 const PIXELS: f64 = 1000.0;
-/// Size classes; odd, so that the median lies in the middle of one.
+/// The number of size classes, which is odd so that the median lies in the middle of a class.
 const CLASSES: usize = 25;
-/// Beyond this many points no dots are drawn: they would cover the triangles.
+/// Sets of more points than this have no dots, which would cover the triangles.
 const MOST_DOTS: usize = 2000;
 /// Colours from the smallest to the largest triangles; classes lie between them.
 const RAMP: [[u8; 3]; 6] = [
@@ -30,14 +30,15 @@ const RAMP: [[u8; 3]; 6] = [
     [0xfb, 0xec, 0xc4],
 ];
 
-/// Writes the picture.
+/// Writes the picture of a mesh.
 pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
     let canvas = Canvas::around(mesh.points);
     let [width, height] = canvas.size;
     let shown = PIXELS * height / width;
     writeln!(
         out,
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" width=\"{PIXELS}\" height=\"{shown:.0}\">"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" \
+         width=\"{PIXELS}\" height=\"{shown:.0}\">"
     )?;
     let (points, triangles) = (counted(mesh.points.len(), "point"), counted(mesh.triangles.len(), "triangle"));
     writeln!(out, "<title>Delaunay triangulation: {points}, {triangles}</title>")?;
@@ -68,14 +69,14 @@ impl Canvas {
         let low = [bound(0, f64::min), bound(1, f64::min)];
         let extent = [bound(0, f64::max) - low[0], bound(1, f64::max) - low[1]];
         let longer = extent[0].max(extent[1]);
-        // Of no extent, or of one too small for doubles: all points are drawn in the middle.
+        // If the points have no extent, or one that is too small for doubles, all are drawn in the middle.
         let scale = Some(CANVAS / longer).filter(|scale| scale.is_finite());
         let scale = scale.unwrap_or(0.0);
         let size = extent.map(|side| (side * scale).round() + 2.0 * MARGIN);
         Self { low, scale, shrink, size }
     }
 
-    /// The place on the canvas, y down as SVG wants it.
+    /// The place of a point on the canvas, with y downwards as in SVG.
     fn place(&self, point: [f64; 2]) -> [i64; 2] {
         let unit = |axis: usize| ((point[axis] * self.shrink - self.low[axis]) * self.scale).round();
         let x = MARGIN + unit(0);
@@ -88,7 +89,7 @@ impl Canvas {
     }
 }
 
-/// Side of the square that is as large as the triangle, at least one unit.
+/// The side of a square that is as large as the triangle, at least one unit.
 fn side([a, b, c]: [[i64; 2]; 3]) -> f64 {
     let twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     (twice.abs() as f64 / 2.0).sqrt().max(1.0)
@@ -101,8 +102,8 @@ struct Classes {
 }
 
 impl Classes {
-    /// Centred on the median size. The ramp spans the sizes of all but the outer fiftieths, and at least a factor of 8
-    /// to both sides: meshes of even triangles stay calm.
+    /// Makes the scale, centred on the median size. The scale spans all sizes but the outer fiftieths, and at least a
+    /// factor of 8 to both sides, so that even triangles have similar colours.
     fn of(mut sides: Vec<f64>) -> Self {
         sides.sort_unstable_by(f64::total_cmp);
         let at = |share: f64| {
@@ -120,7 +121,7 @@ impl Classes {
         (along * last).round().clamp(0.0, last) as usize
     }
 
-    /// The side in the middle of a class.
+    /// The triangle side in the middle of a class.
     fn side(&self, class: usize) -> f64 {
         let along = class as f64 / (CLASSES - 1) as f64;
         (self.middle + (along - 0.5) * 2.0 * self.spread).exp2()
@@ -136,7 +137,7 @@ fn write_triangles(mesh: &MeshView<'_>, canvas: &Canvas, out: &mut dyn Write) ->
         members[classes.class(side(corners))].push(corners);
     }
     writeln!(out, "<g stroke=\"#12304a\" stroke-opacity=\".45\" stroke-linejoin=\"round\">")?;
-    // The largest first: thin lines of small triangles stay above thick ones.
+    // Large triangles come first, so that the thin lines of small triangles stay above the thick ones.
     for (class, triangles) in members.iter().enumerate().rev() {
         if triangles.is_empty() {
             continue;
@@ -163,7 +164,7 @@ fn colour(class: usize) -> String {
     format!("#{:02x}{:02x}{:02x}", mix(0), mix(1), mix(2))
 }
 
-/// The hull as a closed line; without triangles the line through the points.
+/// Draws the hull as a closed line, or without triangles the line through the points.
 fn write_hull(mesh: &MeshView<'_>, canvas: &Canvas, out: &mut dyn Write) -> io::Result<()> {
     let mut d = String::new();
     for (index, &vertex) in mesh.hull.iter().enumerate() {
@@ -176,11 +177,12 @@ fn write_hull(mesh: &MeshView<'_>, canvas: &Canvas, out: &mut dyn Write) -> io::
     }
     writeln!(
         out,
-        "<path fill=\"none\" stroke=\"#e4572e\" stroke-width=\"45\" stroke-linejoin=\"round\" stroke-linecap=\"round\" d=\"{d}\"/>"
+        "<path fill=\"none\" stroke=\"#e4572e\" stroke-width=\"45\" stroke-linejoin=\"round\" \
+         stroke-linecap=\"round\" d=\"{d}\"/>"
     )
 }
 
-/// A dot per point: subpaths of no length with round ends.
+/// Draws a dot for each point, as a subpath of no length with round ends.
 fn write_dots(mesh: &MeshView<'_>, canvas: &Canvas, out: &mut dyn Write) -> io::Result<()> {
     let count = mesh.points.len();
     if count == 0 || count > MOST_DOTS {

@@ -1,23 +1,24 @@
-//! The opening that `.node` and `.ele`, the formats of Shewchuk's Triangle, share: a header `N M …`, then a row per
-//! item.
+//! The beginning that `.node` and `.ele`, the formats of Shewchuk's Triangle, share: a header `N M …`, then
+//! one row per item.
 
 use crate::failure::{quoted, Failure};
 use crate::points::Place;
 use crate::text;
 
-/// What a format says in its header.
+/// The header of one of the formats.
 pub struct Header {
-    /// The extension.
+    /// The extension of the format.
     pub name: &'static str,
-    /// The header row as messages show it.
+    /// The header row for messages.
     pub row: &'static str,
-    /// What the first value counts.
+    /// The name of the items that the first value counts.
     pub items: &'static str,
-    /// What the second value is, and the only one that is read.
+    /// The meaning of the second value, and the only value that is accepted.
     pub second: (&'static str, &'static str),
 }
 
-/// The number of items that the header promises, and the rows after it: numbered, without comments and blank rows.
+/// Reads the header. Returns the number of items that it promises, and the numbered rows after it without
+/// comments and blank rows.
 pub fn open<'a>(bytes: &'a [u8], format: &Header) -> Result<(u32, impl Iterator<Item = (usize, &'a [u8])>), Failure> {
     let bytes = text::without_mark(bytes)?;
     let mut rows = text::rows(bytes)

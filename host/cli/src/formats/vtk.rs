@@ -1,4 +1,4 @@
-//! Legacy VTK, ascii: an unstructured grid of triangles. Written only.
+//! Legacy VTK, ascii: an unstructured grid of triangles, which can only be written.
 //!
 //! Source: "VTK file formats", version 3.0 of the legacy format.
 
@@ -6,10 +6,10 @@ use std::io::{self, Write};
 
 use crate::formats::mesh_view::MeshView;
 
-/// VTK's number of the triangle among the cell types.
+/// The number of the cell type triangle in VTK.
 const VTK_TRIANGLE: u8 = 5;
 
-/// Writes all input points at height 0, and the triangles.
+/// Writes all input points, at height 0, and the triangles.
 pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
     let triangles = mesh.triangles.len();
     writeln!(out, "# vtk DataFile Version 3.0")?;
@@ -19,7 +19,7 @@ pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
     for [x, y] in mesh.points {
         writeln!(out, "{x} {y} 0")?;
     }
-    // A cell is the number of its corners and the corners: four numbers.
+    // A cell takes four numbers: the number of its corners and the corners.
     writeln!(out, "CELLS {triangles} {}", 4 * triangles)?;
     for [a, b, c] in mesh.triangles {
         writeln!(out, "3 {a} {b} {c}")?;

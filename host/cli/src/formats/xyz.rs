@@ -1,7 +1,7 @@
-//! XYZ: a point per row, two or more numbers parted by spaces or tabs.
+//! XYZ: one point per row, two or more numbers separated by spaces or tabs.
 //!
-//! The first two are x and y; further ones (height, colour) are not read, but every row must have as many as the first.
-//! A first row without numbers is a header. `#` starts a comment; empty rows are left out.
+//! The first two numbers are x and y. Further numbers, such as height or colour, are not read, but every row must have
+//! as many as the first. A first row without numbers is a header. `#` starts a comment; empty rows are ignored.
 
 use std::io::{self, Write};
 
@@ -9,7 +9,7 @@ use crate::failure::{counted, quoted, Failure};
 use crate::points::{Place, PointTable};
 use crate::text;
 
-/// Reads points.
+/// Reads the points of a file.
 pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     let bytes = text::without_mark(bytes)?;
     let mut table = PointTable::of_rows([1, 2]);
@@ -46,7 +46,7 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     Ok(table)
 }
 
-/// Writes points.
+/// Writes points, one per row.
 pub fn write_points(points: &[[u32; 2]], out: &mut dyn Write) -> io::Result<()> {
     for [x, y] in points {
         writeln!(out, "{x} {y}")?;

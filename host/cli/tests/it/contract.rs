@@ -1,11 +1,11 @@
-//! The command's contract, which scripts rely on.
+//! Tests of the command's contract, which scripts rely on.
 
 use crate::common::Scratch;
 use serde_json::Value;
 
-/// Five points: a square and one inside, nearer to the lower side.
+/// Five points: a square and a point inside, nearer to the lower side.
 const FIVE: &str = "0,0\n10,0\n0,10\n10,10\n5,3\n";
-/// Their mesh.
+/// The mesh of these five points.
 const FIVE_ELE: &str = "4 3 0\n0 0 1 4\n1 0 4 2\n2 1 3 4\n3 2 4 3\n";
 
 fn report(stdout: &str) -> Value {
@@ -70,7 +70,7 @@ fn json_report_has_all_keys() {
     assert_eq!(report["coord_bits"], 16);
     assert_eq!((&report["contexts"], &report["latency"]), (&Value::from(1), &Value::Null));
     // The software model has no clock, and one context: these are there, and 0.
-    for counter in ["insert_cycles", "root_visits", "aborts", "waiting_tokens", "issue_cycles", "latency_max"] {
+    for counter in ["insert_cycles", "root_visits", "aborts", "priorities_taken", "issue_cycles", "latency_max"] {
         assert_eq!(report["counters"][counter], 0, "{counter}");
     }
     for stage in ["load", "quantise", "order", "insert", "read", "assemble", "write", "total"] {
@@ -174,7 +174,7 @@ fn verification_tells_right_from_wrong() {
         assert_eq!(run.code, Some(1), "{name}");
         assert_eq!(report(&run.stdout)["valid"], false, "{name}");
     }
-    // The other diagonal of a square is Delaunay, but not the canonical answer.
+    // The other diagonal of a square is Delaunay as well, but not canonical.
     scratch.write("square.csv", "0,0\n4,0\n4,4\n0,4\n");
     scratch.write("square.ele", "2 3 0\n0 0 1 3\n1 1 2 3\n");
     scratch.run("verify square.csv square.ele").fails(1, &["square.ele"]);
@@ -251,7 +251,7 @@ fn help_version_and_completions_go_to_standard_output() {
     }
     let about = scratch.run("--help").ok().stdout;
     assert!(about.starts_with("Exact Delaunay triangulation"), "{about}");
-    // It offers what it can do, and says what it does not.
+    // The help offers the formats that can be read, and says what is not checked.
     let help = scratch.run("verify --help").ok().stdout;
     for (part, there) in [("- ele:", true), ("- vtk:", false), ("svg", false), ("Only the triangles are checked", true)]
     {
@@ -295,7 +295,7 @@ fn quiet_is_quiet_and_verbose_says_more() {
     let verbose = scratch.run("triangulate p.csv -o m.ele --backend model -v").ok();
     assert!(verbose.stderr.contains("  insertions                   3      1.000 per insertion\n"), "{verbose:?}");
     assert!(verbose.stderr.contains("  walk visits"), "{verbose:?}");
-    // Nothing that needs a clock.
+    // Without a clock the printed lines name no cycles.
     assert!(!verbose.stderr.contains("cycles"), "{verbose:?}");
 }
 

@@ -1,4 +1,4 @@
-//! The tests of the command, in one program. Modules mirror the sources; `contract` is what scripts rely on.
+//! The tests of the command, in one program. Modules mirror the sources; `contract` tests all that scripts rely on.
 
 mod common;
 

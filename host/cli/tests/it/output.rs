@@ -1,4 +1,4 @@
-//! Outputs are whole or not there.
+//! Tests that outputs are complete or absent.
 
 use crate::common::Scratch;
 #[cfg(unix)]
@@ -52,7 +52,7 @@ fn a_link_that_leads_nowhere_is_no_output() {
     assert!(link.file_type().is_symlink());
 }
 
-/// The report says that the mesh is there, so it must come after it.
+/// The report says that the mesh exists, so the report must come after the mesh.
 #[cfg(unix)]
 #[test]
 fn the_report_comes_when_the_file_is_in_place() {
@@ -70,7 +70,7 @@ fn the_report_comes_when_the_file_is_in_place() {
     assert_eq!(scratch.read("m.ele"), "1 3 0\n0 0 1 2\n");
     drop(stdout);
     assert_eq!(child.wait().expect("it ends").code(), Some(0));
-    // A reader that has left already: quiet, and the mesh stays.
+    // If the reader of the report has closed the pipe already, there is no message, and the mesh stays.
     std::fs::remove_file(scratch.path("m.ele")).expect("it is there");
     let mut run = scratch.command(["triangulate", "-", "-o", "m.ele", "--json"]);
     let mut child = start({
@@ -124,7 +124,7 @@ fn a_full_disk_is_an_error_and_stays_a_device() {
     let fails =
         |mut run: std::process::Command| crate::common::Run::of(run.stdout(device()).output().expect("it runs"));
     fails(run).fails(3, &["standard output", "No space left"]);
-    // The report cannot be printed: the mesh is not left behind either.
+    // If the report cannot be printed, the mesh is not left behind either.
     let run = scratch.command(["triangulate", "p.csv", "-o", "m.ele", "--json"]);
     fails(run).fails(3, &["standard output"]);
     assert_eq!(scratch.files(), ["p.csv"]);
@@ -167,11 +167,12 @@ fn a_reader_that_leaves_is_no_error() {
     assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
 }
 
-/// Longer than any of these runs takes to get to work, or to end once it is interrupted.
+/// A time longer than any of these runs takes to start its work, or to end after an interrupt.
 #[cfg(target_os = "linux")]
 const PATIENCE: std::time::Duration = std::time::Duration::from_secs(60);
 
-/// Waits until a process handles the interrupt and sleeps, if it waits for input, or else has worked for a fifth of a second.
+/// Waits until a process has its interrupt handler, and either sleeps, if it waits for input, or has worked for a
+/// fifth of a second.
 #[cfg(target_os = "linux")]
 fn wait_until_at_work(process: u32, waits_for_input: bool) {
     let file = |name: &str| std::fs::read_to_string(format!("/proc/{process}/{name}")).unwrap_or_default();
@@ -183,7 +184,7 @@ fn wait_until_at_work(process: u32, waits_for_input: bool) {
     let is_at_work = || {
         let stat = file("stat");
         let fields: Vec<&str> = stat.rsplit_once(')').map_or(Vec::new(), |(_, rest)| rest.split_whitespace().collect());
-        // State, and hundredths of a second in the program and in the system.
+        // The fields are the state, and hundredths of a second in the program and in the system.
         let time = |place: usize| fields.get(place).and_then(|ticks| ticks.parse::<u32>().ok()).unwrap_or(0);
         if waits_for_input {
             fields.first() == Some(&"S")
@@ -198,7 +199,7 @@ fn wait_until_at_work(process: u32, waits_for_input: bool) {
     }
 }
 
-/// Interrupts runs that wait for their input, and runs that work: all end soon, with a sentence and without a file.
+/// Runs that wait for their input and runs that work end soon after an interrupt, with a sentence and without a file.
 #[cfg(target_os = "linux")]
 #[test]
 fn an_interrupt_leaves_a_sentence_and_no_file() {
@@ -226,12 +227,12 @@ fn an_interrupt_leaves_a_sentence_and_no_file() {
             let status = std::process::Command::new("kill").args([signal, child.id().to_string().as_str()]).status();
             assert!(status.expect("kill runs").success());
         }
-        // Closed only now, so that the run could not end before.
+        // The input is closed only now, so that the run could not end before.
         let stdin = child.stdin.take();
         let run = crate::common::Run::of(child.wait_with_output().expect("it ends"));
         drop(stdin);
         run.fails(130, &["interrupted"]);
-        // A job gets a moment to end by itself, and a loaded machine stretches it.
+        // A job gets a moment to end by itself, and that moment is longer on a loaded machine.
         assert!(since.elapsed() < PATIENCE, "{arguments}: {:?}", since.elapsed());
         assert_eq!(scratch.files(), ["big.csv", "none.ele"], "{arguments}");
     }

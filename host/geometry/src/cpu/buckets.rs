@@ -106,7 +106,11 @@ mod tests {
 
     proptest! {
         #[test]
-        fn nothing_is_lost(buckets in prop::collection::vec(0usize..5, 0..5000), expected in 0usize..5000, threads in 1usize..4) {
+        fn nothing_is_lost(
+            buckets in prop::collection::vec(0usize..5, 0..5000),
+            expected in 0usize..5000,
+            threads in 1usize..4,
+        ) {
             let items: Vec<(usize, u32)> = buckets.into_iter().zip(0..).collect();
             let bucketed: Vec<Bucketed<u32>> = items
                 .chunks(items.len() / threads + 1)

@@ -352,7 +352,11 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_bucket_is_sorted(counts in prop::collection::vec(0u32..10, 1 << 8), full in 0u32..10, seed in any::<u64>()) {
+        fn a_bucket_is_sorted(
+            counts in prop::collection::vec(0u32..10, 1 << 8),
+            full in 0u32..10,
+            seed in any::<u64>(),
+        ) {
             let buckets = Buckets::of(1 << 8, 1);
             let mut triangles: Vec<[u32; 3]> = Vec::new();
             let counts = counts.into_iter().chain([full]).rev().take(1 << 8);

@@ -37,7 +37,7 @@ pub enum Stage {
     Assemble,
 }
 
-/// How far the CPU triangulator is: the stage, and the points done in this stage.
+/// The progress of the CPU triangulator: its stage, and the points done in this stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Progress {
@@ -68,7 +68,7 @@ pub enum Error {
     CoordinateOutOfRange {
         /// Input index of the point.
         index: usize,
-        /// The point itself.
+        /// The point with this coordinate.
         point: Point,
     },
     /// A coordinate is infinite or not a number.
@@ -100,7 +100,7 @@ pub fn threads_for(points: usize, allowed: NonZeroUsize) -> NonZeroUsize {
 ///
 /// Cost: O(n log n) at worst and O(n) on even sets, about 0.15 µs a point on one thread. The peak of memory is below
 /// 200 bytes a point, with the mesh but without the caller's points. The result does not depend on the number of
-/// threads. Source: Guibas and Stolfi 1985, with exact integers and the tie rule (see [the module](self)).
+/// threads. Source: Guibas and Stolfi 1985, with exact integers and the tie rule (see [the module](crate::cpu)).
 ///
 /// ```
 /// use core::num::NonZeroUsize;

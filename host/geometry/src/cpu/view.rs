@@ -18,10 +18,10 @@
 //! difference is right modulo 2^64. For the same reason 128 bits are enough for `w` up to 32, whose cross and dot
 //! products take 128 bits too.
 //!
-//! Why `S⁴ / 2`: the determinant is `Σ λ_v |v|²` over the four points, where `λ_v` does not depend on `v` and `Σ λ_v =
-//! 0`, `Σ λ_v v = 0`. Take a place of its maximum over the square with as many points in corners as possible. As a
-//! function of `v` alone it is convex where `λ_v >= 0`, so such a point can be moved to a corner: all points outside
-//! corners have `λ_v < 0`.
+//! Why `S⁴ / 2`: the determinant is `Σ λ_v |v|²` over the four points, where `λ_v` does not depend on `v` and
+//! `Σ λ_v = 0`, `Σ λ_v v = 0`. Take a place of its maximum over the square with as many points in corners as possible.
+//! As a function of `v` alone it is convex where `λ_v >= 0`, so such a point can be moved to a corner: all points
+//! outside corners have `λ_v < 0`.
 //! - One point is outside: three corners make a right triangle whose `orient2d` is `S²` and whose circle has the
 //!   squared radius `S² / 2`, and the determinant, that `orient2d` times the power of the point, is at most `S⁴ / 2`.
 //! - Two points `u`, `v` are outside: the segment between the two corners crosses theirs (the signs of `λ` say so), so

@@ -46,7 +46,9 @@ mod tests {
             let points: Vec<Point> = raw.iter().map(|&(x, y)| Point::new(x << shift, y << shift)).collect();
             let (curve, duplicates) = distinct(&points);
             let mut indices = curve.into_indices();
-            let lowest = |index: u32| points.iter().position(|p| *p == points[index as usize]).map(|found| found as u32);
+            let lowest = |index: u32| {
+                points.iter().position(|p| *p == points[index as usize]).map(|found| found as u32)
+            };
             prop_assert!(indices.iter().all(|&index| lowest(index) == Some(index)));
             prop_assert!(duplicates.is_sorted_by_key(|duplicate| duplicate.index));
             prop_assert!(duplicates.iter().all(|duplicate| lowest(duplicate.index) == Some(duplicate.of)));

@@ -86,8 +86,8 @@ impl fmt::Display for UnknownOrder {
         let [first, second, third, last] = Order::ALL.map(Order::name);
         write!(
             f,
-            "the orders are '{first}', '{second}', '{third}' and '{last}'; the other curves, rounds and guides are in the \
-             repository's package incircle-research"
+            "the orders are '{first}', '{second}', '{third}' and '{last}'; the other curves, rounds and guides are in \
+             the repository's package incircle-research"
         )
     }
 }

@@ -39,7 +39,9 @@ pub enum VerifyError {
         corners: [u32; 3],
     },
     /// A triangle does not start with its smallest index.
-    #[error("triangle {triangle} ({} {} {}) does not start with its smallest index", corners[0], corners[1], corners[2])]
+    #[error(
+        "triangle {triangle} ({} {} {}) does not start with its smallest index", corners[0], corners[1], corners[2]
+    )]
     NotRotated {
         /// Number of the triangle in the list.
         triangle: usize,
@@ -107,7 +109,10 @@ pub enum VerifyError {
         edge: [u32; 2],
     },
     /// An edge has only one triangle, but is not on the hull.
-    #[error("the edge from point {} to point {} of triangle {triangle} has no other triangle and is not on the hull", edge[0], edge[1])]
+    #[error(
+        "the edge from point {} to point {} of triangle {triangle} has no other triangle and is not on the hull",
+        edge[0], edge[1]
+    )]
     OpenEdge {
         /// Number of the only triangle.
         triangle: usize,
@@ -129,7 +134,10 @@ pub enum VerifyError {
         hull: i128,
     },
     /// A point lies inside the circumcircle of a neighbouring triangle.
-    #[error("point {point} lies inside the circle of triangle {triangle}, so the edge from point {} to point {} is not Delaunay", edge[0], edge[1])]
+    #[error(
+        "point {point} lies inside the circle of triangle {triangle}, so the edge from point {} to point {} is not \
+         Delaunay", edge[0], edge[1]
+    )]
     NotDelaunay {
         /// Number of the triangle in the list.
         triangle: usize,

@@ -1,4 +1,4 @@
-//! The rows as bars.
+//! The drawing of the rows as bars.
 
 use std::fmt::Write as _;
 
@@ -9,7 +9,7 @@ const BAR: usize = 16;
 const NAMES: usize = 240;
 const LONGEST: f64 = 360.0;
 
-/// What a column of bars shows: its name, the length of a bar, and the number beside it.
+/// A column of bars: its name, the length of a bar, and the number beside the bar.
 type Column = (&'static str, fn(&Row) -> f64, fn(&Row) -> f64);
 
 const DRAWN: [Column; 2] = [
@@ -17,17 +17,17 @@ const DRAWN: [Column; 2] = [
     ("ns per point in all", |row| row.total_ns, |row| row.total_ns),
 ];
 
-/// Where a column begins.
+/// The pixel at which a column begins.
 const fn left(column: usize) -> usize {
     NAMES + column * (LONGEST as usize + 80)
 }
 
-/// Words in the drawing. Writing to a string cannot fail.
+/// Adds words to the drawing. Writing to a string cannot fail.
 fn say(text: &mut String, x: usize, y: usize, words: &str) {
     let _ = writeln!(text, "<text x=\"{x}\" y=\"{y}\">{words}</text>");
 }
 
-/// Bars for each set: walk steps to the left, nanoseconds in all to the right.
+/// Draws bars for each set: walk steps on the left, total nanoseconds on the right.
 pub fn draw(rows: &[Row]) -> String {
     let groups: Vec<&[Row]> = rows.chunk_by(|one, other| one.set == other.set && one.asked == other.asked).collect();
     let (width, height) = (left(DRAWN.len()), BAR * (rows.len() + 2 * groups.len() + 2));
@@ -52,7 +52,7 @@ pub fn draw(rows: &[Row]) -> String {
     text + "</svg>\n"
 }
 
-/// The bars of one row, as long as its share of the longest of all.
+/// Draws the bars of one row. The length of a bar is in proportion to the longest bar of its column.
 fn draw_bars(text: &mut String, row: &Row, rows: &[Row], y: usize) {
     for (column, (_, length, number)) in DRAWN.iter().enumerate() {
         let longest = rows.iter().map(length).fold(f64::MIN_POSITIVE, f64::max);

@@ -1,4 +1,4 @@
-//! One way on one set, measured.
+//! The measurement of one way of insertion on one set.
 
 use std::time::Instant;
 
@@ -14,13 +14,13 @@ use crate::order::Order;
 use crate::prepare::prepare;
 use crate::way::Way;
 
-/// Runs of which the fastest counts.
+/// The number of runs, of which the fastest counts.
 const RUNS: usize = 3;
 
-/// The figures of this way on this set.
+/// Measures one way of insertion on one set.
 ///
 /// # Errors
-/// None that a sound model can cause: those of the core's model.
+/// An error of the core's model, which a sound model never causes.
 pub fn measure(set: Distribution, points: &[Point], way: Way, coord_bits: u32) -> Result<Row, Error> {
     let (order_ns, total_ns, (distinct, counts)) = match way {
         Way::Hierarchy => {
@@ -57,7 +57,7 @@ pub fn measure(set: Distribution, points: &[Point], way: Way, coord_bits: u32) -
     })
 }
 
-/// Does something three times, and says how many nanoseconds a point the fastest took.
+/// Calls `work` three times; returns the result and the nanoseconds per point of the fastest call.
 fn fastest<R>(points: usize, work: impl Fn() -> R) -> (R, f64) {
     let once = || {
         let since = Instant::now();
@@ -72,8 +72,8 @@ fn fastest<R>(points: usize, work: impl Fn() -> R) -> (R, f64) {
     best
 }
 
-/// Cycles of an insertion on the largest core, if it holds the points: they are put in order and dealt to its contexts
-/// here, and sent as they come.
+/// Cycles of an insertion on the largest core; `None` if the core does not hold the points. The points are ordered and
+/// dealt to the contexts here, and the device takes them in that sequence.
 fn cycles(points: &[Point], order: Order, coord_bits: u32, distinct: usize) -> Result<Option<f64>, Error> {
     if distinct > LARGE.points as usize || coord_bits > CORE_COORD_BITS {
         return Ok(None);

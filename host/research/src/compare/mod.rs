@@ -1,4 +1,4 @@
-//! What orders of insertion cost and save: a table, a CSV file, a drawing, and where the published ranking comes back.
+//! The comparison of orders of insertion: a table, a CSV file, a drawing, and the published ranking beside ours.
 
 mod drawing;
 mod measure;

@@ -1,8 +1,8 @@
-//! Where the published ranking of orders comes back.
+//! The published ranking of orders beside our measurements.
 //!
-//! Schrijvers, van Bommel, Buchin, *Delaunay triangulations on the word RAM*, EuroCG 2012: time in all, over the five
-//! distributions, of 2^22 points on a Xeon of 2009. Only the ranking can be compared: machine, program and the share of
-//! the points in a round are others.
+//! Schrijvers, van Bommel, Buchin, *Delaunay triangulations on the word RAM*, EuroCG 2012, published the total time
+//! over the five distributions, with 2^22 points on a Xeon of 2009. Only the ranking can be compared, because the
+//! machine, the program and the share of the points in a round are different.
 
 use std::fmt::Write as _;
 
@@ -10,7 +10,8 @@ use incircle_testkit::Distribution;
 
 use super::row::Row;
 
-/// Orders and their published microseconds per point, fastest first. Those of BrioDC are the means of the table's five.
+/// Orders with their published microseconds per point, fastest first. The times of BrioDC are means over the five
+/// distributions of the published table.
 const PUBLISHED: [(&str, f64); 13] = [
     ("brio-hilbert", 1.51),
     ("brio-sierpinski", 1.52),
@@ -26,19 +27,19 @@ const PUBLISHED: [(&str, f64); 13] = [
     ("briodc-log-u", 26.30),
     ("briodc-linear", 27.86),
 ];
-/// What is published less than this factor apart counts as equal.
+/// Published times that differ by less than this factor count as equal.
 const APART: f64 = 1.05;
 
 /// A published order that was measured.
 struct Ranked {
     name: &'static str,
     published: f64,
-    /// Mean over the distributions, nanoseconds per point.
+    /// Measured nanoseconds per point, averaged over the distributions.
     measured: f64,
 }
 
-/// For each number of points the published orders with their times here, and how many pairs come in the same order;
-/// nothing where there is no pair.
+/// For each number of points, lists the published orders with the times measured here, and counts the pairs that rank
+/// alike. The text is empty if there is no pair.
 pub fn ranking(rows: &[Row]) -> String {
     let mut text = String::new();
     let mut asked: Vec<usize> = rows.iter().map(|row| row.asked).collect();
@@ -55,8 +56,8 @@ pub fn ranking(rows: &[Row]) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,
-            "published ranking (Schrijvers, van Bommel, Buchin 2012), {n} points, the literature's distributions among the rows: of {} more than 5 % apart there, \
-             {} come in the same order here",
+            "published ranking (Schrijvers, van Bommel, Buchin 2012), {n} points, the literature's distributions among \
+             the rows: of {} more than 5 % apart there, {} come in the same order here",
             pairs_of(pairs.len()),
             same.len()
         );
@@ -70,7 +71,7 @@ pub fn ranking(rows: &[Row]) -> String {
     text
 }
 
-/// So many pairs, in words.
+/// The number of pairs with its noun.
 fn pairs_of(count: usize) -> String {
     if count == 1 {
         "1 pair".to_owned()
@@ -79,7 +80,7 @@ fn pairs_of(count: usize) -> String {
     }
 }
 
-/// The published orders among these rows, as published.
+/// The published orders among these rows, in the published ranking.
 fn ranked(rows: &[&Row]) -> Vec<Ranked> {
     let measured = |name: &str| {
         let is_meant = |row: &&&Row| row.way.name() == name && Distribution::LITERATURE.contains(&row.set);
@@ -91,7 +92,7 @@ fn ranked(rows: &[&Row]) -> Vec<Ranked> {
     PUBLISHED.iter().filter_map(of).collect()
 }
 
-/// Pairs of which the first is clearly faster, as published.
+/// The pairs whose first order is clearly faster than the second by the published times.
 fn pairs_apart(ranked: &[Ranked]) -> Vec<(&Ranked, &Ranked)> {
     let behind = |place: usize| ranked.iter().skip(place + 1);
     let pairs = ranked.iter().enumerate().flat_map(|(place, fast)| behind(place).map(move |slow| (fast, slow)));

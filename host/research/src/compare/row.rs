@@ -1,4 +1,4 @@
-//! The figures of one way on one set: a line of the table, of the CSV file.
+//! A row of figures: one line of the table and of the CSV file.
 
 use std::fmt::Write as _;
 
@@ -7,20 +7,20 @@ use incircle_testkit::Distribution;
 
 use crate::way::Way;
 
-/// The figures of one order on one set.
+/// The figures of one way of insertion on one set.
 pub struct Row {
-    /// The set.
+    /// The set of points.
     pub set: Distribution,
-    /// Points asked for.
+    /// Number of points in the set, duplicates included.
     pub asked: usize,
-    /// Distinct points.
+    /// Number of distinct points.
     pub points: usize,
-    /// Order or hierarchy.
+    /// The way in which the points were inserted: an order or the hierarchy.
     pub way: Way,
     /// Nanoseconds per point to put the points in order.
     pub order_ns: f64,
-    /// Nanoseconds per point of the whole job on the software model, with guides where the order has them: order,
-    /// insertions, canonical form.
+    /// Nanoseconds per point of the whole job on the software model: order, insertions with the guides of the order if
+    /// there are any, canonical form.
     pub total_ns: f64,
     /// Triangles that the walk of an insertion visits, on average.
     pub walk: f64,
@@ -28,8 +28,8 @@ pub struct Row {
     pub tests: f64,
     /// Triangles that an insertion removes, on average.
     pub cavity: f64,
-    /// Cycles of the largest core, which takes no guides; `None` for a set that it does not hold, and for a way it
-    /// does not offer.
+    /// Cycles of an insertion on the largest core, which takes no guides; `None` for a set that the core does not hold,
+    /// and for the hierarchy, which it does not offer.
     pub cycles: Option<f64>,
 }
 
@@ -39,15 +39,15 @@ const COLUMNS: &str = "set,points,order,order_ns,total_ns,walk,tests,cavity,cycl
 /// The lines above the table.
 pub fn header(coord_bits: u32, seed: u64) -> String {
     format!(
-        "{} bits, seed {}; ns per point to order, and in all on the software model; per insertion: triangles walked, tests, \
-         triangles removed, cycles of the core {}, which takes no guides\n{:<15}{:>9}  {:<36}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}\n",
-        coord_bits, seed, LARGE.name, "set", "points", "order", "order", "in all", "walk", "tests",
-        "cavity", "cycles"
+        "{} bits, seed {}; ns per point to order, and in all on the software model; per insertion: triangles walked, \
+         tests, triangles removed, cycles of the core {}, which takes no guides\n\
+         {:<15}{:>9}  {:<36}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}\n",
+        coord_bits, seed, LARGE.name, "set", "points", "order", "order", "in all", "walk", "tests", "cavity", "cycles"
     )
 }
 
 impl Row {
-    /// The line of the table.
+    /// The row as a line of the table.
     pub fn line(&self) -> String {
         let cycles = self.cycles.map_or_else(|| "-".to_owned(), |cycles| format!("{cycles:.2}"));
         format!(
@@ -64,7 +64,7 @@ impl Row {
     }
 }
 
-/// All rows as CSV.
+/// The text of the CSV file with all rows.
 pub fn to_csv(rows: &[Row]) -> String {
     let mut text = format!("{COLUMNS}\n");
     for row in rows {

@@ -9,10 +9,9 @@ use crate::guided::GuidedMesh;
 /// A sample of the points of the level below.
 #[derive(Debug)]
 pub(super) enum Level {
-    /// No three points span a triangle yet: they lie on a line, along which they are sorted, with their numbers in the
-    /// level below.
+    /// Points on one line, sorted along the line, each with its number in the level below.
     Line(BTreeMap<Point, u32>),
-    /// Points in the plane.
+    /// Points that span at least one triangle.
     Plane {
         mesh: Box<GuidedMesh>,
         /// For each vertex, the number of its point in the level below.
@@ -35,8 +34,9 @@ impl Level {
         }
     }
 
-    /// Of a point near this one the number in the level below: found by a walk that begins at the vertex `guide`, or,
-    /// on a line, the nearer of its neighbours in the order of the line. `None` if the level has no points.
+    /// Finds a point near this one, and returns its number in the level below; `None` if the level has no points. In a
+    /// mesh a walk finds the point, beginning at the vertex `guide`. On a line the result is the nearer of both
+    /// neighbours along the line.
     pub(super) fn find(&mut self, point: Point, guide: Option<u32>) -> Option<u32> {
         match self {
             Self::Line(line) => {
@@ -52,8 +52,9 @@ impl Level {
         }
     }
 
-    /// Adds a point, with its number in the level below, unless it is there: then the number of that one is the error.
-    /// Returns its vertex, if there is a mesh. The walk begins at the vertex `guide`, or where the last one ended.
+    /// Adds a point with its number in the level below, and returns its vertex if there is a mesh. If the place is
+    /// taken already, the number of the point there is the error. The walk begins at the vertex `guide`, or at the end
+    /// of the last walk.
     pub(super) fn add(&mut self, point: Point, number_below: u32, guide: Option<u32>) -> Result<Option<u32>, u32> {
         match self {
             Self::Plane { mesh, below } => {
@@ -70,14 +71,14 @@ impl Level {
                     return Ok(None);
                 };
                 *self = plane;
-                // The point that spans a triangle comes third.
+                // `leave_line` inserts the point that spans a triangle as the third one.
                 Ok(Some(2))
             }
         }
     }
 
-    /// The mesh of the points of a line and one beside it; `None` if it is not beside, or if the line has one point at
-    /// most.
+    /// Makes the mesh of the points of a line and a point beside it; `None` if the point is on the line, or if there is
+    /// at most one point before it.
     fn leave_line(line: &BTreeMap<Point, u32>, point: Point, number_below: u32) -> Option<Self> {
         let mut along = line.iter();
         let (first, second) = (along.next()?, along.next_back()?);

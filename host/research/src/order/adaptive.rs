@@ -1,43 +1,44 @@
-//! Hilbert's and Peano's curves, split where the points are: at the median of x and that of y at once, or at the
-//! thirds.
+//! Hilbert's and Peano's curves, split where the points are: at the medians of x and y at once, or at the thirds.
 //!
-//! Schrijvers, van Bommel, Buchin, *Delaunay triangulations on the word RAM: towards a practical worst-case optimal
-//! algorithm*, EuroCG 2012. No jumps, since all parts meet in the same lines; but parts may have any share of the
-//! points.
+//! The curves have no jumps, because all parts meet in the same lines, but a part may have any share of the points.
+//! Source: Schrijvers, van Bommel, Buchin, *Delaunay triangulations on the word RAM: towards a practical worst-case
+//! optimal algorithm*, EuroCG 2012.
 
-use super::pieces::{deal, hilbert_way, order as order_pieces, part_of, peano_way, quantiles, Cells, Orientation, Way};
+use super::pieces::{
+    distribute, hilbert_way, order as order_pieces, part_of, peano_way, quantiles, Cells, Orientation, Way,
+};
 use incircle_geometry::Point;
 
 /// The points along the adaptive Hilbert curve.
 pub(super) fn hilbert(points: &[Point]) -> Vec<u32> {
-    order_pieces(points, |piece, frame| {
+    order_pieces(points, |piece, orientation| {
         let cells = Cells { columns: 2, rows: 2 };
-        split(points, piece, frame, cells, &hilbert_way(2, frame))
+        split(points, piece, orientation, cells, &hilbert_way(2, orientation))
     })
 }
 
 /// The points along the adaptive Peano curve.
 pub(super) fn peano(points: &[Point]) -> Vec<u32> {
-    order_pieces(points, |piece, frame| {
+    order_pieces(points, |piece, orientation| {
         let cells = Cells { columns: 3, rows: 3 };
-        split(points, piece, frame, cells, &peano_way(cells, frame))
+        split(points, piece, orientation, cells, &peano_way(cells, orientation))
     })
 }
 
-/// Splits a piece into columns of as many points each, and rows of as many points each; ties go by the other
-/// coordinate.
+/// Splits a piece into columns of equal numbers of points, and into rows of equal numbers of points. The other
+/// coordinate decides between points that are equal in one.
 pub(super) fn split(
     points: &[Point],
     piece: &mut [u32],
-    frame: Orientation,
+    orientation: Orientation,
     cells: Cells,
     way: &Way,
 ) -> Vec<(usize, Orientation)> {
-    let see = |index: u32| frame.see(points[index as usize]);
+    let see = |index: u32| orientation.see(points[index as usize]);
     let swapped = |[u, v]: [i64; 2]| [v, u];
     let columns = quantiles(piece.iter().map(|&index| see(index)), cells.columns);
     let rows = quantiles(piece.iter().map(|&index| swapped(see(index))), cells.rows);
-    deal(piece, cells, way, |index| (part_of(see(index), &columns), part_of(swapped(see(index)), &rows)))
+    distribute(piece, cells, way, |index| (part_of(see(index), &columns), part_of(swapped(see(index)), &rows)))
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Rounds of growing random samples along any curve.
+//! BRIO along any curve: rounds of growing random samples.
 
 use incircle_geometry::order::{along_curve, rounds_of_share, Rounds};
 use incircle_geometry::Point;
@@ -6,15 +6,15 @@ use incircle_geometry::Point;
 use super::alpha::Alpha;
 use super::curve::Curve;
 
-/// The biased randomised order of this α with any curve in its rounds: a permutation of `0..points.len()`. The round of
-/// a point follows from a hash of its coordinates.
+/// The biased randomized insertion order of this α with any curve in its rounds, as a permutation of `0..points.len()`.
 ///
-/// Amenta, Choi, Rote, *Incremental constructions con BRIO*, 2003.
+/// The round of a point follows from a hash of its coordinates. Source: Amenta, Choi, Rote, *Incremental
+/// constructions con BRIO*, 2003.
 pub fn brio(points: &[Point], curve: Curve, alpha: Alpha) -> Vec<u32> {
     brio_rounds(points, curve, alpha).order
 }
 
-/// The rounds of [`brio`].
+/// The order of [`brio`] with the places at which its rounds begin.
 pub fn brio_rounds(points: &[Point], curve: Curve, alpha: Alpha) -> Rounds {
     let mut rounds = rounds_of_share(&along_curve(points), alpha.shift());
     if curve == Curve::Hilbert {

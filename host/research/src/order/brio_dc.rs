@@ -1,17 +1,19 @@
-//! BrioDC: biased randomised insertion with dependent choices, in which a nearest neighbour guides each point.
+//! BrioDC: biased randomized insertion with dependent choices, in which a nearest neighbour guides each point.
 //!
-//! Buchin and Mulzer, *Delaunay triangulations in O(sort(n)) time and more*, 2011; Schrijvers, van Bommel, Buchin,
-//! *Delaunay triangulations on the word RAM*, 2012. Points are sorted along the Z-curve; a compressed quadtree over
-//! them gives well-separated pairs, and these the nearest-neighbour graph. Each component of the graph has one pair of
-//! points that are nearest to each other. A coin chooses one of the two for the sample, and a coin each decides for all
-//! other points; the sample is ordered in the same way, by its own graph, down to a single point. What is not in the
-//! sample is a round. In a round the points of a component come from its pair outwards, so that each comes after its
-//! nearest neighbour: that one is its *guide*. It is a vertex already, no other vertex is nearer, and a walk from there
-//! is short wherever the points lie.
+//! Points are sorted along the Z-curve. A compressed quadtree over the sorted points gives well-separated pairs, and
+//! the pairs give the nearest-neighbour graph. Each component of the graph has one pair of points that are nearest to
+//! each other. A coin chooses one of the two for the sample, and one coin for each other point decides whether it is in
+//! the sample. The sample is ordered in the same way, by its own graph, down to a single point. The points outside the
+//! sample form a round. In a round the points of a component come from its pair outwards, so that each comes after its
+//! nearest neighbour, which is its *guide*. The guide is a vertex already, no other vertex is nearer, and a walk from
+//! the guide is short wherever the points lie.
 //!
-//! The paper leaves open which edge of a component is chosen, and lets the walk run along any of its edges; the pair
-//! makes every guide a nearest neighbour. A component's sampled points are about half, so there are about log2 n
-//! rounds, and all take about twice as long as the last.
+//! The paper leaves open which edge of a component is chosen, and lets the walk run along any of its edges. Choosing
+//! the pair makes every guide a nearest neighbour. About half of the points are in the sample, so there are about log2
+//! n rounds, and all rounds together take about twice as long as the last.
+//!
+//! Sources: Buchin and Mulzer, *Delaunay triangulations in O(sort(n)) time and more*, 2011; Schrijvers, van Bommel,
+//! Buchin, *Delaunay triangulations on the word RAM*, 2012.
 
 mod descent;
 mod distance;
@@ -32,17 +34,17 @@ use incircle_geometry::Point;
 /// An order of insertion, with a guide for each point.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Guided {
-    /// The points: a permutation of their indices.
+    /// The order, as a permutation of the indices of the points.
     pub order: Vec<u32>,
-    /// For each place of the order the index of a point before it, at which the search for this one begins; the first
-    /// point guides itself.
+    /// For each place of the order the index of an earlier point, at which the walk to this point begins. The
+    /// first point guides itself.
     pub guides: Vec<u32>,
     /// The place at which each round begins.
     starts: Vec<usize>,
 }
 
 impl Guided {
-    /// The order in rounds, and the guides, in which places of the order stand for points.
+    /// Splits the value into the order in rounds and the guides, which are then places of the order instead of indices.
     pub fn into_rounds(self) -> (Rounds, Vec<u32>) {
         let Self { order, mut guides, starts } = self;
         let mut place_of = vec![0; order.len()];
@@ -54,12 +56,13 @@ impl Guided {
     }
 }
 
-/// BRIO with dependent choices: each point is guided by its nearest neighbour among itself and the points of all
-/// earlier rounds and of its own; of equally near ones, by the first along the Z-curve.
+/// The order of BRIO with dependent choices. The guide of a point is its nearest neighbour among the points of its own
+/// round and of all earlier ones; among equally near points it is the first along the Z-curve.
 ///
-/// The order follows from the coordinates alone. Equal points stay together, in input order, and the first guides the
-/// others. Exact for coordinates below 2^31; beyond, distances of 2^32 and more count as equally long. For up to 2^31
-/// points. 0.25 µs per point for some hundred of them, 0.45 for a million, and 130 bytes while it runs.
+/// The order follows from the coordinates alone. Equal points stay together, in input order, and the first of them
+/// guides the others. The order is exact for coordinates below 2^31; with wider ones, distances of 2^32 and more count
+/// as equal. There may be up to 2^31 points. The cost is 0.25 µs a point for some hundred points and 0.45 µs for a
+/// million, with 130 bytes a point while the function runs.
 pub fn brio_dc(points: &[Point], by: BrioDc) -> Guided {
     let Along { indices, points } = along_z(points, by);
     if points.windows(2).all(|pair| pair[0] != pair[1]) {
@@ -76,7 +79,8 @@ pub fn brio_dc(points: &[Point], by: BrioDc) -> Guided {
     repeat_equals(&rounds(distinct, by), &groups)
 }
 
-/// The order of all points from that of groups of equal ones.
+/// Turns the order of distinct points into the order of all points. Each distinct point stands for a
+/// group of equal ones.
 fn repeat_equals(distinct: &Guided, groups: &[&[u32]]) -> Guided {
     let mut all = Guided::default();
     let mut starts = distinct.starts.iter().peekable();
@@ -92,7 +96,7 @@ fn repeat_equals(distinct: &Guided, groups: &[&[u32]]) -> Guided {
     all
 }
 
-/// The rounds of distinct points in Z-order. Indices are places in that order.
+/// The rounds of distinct points in Z-order. Indices are places in the Z-order.
 fn rounds(points: Vec<Point>, by: BrioDc) -> Guided {
     let mut all = Guided { order: zeros(points.len()), guides: zeros(points.len()), starts: Vec::new() };
     let mut sample: Vec<u32> = (0..=u32::MAX).take(points.len()).collect();
@@ -125,7 +129,7 @@ fn keep<T>(items: &mut Vec<T>, is_chosen: &[bool]) {
     items.retain(|_| chosen.next() == Some(&true));
 }
 
-/// Throws the coins: one of each pair of mutually nearest points is chosen, and each other point with probability 1/2.
+/// Throws the coins. One of each pair of mutually nearest points is chosen, and each other point with probability 1/2.
 fn choose(points: &[Point], nearest: &[u32], round: u32) -> Vec<bool> {
     let bit = round % u64::BITS;
     let coin = |point: &Point| mix(u64::from(point.x) << 32 | u64::from(point.y)) >> bit & 1 == 0;
@@ -138,13 +142,13 @@ fn choose(points: &[Point], nearest: &[u32], round: u32) -> Vec<bool> {
     is_chosen
 }
 
-/// Visits the points that are not chosen, each with its nearest neighbour and after it, unless that is chosen;
-/// otherwise along the Z-curve.
+/// Visits the points that are not chosen, each with its nearest neighbour. A point comes after its nearest neighbour if
+/// that one is visited as well; apart from that, points come along the Z-curve.
 fn outwards(nearest: &[u32], is_chosen: Vec<bool>, mut visit: impl FnMut(u32, u32)) {
     let mut is_in = is_chosen;
     let mut chain = Vec::new();
     for first in 0..nearest.len() as u32 {
-        // The chain of nearest neighbours ends at the latest at the chosen point of the component's pair.
+        // The chain of nearest neighbours always ends, at the latest at the chosen point of the component's pair.
         let mut place = first;
         while !std::mem::replace(&mut is_in[place as usize], true) {
             chain.push(place);

@@ -1,4 +1,4 @@
-//! Curves by name: each puts points into an order in which neighbours lie near each other.
+//! The curves by name. Each puts points into an order in which neighbours lie near each other.
 
 use incircle_geometry::order::hilbert;
 
@@ -13,18 +13,18 @@ use incircle_geometry::Point;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Curve {
-    /// Hilbert's curve over the grid: quadrants, no jumps.
+    /// Hilbert's curve over the grid: quadrants without jumps.
     Hilbert,
-    /// The Z-curve over the square around the points: quadrants, with jumps.
+    /// The Z-curve over the square around the points: quadrants with jumps.
     Morton,
-    /// Peano's curve over the square around the points: nine squares, no jumps.
+    /// Peano's curve over the square around the points: nine squares without jumps.
     Peano,
-    /// Sierpiński's closed curve over the square around the points: triangles, no jumps.
+    /// Sierpiński's closed curve over the square around the points: triangles without jumps.
     Sierpinski,
-    /// CGAL's: Hilbert's quadrants, split at the median x, then each half at its median y. The step across the middle
-    /// can be long.
+    /// Hilbert's quadrants as CGAL has them, split at the median x, then each half at its median y. The step across the
+    /// middle can be long.
     MedianHilbert,
-    /// Hilbert's quadrants, split at the median y, then each half at its median x: no long step.
+    /// Hilbert's quadrants, split at the median y, then each half at its median x, without a long step.
     HilbertYx,
     /// Hilbert's quadrants, split at the medians of x and y at once.
     AdaptiveHilbert,
@@ -34,14 +34,14 @@ pub enum Curve {
     SquarifiedHilbert,
     /// Peano's squares of the box around each subset; long boxes are cut into squares.
     SquarifiedPeano,
-    /// As squarified, but split into parts of as many points each.
+    /// The curve of [`Self::SquarifiedHilbert`], but split into parts of equal numbers of points.
     SquarifiedAdaptiveHilbert,
-    /// As squarified, but split into parts of as many points each.
+    /// The curve of [`Self::SquarifiedPeano`], but split into parts of equal numbers of points.
     SquarifiedAdaptivePeano,
 }
 
 impl Curve {
-    /// All curves.
+    /// All twelve curves.
     pub const ALL: [Self; 12] = [
         Self::Hilbert,
         Self::Morton,
@@ -57,7 +57,8 @@ impl Curve {
         Self::SquarifiedAdaptivePeano,
     ];
 
-    /// The points along the curve: a permutation of `0..points.len()`. Equal points stay together, in any order.
+    /// Puts points in the order of the curve: returns a permutation of `0..points.len()`. Equal points stay
+    /// together, in any order.
     pub fn order(self, points: &[Point]) -> Vec<u32> {
         match self {
             Self::Hilbert => hilbert(points),
@@ -76,7 +77,7 @@ impl Curve {
     }
 }
 
-/// Names of a curve, alone and in rounds: of one text, so that they cannot differ.
+/// Makes the names of a curve, alone and in rounds, from one text, so that the names cannot differ.
 macro_rules! names {
     ($($curve:ident $name:literal),* $(,)?) => {
         impl Curve {
@@ -87,7 +88,7 @@ macro_rules! names {
                 }
             }
 
-            /// The name of rounds along it.
+            /// The name of BRIO with this share along the curve.
             pub const fn brio_name(self, alpha: Alpha) -> &'static str {
                 match (self, alpha) {
                     $(

@@ -1,4 +1,4 @@
-//! The orders by name.
+//! The orders of insertion by name.
 
 use incircle_geometry::{order as product, Point};
 
@@ -7,27 +7,27 @@ use super::brio::brio;
 use super::brio_dc::{brio_dc, BrioDc};
 use super::curve::Curve;
 
-/// An order of insertion. The mesh does not depend on the order, the time does.
+/// An order of insertion. The mesh does not depend on the order, but the time does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Order {
-    /// As the points come.
+    /// The order of the input.
     Input,
-    /// Random, in an order that follows from the coordinates.
+    /// A random order that follows from the coordinates.
     Random,
     /// One pass along a curve.
     Along(Curve),
-    /// Rounds of growing random samples, each along a curve. With [`Curve::Hilbert`] and [`Alpha::Quarter`] the
-    /// default of the product.
+    /// Rounds of growing random samples, each along a curve. [`Curve::Hilbert`] and [`Alpha::Quarter`] make the default
+    /// order of the product.
     Brio(Curve, Alpha),
-    /// Rounds in which each point comes after its nearest neighbour, at which the search for the point begins.
+    /// Rounds in which each point comes after its nearest neighbour, at which the walk to the point begins.
     BrioDc(BrioDc),
 }
 
 impl Order {
-    /// The order of the product: rounds of a quarter along Hilbert's curve.
+    /// The default order of the product: BRIO with a share of 1/4 along Hilbert's curve.
     pub const BRIO_HILBERT: Self = Self::Brio(Curve::Hilbert, Alpha::Quarter);
 
-    /// All orders.
+    /// All orders of insertion.
     pub fn all() -> Vec<Self> {
         let along = Curve::ALL.map(Self::Along);
         let rounds = Curve::ALL.into_iter().flat_map(|curve| Alpha::ALL.map(|alpha| Self::Brio(curve, alpha)));
@@ -50,7 +50,7 @@ impl Order {
         }
     }
 
-    /// The points in this order: a permutation of `0..points.len()`.
+    /// Puts points into this order: returns a permutation of `0..points.len()`.
     pub fn order(self, points: &[Point]) -> Vec<u32> {
         match self {
             Self::Input => (0..=u32::MAX).take(points.len()).collect(),
@@ -61,7 +61,7 @@ impl Order {
         }
     }
 
-    /// The order of this name; `None` if there is none.
+    /// Finds an order by its name; `None` if no order has it.
     pub fn named(name: &str) -> Option<Self> {
         Self::all().into_iter().find(|order| order.name() == name)
     }

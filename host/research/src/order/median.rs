@@ -1,31 +1,31 @@
-//! Hilbert's quadrants, each with a quarter of the points: a split at the median of one coordinate, then each half at
-//! its own median of the other.
+//! Hilbert's quadrants with a quarter of the points each: a split at the median of one coordinate, then of each half at
+//! its own median of the other coordinate.
 //!
-//! Split by x first it is CGAL's (Delage, *Spatial sorting*, CGAL manual): where the medians of both halves differ, the
-//! step between the upper quadrants is long. Split by y first there is no such step (Schrijvers, van Bommel, Buchin,
+//! A split by x first is CGAL's (Delage, *Spatial sorting*, CGAL manual). If the medians of both halves differ, the
+//! step between the upper quadrants is long. A split by y first has no such step (Schrijvers, van Bommel, Buchin,
 //! EuroCG 2012: Hilbert YX).
 
-use super::pieces::{deal, hilbert_way, order as order_pieces, part_of, quantiles, Cells, Orientation};
+use super::pieces::{distribute, hilbert_way, order as order_pieces, part_of, quantiles, Cells, Orientation};
 use incircle_geometry::Point;
 
-/// The coordinate that is split first, in the frame of each copy.
+/// The coordinate that is split first, in the orientation of each copy of the curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum First {
     X,
     Y,
 }
 
-/// What points are compared by, of their coordinates in a frame.
+/// The key by which points are compared, from their coordinates in an orientation.
 type Key = fn([i64; 2]) -> [i64; 2];
 
 /// The points along the curve.
 pub(super) fn order(points: &[Point], first: First) -> Vec<u32> {
-    order_pieces(points, |piece, frame| divide(points, first, piece, frame))
+    order_pieces(points, |piece, orientation| divide(points, first, piece, orientation))
 }
 
-fn divide(points: &[Point], first: First, piece: &mut [u32], frame: Orientation) -> Vec<(usize, Orientation)> {
-    let see = |index: u32| frame.see(points[index as usize]);
-    // Ties are broken by the other coordinate.
+fn divide(points: &[Point], first: First, piece: &mut [u32], orientation: Orientation) -> Vec<(usize, Orientation)> {
+    let see = |index: u32| orientation.see(points[index as usize]);
+    // The other coordinate decides between points that are equal in one.
     let (split, then): (Key, Key) = match first {
         First::X => (|seen| seen, |[u, v]| [v, u]),
         First::Y => (|[u, v]| [v, u], |seen| seen),
@@ -48,7 +48,7 @@ fn divide(points: &[Point], first: First, piece: &mut [u32], frame: Orientation)
             First::Y => (quarter, side),
         }
     };
-    deal(piece, Cells { columns: 2, rows: 2 }, &hilbert_way(2, frame), cell)
+    distribute(piece, Cells { columns: 2, rows: 2 }, &hilbert_way(2, orientation), cell)
 }
 
 #[cfg(test)]

@@ -1,9 +1,9 @@
-//! Orders of insertion of the literature.
+//! Orders of insertion from the literature.
 //!
-//! Twelve curves, alone and in rounds of growing random samples (Amenta, Choi, Rote, *Incremental constructions con
-//! BRIO*, 2003; Buchin, *Constructing Delaunay triangulations along space-filling curves*, 2009), and rounds with
-//! guides (Buchin and Mulzer, *Delaunay triangulations in O(sort(n)) time and more*, 2011). The product has four of
-//! them: `incircle::Order`.
+//! There are twelve curves, alone and in rounds of growing random samples (Amenta, Choi, Rote, *Incremental
+//! constructions con BRIO*, 2003; Buchin, *Constructing Delaunay triangulations along space-filling curves*, 2009), and
+//! rounds with guides (Buchin and Mulzer, *Delaunay triangulations in O(sort(n)) time and more*, 2011). The product has
+//! four of these orders, in `incircle::Order`.
 
 mod adaptive;
 mod alpha;

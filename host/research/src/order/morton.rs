@@ -1,7 +1,7 @@
 //! The Z-curve over the square around the points.
 //!
-//! Morton, *A computer oriented geodetic data base*, 1966. The position is the coordinates' bits in turn, so it is the
-//! cheapest of all curves; from one half to the other it jumps.
+//! A position has the bits of both coordinates in turn, so no curve is cheaper to compute; from one half to the other
+//! the curve jumps. Source: Morton, *A computer oriented geodetic data base*, 1966.
 
 use incircle_geometry::order::{by_key, z_curve::position};
 use incircle_geometry::Point;

@@ -1,16 +1,16 @@
-//! Peano's curve: nine squares in a serpentine, column by column, each a mirrored copy so that the ends meet.
+//! Peano's curve: nine squares in a serpentine, column by column, each with a mirrored copy so that the ends meet.
 //!
-//! Peano, *Sur une courbe, qui remplit toute une aire plane*, 1890.
+//! Source: Peano, *Sur une courbe, qui remplit toute une aire plane*, 1890.
 
 use super::square::square;
 use incircle_geometry::order::by_key;
 use incircle_geometry::Point;
 
-/// Most levels: nine to this power fits 64 bits, and three to it is more than 2^31.
+/// Most levels of the curve: 9^20 fits 64 bits, and 3^20 is more than 2^31.
 const LEVELS: u32 = 20;
 
-/// The points along the curve over the square around them. Cells are a third to a whole grid step wide, so each has one
-/// grid point.
+/// The points along the curve over the square around them. Cells are a third of a grid step to a whole grid step wide,
+/// so each has at most one grid point.
 pub(super) fn order(points: &[Point]) -> Vec<u32> {
     let (corner, extent) = square(points);
     let levels = levels_for(extent);
@@ -19,14 +19,14 @@ pub(super) fn order(points: &[Point]) -> Vec<u32> {
     by_key(points, |point| position(scaled(point.x - corner.x), scaled(point.y - corner.y), levels))
 }
 
-/// Levels whose cells are no wider than a grid step.
+/// The number of levels whose cells are no wider than a grid step.
 fn levels_for(extent: u32) -> u32 {
     (0..LEVELS).find(|&levels| 3u64.pow(levels) > u64::from(extent)).unwrap_or(LEVELS)
 }
 
-/// The position of a cell on the curve of so many levels.
+/// The position of a cell on the curve of `levels` levels.
 ///
-/// A copy is mirrored in x if the rows passed so far have an odd sum, and in y if the columns have.
+/// A copy is mirrored in x if the row numbers of the levels above have an odd sum, and in y if the column numbers do.
 fn position(x: u64, y: u64, levels: u32) -> u64 {
     let (mut mirror_x, mut mirror_y) = (false, false);
     let mut position = 0;

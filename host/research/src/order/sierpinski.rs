@@ -1,29 +1,30 @@
-//! Sierpiński's curve: the square cut along its diagonal, and each triangle from the right angle to the middle of its
-//! longest side, and so on. Neighbours on the curve share a corner at least, and its end meets its beginning.
+//! Sierpiński's curve: the square is cut along its diagonal, then each triangle from the right angle to the
+//! middle of its longest side, and so on. Neighbours on the curve share at least a corner, and the end of the
+//! curve meets its beginning.
 //!
-//! Sierpiński, *Sur une nouvelle courbe continue qui remplit toute une aire plane*, 1912; the position after Bartholdi
-//! and Platzman, *An O(n log n) planar travelling salesman heuristic based on spacefilling curves*, 1982.
+//! Sources: Sierpiński, *Sur une nouvelle courbe continue qui remplit toute une aire plane*, 1912; for the position,
+//! Bartholdi and Platzman, *An O(n log n) planar travelling salesman heuristic based on spacefilling curves*, 1982.
 
 use super::square::square;
 use incircle_geometry::order::by_key;
 use incircle_geometry::Point;
 
-/// Two bits for each level, and one for the first diagonal, fit 64 bits.
+/// The number of levels: two bits for each level, and one for the first diagonal, fit 64 bits.
 const LEVELS: u32 = 31;
 
 /// The points along the curve over the square around them.
 pub(super) fn order(points: &[Point]) -> Vec<u32> {
     let (corner, extent) = square(points);
-    // The points are the middles of cells, in units of half a cell: none lies on a cut between whole cells.
+    // Points are the middles of cells, in units of half a cell, so that no point lies on a cut between whole cells.
     let bits = (u32::BITS - extent.leading_zeros()).min(LEVELS);
     let middle = |value: u32| 2 * i64::from(value) + 1;
     by_key(points, |point| position(middle(point.x - corner.x), middle(point.y - corner.y), 2 << bits))
 }
 
-/// The position of the place `(x, y)` of a square of this side.
+/// The position on the curve of the place `(x, y)` in a square of side `side`.
 ///
-/// The triangle that holds the place is always brought to one form: the hypotenuse along the left side, the right angle
-/// in the middle.
+/// The triangle that holds the place is always brought to one form: the hypotenuse along the left side, the right
+/// angle in the middle.
 fn position(mut x: i64, mut y: i64, side: i64) -> u64 {
     let mut position = 0;
     if x > y {

@@ -1,8 +1,8 @@
-//! The square around points.
+//! The smallest square around a set of points.
 
 use incircle_geometry::Point;
 
-/// The square around points: its lower left corner, and the largest difference from there.
+/// The square around a set of points: its lower left corner, and the largest difference of a coordinate from there.
 pub(super) fn square(points: &[Point]) -> (Point, u32) {
     let low = |get: fn(&Point) -> u32| points.iter().map(get).min().unwrap_or(0);
     let corner = Point::new(low(|p| p.x), low(|p| p.y));

@@ -1,47 +1,47 @@
-//! Curves that cut a long box into squares before they fill it, and look at the box of the points again in every part.
+//! Curves that cut a long box into squares before they fill the box, and take the bounding box anew in every part.
 //!
-//! Schrijvers, van Bommel, Buchin, EuroCG 2012. In a *wide* box, long in the direction in which the curve gets on,
-//! curves are placed next to each other. In a *tall* one Hilbert's curve goes up through more than two squares and down
-//! through as many; Peano's are placed above each other, an odd number of them, so that it still ends in the opposite
-//! corner.
+//! In a *wide* box, which is long in the direction in which the curve advances, curves are placed next to each other.
+//! In a *tall* box Hilbert's curve goes up through more than two squares and down through as many; Peano's curves are
+//! placed above each other, an odd number of them, so that the last one still ends in the opposite corner. Source:
+//! Schrijvers, van Bommel, Buchin, EuroCG 2012.
 
 use super::adaptive;
-use super::pieces::{deal, hilbert_way, order as order_pieces, peano_way, row_way, Cells, Orientation, Way};
+use super::pieces::{distribute, hilbert_way, order as order_pieces, peano_way, row_way, Cells, Orientation, Way};
 use incircle_geometry::Point;
 
-/// Most squares that a box is cut into at a time; parts are cut again.
+/// Most squares that a box is cut into at a time. Parts are cut again.
 const MOST: i64 = 15;
 
-/// Where the parts meet.
+/// The rule that says where the parts meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Split {
-    /// The box is split evenly.
+    /// Splits the box evenly.
     Box,
-    /// The points are split evenly.
+    /// Splits the points evenly.
     Points,
 }
 
 /// The points along the squarified Hilbert curve.
 pub(super) fn hilbert(points: &[Point], split: Split) -> Vec<u32> {
-    order_pieces(points, |piece, frame| {
-        let around = Around::of(points, piece, frame);
+    order_pieces(points, |piece, orientation| {
+        let around = Around::of(points, piece, orientation);
         let (width, height) = (around.size[0], around.size[1]);
         let (cells, way) = if width >= 2 * height {
             let columns = squares(width, height);
-            (Cells { columns, rows: 1 }, row_way(columns, frame))
+            (Cells { columns, rows: 1 }, row_way(columns, orientation))
         } else {
-            // Two columns of squares; in a box that is nearly square itself two rows of them.
+            // There are two columns of squares, and two rows in a box that is nearly square itself.
             let rows = if height >= 2 * width { squares(2 * height, width) } else { 2 };
-            (Cells { columns: 2, rows }, hilbert_way(rows, frame))
+            (Cells { columns: 2, rows }, hilbert_way(rows, orientation))
         };
-        around.divide(points, piece, frame, split, cells, &way)
+        around.divide(points, piece, orientation, split, cells, &way)
     })
 }
 
 /// The points along the squarified Peano curve.
 pub(super) fn peano(points: &[Point], split: Split) -> Vec<u32> {
-    order_pieces(points, |piece, frame| {
-        let around = Around::of(points, piece, frame);
+    order_pieces(points, |piece, orientation| {
+        let around = Around::of(points, piece, orientation);
         let (width, height) = (around.size[0], around.size[1]);
         let cells = if width >= 2 * height {
             Cells { columns: squares(width, height) | 1, rows: 1 }
@@ -50,16 +50,16 @@ pub(super) fn peano(points: &[Point], split: Split) -> Vec<u32> {
         } else {
             Cells { columns: 3, rows: 3 }
         };
-        around.divide(points, piece, frame, split, cells, &peano_way(cells, frame))
+        around.divide(points, piece, orientation, split, cells, &peano_way(cells, orientation))
     })
 }
 
-/// How many squares fit best into a box: 2 at least.
+/// The number of squares that fits a box best, at least 2.
 fn squares(long: i64, short: i64) -> usize {
     ((2 * long + short) / (2 * short)).clamp(2, MOST) as usize
 }
 
-/// The box around the points of a piece, in the frame of its curve.
+/// The box around the points of a piece, in the orientation of its curve.
 struct Around {
     low: [i64; 2],
     /// Grid points along each side.
@@ -67,10 +67,10 @@ struct Around {
 }
 
 impl Around {
-    fn of(points: &[Point], piece: &[u32], frame: Orientation) -> Self {
+    fn of(points: &[Point], piece: &[u32], orientation: Orientation) -> Self {
         let (mut low, mut high) = ([i64::MAX; 2], [i64::MIN; 2]);
         for &index in piece {
-            let seen = frame.see(points[index as usize]);
+            let seen = orientation.see(points[index as usize]);
             for axis in 0..2 {
                 low[axis] = low[axis].min(seen[axis]);
                 high[axis] = high[axis].max(seen[axis]);
@@ -83,18 +83,18 @@ impl Around {
         &self,
         points: &[Point],
         piece: &mut [u32],
-        frame: Orientation,
+        orientation: Orientation,
         split: Split,
         cells: Cells,
         way: &Way,
     ) -> Vec<(usize, Orientation)> {
         if split == Split::Points {
-            return adaptive::split(points, piece, frame, cells, way);
+            return adaptive::split(points, piece, orientation, cells, way);
         }
         let part =
             |seen: i64, axis: usize, parts: usize| ((seen - self.low[axis]) * parts as i64 / self.size[axis]) as usize;
-        deal(piece, cells, way, |index| {
-            let [u, v] = frame.see(points[index as usize]);
+        distribute(piece, cells, way, |index| {
+            let [u, v] = orientation.see(points[index as usize]);
             (part(u, 0, cells.columns), part(v, 1, cells.rows))
         })
     }

@@ -1,4 +1,4 @@
-//! What all orders promise.
+//! Tests of what all orders promise.
 
 use std::collections::HashSet;
 

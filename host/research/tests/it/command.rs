@@ -1,4 +1,4 @@
-//! The command: tables, files, drawings, and all published figures at once.
+//! Tests of the command: tables, files, drawings, and all published figures at once.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -20,7 +20,7 @@ impl Scratch {
         std::fs::read_to_string(self.0.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
     }
 
-    /// Runs the command; its arguments are parted by spaces.
+    /// Runs the command with arguments that are separated by spaces.
     fn run(&self, arguments: &str) -> Run {
         let mut command = Command::new(env!("CARGO_BIN_EXE_incircle-research"));
         command.args(arguments.split_whitespace()).current_dir(&self.0).stdin(Stdio::null());
@@ -36,7 +36,7 @@ impl Drop for Scratch {
     }
 }
 
-/// What a run left behind.
+/// The exit code and the outputs of a run.
 #[derive(Debug)]
 struct Run {
     code: Option<i32>,
@@ -52,7 +52,7 @@ impl Run {
     }
 }
 
-/// The words of every row, the lines above the rows left out.
+/// The words of every row, without the lines above the rows.
 fn rows(run: &Run, above: usize) -> Vec<Vec<String>> {
     let lines = run.stdout.lines().skip(above);
     lines.map(|line| line.split_whitespace().map(str::to_owned).collect()).collect()
@@ -73,7 +73,7 @@ fn orders_are_compared_as_table_csv_and_drawing() {
         assert_eq!(row.len(), 9, "{row:?}");
         let value = |column: usize| row[column].parse::<f64>().unwrap_or_else(|_| panic!("column {column}: {row:?}"));
         assert!((3..9).all(|column| value(column) > 0.0), "{row:?}");
-        // What is removed was tested, or is where the walk ended.
+        // Every removed triangle was tested, or is the one at which the walk ended.
         assert!(value(7) <= value(6) + 1.0, "{row:?}");
     }
     // A walk from anywhere is longer than one along a curve.
@@ -81,7 +81,7 @@ fn orders_are_compared_as_table_csv_and_drawing() {
     assert!(walk(2) > 2.0 * walk(0), "{rows:?}");
     let drawing = scratch.read("o.svg");
     assert!(drawing.starts_with("<svg ") && drawing.matches("<rect").count() == 1 + 2 * rows.len(), "{drawing}");
-    // Told before any row.
+    // The error comes before any row.
     let one = scratch.run("orders uniform -n 100 --order hilbert --csv o.csv --plot ./o.csv");
     assert!(
         one.code == Some(2) && one.stderr.contains("--csv and --plot") && one.stderr.contains("the same file"),
@@ -93,8 +93,8 @@ fn orders_are_compared_as_table_csv_and_drawing() {
     assert!(wide.stdout.lines().last().is_some_and(|line| line.ends_with(" -")), "{wide:?}");
 }
 
-/// Where each point of a curve sees all triangles before it, rounds of random samples keep tests few. Tests are
-/// counted, so the same everywhere.
+/// On sets where each point of a curve conflicts with all earlier triangles, rounds of random samples keep tests few.
+/// The tests are counted, so the numbers are the same on every machine.
 #[test]
 fn plain_hilbert_collapses_on_hard_sets_and_rounds_do_not() {
     let scratch = Scratch::new();
@@ -117,9 +117,9 @@ fn guides_and_the_hierarchy_shorten_walks_and_the_published_ranking_is_told() {
     for of_set in rows.chunks(5) {
         let column = |way: usize, column: usize| of_set[way][column].parse::<f64>().expect("a number");
         let walk = |way: usize| column(way, 5);
-        // On a line some vertices have many triangles, and few points are enough for that to show.
+        // On a line some vertices have many triangles, and a few points are enough to show the effect.
         assert!(walk(1) < 3.3 && walk(1) < walk(0), "{of_set:?}");
-        // Both variants give one order.
+        // Both variants give the same order.
         assert_eq!(of_set[1][5..], of_set[2][5..], "{of_set:?}");
         assert!(walk(4) < 0.5 * walk(3), "{of_set:?}");
         assert!(column(1, 8) > 0.0 && of_set[4][8] == "-", "{of_set:?}");
@@ -152,7 +152,7 @@ fn one_command_makes_all_published_figures() {
     {
         assert!(run.stdout.contains(part), "no {part:?} in {run:?}");
     }
-    // Random order, 12 curves alone and in rounds, both variants of BrioDC, the hierarchy; 7 sets.
+    // The table has random order, 12 curves alone and in rounds, both variants of BrioDC, and the hierarchy, on 7 sets.
     assert_eq!(scratch.read("kept/orders.csv").lines().count(), 1 + 7 * 28);
     assert_eq!(scratch.read("kept/ranking.csv").lines().count(), 1 + 5 * 14);
     assert_eq!(scratch.read("kept/walks.csv").lines().count(), 1 + 5 * 2);

@@ -1,4 +1,5 @@
-//! Walks that begin at a vertex: the table of triangles is right after every insertion, and the mesh is the same.
+//! Tests of walks that begin at a vertex: the table of triangles is right after every insertion, and the
+//! mesh is the same.
 
 use incircle::Point;
 use incircle_model::Insertion;
@@ -10,8 +11,8 @@ use incircle_testkit::{generate, Distribution, SplitMix64};
 
 const CAPACITY: u32 = 256;
 
-/// Even points, points of a small box of which most fall together, points of a circle with large cavities, points on
-/// the hull; the first three span a triangle.
+/// Sets of even points, of points in a small box with many duplicates, of points on a circle with large cavities, and
+/// of points on the hull. The first three points span a triangle.
 fn set(random: &mut SplitMix64, which: u32) -> Vec<Point> {
     let points: Vec<Point> = match which % 4 {
         0 => random.points(200, 1 << 16),
@@ -30,7 +31,7 @@ fn set(random: &mut SplitMix64, which: u32) -> Vec<Point> {
     [(0, 0), (1, 0), (0, 1)].map(Point::from).into_iter().chain(points).collect()
 }
 
-/// Each vertex has a finite triangle that has it.
+/// Checks that each vertex has a finite triangle with this vertex.
 fn check_table(mesh: &GuidedMesh, is_vertex: &[bool]) {
     for (vertex, _) in (0..).zip(is_vertex).filter(|(_, &is_vertex)| is_vertex) {
         let triangle = mesh.triangle_of(vertex).unwrap_or_else(|| panic!("vertex {vertex} has no triangle"));
@@ -47,11 +48,11 @@ fn every_vertex_has_a_triangle_after_every_insertion() {
     for trial in 0..60 {
         let points = set(&mut random, trial);
         let mut mesh = GuidedMesh::new(CAPACITY, random.pick(&[9, 32]));
-        // The first guide comes at any time.
+        // Guides begin after any number of points.
         let unguided = random.below_u32(40);
         let mut is_vertex = Vec::new();
         for (place, &point) in (0..).zip(&points) {
-            // A later point, or the point itself, is no guide.
+            // A later point or the point itself cannot be a guide and is ignored.
             let guide = (place >= unguided).then(|| random.below_u32(place + 3));
             is_vertex.push(mesh.insert(point, guide) == Insertion::Inserted);
             if place >= 2 {
@@ -67,8 +68,8 @@ fn every_vertex_has_a_triangle_after_every_insertion() {
     assert!(flips > 100, "{flips} flips");
 }
 
-/// The triangles of a mesh of which every point arrived in the order of the input, each corner under the lowest index
-/// of its place.
+/// The triangles of a mesh whose points arrived in the order of the input, with each corner under the lowest
+/// index of its place.
 fn triangles(mesh: &GuidedMesh, points: &[Point]) -> Vec<[u32; 3]> {
     let infinite = infinite_vertex(CAPACITY);
     let lowest = |vertex: u32| points.iter().position(|&point| point == points[vertex as usize]).unwrap_or(0) as u32;
@@ -102,7 +103,7 @@ fn a_far_guide_makes_walks_longer_and_a_clear_forgets_all() {
     let mut visits = Vec::new();
     for guide in [None, Some(0), None] {
         mesh.clear();
-        // The first point is in a corner, far from most others.
+        // The first point lies in a corner, far from most others.
         insert(&mut mesh, &points[..100], guide);
         visits.push(insert(&mut mesh, &points[100..], guide));
     }
@@ -117,7 +118,7 @@ fn guides_shorten_walks_whatever_the_points_and_change_nothing_else() {
     let clusters: Vec<Point> = (0..4000u32)
         .map(|k| Point::new(k % 7 * 1_000_003 + random.below_u32(300), k % 11 * 777_777 + random.below_u32(300)))
         .collect();
-    // In a thin strip and at the rims of clusters vertices have many triangles, and a walk goes round them.
+    // In a thin strip and at the rims of clusters, vertices have many triangles, and a walk goes round these vertices.
     for (points, most) in [(even, 2.9), (long, 4.5), (clusters, 4.5)] {
         let walk = |order| {
             let job::Outcome { mesh, counts, .. } = job::triangulate(&points, order);
@@ -146,7 +147,7 @@ fn every_order_gives_the_same_mesh() {
     assert_eq!(canonical(&[], &[], &[], Vec::new()), incircle::Mesh::default());
 }
 
-/// What the product's back end counts when it inserts in the same order.
+/// The counters of the product's back end when it inserts in the same order.
 #[test]
 fn walks_are_those_of_the_product_in_its_orders() {
     let points: Vec<Point> = SplitMix64::new(36).points(3000, 1 << 16);

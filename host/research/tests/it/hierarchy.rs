@@ -1,11 +1,11 @@
-//! Points one at a time: the mesh of every other way, whatever arrives.
+//! Tests that points inserted one at a time give the mesh of every other way of insertion, whatever arrives.
 
 use incircle::{triangulate, Point};
 use incircle_geometry::cpu::Error;
 use incircle_research::Hierarchy;
 use incircle_testkit::SplitMix64;
 
-/// All points, one at a time; the mesh is looked at now and then, and at the end.
+/// Inserts all points, one at a time, and checks the mesh from time to time and at the end.
 fn check(points: &[Point]) -> Hierarchy {
     let mut hierarchy = Hierarchy::new();
     for (arrived, &point) in points.iter().enumerate() {
@@ -47,7 +47,7 @@ fn lines_that_are_left_late_or_never() {
         let left: Vec<Point> = along.iter().copied().chain([beside]).chain((0..400).map(line)).collect();
         check(&left);
     }
-    // One point beside the line at first: then the samples lie on it.
+    // The first point lies beside the line, so that the points of the upper levels lie on the line.
     let first: Vec<Point> = [Point::new(9, 4000), Point::new(1000, 500)].into_iter().chain(along).collect();
     check(&first);
 }
@@ -69,7 +69,7 @@ fn walks_do_not_grow_with_the_points() {
         f64::from(counters.walk_visits) / points.len() as f64
     };
     let (few, many) = (walk(&random.points(1000, 1 << 31)), walk(&random.points(64_000, 1 << 31)));
-    // From one level to the next; where the last point lay, a walk would be eight times as long.
+    // Walks lead from one level to the next. A walk from the last point would be eight times as long.
     assert!(many < 2.5 * few && many < 40.0, "{few} and {many} triangles a walk");
 }
 

@@ -1,9 +1,10 @@
 //! Many jobs on one device.
 //!
-//! A small mesh has no room for many insertions at once, so a device with several contexts gets a *group* of small
-//! jobs, a mesh for each context. A job too large for that, or one that is left over, is a *frame*: it has the whole
-//! memory ([`plan`]). Where the way to the device takes commands ahead, those of the next group or frame are sent
-//! before the answers of the last are received ([`super::flight`]), so that the device never waits for the host.
+//! A small mesh has no room for many insertions at once. A device with several contexts therefore gets a *group* of
+//! small jobs, one mesh for each context. A job that is too large for that, or left over, is an *exclusive job*: it has
+//! the whole memory to itself ([`plan`] decides). If the transport takes commands ahead, the commands of the next
+//! group or exclusive job are sent before the answers to the current one are received ([`super::flight`]), so that the
+//! device never waits for the host.
 
 mod plan;
 
@@ -21,21 +22,21 @@ use incircle_geometry::Order;
 use incircle_geometry::Point;
 use plan::{Part, Plan};
 
-/// Most points of a job that others are done beside: in a group on a device, whose records are read at once, or by the
-/// other threads of the processor.
+/// Most points of a job that is done beside others: in a group, whose records are read with one command, or in one of
+/// the threads of the back end `cpu`.
 pub(crate) const MAX_JOB_POINTS: usize = 8192;
-/// Most points of a frame: its records are read at once.
-const MAX_FRAME_POINTS: usize = 65_536;
-/// Jobs that are taken between two looks at the listener; where threads share the jobs, for each thread.
+/// Most points of an exclusive job that is sent ahead: its records are read with one command.
+const MAX_EXCLUSIVE_POINTS: usize = 65_536;
+/// Jobs between two calls of the listener; for each thread, where threads share the jobs.
 pub(crate) const JOBS_PER_LOOK: usize = 64;
 
 /// A batch on a device.
 pub(crate) struct Batch<'b> {
     carrier: Carrier<'b>,
-    /// Contexts that work.
+    /// Contexts that may work.
     contexts: u32,
     done: Done,
-    /// For each job that must go by itself how many contexts work on it.
+    /// For each job that is left to the caller, the number of contexts that are to work on it.
     left: Vec<Option<u32>>,
 }
 
@@ -45,51 +46,52 @@ impl<'b> Batch<'b> {
         Self { carrier, contexts, done, left }
     }
 
-    /// Does all jobs but those that must go one by one: those that share the memory with none on a way that takes
-    /// nothing ahead, and very large ones on any. Of those it says how many contexts are to work on each.
+    /// Does the jobs of the batch, except those that must go one by one: very large jobs, and all exclusive jobs if the
+    /// transport takes nothing ahead. The second result has the number of contexts that pay for each job left over, and
+    /// `None` for all others.
     pub(crate) fn run(mut self) -> Result<(Done, Vec<Option<u32>>), JobError> {
         let (jobs, options) = (self.carrier.jobs, self.carrier.options);
         let plan = Plan::new(self.contexts, self.carrier.identity.capacity);
-        let (small, mut frames) = self.divide(&plan);
-        let groups = self.group(&plan, small, &mut frames)?;
+        let (small, mut exclusive) = self.divide(&plan);
+        let groups = self.group(&plan, small, &mut exclusive)?;
         let Self { mut carrier, mut done, left, .. } = self;
         std::thread::scope(|scope| {
-            let contexts = |job: usize| plan.frame_contexts(jobs[job].len());
-            let frames = frames.into_iter().map(|job| (job, contexts(job))).collect();
-            let mut groups = groups.into_iter().chain(order_frames(scope, jobs, frames, options.order));
+            let contexts = |job: usize| plan.exclusive_contexts(jobs[job].len());
+            let exclusive = exclusive.into_iter().map(|job| (job, contexts(job))).collect();
+            let mut groups = groups.into_iter().chain(order_exclusive(scope, jobs, exclusive, options.order));
             carrier.carry(&mut done, |carrier, done| next_load(carrier, &mut groups, done))
         })?;
         Ok((done, left))
     }
 
-    /// The jobs that may share the memory, and the frames.
+    /// The jobs that may share the memory, and the exclusive ones.
     fn divide(&mut self, plan: &Plan) -> (Vec<usize>, Vec<usize>) {
-        let (mut small, mut frames) = (Vec::new(), Vec::new());
+        let (mut small, mut exclusive) = (Vec::new(), Vec::new());
         for (job, points) in self.carrier.jobs.iter().enumerate() {
             if points.len() <= MAX_JOB_POINTS && plan.shares(points.len()) {
                 small.push(job);
             } else {
-                self.leave_alone(plan, job, &mut frames);
+                self.add_exclusive(plan, job, &mut exclusive);
             }
         }
-        (small, frames)
+        (small, exclusive)
     }
 
-    /// A job that shares the memory with none: a frame if it can be sent ahead.
-    fn leave_alone(&mut self, plan: &Plan, job: usize, frames: &mut Vec<usize>) {
+    /// Adds a job to the exclusive ones if it can be sent ahead, and leaves it to the caller if not.
+    fn add_exclusive(&mut self, plan: &Plan, job: usize, exclusive: &mut Vec<usize>) {
         let points = self.carrier.jobs[job].len();
-        if points <= MAX_FRAME_POINTS && self.carrier.channel.capabilities().takes_ahead {
-            frames.push(job);
+        if points <= MAX_EXCLUSIVE_POINTS && self.carrier.channel.capabilities().takes_ahead {
+            exclusive.push(job);
         } else {
-            self.left[job] = Some(plan.frame_contexts(points));
+            self.left[job] = Some(plan.exclusive_contexts(points));
         }
     }
 
-    /// Puts the small jobs in order and into groups; those that are better off alone join the frames. What needs no
-    /// device is answered here.
-    fn group(&mut self, plan: &Plan, small: Vec<usize>, frames: &mut Vec<usize>) -> Result<Vec<Group>, JobError> {
+    /// Puts the small jobs in order and into groups, and adds those that are faster by themselves to the exclusive
+    /// ones. Jobs that need no device are answered at once.
+    fn group(&mut self, plan: &Plan, small: Vec<usize>, exclusive: &mut Vec<usize>) -> Result<Vec<Group>, JobError> {
         let mut shared = self.in_order(small)?;
-        // Jobs of one length side by side: none waits long for another.
+        // A group takes as long as its longest job, so jobs of about one length belong together.
         shared.sort_by_key(|ordered| std::cmp::Reverse(ordered.vertices()));
         let lengths: Vec<usize> = shared.iter().map(Ordered::vertices).collect();
         let mut rest = shared.into_iter();
@@ -97,10 +99,11 @@ impl<'b> Batch<'b> {
         for part in plan.divide(&lengths) {
             match part {
                 Part::Group(jobs) => groups.push(Group::sharing(rest.by_ref().take(jobs).collect())),
-                // Put in order once more, for several contexts, when its turn comes.
-                Part::Frame => {
+                // The order at hand is for one context. The job is put in order again, for
+                // several, when its turn comes.
+                Part::Exclusive => {
                     if let Some(own) = rest.next() {
-                        self.leave_alone(plan, own.job, frames);
+                        self.add_exclusive(plan, own.job, exclusive);
                     }
                 }
             }
@@ -108,7 +111,7 @@ impl<'b> Batch<'b> {
         Ok(groups)
     }
 
-    /// These jobs in order, each for one context, but those that need no device: they are answered here.
+    /// Puts these jobs in order, each for one context. Jobs that need no device are answered at once and left out.
     fn in_order(&mut self, small: Vec<usize>) -> Result<Vec<Ordered>, JobError> {
         let Carrier { jobs, options, .. } = self.carrier;
         let total = small.iter().map(|&job| jobs[job].len()).sum();
@@ -129,7 +132,7 @@ impl<'b> Batch<'b> {
     }
 }
 
-/// The commands of the next group that the device must do. A listener may end the batch here.
+/// The next load for the device, if there is one. The listener hears how far the batch is, and may cancel it here.
 fn next_load(
     carrier: &Carrier<'_>,
     groups: &mut impl Iterator<Item = Group>,
@@ -141,8 +144,9 @@ fn next_load(
         if group.is_shared {
             return Ok(Some(Load::at_once(group, None)));
         }
-        let time = group.only_job().map(|job| frame_time(carrier, job));
-        let jobs = group.jobs.drain(..).map(|frame| carrier.answer_here(frame, 1, done)).collect::<Result<Vec<_>, _>>();
+        let time = group.only_job().map(|job| exclusive_time(carrier, job));
+        let here = group.jobs.drain(..).map(|ordered| carrier.answer_here(ordered, 1, done));
+        let jobs = here.collect::<Result<Vec<_>, _>>();
         group.jobs = jobs?.into_iter().flatten().collect();
         if !group.jobs.is_empty() {
             return Ok(Some(Load::at_once(group, time)));
@@ -151,32 +155,32 @@ fn next_load(
     Ok(None)
 }
 
-/// The time that a frame may take.
-fn frame_time(carrier: &Carrier<'_>, job: usize) -> Duration {
+/// The time that an exclusive job may take.
+fn exclusive_time(carrier: &Carrier<'_>, job: usize) -> Duration {
     let slow = carrier.channel.capabilities().pace.slow;
     let default = || Options::default_timeout(carrier.jobs[job].len()).saturating_mul(slow);
     carrier.options.timeout.unwrap_or_else(default)
 }
 
-/// Puts frames in order in a thread of its own, each for so many contexts, so that it is done while the device works.
-/// It ends when nobody wants the next one.
-fn order_frames<'s>(
+/// Puts the exclusive jobs in order, each for its number of contexts, in a thread of their own, so that the host's work
+/// is done while the device works. The thread ends when the iterator is dropped.
+fn order_exclusive<'s>(
     scope: &'s Scope<'s, '_>,
     jobs: &'s [Vec<Point>],
-    frames: Vec<(usize, u32)>,
+    exclusive: Vec<(usize, u32)>,
     order: Order,
 ) -> impl Iterator<Item = Group> + use<'s> {
-    // It has one in hand until that is wanted: no more are kept.
+    // A channel without room: the thread holds one ordered job until it is wanted, which bounds the memory.
     let (sender, ordered) = sync_channel(0);
     let in_order = move |(job, contexts): (usize, u32)| {
         Group::alone(Ordered { job, prepared: prepare(&jobs[job], order, contexts) }, contexts)
     };
-    let kept = frames.clone();
-    let has_thread = !frames.is_empty()
+    let kept = exclusive.clone();
+    let has_thread = !exclusive.is_empty()
         && Builder::new()
-            .spawn_scoped(scope, move || frames.into_iter().try_for_each(|frame| sender.send(in_order(frame))))
+            .spawn_scoped(scope, move || exclusive.into_iter().try_for_each(|job| sender.send(in_order(job))))
             .is_ok();
-    // A system that gives no thread leaves the work here.
+    // If the system will not start a thread, the caller's thread does the work.
     let here = if has_thread { Vec::new() } else { kept };
     ordered.into_iter().chain(here.into_iter().map(in_order))
 }

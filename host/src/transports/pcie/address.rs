@@ -1,49 +1,49 @@
-//! Addresses of cards: `pcie:N`, the card with this number, or `pcie:DIR`, the first one in a directory.
+//! Addresses of cards: `pcie:N` for the card of this number, `pcie:DIR` for card 0 in a directory.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// Before the number or the directory.
+/// Beginning of every address of a card.
 const PREFIX: &str = "pcie:";
-/// Where the driver puts its files.
+/// Directory in which the driver puts its files.
 const DEVICES: &str = "/dev";
 /// Most cards of the driver.
 const MAX_CARDS: u32 = 256;
-/// Around the number in the name of the file with the registers.
+/// Text before and after the number in the name of the file with the registers.
 const USER_FILE: (&str, &str) = ("xdma", "_user");
 
-/// Where a card is.
+/// The address of a card: a directory with three files, and the number in their names.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CardAddress {
-    /// The directory of the three files.
+    /// Directory of the three files.
     pub directory: PathBuf,
-    /// The number in their names.
+    /// Number in the names of the files.
     pub number: u32,
 }
 
 impl CardAddress {
-    /// The card of this number, in the directory of the system's devices.
+    /// The card of this number among the devices of the system.
     pub fn of_number(number: u32) -> Self {
         Self { directory: DEVICES.into(), number }
     }
 
-    /// The card 0 of a directory.
+    /// Card 0 in a directory of its own, as a simulated one.
     pub fn in_directory(directory: impl Into<PathBuf>) -> Self {
         Self { directory: directory.into(), number: 0 }
     }
 
-    /// Parses an address; `None` if it is of another kind.
+    /// Parses an address; `None` if it is the address of another kind of device.
     ///
     /// # Errors
-    /// A sentence without the address.
+    /// A sentence that does not repeat the address.
     pub fn parse(address: &str) -> Option<Result<Self, String>> {
         address.strip_prefix(PREFIX).map(Self::parse_card)
     }
 
-    /// Parses what is behind `pcie:`.
+    /// Parses the text behind `pcie:`.
     fn parse_card(text: &str) -> Result<Self, String> {
         if text.is_empty() {
-            return Err("it names no card; \"pcie:0\" or \"pcie:/some/directory\" would".to_owned());
+            return Err("no card is named: write \"pcie:0\" or \"pcie:/some/directory\"".to_owned());
         }
         if text.bytes().all(|byte| byte.is_ascii_digit()) {
             let number = text.parse::<u32>().ok().filter(|&number| number < MAX_CARDS);
@@ -53,7 +53,7 @@ impl CardAddress {
         Ok(Self::in_directory(text))
     }
 
-    /// True for a card of the driver; others have a directory of their own.
+    /// Whether this is a card of the driver. Other cards have a directory of their own.
     pub(crate) fn is_of_the_system(&self) -> bool {
         self.directory == Path::new(DEVICES)
     }
@@ -88,16 +88,17 @@ impl fmt::Display for CardAddress {
     }
 }
 
-/// A card that the system knows of.
+/// A card that the system knows of, as [`cards`] lists them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CardInfo {
-    /// Its address, as [`Device::open`](crate::Device::open) takes it.
+    /// Address of the card. Its text is what [`Device::open`](crate::Device::open) takes.
     pub address: CardAddress,
-    /// What it is, as far as the system knows: `PCI 10ee:7024`.
+    /// Ids of the card on the bus, such as `PCI 10ee:7024`, or `XDMA` if the system does not tell them.
     pub what: String,
 }
 
-/// The cards that the driver XDMA has found, by number. Which of them are incircle cards, their registers say.
+/// Lists the cards that the driver XDMA has found, by number. Only its registers say whether a
+/// card is an incircle card.
 pub fn cards() -> Vec<CardInfo> {
     cards_in(Path::new(DEVICES))
 }
@@ -113,13 +114,13 @@ fn cards_in(directory: &Path) -> Vec<CardInfo> {
     numbers.into_iter().map(info).collect()
 }
 
-/// The number in the name of a file with registers.
+/// The number of a card from the name of its file with the registers.
 fn number_of(name: &str) -> Option<u32> {
     let number = name.strip_prefix(USER_FILE.0)?.strip_suffix(USER_FILE.1)?;
     number.parse().ok().filter(|&number| number < MAX_CARDS)
 }
 
-/// What the bus says of it.
+/// The ids of a card on the bus.
 fn describe(number: u32) -> Option<String> {
     let folder = format!("/sys/class/xdma/xdma{number}_user/device");
     let id = |name: &str| {

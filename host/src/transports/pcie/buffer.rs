@@ -1,11 +1,11 @@
-//! Memory for transfers: whole pages, used again.
+//! Memory for transfers, in whole pages that are used again.
 
-/// Bytes of a page: what a card's engine moves at once.
+/// Bytes of a page, the unit in which the DMA engine of a card moves memory.
 const PAGE: usize = 4096;
-/// Buffers that are kept for the next transfers.
+/// Most buffers that are kept for later transfers.
 const SPARE: usize = 4;
 
-/// Bytes that begin at a page.
+/// A buffer that begins at a page.
 #[derive(Debug, Default)]
 pub(super) struct PageBuffer {
     memory: Vec<u8>,
@@ -14,10 +14,10 @@ pub(super) struct PageBuffer {
 }
 
 impl PageBuffer {
-    /// So many bytes, of any value.
+    /// A buffer of `length` bytes, of any value.
     fn of(length: usize) -> Self {
         let memory = vec![0; length.next_multiple_of(PAGE) + PAGE];
-        // At most a page, where the memory is a real one.
+        // The minimum is for interpreters, where `align_offset` may fail: on real memory it is less than a page.
         let start = memory.as_ptr().align_offset(PAGE).min(PAGE);
         Self { memory, start, length }
     }
@@ -26,30 +26,29 @@ impl PageBuffer {
         self.memory.len().saturating_sub(self.start)
     }
 
-    /// The bytes.
     pub fn bytes(&self) -> &[u8] {
         &self.memory[self.start..self.start + self.length]
     }
 
-    /// The bytes, to be filled.
+    /// The bytes of the buffer, to be filled.
     pub fn bytes_mut(&mut self) -> &mut [u8] {
         &mut self.memory[self.start..self.start + self.length]
     }
 
-    /// Forgets what is behind so many bytes.
+    /// Shortens the buffer to at most `length` bytes.
     pub fn truncate(&mut self, length: usize) {
         self.length = self.length.min(length);
     }
 }
 
-/// Buffers that were used: the next are taken from them, so that a job does not pay for fresh pages.
+/// Used buffers. Later ones are taken from here, so that a job does not pay for fresh pages.
 #[derive(Debug, Default)]
 pub(super) struct Pool {
     spare: Vec<PageBuffer>,
 }
 
 impl Pool {
-    /// A buffer of so many bytes, of any value.
+    /// A buffer of `length` bytes, of any value.
     pub fn take(&mut self, length: usize) -> PageBuffer {
         match self.spare.iter().position(|buffer| buffer.room() >= length) {
             Some(place) => PageBuffer { length, ..self.spare.swap_remove(place) },
@@ -60,7 +59,7 @@ impl Pool {
     /// Takes a buffer back.
     pub fn give(&mut self, buffer: PageBuffer) {
         if self.spare.len() >= SPARE {
-            // The smallest is the cheapest to make again.
+            // The smallest buffer goes, since it is the cheapest to make again.
             let smallest = (0..self.spare.len()).min_by_key(|&place| self.spare[place].room());
             if let Some(place) = smallest.filter(|&place| self.spare[place].room() < buffer.room()) {
                 self.spare[place] = buffer;

@@ -1,4 +1,4 @@
-//! What can go wrong with a card, in sentences that say what to do.
+//! Faults of cards, in sentences that say what to do.
 
 use std::time::Duration;
 
@@ -6,62 +6,65 @@ use incircle_protocol::{MAGIC, STREAM_VERSION};
 
 use crate::error::{DeviceFault, ErrorKind, TransportError};
 
-/// Why a card cannot be opened.
+/// The reason why a card cannot be opened.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CardFault {
-    /// One of its files does not exist.
+    /// A file of a card of the driver does not exist.
     #[error("there is no {path}{}", known_cards(cards))]
     Missing {
-        /// The file.
+        /// File that does not exist.
         path: String,
-        /// The cards there are.
+        /// Addresses of the cards that the driver has found.
         cards: Vec<String>,
     },
-    /// A file of a card in a directory of its own does not exist, so this is no matter of the driver.
-    #[error("there is no {path}: name the directory with the files of a card, such as that of a simulated one ('incircle-sim serve-pcie --dir DIR'), or a number as in \"pcie:0\"")]
+    /// A file of a card in a directory of its own does not exist. The driver has no part in this.
+    #[error(
+        "there is no {path}: name the directory with the files of a card, such as that of a simulated one \
+         ('incircle-sim serve-pcie --dir DIR'), or a number as in \"pcie:0\""
+    )]
     MissingInDirectory {
-        /// The file.
+        /// File that does not exist.
         path: String,
     },
-    /// The user may not use it.
+    /// The user has no permission to use the card.
     #[error(
-        "you may not use {path}: run as root, or add a udev rule, such as 'SUBSYSTEM==\"xdma\", MODE=\"0660\", GROUP=\"plugdev\"' in \
-         /etc/udev/rules.d"
+        "you may not use {path}: run as root, or add a udev rule, such as \
+         'SUBSYSTEM==\"xdma\", MODE=\"0660\", GROUP=\"plugdev\"' in /etc/udev/rules.d"
     )]
     NoPermission {
-        /// The file.
+        /// File that the system refused to open.
         path: String,
     },
-    /// Somebody else uses it.
+    /// Another program uses the card, or a call of this one that has not returned.
     #[error(
-        "{path} is locked: end the other program that uses the card ('fuser' or 'lsof' says which), or wait for a call of this one \
-         that has not returned"
+        "{path} is locked: end the other program that uses the card ('fuser' or 'lsof' says which), \
+         or wait for a call of this one that has not returned"
     )]
     Busy {
-        /// The file with the registers.
+        /// File with the registers, which is locked.
         path: String,
     },
-    /// The card is there, and its driver answers as if it were not.
+    /// The files of the card are there, but the driver answers as if the card were not.
     #[error("{path} says \"{reason}\": load the card, rescan the bus, and look at 'dmesg'")]
     NoCard {
-        /// The file.
+        /// File that the driver refused to open.
         path: String,
-        /// What the system says.
+        /// The reason that the system gives.
         reason: String,
     },
-    /// Opening takes too long.
-    #[error("its files have not opened within {} s: look at 'dmesg', and reload the driver", within.as_secs_f64())]
+    /// Opening the files took too long.
+    #[error("its files did not open within {} s: look at 'dmesg', and reload the driver", within.as_secs_f64())]
     Hangs {
-        /// The time allowed.
+        /// Time that was allowed.
         within: Duration,
     },
-    /// Anything else.
+    /// The system refused to open a file for another reason.
     #[error("{path}: {reason}: check the card and its driver")]
     Other {
-        /// The file.
+        /// File that the system refused to open.
         path: String,
-        /// What the system says.
+        /// The reason that the system gives.
         reason: String,
     },
 }
@@ -74,99 +77,115 @@ fn known_cards(cards: &[String]) -> String {
     }
 }
 
-/// Why a card failed.
+/// The reason why a card that was opened failed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PcieFault {
-    /// The driver's own time for a transfer is over.
+    /// A transfer took longer than the driver allows.
     #[error(
-        "the card's DMA engine timed out in {call} (errno {errno}), and a reset was no help: look at 'dmesg', and power-cycle the card"
+        "the card's DMA engine timed out in {call} (errno {errno}), and a reset did not help: \
+         look at 'dmesg', and power-cycle the card"
     )]
     EngineTimedOut {
-        /// What was under way.
+        /// Noun for the call under way.
         call: &'static str,
-        /// What the driver returned.
+        /// Error number that the driver returned.
         errno: i32,
     },
-    /// It fell off the bus.
+    /// The card is no longer on the bus.
     #[error(
         "the card is gone: its registers read as all ones; check its seat and power, then rescan the bus or restart"
     )]
     Gone,
-    /// It has forgotten a command.
+    /// The card has forgotten a command, as after a reset by another program.
     #[error("the card has forgotten the command under way, as after a reset: end the other program that resets it")]
     Forgotten,
-    /// It is still in a reset.
-    #[error("the card has not come out of its reset within {} s (status {status:#x}): load it again, and power-cycle it", within.as_secs_f64())]
+    /// The card stays in its reset.
+    #[error(
+        "the card did not come out of its reset within {} s (status {status:#x}): load it again, and power-cycle it",
+        within.as_secs_f64()
+    )]
     Reset {
-        /// The time allowed.
+        /// Time that was allowed.
         within: Duration,
-        /// The status register.
+        /// Value of the status register.
         status: u32,
     },
     /// A call of the system does not return.
-    #[error("{call} has not returned within {} s: it is left behind, and keeps the card locked; look at 'dmesg', and reload the driver", within.as_secs_f64())]
+    #[error(
+        "{call} did not return within {} s and keeps the card locked: look at 'dmesg', and reload the driver",
+        within.as_secs_f64()
+    )]
     Hangs {
-        /// What was under way.
+        /// Noun for the call under way.
         call: &'static str,
-        /// The time allowed.
+        /// Time that was allowed.
         within: Duration,
     },
     /// The system refused a call.
     #[error("{call} failed with \"{reason}\": look at 'dmesg', and reload the driver")]
     Call {
-        /// What was under way.
+        /// Noun for the call under way.
         call: &'static str,
-        /// What the system says.
+        /// The reason that the system gives.
         reason: String,
     },
-    /// A transfer moved nothing.
+    /// A transfer moved no byte.
     #[error("{call} moved no byte, as if the stream had ended: check that these are the files of a DMA engine")]
     Ended {
-        /// What was under way.
+        /// Noun for the call under way.
         call: &'static str,
     },
-    /// The registers do not begin with the project's letters.
-    #[error("its registers begin with {found:#010x}, not {MAGIC:#010x}: load the card with incircle, or choose another card")]
+    /// The registers do not begin with the word that marks an incircle device.
+    #[error(
+        "its registers begin with {found:#010x}, not {MAGIC:#010x}: \
+         load the card with incircle, or choose another card"
+    )]
     Magic {
-        /// Register read.
+        /// First register of the card.
         found: u32,
     },
-    /// It is of another major version.
+    /// The card has another major version of the stream device than this library, or an older minor version.
     #[error(
-        "it has version {}.{} of the stream device, this library {}.{}: update {}",
+        "it has version {}.{} of the stream device, but this library has {}.{}: update {}",
         found >> 16, found & 0xffff, STREAM_VERSION >> 16, STREAM_VERSION & 0xffff,
         if *found > STREAM_VERSION { "this program" } else { "the card" }
     )]
     Version {
-        /// Register read.
+        /// Version of the card, `major << 16 | minor`.
         found: u32,
     },
     /// A register has a value that no sound card has.
-    #[error("its register {name} reads {found}, but {wanted} are possible: load the card again, and if it persists distrust it")]
+    #[error(
+        "its register {name} reads {found}, but {wanted} are possible: \
+         load the card again, and if that does not help, do not trust it"
+    )]
     Register {
         /// Name of the register.
         name: &'static str,
-        /// Register read.
+        /// Value that was read.
         found: u32,
-        /// What would be right.
+        /// Values that a sound card may have.
         wanted: &'static str,
     },
-    /// The identity in its registers is none.
+    /// The identity in the registers is not one of a sound device.
     #[error("in its registers {0}: update the card or this program")]
     Identity(DeviceFault),
-    /// An answer goes on where it must have ended.
-    #[error("an answer of {announced} words has {came} or more: load the card again, and if it persists distrust it")]
+    /// An answer has more words than it announced.
+    #[error(
+        "an answer of {announced} words has {came} or more: \
+         load the card again, and if that does not help, do not trust it"
+    )]
     Endless {
-        /// Words it announced.
+        /// Words that the answer announced.
         announced: u64,
-        /// Words that came.
+        /// Words that came so far.
         came: u64,
     },
 }
 
 impl PcieFault {
-    /// Whose fault it is.
+    /// The kind of this fault: whose fault it is.
     pub const fn kind(&self) -> ErrorKind {
         match self {
             Self::Magic { .. } => ErrorKind::DeviceNotFound,
@@ -183,7 +202,7 @@ impl PcieFault {
         }
     }
 
-    /// True if a reset may help.
+    /// Whether a reset may help.
     pub(super) const fn is_passing(&self) -> bool {
         matches!(self, Self::EngineTimedOut { .. } | Self::Forgotten)
     }

@@ -2,28 +2,28 @@
 
 use std::io::{self, Read, Write};
 
-/// The registers of a card, a word at a time.
+/// The registers of a card, read and written a word at a time.
 pub trait RegisterFile: Send {
     /// Reads the register at this byte offset.
     ///
     /// # Errors
-    /// What the system says.
+    /// The error of the system.
     fn read(&mut self, offset: u32) -> io::Result<u32>;
 
-    /// Writes it.
+    /// Writes the register at this byte offset.
     ///
     /// # Errors
-    /// What the system says.
+    /// The error of the system.
     fn write(&mut self, offset: u32, value: u32) -> io::Result<()>;
 }
 
-/// What a card is made of, for its driver: files of the system, or anything that does as they do.
+/// The three files of a card: those of the driver, or anything that behaves as they do.
 pub struct CardFiles {
-    /// Takes command beats; a call returns when they are with the card.
+    /// File for command beats. A call to write returns when the beats are with the card.
     pub commands: Box<dyn Write + Send>,
-    /// Gives answer beats; a call returns when all that was asked for has come, or the end of an answer.
+    /// File of answer beats. A call to read returns when all bytes asked for have come, or at the end of an answer.
     pub answers: Box<dyn Read + Send>,
-    /// The registers.
+    /// Registers of the card.
     pub registers: Box<dyn RegisterFile>,
 }
 
@@ -42,11 +42,11 @@ mod system {
     use crate::transports::pcie::fault::CardFault;
     use crate::transports::pcie::files::{CardFiles, RegisterFile};
 
-    /// The driver answers so for a card that has left the bus, or was never there.
+    /// Errors of the driver for a card that has left the bus, or was never there.
     const NO_CARD: [i32; 3] = [libc::ENODEV, libc::ENXIO, libc::EIO];
 
-    /// A file of the card. The lock on the card ends with the last of them, so a call that does not return keeps others
-    /// away.
+    /// A file of the card. The lock on the card ends with the last of its files, so a call that does not
+    /// return keeps other programs away.
     struct Locked {
         file: File,
         _lock: Arc<File>,
@@ -74,9 +74,9 @@ mod system {
         fn read(&mut self, offset: u32) -> io::Result<u32> {
             let mut word = [0; 4];
             self.0.read_exact_at(&mut word, u64::from(offset)).map_err(|error| match error.kind() {
-                // An ordinary file, or one cut short: no driver does so.
+                // No driver ends a file: this is an ordinary file, or one that was cut short.
                 io::ErrorKind::UnexpectedEof => {
-                    io::Error::new(error.kind(), "the file ends before it, so it is no card's")
+                    io::Error::new(error.kind(), "the file ends before this register, so it is not a card's")
                 }
                 _ => error,
             })?;
@@ -88,7 +88,7 @@ mod system {
         }
     }
 
-    /// Opens the files of a card, and locks it.
+    /// Opens the three files of a card and locks the card.
     pub fn open(address: &CardAddress) -> Result<CardFiles, CardFault> {
         let mut choice = OpenOptions::new();
         let registers = open_file(address, &address.registers(), choice.read(true).write(true))?;
@@ -134,9 +134,9 @@ mod system {
     }
 }
 
-/// The driver is one of Linux.
+/// Refuses to open any card, since the driver only exists on Linux.
 #[cfg(not(unix))]
 pub(super) fn open(address: &super::address::CardAddress) -> Result<CardFiles, super::fault::CardFault> {
     let path = address.registers().display().to_string();
-    Err(super::fault::CardFault::Other { path, reason: "the driver XDMA is one of Linux".to_owned() })
+    Err(super::fault::CardFault::Other { path, reason: "the driver XDMA only exists on Linux".to_owned() })
 }

@@ -1,12 +1,14 @@
-//! A card in a PCIe slot, behind the character devices of Xilinx's driver XDMA.
+//! The transport to a card in a PCIe slot, behind the character devices of Xilinx's driver XDMA.
+//!
+//! Programs open a card with `Device::open("pcie:0")`. This module is for those that list [`cards`], tell faults apart
+//! ([`CardFault`], [`PcieFault`]), or look at the registers of a card.
 //!
 //! A card has three files: command beats are written to one, answer beats are read from another, and the third has its
-//! registers. Both streams block, so each has a thread; the caller waits for them until its deadline and no longer.
-//! [`PcieTransport`] is what `Device::open("pcie:0")` makes; [`PcieTransport::new`] makes one of any three files, such
-//! as some in memory.
+//! registers. Calls on both streams block, so each stream has a thread; the caller waits for the threads until its
+//! deadline and no longer. [`PcieTransport::new`] makes a transport of any three files, such as files in memory.
 //!
-//! What is held is bounded by the commands that are under way and their answers, each once. Nothing that a card says is
-//! believed: an answer has at most the words that its command may bring, and what they say is checked above.
+//! Memory is bounded by the commands under way and their answers, each held once. Nothing that a card says is believed:
+//! an answer has at most the words that its command may bring, and the session checks the words.
 
 mod address;
 mod buffer;

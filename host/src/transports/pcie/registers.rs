@@ -1,4 +1,4 @@
-//! The registers of a card, through a thread: a call that does not return must not keep the caller.
+//! The registers of a card. A thread makes the calls, so that a call that does not return cannot keep the caller.
 
 use std::fmt;
 use std::sync::mpsc::{channel, Receiver, Sender};
@@ -8,30 +8,30 @@ use incircle_protocol::{Identity, StreamRegister, MAGIC, STREAM_VERSION};
 
 use super::fault::PcieFault;
 use super::files::RegisterFile;
-use super::left_behind::note_call;
+use super::left_behind::record_abandoned_call;
 use crate::transports::identity::check_identity;
 
-/// What a card that is gone reads as.
+/// Value of every register of a card that is gone.
 const ALL_ONES: u32 = u32::MAX;
-/// Time for an access: a real one takes a microsecond.
+/// Time limit for an access. A real access takes a microsecond.
 const ACCESS: Duration = Duration::from_secs(2);
-/// Most beats of a FIFO that are believed.
+/// Most beats of a FIFO that a sound card may claim.
 const MAX_FIFO_BEATS: u32 = 1 << 20;
 
-/// A register to be read, or written with a value.
+/// A register to be read, or to be written with a value.
 type Access = (StreamRegister, Option<u32>);
 
-/// The registers.
+/// The registers of a card, behind the thread that makes the calls.
 #[derive(Debug)]
 pub(super) struct Registers {
     accesses: Sender<Access>,
     values: Receiver<Result<u32, PcieFault>>,
-    /// An access has not returned.
+    /// Whether an access has not returned. The thread is stuck then, so no more accesses are tried.
     hangs: bool,
 }
 
 impl Registers {
-    /// Starts the thread.
+    /// Starts the thread for the registers of this file.
     pub fn new(mut file: Box<dyn RegisterFile>) -> Self {
         let (accesses, wanted) = channel::<Access>();
         let (said, values) = channel();
@@ -51,12 +51,12 @@ impl Registers {
         Self { accesses, values, hangs: false }
     }
 
-    /// Reads a register.
+    /// Reads a register of the card.
     pub fn read(&mut self, register: StreamRegister) -> Result<u32, PcieFault> {
         self.access((register, None))
     }
 
-    /// Writes a register.
+    /// Writes a register of the card.
     pub fn write(&mut self, register: StreamRegister, value: u32) -> Result<(), PcieFault> {
         self.access((register, Some(value))).map(|_| ())
     }
@@ -68,12 +68,12 @@ impl Registers {
         }
         self.values.recv_timeout(ACCESS).unwrap_or_else(|_| {
             self.hangs = true;
-            note_call();
+            record_abandoned_call();
             Err(hangs)
         })
     }
 
-    /// The error, if the card is gone.
+    /// Fails if the card is gone, or is no incircle card.
     pub fn check_presence(&mut self) -> Result<(), PcieFault> {
         match self.read(StreamRegister::Magic)? {
             ALL_ONES => Err(PcieFault::Gone),
@@ -82,7 +82,7 @@ impl Registers {
         }
     }
 
-    /// Resets core and FIFOs, and waits until the core runs.
+    /// Resets the core and the FIFOs, and waits until the core runs.
     pub fn reset(&mut self, deadline: Instant) -> Result<(), PcieFault> {
         use incircle_protocol::{CONTROL_RESET, STREAM_STATUS_RESETTING, STREAM_STATUS_RUNS};
         let begun = Instant::now();
@@ -102,7 +102,7 @@ impl Registers {
         }
     }
 
-    /// Reads what says who the card is, and believes only what a sound one can be.
+    /// Reads the identity of the card and the bytes of a beat, and refuses values that no sound card has.
     pub fn identify(&mut self) -> Result<(Identity, usize), PcieFault> {
         use StreamRegister as Of;
         self.check_presence()?;
@@ -131,7 +131,7 @@ impl Registers {
         Ok((identity, bits as usize / 8))
     }
 
-    /// Reads all that are not for control.
+    /// Reads all registers but the control register.
     pub fn all(&mut self) -> Result<CardRegisters, PcieFault> {
         let (identity, beat_bytes) = self.identify()?;
         let low = self.read(StreamRegister::ClocksLow)?;
@@ -154,30 +154,30 @@ impl Registers {
     }
 }
 
-/// What the registers of a card say.
+/// The values of the registers of a card, for a diagnosis. The page `protocol/STREAM.md` defines them all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CardRegisters {
     /// Version of the stream device, `major << 16 | minor`.
     pub stream_version: u32,
-    /// The core's identity.
+    /// Identity of the core on the card.
     pub identity: Identity,
-    /// Bits of a beat.
+    /// Bits of a beat, 64 or 128.
     pub beat_bits: u32,
-    /// Beats of each FIFO.
+    /// Beats for which each FIFO has room.
     pub fifo_beats: u32,
-    /// Status bits.
+    /// Status bits of the stream link.
     pub status: u32,
-    /// Error bits.
+    /// Error bits of the stream link.
     pub errors: u32,
     /// Header of the last answer with a status other than `Ok`.
     pub fault: u32,
-    /// Clocks of the bus.
+    /// Clocks of the bus since the reset.
     pub clocks: u64,
-    /// Beats of commands taken.
+    /// Beats of commands that the card has taken.
     pub command_beats: u32,
-    /// Beats of answers given.
+    /// Beats of answers that the card has given.
     pub answer_beats: u32,
-    /// Answers given.
+    /// Answers that the card has given.
     pub answers: u32,
     /// Clocks in which a beat of commands waited.
     pub command_waits: u32,
@@ -186,7 +186,7 @@ pub struct CardRegisters {
 }
 
 impl fmt::Display for CardRegisters {
-    /// A line for each.
+    /// Writes the values, a line for each group of registers.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "stream device {}.{}", self.stream_version >> 16, self.stream_version & 0xffff)?;
         writeln!(f, "beats of {} bits, FIFOs of {} beats", self.beat_bits, self.fifo_beats)?;

@@ -1,4 +1,4 @@
-//! The two streams of a card, a thread for each: both block in the system, at the same time.
+//! The two streams of a card. Calls on both block, so each stream has a thread.
 
 use std::collections::VecDeque;
 use std::io::{self, ErrorKind, Read, Write};
@@ -10,76 +10,78 @@ use incircle_protocol::ANSWER_HEAD_WORDS;
 use super::buffer::{PageBuffer, Pool};
 use super::fault::PcieFault;
 
-/// Most bytes of a transfer.
+/// Most bytes of one transfer.
 pub(super) const MOST_MOVED: usize = 1 << 20;
-/// Bytes of a word.
+/// Bytes of a word of the protocol.
 pub(super) const WORD: usize = 4;
-/// What is under way, in messages.
+/// Nouns for the call under way, for messages.
 const WRITING: &str = "the writing of commands";
 const READING: &str = "the reading of answers";
 
-/// What XDMA returns when its time is over: a code of the kernel's own, which should not come out of it.
+/// Error of XDMA after its timeout. The code is internal to the kernel and should not get out, but does.
 const ERESTARTSYS: i32 = 512;
-/// Of errno.h: an engine's time is over, or the card is gone.
+/// Errors of `errno.h` for a DMA engine after its timeout (`EIO`) and for a card that is gone.
 const EIO: i32 = 5;
 const ENXIO: i32 = 6;
 const ENODEV: i32 = 19;
 
-/// What the threads and the caller share.
+/// The state that the two threads and the caller share.
 #[derive(Debug, Default)]
 pub(super) struct State {
-    /// Whole beats of commands that are not written yet, and how many bytes that is with those being written.
+    /// Commands that are not written yet, in whole beats.
     commands: VecDeque<PageBuffer>,
+    /// Bytes of `commands` and of the commands being written.
     queued: usize,
-    /// Most words of the answers to come.
+    /// Upper bound, in words, on each answer that is to come.
     due: VecDeque<u64>,
-    /// Words of answers that came.
+    /// Answers that came and have not been taken.
     pieces: VecDeque<PageBuffer>,
     pool: Pool,
     fault: Option<PcieFault>,
-    /// The threads are at a command, or at an answer.
+    /// Whether the writer is at a command.
     is_writing: bool,
+    /// Whether the reader is at an answer.
     is_reading: bool,
-    /// Counts restarts: what a thread began before one is nobody's any more.
+    /// Number of restarts. The outcome of a call that began in an earlier epoch is dropped.
     epoch: u64,
-    /// Counts transfers.
+    /// Number of transfers, and of their ends.
     progress: u64,
-    /// No more is to be done.
+    /// Whether the threads shall end.
     ends: bool,
 }
 
 impl State {
-    /// True if all commands are with the card.
+    /// Whether all commands are with the card.
     pub fn is_all_written(&self) -> bool {
         self.commands.is_empty() && !self.is_writing
     }
 
-    /// True if no answer is to come.
+    /// Whether no answer is to come.
     pub fn is_all_read(&self) -> bool {
         self.due.is_empty() && !self.is_reading
     }
 
-    /// True if a piece of answers is there.
+    /// Whether a piece of an answer is there.
     pub fn has_piece(&self) -> bool {
         !self.pieces.is_empty()
     }
 
-    /// True if a fault has stopped the streams.
+    /// Whether a fault has stopped the streams.
     pub fn has_fault(&self) -> bool {
         self.fault.is_some()
     }
 
-    /// The next piece of answers.
+    /// Takes the next piece of an answer.
     pub fn piece(&mut self) -> Option<PageBuffer> {
         self.pieces.pop_front()
     }
 
-    /// Takes a piece back.
+    /// Takes back the buffer of a piece that was read.
     pub fn give_back(&mut self, piece: PageBuffer) {
         self.pool.give(piece);
     }
 
-    /// The call that has not returned.
+    /// Noun for the call that has not returned.
     pub fn call(&self) -> &'static str {
         if self.is_writing {
             WRITING
@@ -89,13 +91,13 @@ impl State {
     }
 }
 
-/// State and signals.
+/// The shared state with its two signals.
 #[derive(Debug, Default)]
 struct Shared {
     state: Mutex<State>,
-    /// For the threads: there is something to do.
+    /// Signal to the threads that there is something to do.
     work: Condvar,
-    /// For the caller: something was done.
+    /// Signal to the caller that something was done.
     news: Condvar,
 }
 
@@ -104,7 +106,7 @@ impl Shared {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Waits until there is something for a thread; none at the end.
+    /// Waits until `work` finds something for a thread to do; `None` if the thread shall end.
     fn next<T>(&self, mut work: impl FnMut(&mut State) -> Option<T>) -> Option<T> {
         let mut state = self.lock();
         loop {
@@ -120,7 +122,7 @@ impl Shared {
         }
     }
 
-    /// After a transfer: false if it is nobody's any more.
+    /// Counts a transfer. Returns false if the transfer began before a restart, so that nobody wants its outcome.
     fn moved(&self, epoch: u64) -> bool {
         let mut state = self.lock();
         state.progress += 1;
@@ -129,14 +131,14 @@ impl Shared {
     }
 }
 
-/// The two streams.
+/// The two streams of a card, with their threads.
 #[derive(Debug)]
 pub(super) struct Streams {
     shared: Arc<Shared>,
 }
 
 impl Streams {
-    /// Starts the threads.
+    /// Starts the threads. `beat` is the number of bytes of a beat.
     pub fn new(commands: Box<dyn Write + Send>, answers: Box<dyn Read + Send>, beat: usize) -> Self {
         let shared = Arc::new(Shared::default());
         let writer = Writer { shared: Arc::clone(&shared), file: commands, beat };
@@ -146,7 +148,7 @@ impl Streams {
         Self { shared }
     }
 
-    /// What is shared, now.
+    /// Locks the shared state.
     pub fn lock(&self) -> MutexGuard<'_, State> {
         self.shared.lock()
     }
@@ -156,12 +158,12 @@ impl Streams {
         self.lock().fault.clone()
     }
 
-    /// Bytes for commands: whole beats.
+    /// A buffer for commands of this many bytes, which must be whole beats.
     pub fn buffer(&self, bytes: usize) -> PageBuffer {
         self.lock().pool.take(bytes)
     }
 
-    /// Queues commands, and what answers they ask for.
+    /// Queues commands, and for each answer that is due an upper bound on its words.
     pub fn queue(&self, commands: Option<PageBuffer>, answers: impl IntoIterator<Item = u64>) {
         let mut state = self.lock();
         if let Some(commands) = commands {
@@ -172,24 +174,24 @@ impl Streams {
         self.shared.work.notify_all();
     }
 
-    /// Bytes that are not with the card yet.
+    /// Bytes of commands that are not with the card yet.
     pub fn queued(&self) -> usize {
         self.lock().queued
     }
 
-    /// Transfers and ends of them so far.
+    /// Number of transfers, and of their ends, so far.
     pub fn progress(&self) -> u64 {
         self.lock().progress
     }
 
-    /// Waits, for so long, until there is more progress than that; false if there is none.
+    /// Waits, for at most `time`, until the progress differs from `seen`; false if it does not.
     pub fn wait(&self, seen: u64, time: Duration) -> bool {
         let state = self.lock();
         let waited = self.shared.news.wait_timeout_while(state, time, |state| state.progress == seen);
         waited.unwrap_or_else(PoisonError::into_inner).0.progress != seen
     }
 
-    /// Forgets everything. What the threads have begun goes on, and is dropped when it ends.
+    /// Forgets everything. Calls that the threads have begun go on, and their outcome is dropped.
     pub fn forget(&self) {
         let mut state = self.lock();
         let State { commands, pieces, due, .. } = &mut *state;
@@ -202,7 +204,7 @@ impl Streams {
         self.shared.work.notify_all();
     }
 
-    /// Waits until this is so, or until the deadline; true if it is.
+    /// Waits until `is_so` holds, or until the deadline. Returns whether it holds.
     pub fn wait_until(&self, deadline: Instant, is_so: impl Fn(&State) -> bool) -> bool {
         let left = deadline.saturating_duration_since(Instant::now());
         let waited = self.shared.news.wait_timeout_while(self.lock(), left, |state| !is_so(state));
@@ -303,12 +305,12 @@ impl Reader {
         }
     }
 
-    /// Bytes of the beats that hold so many words.
+    /// Bytes of the whole beats that hold this many words.
     fn bytes_of(&self, words: u64) -> u64 {
         words.saturating_mul(WORD as u64).next_multiple_of(self.beat as u64)
     }
 
-    /// Reads an answer of at most so many words. Its second word says how many there are.
+    /// Reads an answer of at most `most` words. The second word of an answer gives its length.
     fn read_answer(&mut self, most: u64, epoch: u64) -> Result<(), PcieFault> {
         let mut length = None;
         let mut came = 0;
@@ -317,7 +319,7 @@ impl Reader {
             let size = usize::try_from(end - came).unwrap_or(MOST_MOVED).min(MOST_MOVED);
             let mut piece = self.shared.lock().pool.take(size);
             let filled = self.fill(&mut piece, most, &mut length, came)?;
-            // The rest of the last beat is no word.
+            // The rest of the last beat is padding.
             let words = length.map_or(filled, |length| filled.min((length * WORD as u64 - came) as usize));
             piece.truncate(words);
             came += filled as u64;
@@ -334,8 +336,8 @@ impl Reader {
         }
     }
 
-    /// Fills a piece, or what the end of the answer leaves of it. A read may be short without an end: only the length
-    /// tells.
+    /// Fills a piece, up to the end of the answer. A read may be short before the end, so only the length tells where
+    /// the answer ends. Returns the number of bytes filled.
     fn fill(
         &mut self,
         piece: &mut PageBuffer,
@@ -370,7 +372,7 @@ impl Reader {
     }
 }
 
-/// Words of the answer that begins so, once that can be told.
+/// Words of the answer that begins with these bytes, once the word with its length is there.
 fn announced(bytes: &[u8]) -> Option<u64> {
     let word = bytes.get(WORD..2 * WORD)?;
     let payload = u32::from_le_bytes([word[0], word[1], word[2], word[3]]);

@@ -1,4 +1,4 @@
-//! A card as a transport.
+//! A card in a PCIe slot as a transport.
 
 use std::sync::mpsc::{channel, RecvTimeoutError};
 use std::time::{Duration, Instant};
@@ -12,31 +12,31 @@ use super::address::CardAddress;
 use super::buffer::PageBuffer;
 use super::fault::{CardFault, PcieFault};
 use super::files::{open, CardFiles};
-use super::left_behind::note_call;
+use super::left_behind::record_abandoned_call;
 use super::registers::{CardRegisters, Registers};
 use super::streams::{Streams, MOST_MOVED, WORD};
 use crate::error::{Error, TransportError};
 use crate::transports::transport::{receive_in_pieces, AnswerHead, Capabilities, Transport};
 
-/// Time for opening the files, and for a reset.
+/// Time limit for opening the files, and for a reset.
 const OPEN: Duration = Duration::from_secs(5);
-/// Bytes of commands that may wait for the card.
+/// Most bytes of commands that may wait for the card.
 const MOST_QUEUED: usize = 2 * MOST_MOVED;
-/// Time without news after which the registers are asked whether the card is still at work.
+/// Time without progress after which the status register is read, to see whether the card is still at work.
 const LOOK: Duration = Duration::from_millis(200);
-/// Looks in a row that find it at rest, though an answer is due, until it counts as having forgotten.
+/// Looks in a row that find the card at rest although an answer is due, after which the card has forgotten the command.
 const IDLE_LOOKS: u32 = 2;
-/// Time for a stream to come to rest after a reset, until it is reset again or woken.
+/// Time for a stream to come to rest after a reset, before the card is reset again or the stream is woken.
 const SETTLE: Duration = Duration::from_millis(5);
-/// Time for calls that are under way when the transport is dropped.
+/// Time limit for calls that are under way when the transport is dropped.
 const GOODBYE: Duration = Duration::from_millis(300);
-/// What reads as all ones is gone.
+/// Value of every register of a card that is gone.
 const ALL_ONES: u32 = u32::MAX;
 
-/// A device in a PCIe slot.
+/// The transport to a card in a PCIe slot.
 ///
-/// Commands are written while answers are read: `submit` returns when its commands wait for the card, so the next may
-/// be sent before the answer to the last is taken. The card is reset when it is opened.
+/// Commands are written while answers are read. `submit` returns as soon as its commands wait for the card, so further
+/// commands may be sent before an answer is taken. Opening a card resets it.
 pub struct PcieTransport {
     name: String,
     registers: Registers,
@@ -45,25 +45,26 @@ pub struct PcieTransport {
     /// Bytes of a beat.
     beat: usize,
     layout: Layout,
-    /// Words that came and were not taken, and bytes of them that were.
+    /// Piece of an answer that has been taken in part.
     piece: Option<PageBuffer>,
+    /// Bytes of `piece` that have been taken.
     taken: usize,
     fault: Option<PcieFault>,
 }
 
 impl PcieTransport {
-    /// Opens a card of this system, locks it, looks at its registers and resets it.
+    /// Opens a card of this system: locks it, checks its registers and resets it.
     ///
     /// # Errors
-    /// [`Error::Open`] where the system refuses, with what to do about it, and the errors of [`PcieTransport::new`].
+    /// [`Error::Open`] with a [`CardFault`] if the system refuses, and the errors of [`PcieTransport::new`].
     pub fn open(address: &CardAddress) -> Result<Self, Error> {
         let (sender, opened) = channel();
         let of = address.clone();
-        // Opening may hang as any call.
+        // Even opening a file may hang, so a thread of its own does it.
         std::thread::spawn(move || sender.send(open(&of)));
         let opened = opened.recv_timeout(OPEN).unwrap_or_else(|error| {
             if error == RecvTimeoutError::Timeout {
-                note_call();
+                record_abandoned_call();
             }
             Err(CardFault::Hangs { within: OPEN })
         });
@@ -71,10 +72,10 @@ impl PcieTransport {
         Self::new(address.to_string(), files)
     }
 
-    /// A card made of these files.
+    /// Makes a transport of the three files of a card: checks the registers and resets the card.
     ///
     /// # Errors
-    /// [`Error::Link`] where the registers are not those of a sound card, or its reset does not end.
+    /// [`Error::Link`] if the registers are not those of a sound card, or if the reset does not end.
     pub fn new(name: String, files: CardFiles) -> Result<Self, Error> {
         let CardFiles { commands, answers, registers } = files;
         let mut registers = Registers::new(registers);
@@ -100,10 +101,10 @@ impl PcieTransport {
         })
     }
 
-    /// What the registers say.
+    /// Reads the registers of the card, for a diagnosis.
     ///
     /// # Errors
-    /// [`Error::Link`] where they do not answer, or not as a sound card.
+    /// [`Error::Link`] if the registers do not answer, or not as those of a sound card.
     pub fn registers(&mut self) -> Result<CardRegisters, Error> {
         let failed = |fault: PcieFault| Error::Link {
             device: self.name.clone(),
@@ -113,7 +114,8 @@ impl PcieTransport {
         self.registers.all().map_err(failed)
     }
 
-    /// Keeps a fault: there is nothing but a reset after it. One of a call may mean that the card is gone.
+    /// Keeps a fault, after which only a reset helps, and turns it into an error. The fault of a call may mean that the
+    /// card is gone, so its presence is checked.
     fn fail(&mut self, fault: PcieFault) -> TransportError {
         let fault = match fault {
             PcieFault::EngineTimedOut { .. } | PcieFault::Call { .. } | PcieFault::Ended { .. } => {
@@ -125,7 +127,8 @@ impl PcieTransport {
         fault.into()
     }
 
-    /// After a time without news: is the card there, and at work?
+    /// Checks, after a time without progress, that the card is there and at work. `idle` counts the looks in a row that
+    /// find it at rest.
     fn look(&mut self, idle: &mut u32) -> Result<(), PcieFault> {
         let is_all_written = self.streams.lock().is_all_written();
         let status = self.registers.read(StreamRegister::Status)?;
@@ -143,7 +146,7 @@ impl PcieTransport {
         Ok(())
     }
 
-    /// Waits until `ready` has something. While nothing happens, looks at the card.
+    /// Waits until `ready` gives a result, and looks at the card while nothing happens. `None` if the deadline passes.
     fn wait<T>(
         &mut self,
         deadline: Instant,
@@ -170,7 +173,7 @@ impl PcieTransport {
         }
     }
 
-    /// Commands in whole beats: padding fills the last.
+    /// The words of these commands in whole beats. Padding fills the last beat.
     fn beats(&self, commands: &[Command<&[u32]>], words: usize) -> PageBuffer {
         let mut buffer = self.streams.buffer((words * WORD).next_multiple_of(self.beat));
         let mut rest = buffer.bytes_mut();
@@ -186,7 +189,7 @@ impl PcieTransport {
         buffer
     }
 
-    /// Copies words that came; says how many.
+    /// Copies words of answers that came, and returns their number.
     fn copy(&mut self, words: &mut [u32]) -> usize {
         let mut done = 0;
         while done < words.len() {
@@ -209,7 +212,7 @@ impl PcieTransport {
         done
     }
 
-    /// Resets the card, gets both streams out of their calls, and begins anew.
+    /// Resets the card, gets both streams out of their calls, and begins again as after opening.
     fn restart(&mut self, deadline: Instant) -> Result<(), PcieFault> {
         let begun = Instant::now();
         (self.piece, self.taken) = (None, 0);
@@ -220,7 +223,7 @@ impl PcieTransport {
         self.reset(deadline)?;
         if self.registers.identify()? != (self.identity, self.beat) {
             let (name, found) = ("identity", self.registers.read(StreamRegister::CoreVersion)?);
-            return Err(PcieFault::Register { name, found, wanted: "the values of before the reset" });
+            return Err(PcieFault::Register { name, found, wanted: "only the values before the reset" });
         }
         self.fault = None;
         Ok(())
@@ -230,10 +233,10 @@ impl PcieTransport {
         self.registers.reset(deadline.min(Instant::now() + OPEN))
     }
 
-    /// Brings both streams to rest; false if one is in a call that does not return.
+    /// Brings both streams to rest. Returns false if one is in a call that does not return before the deadline.
     fn still(&mut self, deadline: Instant) -> Result<bool, PcieFault> {
         self.streams.forget();
-        // The rest of a command goes to the core as if it were others, until all is written.
+        // After a reset the core takes the rest of a command for new commands, so it is reset until all is written.
         loop {
             self.reset(deadline)?;
             if self.streams.wait_until(Instant::now() + SETTLE, |state| state.is_all_written()) {
@@ -243,12 +246,12 @@ impl PcieTransport {
                 return Ok(false);
             }
         }
-        // A read that waits for an answer that will never come is given another one.
+        // A read may wait for an answer that the reset has removed. The answer to another command ends the call.
         while !self.streams.wait_until(Instant::now() + SETTLE, |state| state.is_all_read()) {
             if Instant::now() >= deadline {
                 return Ok(false);
             }
-            // What woke it before may have failed.
+            // The command that was to wake the reader may itself have failed, so each try begins with a reset.
             self.streams.forget();
             self.reset(deadline)?;
             if self.streams.lock().is_all_written() {
@@ -258,7 +261,7 @@ impl PcieTransport {
         Ok(true)
     }
 
-    /// Sends a `Hello` for whoever waits in a read.
+    /// Sends a `Hello`, whose answer wakes a reader that waits in a call.
     fn wake(&mut self) {
         let mut buffer = self.streams.buffer(self.beat);
         let bytes = buffer.bytes_mut();
@@ -269,15 +272,17 @@ impl PcieTransport {
     }
 }
 
-/// Words as bytes, low byte first.
+/// Writes words as bytes, low byte first.
 fn fill(bytes: &mut [u8], words: &[u32]) {
     for (place, word) in bytes.chunks_exact_mut(WORD).zip(words) {
         place.copy_from_slice(&word.to_le_bytes());
     }
 }
 
-/// An answer to another command, or one that says that records which were there are not: the card has been reset, and
-/// the rest of a command was taken for others. A host asks for no records that the card has not told of.
+/// Whether an answer shows that the card was reset, so that it took the rest of a command for other commands.
+///
+/// An answer to another command shows that. So does `BadRange`: the host never asks for records beyond the number that
+/// the card reported, so the card must have lost them.
 fn is_out_of_step(awaited: AnswerHead, came: AnswerHead) -> bool {
     let ([awaited, _], [came, _]) = (awaited, came);
     match Status::from_u8(answer_status(came)) {
@@ -295,7 +300,7 @@ impl PcieTransport {
         }
         let wanted = words.len();
         let mut done = 0;
-        // None: more is wanted than will come.
+        // `Some(false)` ends the wait when more words are wanted than will come.
         let ready = |card: &mut Self| {
             done += card.copy(&mut words[done..]);
             if done == wanted {
@@ -360,19 +365,19 @@ impl Transport for PcieTransport {
 }
 
 impl Drop for PcieTransport {
-    /// Leaves no call behind, if that can be helped: who comes next finds the card free.
+    /// Ends the calls that are under way, if possible, so that the next program finds the card free.
     fn drop(&mut self) {
         let is_at_rest = {
             let state = self.streams.lock();
             state.is_all_written() && state.is_all_read()
         };
         if !is_at_rest && self.restart(Instant::now() + GOODBYE).is_err() {
-            note_call();
+            record_abandoned_call();
         }
         self.streams.end();
     }
 }
 
-/// A sound card's answer to the `Hello` that wakes a read is longer than a beat; the rest goes with the reset that
-/// follows.
+/// The answer to the `Hello` that wakes a reader must be longer than a beat, of 4 words at most, so that a read of one
+/// beat ends. The reset that follows removes the rest of the answer.
 const _: () = assert!(ANSWER_HEAD_WORDS + IDENTITY_WORDS > 4);

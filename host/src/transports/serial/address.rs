@@ -1,4 +1,4 @@
-//! Addresses of serial devices: `serial:PORT?baud=N&slow=N`.
+//! Addresses of boards at a serial port: `serial:PORT?baud=N&slow=N`.
 
 use std::fmt;
 
@@ -7,47 +7,47 @@ use incircle_protocol::FIRST_RATE;
 use super::protocol::DEFAULT_RATE;
 use crate::transports::choices::Choices;
 
-/// Before the name of the port.
+/// Beginning of every address of a serial port.
 const PREFIX: &str = "serial:";
-/// Highest rate that may be wished for: above what any adapter does.
+/// Highest rate that may be asked for, in bits per second: more than any adapter reaches.
 const MAX_RATE: u32 = 50_000_000;
-/// Most that deadlines are stretched.
+/// Largest factor by which deadlines may be stretched.
 const MAX_SLOW: u32 = 100_000;
 
-/// Where a device is, and how it is talked to.
+/// The address of a board at a serial port, with the rate to use.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Address {
-    /// Name of the port: `/dev/ttyUSB0`, `COM3`.
+    /// Name of the port, such as `/dev/ttyUSB0` or `COM3`.
     pub port: String,
-    /// Bits per second that are wished for; lower ones are taken where they cannot be had.
+    /// Highest rate to try, in bits per second. Lower rates are tried if this one does not work.
     pub baud: u32,
-    /// How many times slower than real the device is: a simulation of every pin needs much more time than a board.
+    /// Factor by which the device is slower than a real board: 1, or more for a simulation of every pin.
     pub slow: u32,
 }
 
 impl Address {
-    /// A port with the usual choices.
+    /// The address of a port with the default rate, for a real board.
     pub fn of_port(port: impl Into<String>) -> Self {
         Self { port: port.into(), baud: DEFAULT_RATE, slow: 1 }
     }
 
-    /// Parses an address; `None` if it is of another kind.
+    /// Parses an address; `None` if it is the address of another kind of device.
     ///
     /// # Errors
-    /// A sentence without the address.
+    /// A sentence that does not repeat the address.
     pub fn parse(address: &str) -> Option<Result<Self, String>> {
         address.strip_prefix(PREFIX).map(Self::parse_port)
     }
 
-    /// Parses a port with choices behind a question mark.
+    /// Parses the name of a port with choices behind a question mark: an address without `serial:`.
     ///
     /// # Errors
-    /// A sentence without the address.
+    /// A sentence that does not repeat the address.
     pub fn parse_port(text: &str) -> Result<Self, String> {
         let choices = Choices::of(text);
         let port = choices.name;
         if port.is_empty() {
-            return Err("it names no port; \"serial:/dev/ttyUSB0\" would".to_owned());
+            return Err("no port is named: write it as in \"serial:/dev/ttyUSB0\"".to_owned());
         }
         let mut address = Self::of_port(port);
         for choice in choices.items() {

@@ -1,8 +1,8 @@
-//! Bytes without zeros: COBS towards the device, reverse COBS towards the host.
+//! Coding that takes the zeros out of frames: COBS towards the device, reverse COBS towards the host.
 
-/// Longest piece without a zero.
+/// Most bytes of a piece without a zero.
 const PIECE: usize = 254;
-/// Length byte of such a piece, which stands for no zero.
+/// Length byte of a full piece. Unlike other length bytes, it does not stand for a zero.
 const FULL_PIECE: u8 = 255;
 
 /// Appends `bytes` in COBS, without the closing zero.
@@ -14,10 +14,10 @@ pub(super) fn encode(bytes: &[u8], out: &mut Vec<u8>) {
             out.push(1);
         }
         while let Some(chunk) = chunks.next() {
-            // At most 254, so it fits.
+            // A chunk has at most 254 bytes, so this fits a byte.
             out.push(chunk.len() as u8 + 1);
             out.extend_from_slice(chunk);
-            // The piece is full and ends at a zero: that zero needs a length byte of its own.
+            // A full piece stands for no zero, so a zero that follows it needs a length byte of its own.
             if chunk.len() == PIECE && chunks.peek().is_none() && pieces.peek().is_some() {
                 out.push(1);
             }
@@ -25,12 +25,12 @@ pub(super) fn encode(bytes: &[u8], out: &mut Vec<u8>) {
     }
 }
 
-/// Decodes reverse COBS in place: where in `bytes` the decoded ones begin, which end where `bytes` end. `None` if a
-/// length byte is impossible.
+/// Decodes reverse COBS in place, towards the end of `bytes`, and returns the place where the decoded bytes begin.
+/// `None` if a length byte is impossible.
 pub(super) fn decode_reverse(bytes: &mut [u8]) -> Option<usize> {
     let mut read = bytes.len();
     let mut write = bytes.len();
-    // The last length byte stands for no zero, and its piece is never full.
+    // The last length byte stands for no zero, since the frame ends there, and its piece is never full.
     let mut is_last = true;
     while read > 0 {
         let code = bytes[read - 1];
@@ -56,7 +56,7 @@ pub(super) mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// COBS as a device decodes it, by a counter.
+    /// Decodes COBS as a device does.
     pub fn decode(bytes: &[u8]) -> Option<Vec<u8>> {
         let mut out = Vec::new();
         let mut rest = bytes;
@@ -71,7 +71,7 @@ pub(super) mod tests {
         Some(out)
     }
 
-    /// Reverse COBS as a device encodes it: byte by byte, as the page says.
+    /// Encodes reverse COBS as a device does, byte by byte, as the page says.
     pub fn encode_reverse(bytes: &[u8], out: &mut Vec<u8>) {
         let mut since = 0;
         for &byte in bytes {
@@ -119,7 +119,9 @@ pub(super) mod tests {
 
     proptest! {
         #[test]
-        fn both_ways_there_and_back(plain in proptest::collection::vec(prop_oneof![Just(0u8), 0u8..=255, Just(7u8)], 0..1200)) {
+        fn both_ways_there_and_back(
+            plain in proptest::collection::vec(prop_oneof![Just(0u8), 0u8..=255, Just(7u8)], 0..1200),
+        ) {
             let mut out = Vec::new();
             encode(&plain, &mut out);
             prop_assert!(!out.contains(&0));

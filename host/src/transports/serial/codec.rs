@@ -1,4 +1,4 @@
-//! Frames: built for the device, taken apart from it. Nothing that comes in is believed before its check sum holds.
+//! Encoding frames to the device and decoding frames from it. No byte from the line is used before its check sum holds.
 
 use incircle_protocol::{
     DeviceFrame, HostFrame, ANSWER_HEADER_BYTES, CRC_BYTES, DEVICE_HEADER_BYTES, FRAME_END, HOST_HEADER_BYTES,
@@ -7,12 +7,12 @@ use incircle_protocol::{
 
 use super::cobs;
 
-/// Most bytes of a frame towards the host as it stands on the line, the closing zero left out.
+/// Most bytes of an encoded frame from the device, without the closing zero.
 const MAX_ENCODED: usize = MAX_DEVICE_FRAME + MAX_DEVICE_FRAME / 254 + 1;
-/// Most bytes by which a frame on the line is longer than its payload: header, check sum, length bytes, closing zero.
+/// Most bytes by which an encoded frame is longer than its payload: header, check sum, length bytes, closing zero.
 pub(super) const MOST_OVERHEAD: usize = MAX_ENCODED + 1 - MAX_PAYLOAD;
 
-/// Appends a frame towards the device, as it stands on the line.
+/// Appends an encoded frame to the device, with its closing zero.
 pub(super) fn encode(session: u8, kind: HostFrame, number: u8, payload: &[u8], out: &mut Vec<u8>) {
     debug_assert!(payload.len() <= MAX_PAYLOAD);
     let mut frame = Vec::with_capacity(HOST_HEADER_BYTES + payload.len() + CRC_BYTES);
@@ -28,24 +28,23 @@ pub(super) fn encode(session: u8, kind: HostFrame, number: u8, payload: &[u8], o
 /// A frame from the device whose check sum holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Message<'b> {
-    /// Its session.
+    /// Number of the session that is open on the device, or 0.
     pub session: u8,
-    /// What it is.
     pub kind: DeviceFrame,
     /// Number of the `Data` frame that the device awaits.
     pub expected: u8,
-    /// Answers sent to their end.
+    /// Number of answers that the device has sent to their end, modulo 256.
     pub answers: u8,
-    /// Free bytes of the FIFO.
+    /// Free bytes of the device's FIFO, which is the credit.
     pub free: u16,
-    /// Status bits.
+    /// Status bits of the link.
     pub status: u8,
-    /// What follows.
+    /// Bytes behind the header, without the check sum.
     pub body: &'b [u8],
 }
 
 impl<'b> Message<'b> {
-    /// Takes a decoded frame apart; `None` if it is none.
+    /// Parses a decoded frame; `None` if it is too short, of no known kind, or has a wrong check sum.
     fn parse(frame: &'b [u8]) -> Option<Self> {
         let (checked, crc) = frame.split_last_chunk::<CRC_BYTES>()?;
         let (header, body) = checked.split_first_chunk::<DEVICE_HEADER_BYTES>()?;
@@ -58,7 +57,7 @@ impl<'b> Message<'b> {
         Some(Self { session, kind, expected, answers, free, status, body })
     }
 
-    /// The body as words; `None` if its length is not that of exactly `N` words.
+    /// The body as `N` words; `None` if it has another length.
     pub fn words<const N: usize>(&self) -> Option<[u32; N]> {
         let mut words = [0; N];
         if self.body.len() != 4 * N {
@@ -70,7 +69,7 @@ impl<'b> Message<'b> {
         Some(words)
     }
 
-    /// The body as a part of an answer; `None` if its length is none such a part has.
+    /// The body as a part of an answer; `None` if no part of an answer has this length.
     pub fn answer(&self) -> Option<AnswerPart<'b>> {
         let (&[number, low, high], rest) = self.body.split_first_chunk::<ANSWER_HEADER_BYTES>()?;
         let (words, digest) = if self.kind == DeviceFrame::AnswerEnd {
@@ -86,53 +85,53 @@ impl<'b> Message<'b> {
     }
 }
 
-/// Words of an answer.
+/// A part of an answer: some of its words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct AnswerPart<'b> {
-    /// Number of the answer.
+    /// Number of the answer, modulo 256.
     pub number: u8,
-    /// Index of the first word in it, modulo 65,536.
+    /// Index of the first word of this part within the answer, modulo 65,536.
     pub index: u16,
-    /// The words, four bytes each; at least one.
+    /// Words of this part, at least one, four bytes each.
     pub bytes: &'b [u8],
-    /// Check sum over all words of the answer, with its last ones.
+    /// Check sum over all words of the answer. Only the last part has it.
     pub digest: Option<u32>,
 }
 
-/// Bytes as words.
+/// Reads bytes as words, low byte first.
 pub(super) fn words_of(bytes: &[u8]) -> impl Iterator<Item = u32> + '_ {
     bytes.chunks_exact(4).map(|bytes| u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]))
 }
 
-/// Finds frames in what comes from the line. It holds one frame and no more, whatever comes.
+/// Finds frames in the bytes from the line. A decoder holds the bytes of one frame at most, whatever comes.
 #[derive(Debug, Default)]
 pub(super) struct Decoder {
     bytes: Vec<u8>,
-    /// More bytes came without a zero than any frame has: all up to the next zero are skipped.
+    /// Whether more bytes came without a zero than any frame has. All bytes up to the next zero are then skipped.
     is_too_long: bool,
-    /// The bytes were handed out as a frame, and are no longer needed.
+    /// Whether the bytes were handed out as a frame, so that they may be dropped.
     is_done: bool,
 }
 
-/// What a byte completed.
+/// The outcome of the bytes up to a zero.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Decoded<'b> {
-    /// Nothing yet, or an empty frame.
+    /// No zero has come yet, or there were no bytes before it.
     Nothing,
-    /// Bytes up to a zero that are no frame.
+    /// The bytes before the zero are not a frame.
     Broken,
-    /// A frame.
+    /// The bytes before the zero are a frame whose check sum holds.
     Frame(Message<'b>),
 }
 
 impl Decoder {
-    /// Forgets what stands half.
+    /// Forgets the bytes of an unfinished frame.
     pub fn clear(&mut self) {
         *self = Self { bytes: std::mem::take(&mut self.bytes), ..Self::default() };
         self.bytes.clear();
     }
 
-    /// Takes bytes up to the first zero: how many, and what they completed.
+    /// Takes bytes up to the first zero. Returns the number of bytes taken, and what they completed.
     pub fn take(&mut self, bytes: &[u8]) -> (usize, Decoded<'_>) {
         if self.is_done {
             self.clear();
@@ -163,7 +162,7 @@ impl Decoder {
 pub(super) mod tests {
     use super::*;
 
-    /// A frame towards the host, as a device sends it.
+    /// An encoded frame as a device sends it.
     pub fn device_frame(header: [u8; 7], body: &[u8]) -> Vec<u8> {
         let mut frame = header.to_vec();
         frame.extend_from_slice(body);
@@ -183,7 +182,7 @@ pub(super) mod tests {
         let plain = cobs::tests::decode(&out).expect("COBS");
         assert_eq!(plain[..9], [9, 5, 3, 4, 0, 1, 0, 0, 7]);
         assert_eq!(plain[9..], crc32fast::hash(&plain[..9]).to_le_bytes());
-        // The check sum is the one of Ethernet and zip.
+        // The check sum of Ethernet and zip: this is its published check value.
         assert_eq!(crc32fast::hash(b"123456789"), 0xcbf4_3926);
     }
 

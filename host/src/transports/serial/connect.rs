@@ -1,5 +1,7 @@
-//! From a silent port to an open session: greeting, opening, a higher rate checked by an echo, and the way back to a
-//! lower one.
+//! Connecting: from a silent port to an open session at the best rate that works.
+//!
+//! The host greets the device, opens a session, asks for a higher rate, and checks the new rate by echoes of the
+//! greeting. If a rate fails, both sides go back to the first rate, and the host tries the next lower one.
 
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -18,38 +20,42 @@ const fn ms(milliseconds: u64) -> Duration {
     Duration::from_millis(milliseconds)
 }
 
-/// How long the host greets: a device that another host left at a high rate needs its silence first.
+/// Time for which the host greets. A device that another host left at a high rate first needs its silence, after which
+/// it is back at the first rate.
 const GREET_FOR: Duration = ms(MAX_SILENCE_MS as u64 + 1000);
 /// Time from one greeting to the next.
 const GREET_EVERY: Duration = ms(200);
-/// Time from one opening to the next, and how many there are.
+/// Time from one `Open` to the next.
 const OPEN_EVERY: Duration = ms(200);
+/// Most times that the host sends `Open`.
 const OPENINGS: u32 = 10;
 /// Time for the acknowledgement of a rate.
 const RATE_WAIT: Duration = ms(150);
 /// Time for both sides to settle on a new rate.
 const SETTLE: Duration = ms(3);
-/// Time from one question at a new rate to the next, and how many may be asked until it counts as unusable.
+/// Time from one probe of a new rate to the next.
 const PROBE_EVERY: Duration = ms(50);
+/// Probes without an echo after which a rate is unusable.
 const PROBES: u32 = 8;
 /// Echoes of the greeting that prove a rate.
 const ECHOES: u32 = 2;
-/// Questions at the old rate after a new one failed that may never have been heard of.
+/// Most `Poll` frames at the first rate after a new rate failed that the device may not have heard of.
 const RETURNS: u32 = 3;
-/// Times the same rate is asked for.
+/// Most times that the host asks for the same rate.
 const RATE_TRIES: u32 = 3;
-/// Rates that are tried below the one wanted.
+/// Rates to try below the one that is wanted, in bits per second.
 const LADDER: [u32; 3] = [3_000_000, 1_000_000, 230_400];
-/// Least FIFO of a device: a frame and some.
+/// Least bytes of a device's FIFO: the longest frame must fit.
 const LEAST_FIFO: u32 = 2_048;
-/// Least and most silence that is believed, in milliseconds.
+/// Range of silences, in milliseconds, that a device is believed to have.
 const SILENCES: (u32, u32) = (20, MAX_SILENCE_MS);
-/// Beyond the device's silence, for clocks that differ.
+/// Time to wait beyond the device's silence, since clocks differ.
 const SILENCE_SLACK: Duration = ms(200);
 
-/// Longest way to an open session where bytes pass: a device that was left at a high rate, then all rates of the
-/// ladder, of which none works. Each costs its question, its trial, the way back, the silence, and a greeting and an
-/// opening, which are asked for once more if need be.
+/// Longest time from a silent port to an open session on a line that carries bytes.
+///
+/// The worst device was left at a high rate, and none of the rates of the ladder works. Each rate costs the question,
+/// the trial, the way back, the silence, and a greeting and an opening, each of which may be needed twice.
 pub(crate) const LONGEST: Duration = {
     let trial = RATE_WAIT.as_millis() as u64
         + 2 * SETTLE.as_millis() as u64
@@ -59,48 +65,49 @@ pub(crate) const LONGEST: Duration = {
     ms(silence + again + LADDER.len() as u64 * (trial + silence + again))
 };
 
-/// What the host does now.
+/// A step of connecting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Step {
-    /// It greets.
+    /// Greet the device until it answers.
     Greet,
-    /// It opens the session.
+    /// Open the session on the device.
     Open,
-    /// It asks for a rate.
+    /// Ask for a rate.
     Rate,
-    /// It tries the new rate. `is_sure`: the device has acknowledged it.
+    /// Try the new rate. `is_sure` is true if the device has acknowledged it.
     Probe { is_sure: bool },
-    /// It looks whether the device is still at the first rate.
+    /// Find out whether the device is still at the first rate.
     Return,
-    /// It waits until the device is back at the first rate.
+    /// Wait until the device is back at the first rate.
     Wait,
 }
 
-/// The way to an open session.
+/// Connects to a device: the state between a silent port and an open session.
 #[derive(Debug)]
 pub(super) struct Connect {
     step: Step,
-    /// When something is to be done if nothing comes.
+    /// Time of the next action if nothing comes before.
     due: Duration,
-    /// Times it was done in this step.
+    /// Actions so far in this step.
     tries: u32,
-    /// Beginning of the greetings.
+    /// Time of the first greeting.
     since: Duration,
     /// Rates to try, the highest first.
     rates: VecDeque<u32>,
-    /// Times the first of them was asked for.
+    /// Number of times that the first rate of the list was asked for.
     asked: u32,
-    /// Echoes at the new rate; the first is of a `Poll`.
+    /// Echoes at the new rate. The first answers a `Poll`, and the others are greetings.
     echoes: u32,
     session: u8,
     greeting: Option<Greeting>,
     only_greet: bool,
-    /// Bytes that came.
+    /// Bytes that came from the line.
     bytes: u64,
 }
 
 impl Connect {
-    /// From now on: the session's number comes after `session`, the rates are tried in their order.
+    /// Begins to connect. The number of the session will be the one after `session`, and the rates
+    /// are tried in their order.
     pub fn new(now: Duration, session: u8, rates: &[u32], only_greet: bool) -> Self {
         Self {
             step: Step::Greet,
@@ -117,13 +124,14 @@ impl Connect {
         }
     }
 
-    /// The rates for a wish, the highest first; the first rate of all is not among them.
+    /// The rates to try for a wanted rate, the highest first. The first rate, at which every link
+    /// begins, is not among them.
     pub fn ladder(wanted: u32) -> Vec<u32> {
         let lower = LADDER.into_iter().filter(|&rate| rate < wanted);
         std::iter::once(wanted).filter(|&rate| rate > FIRST_RATE).chain(lower).take(LADDER.len()).collect()
     }
 
-    /// True if all is done.
+    /// Whether connecting is done.
     pub fn is_done(&self) -> bool {
         match self.step {
             Step::Open => self.only_greet,
@@ -133,43 +141,44 @@ impl Connect {
         }
     }
 
-    /// True if no session is wanted.
+    /// Whether a greeting is all that is wanted, without a session.
     pub fn only_greets(&self) -> bool {
         self.only_greet
     }
 
-    /// The device's silence, as far as it is believed.
+    /// The device's silence: the time without a frame from the host after which it forgets the session. A
+    /// claim outside [`SILENCES`] is clamped.
     pub fn silence(&self) -> Duration {
         let claimed = self.greeting.map_or(SILENCE_MS, |greeting| greeting.silence_ms);
         ms(u64::from(claimed.clamp(SILENCES.0, SILENCES.1)))
     }
 
-    /// When [`Connect::act`] is to be called.
+    /// The time at which [`Connect::act`] is to be called.
     pub fn due(&self) -> Duration {
         self.due
     }
 
-    /// What the device said of itself.
+    /// The device's greeting, once it has come.
     pub fn greeting(&self) -> Option<&Greeting> {
         self.greeting.as_ref()
     }
 
-    /// The session's number.
+    /// The number of the session.
     pub fn session(&self) -> u8 {
         self.session
     }
 
-    /// True if the device has opened the session.
+    /// Whether the device has opened the session.
     pub fn has_session(&self) -> bool {
         matches!(self.step, Step::Rate | Step::Probe { .. } | Step::Return)
     }
 
-    /// True if the device may have opened the session.
+    /// Whether the device may have opened the session.
     pub fn may_be_open(&self) -> bool {
         !matches!(self.step, Step::Greet | Step::Wait)
     }
 
-    /// Bytes came, whatever they are.
+    /// Counts bytes from the line, whatever they are, to tell noise from silence.
     pub fn count(&mut self, bytes: usize) {
         self.bytes = self.bytes.saturating_add(bytes as u64);
     }
@@ -178,8 +187,8 @@ impl Connect {
         (self.step, self.due, self.tries) = (step, due, 0);
     }
 
-    /// The next lower rate is tried from now on.
-    fn give_up_rate(&mut self) {
+    /// Drops the rate under trial, so that the next lower one is tried.
+    fn drop_rate(&mut self) {
         self.rates.pop_front();
         self.asked = 0;
     }
@@ -189,14 +198,14 @@ impl Connect {
         self.enter(Step::Greet, now);
     }
 
-    /// The rate under trial failed, and where the device is nobody knows: it comes back by itself.
+    /// Waits after a rate that failed. The device may be at either rate, but returns to the first one by itself.
     fn wait(&mut self, now: Duration, line: &mut Line) {
-        self.give_up_rate();
+        self.drop_rate();
         line.set_rate(FIRST_RATE, now);
         self.enter(Step::Wait, now + self.silence() + SILENCE_SLACK);
     }
 
-    /// Does what is due, and appends what is to be sent. The rate never changes in a call that sends.
+    /// Does the action that is due, and appends the bytes to be sent. The rate never changes in a call that sends.
     pub fn act(&mut self, now: Duration, line: &mut Line, out: &mut Vec<u8>) -> Result<(), SerialFault> {
         let tries = self.tries;
         self.tries += 1;
@@ -222,7 +231,7 @@ impl Connect {
     }
 
     fn say(&mut self, kind: HostFrame, payload: &[u8], due: Duration, out: &mut Vec<u8>) {
-        // The zeros end what noise, or another rate, may have left half in the device.
+        // Zeros end an unfinished frame that noise, or another rate, may have left in the device.
         out.extend([FRAME_END; 2]);
         encode(self.session, kind, 0, payload, out);
         self.due = due;
@@ -236,7 +245,7 @@ impl Connect {
             let step = rate_step(rate, clock).unwrap_or(0).to_le_bytes();
             return self.say(HostFrame::Rate, &step, now + RATE_WAIT, out);
         }
-        // Question or acknowledgement is lost: the device may be at either rate.
+        // Either the question or its acknowledgement is lost, so the device may be at either rate.
         self.try_rate(rate, false, now, line);
     }
 
@@ -253,7 +262,8 @@ impl Connect {
         }
     }
 
-    /// Takes a frame of the device. True if it opened the session: all before is forgotten.
+    /// Takes a frame of the device. Returns true if the frame opened the session, which
+    /// begins with nothing from before.
     pub fn hear(&mut self, message: &Message<'_>, now: Duration, line: &mut Line) -> Result<bool, SerialFault> {
         let is_ours = message.session == self.session;
         match (self.step, message.kind) {
@@ -264,7 +274,7 @@ impl Connect {
             }
             (Step::Rate, DeviceFrame::Ack) if is_ours && self.tries > 0 => {
                 if message.status & STATUS_BAD_RATE != 0 {
-                    self.give_up_rate();
+                    self.drop_rate();
                     self.next_rate(now);
                 } else {
                     let rate = self.rates.front().copied().unwrap_or(FIRST_RATE);
@@ -275,15 +285,15 @@ impl Connect {
             (Step::Probe { .. }, DeviceFrame::Hello) if self.echoes > 0 && self.is_echo(message) => self.echo(now),
             (Step::Return, DeviceFrame::Ack) if is_ours => {
                 if self.asked >= RATE_TRIES {
-                    self.give_up_rate();
+                    self.drop_rate();
                 }
                 self.next_rate(now);
             }
-            // The silence was over before we were done: the device is at the first rate, and the one asked for does not
-            // work.
+            // The device's silence was over before the trial was: the device is at the first rate again, and the rate
+            // that was asked for does not work.
             (Step::Rate | Step::Probe { .. } | Step::Return, DeviceFrame::NoSession) => {
                 if self.asked > 0 {
-                    self.give_up_rate();
+                    self.drop_rate();
                 }
                 line.set_rate(FIRST_RATE, now);
                 self.greet(now);
@@ -293,7 +303,7 @@ impl Connect {
         Ok(false)
     }
 
-    /// True if it is the greeting from before.
+    /// Whether this is the same greeting as the first one.
     fn is_echo(&self, message: &Message<'_>) -> bool {
         self.greeting.is_some() && message.words().map(Greeting::from_words) == self.greeting
     }
@@ -316,7 +326,7 @@ impl Connect {
         let can = |rate: u32| rate <= greeting.max_rate && rate_step(rate, greeting.clock_hz).is_some();
         self.rates.retain(|&rate| can(rate));
         self.greeting = Some(greeting);
-        // Another number than that of a session that is open, or was just now.
+        // The new session must not have the number of one that is open, or that was open just before.
         self.session = self.session.checked_add(1).unwrap_or(1);
         if self.session == message.session {
             self.session = self.session.checked_add(1).unwrap_or(1);
@@ -326,7 +336,7 @@ impl Connect {
     }
 }
 
-/// A greeting is hostile until it passes here.
+/// Refuses a greeting that no sound device sends. No word of a greeting may be used before it passes here.
 fn check(greeting: &Greeting) -> Result<(), SerialFault> {
     if greeting.magic != LINK_MAGIC {
         return Err(SerialFault::Magic { found: greeting.magic, expected: LINK_MAGIC });

@@ -1,17 +1,17 @@
-//! The setting that makes a USB adapter pass on what it has at once, where the system has it.
+//! The setting that makes a USB adapter pass bytes on at once, on systems that have it.
 //!
-//! Adapters collect bytes for a while before they pass them on, 16 ms by default with FTDI's: half of all time for
-//! short answers. On Linux a flag of the driver brings that down to a millisecond; the library for ports has no call
-//! for it.
+//! Adapters collect bytes for a while before they pass them on, 16 ms by default with FTDI's. For short answers
+//! that is half of all time. On Linux a flag of the driver brings it down to a millisecond, but the library for
+//! ports has no call for it.
 
-/// Asks for it. Where it cannot be had, nothing happens: it is a matter of speed only.
+/// Sets the port to low latency. A failure is ignored, since only speed is at stake.
 #[cfg(target_os = "linux")]
 pub(super) fn set(port: &serialport::TTYPort) {
     use std::os::fd::AsRawFd;
     linux::set(port.as_raw_fd());
 }
 
-/// Other systems have no such setting.
+/// Does nothing: this system has no such setting.
 #[cfg(not(target_os = "linux"))]
 pub(super) fn set<P>(_: &P) {}
 
@@ -21,11 +21,10 @@ mod linux {
     use std::ffi::{c_int, c_long, c_uint, c_ushort};
     use std::os::fd::RawFd;
 
-    /// `ASYNC_LOW_LATENCY` of `linux/tty_flags.h`.
+    /// The flag `ASYNC_LOW_LATENCY` of `linux/tty_flags.h`.
     const LOW_LATENCY: c_int = 1 << 13;
 
-    /// `struct serial_struct` of `linux/serial.h`, on systems whose `unsigned long` is as wide as a pointer: all of
-    /// them.
+    /// `struct serial_struct` of `linux/serial.h`. On every Linux `unsigned long` is as wide as a pointer.
     #[repr(C)]
     struct SerialStruct {
         kind: c_int,
@@ -49,9 +48,9 @@ mod linux {
 
     pub fn set(port: RawFd) {
         let mut settings = std::mem::MaybeUninit::<SerialStruct>::zeroed();
-        // SAFETY: the descriptor is open for as long as the borrowed port, and the call writes at most a
-        // `serial_struct`, for which there is room. All bits zero are a valid one, so it may be read whatever the call
-        // did.
+        // SAFETY: the descriptor is open for as long as the borrowed port, and the call writes at
+        // most a `serial_struct`, for which there is room. All bits zero are a valid one, so it may
+        // be read whatever the call did.
         let (result, settings) = unsafe {
             let result = libc::ioctl(port, libc::TIOCGSERIAL, settings.as_mut_ptr());
             (result, settings.assume_init_mut())

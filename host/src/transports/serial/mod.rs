@@ -1,12 +1,14 @@
-//! The serial link: frames with check sums through a UART, nothing lost, nothing believed.
+//! The transport to a board at a serial port: frames with check sums through a UART.
 //!
-//! `protocol/SERIAL.md` says what host and device tell each other. [`SerialProtocol`](super::parts::SerialProtocol) is
-//! the host's half of it without a port and without a clock: bytes and times go in, bytes and times come out, so it
-//! runs in virtual time as well as on a line. [`SerialTransport`] drives it over a port of the operating system, and is
-//! what `Device::open("serial:/dev/ttyUSB0")` makes. [`greet`] asks who is at a port, and [`ports`] lists them.
+//! Programs open a board with `Device::open("serial:/dev/ttyUSB0")`. This module is for those that list [`ports`], ask
+//! which device is at a port ([`greet`]), or tell faults apart ([`PortFault`], [`SerialFault`]).
 //!
-//! What it holds is bounded by the command under way and its answer, each once, and 16 frames; what a device sends
-//! cannot make it hold more.
+//! The page `protocol/SERIAL.md` defines the link. [`SerialProtocol`](super::parts::SerialProtocol) is the host's half
+//! of it without a port and without a clock: bytes and times go in, bytes and times come out, so that it runs in
+//! virtual time as well as on a line. [`SerialTransport`] drives it over a port of the operating system.
+//!
+//! Memory is bounded by the command under way and its answer, each held once, and 16 frames. Nothing that a device
+//! sends can make the host hold more.
 
 mod address;
 mod cobs;

@@ -1,4 +1,4 @@
-//! Ports of the operating system: opened, written without blocking, read, and told apart when they cannot be had.
+//! Serial ports of the operating system: listing, opening, reading, and writing without blocking.
 
 use std::io::{self, Read, Write};
 use std::path::Path;
@@ -10,37 +10,41 @@ use serialport::{ClearBuffer, DataBits, FlowControl, Parity, SerialPort, SerialP
 use super::fault::SerialFault;
 use super::low_latency;
 
-/// Most bytes of one write: a port that says it can be written takes so many without blocking, also when nobody reads
-/// at its other end.
+/// Most bytes of one write. A port that is ready takes this many without blocking, even when nobody
+/// reads at its other end.
 const MOST_WRITTEN: usize = 1024;
-/// Reads that bring nothing though the port said there is something: more of them in a row mean that the port is gone.
+/// Empty reads in a row, from a port that was ready to be read, that show that the port is gone.
 const EMPTY_READS: u32 = 3;
-/// Where Linux keeps its pseudo-terminals.
+/// Directory in which Linux keeps its pseudo-terminals.
 const PSEUDO_TERMINALS: &str = "/dev/pts/";
 
-/// Why a port cannot be opened.
+/// The reason why a serial port cannot be opened.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PortFault {
     /// The system has no such port.
     #[error("there is no such port{}", known_ports(ports))]
     Missing {
-        /// The ports there are.
+        /// Names of the ports that the system has.
         ports: Vec<String>,
     },
-    /// The user may not use it.
+    /// The user has no permission to use the port.
     #[error(
-        "you may not use it: join the group that owns it (often 'sudo usermod -aG dialout $USER', then log in again), or add a udev \
-         rule, such as 'SUBSYSTEM==\"tty\", ATTRS{{idVendor}}==\"0403\", TAG+=\"uaccess\"' in /etc/udev/rules.d"
+        "you may not use it: join the group that owns it (often 'sudo usermod -aG dialout $USER', then log in again), \
+         or add a udev rule, such as 'SUBSYSTEM==\"tty\", ATTRS{{idVendor}}==\"0403\", TAG+=\"uaccess\"' \
+         in /etc/udev/rules.d"
     )]
     NoPermission,
-    /// Somebody else uses it.
-    #[error("another program uses it: end that first, such as a terminal program or another incircle ('fuser' or 'lsof' says which)")]
+    /// Another program uses the port.
+    #[error(
+        "another program uses it: end that program first, such as a terminal program or another incircle \
+         ('fuser' or 'lsof' says which)"
+    )]
     Busy,
-    /// It is no terminal.
+    /// The path names something else than a terminal.
     #[error("it is no serial port: name a device such as /dev/ttyUSB0 ('incircle devices' lists them)")]
     NoTerminal,
-    /// Anything else.
+    /// The system refused for another reason, which is given.
     #[error("{0}: check the adapter, and plug it in again")]
     Other(String),
 }
@@ -53,19 +57,19 @@ fn known_ports(ports: &[String]) -> String {
     }
 }
 
-/// A port that the system knows of.
+/// A serial port that the system knows of, as [`ports`] lists them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PortInfo {
-    /// Its name, as [`Device::open`](crate::Device::open) takes it behind `serial:`.
+    /// Name of the port, as [`Device::open`](crate::Device::open) takes it behind `serial:`.
     pub name: String,
-    /// What it is, as far as the system knows: `USB 0403:6010 FTDI Dual RS232`.
+    /// Description of the adapter, as far as the system knows, such as `USB 0403:6010 FTDI Dual RS232`.
     pub what: String,
 }
 
-/// The serial ports that the system knows of, sorted by name. Pseudo-terminals are not among them.
+/// Lists the serial ports that the system knows of, sorted by name. Pseudo-terminals are not among them.
 ///
 /// # Errors
-/// A sentence, where the system cannot list them.
+/// [`PortFault::Other`] if the system cannot list them.
 pub fn ports() -> Result<Vec<PortInfo>, PortFault> {
     let found = serialport::available_ports().map_err(|error| PortFault::Other(error.description))?;
     let mut ports: Vec<_> =
@@ -87,16 +91,16 @@ fn describe(port: &SerialPortType) -> String {
     }
 }
 
-/// An open port: 8 data bits, no parity, one stop bit, no flow control, and nobody else's.
+/// An open port, for this program alone: 8 data bits, no parity, one stop bit, no flow control.
 pub(super) struct Port {
     port: Box<dyn SerialPort>,
-    /// What [`Port::set_rate`] has set.
+    /// Rate in bits per second that was set last.
     rate: u32,
     empty_reads: u32,
 }
 
 impl Port {
-    /// Opens the port at the first rate, and forgets what came before.
+    /// Opens the port at the first rate, and drops the bytes that came before.
     pub fn open(path: &str) -> Result<Self, PortFault> {
         check_kind(path)?;
         let builder = serialport::new(path, FIRST_RATE)
@@ -104,7 +108,7 @@ impl Port {
             .parity(Parity::None)
             .stop_bits(StopBits::One)
             .flow_control(FlowControl::None)
-            // DTR and RTS stay as they are: many boards hang their reset on them, and pseudo-terminals have none.
+            // DTR and RTS stay as they are: on many boards they drive the reset, and pseudo-terminals have none.
             .preserve_dtr_on_open()
             .timeout(Duration::ZERO);
         let mut port = builder.open_native().map_err(|error| fault_of(&error))?;
@@ -114,24 +118,24 @@ impl Port {
         Ok(Self { port: Box::new(port), rate: FIRST_RATE, empty_reads: 0 })
     }
 
-    /// The rate that is set.
+    /// The rate of the port in bits per second.
     pub fn rate(&self) -> u32 {
         self.rate
     }
 
-    /// Sets the rate.
+    /// Sets the rate of the port, in bits per second.
     pub fn set_rate(&mut self, rate: u32) -> Result<(), SerialFault> {
         self.port.set_baud_rate(rate).map_err(|error| SerialFault::Unplugged { reason: error.description })?;
         self.rate = rate;
         Ok(())
     }
 
-    /// Those of `rates` that the port takes. It is at the first rate then.
+    /// The rates among `rates` that the port takes. Afterwards the port is at the first rate.
     pub fn possible(&mut self, rates: &[u32]) -> Result<Vec<u32>, SerialFault> {
         let mut possible = Vec::with_capacity(rates.len());
         for &rate in rates {
-            // Some drivers take any rate and set the nearest they have: what differs by a fiftieth is no rate for a
-            // UART.
+            // Some drivers take any rate and set the nearest one that they have. A UART cannot follow a rate that is
+            // off by more than a fiftieth.
             let is_taken = self.port.set_baud_rate(rate).is_ok();
             if is_taken && self.port.baud_rate().map_or(true, |set| set.abs_diff(rate) <= rate / 50) {
                 possible.push(rate);
@@ -141,7 +145,7 @@ impl Port {
         Ok(possible)
     }
 
-    /// Writes as many bytes as the port takes at once, which may be none.
+    /// Writes as many bytes as the port takes without blocking, which may be none.
     pub fn write(&mut self, bytes: &[u8]) -> Result<usize, SerialFault> {
         let bytes = &bytes[..bytes.len().min(MOST_WRITTEN)];
         if bytes.is_empty() {
@@ -155,14 +159,14 @@ impl Port {
         }
     }
 
-    /// Reads what is there, after waiting for at most `timeout` if nothing is.
+    /// Reads the bytes that are there. If there are none, waits for at most `timeout`.
     pub fn read(&mut self, bytes: &mut [u8], timeout: Duration) -> Result<usize, SerialFault> {
         self.set_timeout(timeout)?;
         match self.port.read(bytes) {
             Ok(0) => {
                 self.empty_reads += 1;
                 if self.empty_reads >= EMPTY_READS {
-                    return Err(SerialFault::Unplugged { reason: "it reads as ended".to_owned() });
+                    return Err(SerialFault::Unplugged { reason: "it has nothing more to read".to_owned() });
                 }
                 Ok(0)
             }
@@ -180,7 +184,7 @@ impl Port {
     }
 }
 
-/// True if it is worth another try.
+/// Whether a call that failed with this error is worth another try.
 fn passes(error: &io::Error) -> bool {
     matches!(error.kind(), io::ErrorKind::TimedOut | io::ErrorKind::WouldBlock | io::ErrorKind::Interrupted)
 }
@@ -189,7 +193,7 @@ fn unplugged(error: &io::Error) -> SerialFault {
     SerialFault::Unplugged { reason: error.to_string() }
 }
 
-/// What exists and is no device of characters is refused before it is opened.
+/// Refuses a path that exists but is no character device, before it is opened.
 #[cfg(unix)]
 fn check_kind(path: &str) -> Result<(), PortFault> {
     use std::os::unix::fs::FileTypeExt;
@@ -217,22 +221,22 @@ fn fault_of(error: &serialport::Error) -> PortFault {
     match error.kind {
         ErrorKind::Io(io::ErrorKind::PermissionDenied) => PortFault::NoPermission,
         ErrorKind::Io(io::ErrorKind::NotFound) => missing(),
-        // The library's name for a lock or an exclusive mark that another program has set.
+        // The library reports a lock, or an exclusive mark, of another program in this way.
         ErrorKind::NoDevice => PortFault::Busy,
-        // The system's answer to settings of a terminal on what is none.
+        // The system answers so when the settings of a terminal are asked of something that is not a terminal.
         ErrorKind::Unknown if error.description == "Not a typewriter" => PortFault::NoTerminal,
         _ => PortFault::Other(error.description.clone()),
     }
 }
 
-/// A pseudo-terminal keeps its exclusive mark when the program that set it is killed, and nobody but root could ever
-/// open it again. It goes without: the lock that comes with it holds among programs that look for one, and ends with
-/// its owner.
+/// Takes the exclusive mark off a pseudo-terminal. The mark would stay after this program is killed, and then only root
+/// could open the terminal again. The lock that comes with the mark remains: programs that look for a lock respect it,
+/// and it ends with its holder.
 #[cfg(unix)]
 fn share_pseudo_terminal(path: &str, port: &mut serialport::TTYPort) -> Result<(), PortFault> {
     let is_pseudo = std::fs::canonicalize(path).is_ok_and(|real| is_pseudo_terminal(&real));
     if is_pseudo {
-        // A lock that is shared: others ask for one that is not, and are refused.
+        // The lock becomes a shared one. Other programs ask for an exclusive lock and are refused.
         port.set_exclusive(false).map_err(|error| fault_of(&error))?;
     }
     Ok(())

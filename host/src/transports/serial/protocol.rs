@@ -1,4 +1,5 @@
-//! The host's half of the link without a port and without a clock: bytes and times go in, bytes and times come out.
+//! The host's half of the serial link, without a port and without a clock: bytes and times go in,
+//! bytes and times come out.
 
 mod receive;
 mod transmit;
@@ -16,21 +17,21 @@ use super::reader::Reader;
 use super::sender::Sender;
 use super::timing::{Line, RoundTrip};
 
-/// Rate that is wished for unless chosen otherwise: what every newer USB adapter does.
+/// Rate to ask for unless the caller chooses another, in bits per second. Every newer USB adapter reaches it.
 pub const DEFAULT_RATE: u32 = 3_000_000;
 
-/// Choices for an [`SerialProtocol`].
+/// Choices for a [`SerialProtocol`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Params {
-    /// Rates to try after the first one, the best first: see [`Params::with_rate`]. Empty: the first rate stays.
+    /// Rates to try after the first rate, in bits per second, the best first, as [`Params::with_rate`] makes them. With
+    /// an empty list the link stays at the first rate.
     pub rates: Vec<u32>,
-    /// The number of the first session comes after this one; it need not be right, but differ from one host to the
-    /// next.
+    /// Number before that of the first session. Any number will do, so long as successive hosts have different ones.
     pub session: u8,
 }
 
 impl Params {
-    /// With this rate, and lower ones if it cannot be had.
+    /// Choices with this rate, and lower ones to try if it does not work.
     pub fn with_rate(rate: u32) -> Self {
         Self { rates: Connect::ladder(rate), session: 0 }
     }
@@ -42,32 +43,32 @@ impl Default for Params {
     }
 }
 
-/// What the link has done so far.
+/// Counts of the traffic on a serial link so far. Many repeats and broken frames are signs of a noisy line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Statistics {
-    /// Bytes handed out.
+    /// Bytes handed out to be sent.
     pub bytes_sent: u64,
-    /// Bytes that came.
+    /// Bytes received from the line.
     pub bytes_received: u64,
-    /// `Data` frames sent again.
+    /// `Data` frames that were sent again.
     pub frames_resent: u64,
-    /// Answers, or ranges of records, asked for again.
+    /// Answers, or ranges of records, that were asked for again.
     pub answers_repeated: u64,
-    /// Pieces between zeros that were no frame.
+    /// Pieces between zeros that were not a frame.
     pub frames_broken: u64,
-    /// `Poll` frames.
+    /// `Poll` frames that were sent.
     pub polls: u64,
 }
 
-/// What the host is at.
+/// The stage of the link.
 #[derive(Debug)]
 enum Stage {
-    /// Nothing was asked for, or the session is closed.
+    /// No session is open or wanted.
     Idle,
     Connecting(Connect),
     /// A session is open.
     Open,
-    /// The device fell silent in an open session, at the time given: is there one that was reset?
+    /// The device fell silent in an open session. The host looks at the first rate for a device that was reset.
     Searching {
         silent_for: Duration,
         until: Duration,
@@ -82,18 +83,20 @@ enum Stage {
 /// A `Poll` whose answer is awaited.
 #[derive(Clone, Copy, Debug)]
 struct Polled {
-    /// Frames acknowledged, and frames cut, at that time.
+    /// Frames acknowledged when the `Poll` was sent.
     base: u64,
+    /// Frames cut when the `Poll` was sent.
     cut: u64,
+    /// Time at which the `Poll` is off the line.
     left_at: Duration,
 }
 
-/// The host's half of the link.
+/// The host's half of the serial link.
 ///
-/// Whoever drives it hands over what came ([`SerialProtocol::receive`]), sends what is due
-/// ([`SerialProtocol::transmit`]) at the rate that [`SerialProtocol::rate`] says, and comes back when something came or
-/// at [`SerialProtocol::next_wake`]. Times count from any origin, never go back, and may be virtual. There is no
-/// deadline for a command: its driver gives up when it wants to.
+/// The driver of a protocol hands over received bytes ([`SerialProtocol::receive`]) and sends the bytes that are due
+/// ([`SerialProtocol::transmit`]) at the rate of [`SerialProtocol::rate`]. The driver does so whenever bytes came, and
+/// at the time of [`SerialProtocol::next_wake`]. Times count from any origin, never go back, and may be virtual.
+/// Commands have no deadline here: a driver stops waiting when it wants to.
 #[derive(Debug)]
 pub struct SerialProtocol {
     params: Params,
@@ -106,24 +109,26 @@ pub struct SerialProtocol {
     reader: Reader,
     greeting: Option<Greeting>,
     silence: Duration,
-    /// Number of the session, or of the last one: the next has another.
+    /// Number of the open session, or of the last one. The next session gets another number.
     session: u8,
-    /// A command that waits for the session.
+    /// Command that waits for the session to open.
     queued: Option<Command<Vec<u32>>>,
     last_heard: Duration,
     last_said: Duration,
     polled: Option<Polled>,
-    /// Frames that say there is no session, and frames of another.
+    /// Frames in a row that say that no session is open.
     without_session: u32,
+    /// Frames in a row of a session of another host.
     foreign: u32,
     statistics: Statistics,
-    /// Of the sessions before.
+    /// Frames sent again in earlier sessions.
     resent_before: u64,
+    /// Answers asked for again in earlier sessions.
     repeated_before: u64,
 }
 
 impl SerialProtocol {
-    /// Without a session; nothing is sent until something is asked.
+    /// Makes a link without a session. Nothing is sent until a greeting, a session or a command is asked for.
     pub fn new(params: Params) -> Self {
         Self {
             session: params.session,
@@ -149,26 +154,27 @@ impl SerialProtocol {
         }
     }
 
-    /// Asks the device who it is, without a session: [`SerialProtocol::greeting`] has its answer.
+    /// Greets the device without opening a session. [`SerialProtocol::greeting`] will have its answer.
     pub fn greet(&mut self, now: Duration) {
         self.connect(now, true);
     }
 
-    /// Begins a command. Opens a session if there is none; one that the device has
-    /// forgotten because nobody asked anything is opened again for a command that needs nothing of it.
+    /// Begins a command, and opens a session if there is none. A session that the device may have forgotten in a pause
+    /// is opened anew for a command that does not need the memory of the device.
     ///
     /// # Errors
-    /// The fault the link has, or a command that cannot be sent.
+    /// The fault of the link, if it has one, or [`SerialFault::Command`] for a command that cannot be sent.
     pub fn ask(&mut self, command: Command<&[u32]>, now: Duration) -> Result<(), SerialFault> {
         if let Some(fault) = &self.fault {
             return Err(fault.clone());
         }
         if self.queued.is_some() || self.reader.is_waiting() || self.reader.has_answer() {
-            return Err(SerialFault::Command("the answer to the command before was not taken yet"));
+            return Err(SerialFault::Command("the answer to the previous command has not been taken yet"));
         }
         let needs_nothing = matches!(command, Command::Hello | Command::Clear { .. });
         match self.stage {
-            // The device knows us still, or what it forgot is lost: the first answer tells.
+            // Either the device still knows the session, or the memory that the command needs is lost anyway.
+            // The first answer will tell.
             Stage::Open if !needs_nothing || now.saturating_sub(self.last_said) < self.silence * 3 / 4 => {
                 self.last_heard = now;
                 return self.reader.begin(&command, &mut self.sender);
@@ -186,7 +192,7 @@ impl SerialProtocol {
         self.stage = Stage::Connecting(connect);
     }
 
-    /// Opens a session, unless one is open or being opened; commands do so by themselves.
+    /// Opens a session, unless one is open or being opened. Commands do so by themselves.
     pub fn open(&mut self, now: Duration) {
         let is_wanted = match &self.stage {
             Stage::Idle => true,
@@ -198,22 +204,23 @@ impl SerialProtocol {
         }
     }
 
-    /// True if a session is open, at the rate that was found.
+    /// Whether a session is open, at the best rate that works.
     pub fn is_open(&self) -> bool {
         matches!(self.stage, Stage::Open)
     }
 
-    /// Whether the link still works.
+    /// Checks that the link still works.
     ///
     /// # Errors
-    /// The fault that ended it.
+    /// The fault that ended the link.
     pub fn check(&self) -> Result<(), SerialFault> {
         self.fault.clone().map_or(Ok(()), Err)
     }
 
-    /// The answer to the command, once, when all of it has come, and the device has proved by the digest that it took
-    /// what was sent: header, length, payload. Its words are in order and no more than the command may bring; what they
-    /// say is not checked.
+    /// Takes the answer to the command: header, length and payload. `None` until all of it has come and the device has
+    /// proved by its digest that it took what was sent.
+    ///
+    /// The words are in order, and no more than the command may bring. Their content is not checked here.
     pub fn take_answer(&mut self) -> Option<Vec<u32>> {
         if self.fault.is_some() || !self.sender.is_proved() {
             return None;
@@ -223,9 +230,10 @@ impl SerialProtocol {
         self.fault.is_none().then_some(answer)
     }
 
-    /// Ends the session, so that the next host finds the device at the first rate, and gives up a command under way.
-    /// [`SerialProtocol::is_closed`] tells when it is done: after three tries at most, each of which waits for twice
-    /// the mean round trip, and for 60 ms at least.
+    /// Ends the session, so that the next host finds the device at the first rate, and abandons a command under way.
+    ///
+    /// [`SerialProtocol::is_closed`] says when this is done. There are at most three tries, each of which waits for
+    /// twice the mean round trip, and for 60 ms at least.
     pub fn close(&mut self, now: Duration) {
         self.queued = None;
         self.reader.abandon();
@@ -240,22 +248,23 @@ impl SerialProtocol {
         };
     }
 
-    /// True if no session is open, and none is being opened or closed.
+    /// Whether no session is open, being opened or being closed.
     pub fn is_closed(&self) -> bool {
         matches!(self.stage, Stage::Idle)
     }
 
-    /// The bits per second that the port must have for the next bytes. A call that changes it hands out none.
+    /// The rate, in bits per second, that the port must have for the next bytes. A call that changes the
+    /// rate hands out no bytes.
     pub fn rate(&self) -> u32 {
         self.line.rate()
     }
 
-    /// What the device said of itself, checked.
+    /// The greeting of the device, checked, once it has come.
     pub fn greeting(&self) -> Option<&Greeting> {
         self.greeting.as_ref()
     }
 
-    /// What was done so far.
+    /// Counts of the traffic so far.
     pub fn statistics(&self) -> Statistics {
         Statistics {
             frames_resent: self.resent_before + self.sender.resent(),
@@ -272,7 +281,8 @@ impl SerialProtocol {
     }
 }
 
-/// What the core says of itself must be what the greeting said: by that the link knows how long points and records are.
+/// The fault of an identity that differs from the one in the greeting, if `answer` is an identity. The link knows the
+/// length of points and records from the greeting, so the two must agree.
 fn contradiction(answer: &[u32], greeting: &Greeting) -> Option<SerialFault> {
     let (head, identity) = answer.split_first_chunk::<ANSWER_HEAD_WORDS>()?;
     let is_identity = *head == answer_head(Opcode::Hello, IDENTITY_WORDS as u32);

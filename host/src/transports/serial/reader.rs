@@ -1,4 +1,4 @@
-//! Answers: asked for, put together, and asked for again where a part was lost.
+//! Receiving answers: asking for them, putting them together, and asking again where a part was lost.
 
 use std::collections::VecDeque;
 
@@ -11,15 +11,15 @@ use super::codec::{words_of, AnswerPart};
 use super::fault::SerialFault;
 use super::sender::Sender;
 
-/// Most words of an answer's payload to a range: with the header they fill three frames.
+/// Most words of payload of a range: with the header they fill three frames.
 const RANGE_WORDS: usize = 3 * 256 - HEADER;
-/// First ranges, in words: they grow on a clean line.
+/// Words of payload of the first ranges. Ranges grow on a clean line.
 const FIRST_RANGE_WORDS: usize = 192;
-/// Smallest range that noise makes us ask for, in words.
+/// Fewest words of payload of a range, to which noise makes them shrink.
 const MIN_RANGE_WORDS: usize = 12;
-/// Ranges under way at once: enough for the round trip through a slow adapter.
+/// Most ranges under way: enough for the round trip through a slow adapter.
 const MAX_ASKED: usize = 12;
-/// Ranges that come clean before they grow.
+/// Whole ranges in a row after which ranges grow.
 const GROW_AFTER: u32 = 3;
 
 /// A question whose answer has not ended.
@@ -29,37 +29,38 @@ struct Asked {
     header: [u32; HEADER],
     /// Words received so far, without a gap.
     came: usize,
-    /// A part was lost: the rest is of no use.
+    /// Whether a part was lost, so that the rest is of no use.
     is_damaged: bool,
     digest: crc32fast::Hasher,
-    /// Bytes of the session up to its end.
+    /// Bytes of the session up to the end of the question.
     end: u64,
 }
 
-/// What was asked.
+/// The part of the command that a question is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Question {
-    /// The whole command.
+    /// The command as a whole.
     Whole,
-    /// Records of the command's range.
+    /// A part of the command's range of records.
     Range { first: u32, count: u32 },
-    /// Something nobody waits for any more.
+    /// Something that nobody waits for any more.
     Nothing,
 }
 
 /// A command and its answer so far.
 #[derive(Debug)]
 struct Exchange {
-    /// The command that brings the same answer again.
+    /// Command that brings the same answer again.
     again: Command<[u32; 0]>,
-    /// Header, length, payload.
+    /// Answer so far: header, length, payload.
     answer: Vec<u32>,
-    /// Ranges still to be asked for.
+    /// Ranges that are still to be asked for, each as its first record and its number of records.
     todo: VecDeque<(u32, u32)>,
-    /// First record of the command's range, and the words of a record.
+    /// First record of the command's range.
     origin: u32,
+    /// Words of a record.
     width: usize,
-    /// Records that have not come.
+    /// Number of records that have not come.
     missing: u32,
     is_done: bool,
 }
@@ -67,21 +68,22 @@ struct Exchange {
 /// The receiving half of a session.
 #[derive(Debug)]
 pub(super) struct Reader {
-    /// Words of points and records of this device.
+    /// Layout of points and records of this device in words.
     layout: Layout,
     exchange: Option<Exchange>,
     asked: VecDeque<Asked>,
-    /// Number of the answer to the first question asked.
+    /// Number of the answer to the first question in `asked`, modulo 256.
     number: u8,
     /// Words of payload of the next ranges.
     range: usize,
+    /// Whole ranges in a row.
     clean: u32,
-    /// Answers asked for again, in all.
+    /// Number of answers asked for again.
     repeated: u64,
 }
 
 impl Reader {
-    /// For a device whose points and records have this layout.
+    /// A reader for a device whose points and records have this layout.
     pub fn new(layout: Layout) -> Self {
         Self {
             layout,
@@ -94,28 +96,28 @@ impl Reader {
         }
     }
 
-    /// Answers asked for again, in all.
+    /// Number of answers asked for again.
     pub fn repeated(&self) -> u64 {
         self.repeated
     }
 
-    /// True if an answer is awaited.
+    /// Whether an answer is awaited.
     pub fn is_waiting(&self) -> bool {
         self.exchange.as_ref().is_some_and(|exchange| !exchange.is_done)
     }
 
-    /// True if an answer is whole and was not taken.
+    /// Whether an answer is whole and has not been taken.
     pub fn has_answer(&self) -> bool {
         self.exchange.as_ref().is_some_and(|exchange| exchange.is_done)
     }
 
-    /// The answer, when all of it has come.
+    /// Takes the answer, once all of it has come.
     pub fn take_answer(&mut self) -> Option<Vec<u32>> {
         let exchange = self.exchange.take_if(|exchange| exchange.is_done)?;
         Some(exchange.answer)
     }
 
-    /// Begins a command.
+    /// Begins a command: asks for the whole answer, or for the first ranges.
     pub fn begin(&mut self, command: &Command<impl AsRef<[u32]>>, sender: &mut Sender) -> Result<(), SerialFault> {
         let exchange = Exchange::of(command, self.layout)?;
         if exchange.todo.is_empty() {
@@ -142,15 +144,15 @@ impl Reader {
         }
     }
 
-    /// Takes a part of an answer. True if it was news.
+    /// Takes a part of an answer. Returns true if the part was new.
     pub fn take(&mut self, part: &AnswerPart<'_>, sender: &mut Sender) -> Result<bool, SerialFault> {
         let passed = usize::from(part.number.wrapping_sub(self.number));
         if passed >= self.asked.len() {
-            // An answer that ended, or that nobody asked for.
+            // This answer has ended already, or nobody asked for it.
             return Ok(false);
         }
         self.check_taken(passed + 1, sender)?;
-        // Answers come in order: those before this one are lost.
+        // Answers come in order, so the rest of each earlier answer is lost.
         for _ in 0..passed {
             self.end_first(sender);
         }
@@ -162,7 +164,8 @@ impl Reader {
         Ok(is_news)
     }
 
-    /// The device has sent so many answers to their end, modulo 256: those of them that have not come are lost.
+    /// Hears that the device has sent `answers` answers to their end, modulo 256. Those among them that
+    /// have not come are lost.
     pub fn passed(&mut self, answers: u8, sender: &mut Sender) -> Result<(), SerialFault> {
         let passed = usize::from(answers.wrapping_sub(self.number));
         if passed <= self.asked.len() {
@@ -174,8 +177,9 @@ impl Reader {
         Ok(())
     }
 
-    /// So many questions can only have been answered if the device has taken them. Without this rule each answer that
-    /// it makes up would be asked for again, and what waits to be sent would grow without end.
+    /// Refuses answers to the first `count` questions unless the device has taken all of these questions. Without this
+    /// rule, a device could make up answers, each of which would be asked for again, and the bytes that wait to be sent
+    /// would grow without end.
     fn check_taken(&self, count: usize, sender: &Sender) -> Result<(), SerialFault> {
         let last = count.checked_sub(1).and_then(|last| self.asked.get(last));
         match last.filter(|asked| asked.end > sender.taken_bytes()) {
@@ -184,12 +188,12 @@ impl Reader {
         }
     }
 
-    /// Gives up the command under way, or its answer that nobody took.
+    /// Drops the command under way, or its answer if nobody has taken it.
     pub fn abandon(&mut self) {
         self.exchange = None;
     }
 
-    /// The first question is over: its answer is whole, or it is asked again.
+    /// Ends the first question: either its answer is whole, or it is asked again.
     fn end_first(&mut self, sender: &mut Sender) {
         let Some(asked) = self.asked.pop_front() else { return };
         self.number = self.number.wrapping_add(1);
@@ -203,7 +207,7 @@ impl Reader {
             if !exchange.finish(&asked) {
                 return self.ask_more(sender);
             }
-            // Answers that are still to come are for nobody.
+            // Nobody waits for the answers that are still to come.
             self.asked.iter_mut().for_each(|asked| asked.what = Question::Nothing);
             return;
         }
@@ -227,12 +231,12 @@ impl Asked {
         Self { what, header: [0; HEADER], came: 0, is_damaged: false, digest: crc32fast::Hasher::new(), end }
     }
 
-    /// True if all words of the answer have come.
+    /// Whether all words of the answer have come.
     fn is_whole(&self) -> bool {
         !self.is_damaged && self.came >= HEADER && self.came == HEADER + self.header[1] as usize
     }
 
-    /// Takes the next words. False if they came before.
+    /// Takes the next words. Returns false if they are not the next ones: they came before, or others were lost.
     fn take(
         &mut self,
         part: &AnswerPart<'_>,
@@ -242,7 +246,7 @@ impl Asked {
         if self.is_damaged {
             return Ok(false);
         }
-        // No answer has as many words as the index can count.
+        // The index counts modulo 65,536, but every answer is shorter than that.
         let (index, count) = (usize::from(part.index), part.bytes.len() / 4);
         if index < self.came && index + count <= self.came {
             return Ok(false);
@@ -254,7 +258,7 @@ impl Asked {
         let most = match self.what {
             Question::Range { count, .. } => HEADER + count as usize * width,
             Question::Whole => HEADER + LONGEST_WHOLE,
-            // It was a range, of any length.
+            // This was a range once, and its length is forgotten.
             Question::Nothing => HEADER + RANGE_WORDS,
         };
         if index + count > most {
@@ -269,7 +273,7 @@ impl Asked {
         }
     }
 
-    /// Puts words where they belong.
+    /// Puts words into their places in the answer.
     fn keep(&mut self, index: usize, bytes: &[u8], exchange: Option<&mut Exchange>) {
         let mut exchange = exchange.filter(|exchange| !exchange.is_done);
         for (word, place) in words_of(bytes).zip(index..) {
@@ -304,9 +308,9 @@ impl Asked {
     }
 }
 
-/// Longest payload of an answer to a whole command.
+/// Most words of payload of an answer to a whole command.
 const LONGEST_WHOLE: usize = LATENCY_BUCKETS;
-// Every answer that is not a range's fits.
+// The answers to all commands but the ranges must fit.
 const _: () =
     assert!(COUNTER_WORDS <= LONGEST_WHOLE && IDENTITY_WORDS <= LONGEST_WHOLE && INSERT_REPORT_WORDS <= LONGEST_WHOLE);
 
@@ -314,11 +318,11 @@ impl Exchange {
     fn of(command: &Command<impl AsRef<[u32]>>, layout: Layout) -> Result<Self, SerialFault> {
         let again = match command.bare() {
             Command::Insert { .. } if command.points().len() as u64 != command.point_words(layout) => {
-                return Err(SerialFault::Command("the points of this command are of another device"));
+                return Err(SerialFault::Command("the points of this command are laid out for another device"));
             }
-            // Its answer comes in parts that are asked for again, and those of packed triangles do not end with words.
-            Command::Triangles(_) => return Err(SerialFault::Command("the serial link reads whole records")),
-            // No points have the report of those before them.
+            // Parts of an answer are asked for again, and a part of packed triangles may end within a word.
+            Command::Triangles(_) => return Err(SerialFault::Command("the serial link only reads whole records")),
+            // Inserting no points brings the report of the points before them once more.
             Command::Insert { .. } => Command::Insert { count: 0, points: [] },
             command => command.map(|()| []),
         };
@@ -337,18 +341,18 @@ impl Exchange {
         }
     }
 
-    /// The answer is asked for in ranges of these records.
+    /// Prepares to ask for the answer in ranges of these records.
     fn in_ranges(self, RecordRange { first, count }: RecordRange, payload: u64) -> Result<Self, SerialFault> {
         const NO_ROOM: SerialFault = SerialFault::Command("there is no memory for an answer of this length");
         let words = usize::try_from(payload).ok().and_then(|payload| payload.checked_add(HEADER)).ok_or(NO_ROOM)?;
         let mut answer = Vec::new();
         answer.try_reserve_exact(words).map_err(|_| NO_ROOM)?;
         answer.resize(words, 0);
-        first.checked_add(count).ok_or(SerialFault::Command("the range passes the last record number"))?;
+        first.checked_add(count).ok_or(SerialFault::Command("the range goes beyond the last record number"))?;
         Ok(Self { answer, todo: VecDeque::from([(first, count)]), origin: first, missing: count, ..self })
     }
 
-    /// Takes a whole answer to a question. True if nothing is missing any more.
+    /// Takes a whole answer to a question. Returns true if nothing is missing any more.
     fn finish(&mut self, asked: &Asked) -> bool {
         let [header, length] = asked.header;
         match asked.what {
@@ -361,7 +365,7 @@ impl Exchange {
             Question::Range { count, .. } => {
                 let due = u32::try_from(count as usize * self.width).unwrap_or(u32::MAX);
                 let is_right = [header, length] == answer_head(Opcode::Read, due);
-                // A refusal, or a wrong length, is the answer to the whole range.
+                // A refusal, or a wrong length, stands for the answer to the whole command: the session judges it.
                 self.missing = if is_right { self.missing - count.min(self.missing) } else { 0 };
                 if is_right {
                     let payload = self.answer.len() - HEADER;

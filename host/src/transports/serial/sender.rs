@@ -1,5 +1,5 @@
-//! Command words on their way to the device: cut into frames, sent within window and credit, and sent again from where
-//! the device says (go back N).
+//! Sending commands: their words are cut into frames, sent within the window and the credit, and sent again from the
+//! frame that the device awaits (go back N).
 
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -8,61 +8,62 @@ use incircle_protocol::{Command, MAX_PAYLOAD, WINDOW};
 
 use super::fault::SerialFault;
 
-/// Smallest frame that noise makes us cut.
+/// Fewest bytes of payload to which noise makes frames shrink.
 const MIN_SIZE: usize = 64;
-/// First frames: a noisy line loses few of them, and a clean one soon carries the longest.
+/// Bytes of payload of the first frames: a noisy line loses few of them, and on a clean line they soon grow.
 const FIRST_SIZE: usize = 256;
-/// Frames taken without a loss before they grow.
+/// Frames taken without a loss after which frames grow.
 const GROW_AFTER: u32 = 4;
 
 /// A frame that the device has not acknowledged.
 #[derive(Debug)]
 struct Sent {
     payload: Vec<u8>,
-    /// Check sum of all payload of the session up to its end.
+    /// Check sum of all payload of the session up to the end of this frame.
     digest: u32,
-    /// When its last byte leaves, of the last time.
+    /// Time at which its last byte leaves the line, after the last time that it was handed out.
     left_at: Duration,
-    /// Times it was handed out.
+    /// Number of times that it was handed out.
     times: u32,
 }
 
-/// What an acknowledgement told.
+/// The content of an acknowledgement.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct News {
-    /// Frames that are acknowledged now.
+    /// Number of frames that are newly acknowledged.
     pub taken: usize,
-    /// When the last of them was off the line, if it was sent once.
+    /// Time at which the last of them was off the line, if it was sent once: only then does it tell the round trip.
     pub left_at: Option<Duration>,
 }
 
 /// The sending half of a session.
 #[derive(Debug)]
 pub(super) struct Sender {
-    /// Bytes not yet cut into frames.
+    /// Bytes that are not cut into frames yet.
     stream: VecDeque<u8>,
-    /// Frames under way, the first of which the device awaits: at most 16.
+    /// Frames under way, at most 16. The device awaits the first one.
     sent: VecDeque<Sent>,
-    /// Frames acknowledged in this session; modulo 256 the number of the first frame under way.
+    /// Number of frames acknowledged in this session; modulo 256 it is the number of the first frame under way.
     base: u64,
-    /// How many of `sent` are out; the others go again.
+    /// Number of frames of `sent` that are out. The others will be sent again.
     out: usize,
-    /// Free bytes of the FIFO before the first frame under way.
+    /// Free bytes of the device's FIFO before the frames under way arrive.
     free: usize,
-    /// Bytes of this session, and those of them that are acknowledged.
+    /// Bytes of this session so far.
     pushed_bytes: u64,
+    /// Bytes of this session that are acknowledged.
     taken_bytes: u64,
-    /// Over all payload cut in this session.
+    /// Check sum over all payload cut in this session.
     digest: crc32fast::Hasher,
-    /// Of all payload acknowledged.
+    /// Check sum over all payload acknowledged.
     taken_digest: u32,
-    /// Frames whose digest the device has told, and it was ours.
+    /// Number of frames up to which the device has confirmed the check sum.
     proved: u64,
-    /// Bytes of the next frames.
+    /// Bytes of payload of the next frames.
     size: usize,
     /// Frames taken since the last loss or growth.
     clean: u32,
-    /// Frames sent again, in all.
+    /// Number of frames sent again.
     resent: u64,
 }
 
@@ -85,56 +86,56 @@ impl Sender {
         }
     }
 
-    /// Takes a command to be sent: the bytes of the session up to its end.
+    /// Takes a command to be sent, and returns the number of bytes of the session up to its end.
     pub fn push_command(&mut self, command: &Command<impl AsRef<[u32]>>) -> u64 {
         let (head, count) = command.head();
         self.push(&head[..count]);
         self.push(command.points())
     }
 
-    /// Takes words to be sent: the bytes of the session up to their end.
+    /// Takes words to be sent, and returns the number of bytes of the session up to their end.
     fn push(&mut self, words: &[u32]) -> u64 {
         self.stream.extend(words.iter().flat_map(|word| word.to_le_bytes()));
         self.pushed_bytes += 4 * words.len() as u64;
         self.pushed_bytes
     }
 
-    /// Bytes of the session that the device has taken.
+    /// Number of bytes of the session that the device has taken.
     pub fn taken_bytes(&self) -> u64 {
         self.taken_bytes
     }
 
-    /// True if the device has taken all.
+    /// Whether the device has taken everything.
     pub fn is_done(&self) -> bool {
         self.stream.is_empty() && self.sent.is_empty()
     }
 
-    /// True if the digest of all that the device has taken is known to be right.
+    /// Whether the device has confirmed the check sum of everything that it has taken.
     pub fn is_proved(&self) -> bool {
         self.proved == self.base
     }
 
-    /// Frames acknowledged in this session.
+    /// Number of frames acknowledged in this session.
     pub fn base(&self) -> u64 {
         self.base
     }
 
-    /// Frames cut in this session.
+    /// Number of frames cut in this session.
     pub fn cut(&self) -> u64 {
         self.base + self.sent.len() as u64
     }
 
-    /// Frames sent again, in all.
+    /// Number of frames sent again.
     pub fn resent(&self) -> u64 {
         self.resent
     }
 
-    /// True if a frame could go out now.
+    /// Whether a frame may go out now.
     pub fn has_due(&self) -> bool {
         self.next_length().is_some()
     }
 
-    /// Bytes of the frame that may go out next.
+    /// Bytes of payload of the frame that may go out next.
     fn next_length(&self) -> Option<usize> {
         let credit = self.free.saturating_sub(self.under_way());
         if let Some(again) = self.sent.get(self.out) {
@@ -147,18 +148,18 @@ impl Sender {
         if wanted <= credit {
             return Some(wanted);
         }
-        // A short frame is better than none, but only where no acknowledgement will bring more room.
+        // A short frame is better than none, but only if no acknowledgement is due that would bring more room.
         let short = credit & !3;
         (self.sent.is_empty() && short >= MIN_SIZE.min(wanted)).then_some(short)
     }
 
-    /// Bytes out after the last one acknowledged.
+    /// Bytes that are out and not acknowledged.
     fn under_way(&self) -> usize {
         self.sent.iter().take(self.out).map(|frame| frame.payload.len()).sum()
     }
 
-    /// The next frame that may go out, with its number; `left` gives the time when so many bytes of payload are off the
-    /// line.
+    /// Takes the next frame that may go out, with its number. `left` gives the time at which a frame with this many
+    /// bytes of payload is off the line.
     pub fn next(&mut self, left: impl FnOnce(usize) -> Duration) -> Option<(u8, &[u8])> {
         let length = self.next_length()?;
         if self.out == self.sent.len() {
@@ -176,8 +177,9 @@ impl Sender {
         Some((number, &frame.payload))
     }
 
-    /// Takes what the device says: it awaits frame `expected`, has `free` bytes, and, if told, this check sum of all it
-    /// took. `None` if this is no news of now: it overtook, or was doubled on the way.
+    /// Takes an acknowledgement: the device awaits frame `expected`, has room for `free` bytes, and may report
+    /// the check sum of everything that it took. `None` if the acknowledgement is not up to date: it was
+    /// overtaken, or doubled on the way.
     pub fn acknowledge(&mut self, expected: u8, free: usize, digest: Option<u32>) -> Result<Option<News>, SerialFault> {
         let taken = usize::from(expected.wrapping_sub(self.base as u8));
         if taken > self.sent.len() {
@@ -207,17 +209,17 @@ impl Sender {
         Ok(Some(news))
     }
 
-    /// When the frame that the device awaits is off the line, if it is out.
+    /// Time at which the frame that the device awaits is off the line, if it is out.
     pub fn first_left_at(&self) -> Option<Duration> {
         self.sent.front().filter(|_| self.out > 0).map(|frame| frame.left_at)
     }
 
-    /// True if the frame that the device awaits was sent again already.
+    /// Whether the frame that the device awaits was sent more than once already.
     pub fn first_was_repeated(&self) -> bool {
         self.out > 0 && self.sent.front().is_some_and(|frame| frame.times > 1)
     }
 
-    /// All frames under way go out again. Their cut stays: the device may yet take one that is still on the line.
+    /// Sends all frames under way again. They are not cut anew, since the device may yet take one that is on the line.
     pub fn go_back(&mut self) {
         if self.out == 0 {
             return;
@@ -255,7 +257,7 @@ mod tests {
         assert_eq!(news, Some(News { taken: 1, left_at: Some(Duration::ZERO) }));
         assert_eq!(next(&mut sender), Some((2, 256)));
         assert_eq!(next(&mut sender), None);
-        // A single short frame, where nothing is under way.
+        // With nothing under way, a single short frame may go out.
         sender.acknowledge(3, 100, digest(&words[..192])).expect("sound");
         assert_eq!(next(&mut sender), Some((3, 100)));
         sender.acknowledge(4, 63, None).expect("sound");
@@ -290,9 +292,9 @@ mod tests {
         }
         assert_eq!(next(&mut sender), Some((7, 128)));
         assert_eq!(sender.resent(), 5);
-        // What was sent twice gives no round trip.
+        // A frame that was sent twice tells no round trip.
         assert_eq!(sender.acknowledge(3, 2000, None), Ok(Some(News { taken: 1, left_at: None })));
-        // The device took more than it seemed: nothing of that goes again.
+        // The device took more frames than it seemed, and none of those is sent again.
         sender.go_back();
         sender.acknowledge(7, 2000, None).expect("sound");
         assert_eq!(next(&mut sender), Some((7, 128)));

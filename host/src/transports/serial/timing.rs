@@ -1,20 +1,21 @@
-//! When bytes are off the line, and how long to wait for an answer.
+//! Timing of the line: when bytes are off it, and how long to wait for an answer.
 
 use std::time::Duration;
 
-/// Bits of a byte on the line: start, eight, stop.
+/// Bits of a byte on the line, with start and stop bit.
 const BITS: u64 = 10;
-/// Round trip assumed before one was measured: a USB adapter with its default latency takes 16 ms.
+/// Round trip that is assumed before one is measured: a USB adapter with its default latency takes 16 ms.
 const FIRST_TRIP: Duration = Duration::from_millis(30);
-/// Least time beyond the mean round trip before the host asks.
+/// Least time beyond the mean round trip before the host polls.
 const LEAST_SLACK: Duration = Duration::from_millis(4);
-/// Longest time between two questions: well below the silence after which a device forgets.
+/// Longest time between two polls, well below the silence after which a device forgets the session.
 pub(super) const POLL_EVERY: Duration = Duration::from_millis(500);
 
-/// The line towards the device: how long its bytes take.
+/// The line to the device: the time that its bytes take.
 #[derive(Debug)]
 pub(super) struct Line {
     rate: u32,
+    /// Time at which all bytes handed out are off the line.
     free_at: Duration,
 }
 
@@ -27,40 +28,40 @@ impl Line {
         self.rate
     }
 
-    /// Changes the rate; what was under way counts as sent.
+    /// Changes the rate. Bytes under way count as sent.
     pub fn set_rate(&mut self, rate: u32, now: Duration) {
         *self = Self { rate, free_at: now };
     }
 
-    /// Time that so many bytes take.
+    /// Time that this many bytes take.
     pub fn time_of(&self, bytes: usize) -> Duration {
         let bits = (bytes as u64).saturating_mul(BITS);
         Duration::from_nanos(bits.saturating_mul(1_000_000_000) / u64::from(self.rate.max(1)))
     }
 
-    /// Bytes were handed out: they are off the line at the time returned.
+    /// Counts bytes that are handed out, and returns the time at which they are off the line.
     pub fn carry(&mut self, bytes: usize, now: Duration) -> Duration {
         self.free_at = self.free_at.max(now) + self.time_of(bytes);
         self.free_at
     }
 
-    /// When all bytes are off the line.
+    /// Time at which all bytes are off the line.
     pub fn free_at(&self) -> Duration {
         self.free_at
     }
 
-    /// Time for which the line is occupied from now on.
+    /// Time from now on for which the line is busy.
     pub fn ahead(&self, now: Duration) -> Duration {
         self.free_at.saturating_sub(now)
     }
 }
 
-/// How long an answer may take: mean and spread of the round trips measured, as TCP does it.
+/// Estimates how long an answer may take, by the mean and the spread of the round trips measured, as TCP does.
 #[derive(Debug, Default)]
 pub(super) struct RoundTrip {
     mean: Option<Duration>,
     spread: Duration,
-    /// Times the host asked without hearing of progress.
+    /// Number of polls since the last progress.
     asked: u32,
 }
 
@@ -76,24 +77,24 @@ impl RoundTrip {
         }
     }
 
-    /// The mean, or what is assumed.
+    /// The mean round trip, or an assumption before one was measured.
     pub fn mean(&self) -> Duration {
         self.mean.unwrap_or(FIRST_TRIP)
     }
 
-    /// Time without news, after the line is free, until the host asks; `frame` is what the longest frame takes.
+    /// Time without news, after the line is free, until the host polls. `frame` is the time of the longest frame.
     pub fn patience(&self, frame: Duration) -> Duration {
         let slack = (self.spread * 4).max(LEAST_SLACK);
         let once = self.mean() + slack + frame;
         once.saturating_mul(1 << self.asked.min(10)).min(POLL_EVERY)
     }
 
-    /// The host asked: it waits longer for the next time.
+    /// Makes the host wait longer before the next poll.
     pub fn lengthen(&mut self) {
         self.asked = self.asked.saturating_add(1);
     }
 
-    /// There was progress.
+    /// Makes the host wait the usual time again, after progress.
     pub fn shorten(&mut self) {
         self.asked = 0;
     }

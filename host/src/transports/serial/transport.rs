@@ -12,22 +12,23 @@ use crate::error::{Error, TransportError};
 use crate::limit::Limit;
 use crate::transports::transport::{receive_in_pieces, AnswerHead, Capabilities, Pace, Transport};
 
-/// Bytes read at once.
+/// Most bytes of one read.
 const READ_BYTES: usize = 16 * 1024;
 /// Longest time in one call of the system.
 const LONGEST_WAIT: Duration = Duration::from_millis(100);
-/// Wait for bytes while the port takes no more of ours.
+/// Time to wait for bytes while the port takes no more of the host's.
 const WRITE_AGAIN: Duration = Duration::from_millis(1);
-/// Time for the goodbye, in the time of the link, and the most of ours.
+/// Time limit for closing the session, in the time of the link.
 const GOODBYE: Duration = Duration::from_millis(400);
+/// Time limit for closing the session, in real time.
 const LONGEST_GOODBYE: Duration = Duration::from_secs(4);
 /// Bits of a word on the line, start and stop bits included.
 const WORD_BITS: u32 = 40;
 
-/// A device at a serial port.
+/// The transport to a board at a serial port.
 ///
-/// The session is opened by the first command, and closed when the transport is dropped. All deadlines of the link
-/// itself are stretched by the address's `slow`; those of the caller are the caller's.
+/// The first command opens a session with the board, and dropping the transport closes it. All times of the link itself
+/// are stretched by [`Address::slow`]; deadlines of the caller are in real time.
 pub struct SerialTransport {
     port: Port,
     protocol: SerialProtocol,
@@ -36,16 +37,18 @@ pub struct SerialTransport {
     origin: Instant,
     /// Bytes that the port has not taken yet.
     out: Vec<u8>,
-    /// The answer under way, and how many of its words were handed on.
+    /// Answer to the last command.
     answer: Vec<u32>,
+    /// Words of `answer` that were handed on.
     taken: usize,
 }
 
 impl SerialTransport {
-    /// Opens the port; nothing is sent yet.
+    /// Opens the port. Nothing is sent yet.
     ///
     /// # Errors
-    /// [`Error::Open`] where the system refuses, with what to do about it.
+    /// [`Error::Open`] with a [`PortFault`](super::PortFault) if the system refuses, and [`Error::Link`] if the port is
+    /// gone while its rates are tried.
     pub fn open(address: &Address) -> Result<Self, Error> {
         let name = address.to_string();
         let port = Port::open(&address.port)
@@ -69,7 +72,7 @@ impl SerialTransport {
     fn params(&mut self, baud: u32) -> Result<Params, SerialFault> {
         let wanted = Params::with_rate(baud);
         let rates = self.port.possible(&wanted.rates)?;
-        // Any number, so long as the next program has another one.
+        // Any number will do, so long as the next program has another one.
         let time = std::time::SystemTime::UNIX_EPOCH.elapsed().map_or(0, |elapsed| elapsed.subsec_nanos() >> 8);
         Ok(Params { rates, session: (time ^ std::process::id()) as u8 })
     }
@@ -78,10 +81,11 @@ impl SerialTransport {
         Error::Link { device: self.name.clone(), during: "the opening", source: fault.into() }
     }
 
-    /// Opens the session, unless it is open. The timeout is in the time of the link.
+    /// Opens the session, unless it is open. The timeout is in the time of the link. Commands open the session by
+    /// themselves, so this is only for those who want to know the [rate](Self::rate) before.
     ///
     /// # Errors
-    /// [`Error::Link`] and [`Error::Timeout`] where nobody answers, or no sound device.
+    /// [`Error::Link`] or [`Error::Timeout`] if no sound device answers.
     pub fn connect(&mut self, timeout: Duration) -> Result<(), Error> {
         self.protocol.open(self.now());
         self.drive_for(timeout, |protocol| protocol.is_open().then_some(()))
@@ -103,27 +107,27 @@ impl SerialTransport {
         })
     }
 
-    /// What the device said of itself, once it did.
+    /// The greeting of the device, once it has come.
     pub fn greeting(&self) -> Option<&Greeting> {
         self.protocol.greeting()
     }
 
-    /// Bits per second now.
+    /// The present rate in bits per second.
     pub fn rate(&self) -> u32 {
         self.protocol.rate()
     }
 
-    /// What the link has done so far.
+    /// Counts of the traffic so far.
     pub fn statistics(&self) -> Statistics {
         self.protocol.statistics()
     }
 
-    /// The time of the link.
+    /// The time of the link: real time, divided by `slow`.
     fn now(&self) -> Duration {
         self.origin.elapsed() / self.slow
     }
 
-    /// Runs the link until it has what is wanted.
+    /// Runs the link until `ready` gives a result, or until the deadline.
     fn drive<T>(
         &mut self,
         deadline: Instant,
@@ -142,7 +146,7 @@ impl SerialTransport {
         }
     }
 
-    /// Writes what is due and reads what came, or waits for it.
+    /// Writes the bytes that are due, and reads the bytes that came or waits for some.
     fn step(&mut self, deadline: Instant) -> Result<(), SerialFault> {
         if self.out.is_empty() {
             self.follow_rate()?;
@@ -161,7 +165,7 @@ impl SerialTransport {
         Ok(())
     }
 
-    /// Gives the port the rate of the link.
+    /// Sets the port to the rate of the link.
     fn follow_rate(&mut self) -> Result<(), SerialFault> {
         if self.port.rate() != self.protocol.rate() {
             self.port.set_rate(self.protocol.rate())?;
@@ -204,7 +208,8 @@ impl Transport for SerialTransport {
         self.protocol.ask(*command, self.now())?;
         self.answer.clear();
         self.taken = 0;
-        // The link knows when a command is through by its answer, and asks again for what is lost of that.
+        // Only the answer tells that a command is through, and its lost parts are asked for again. So the
+        // whole answer is received here.
         self.answer = self.drive(deadline, command.words(), SerialProtocol::take_answer)?;
         Ok(())
     }
@@ -226,7 +231,7 @@ impl Transport for SerialTransport {
 }
 
 impl Drop for SerialTransport {
-    /// Says goodbye, so that the next program finds the device at the first rate without waiting.
+    /// Closes the session, so that the next program finds the device at the first rate without waiting.
     fn drop(&mut self) {
         self.out.clear();
         self.protocol.close(self.now());
@@ -239,12 +244,14 @@ impl Drop for SerialTransport {
     }
 }
 
-/// Asks who is at a port, at the first rate and without a session, and waits for the answer until the timeout, which is
-/// in the time of the link.
+/// Asks which device is at a port, at the first rate and without opening a session.
+///
+/// Use it to list devices: the device keeps its state. `timeout` bounds the wait for the answer, in
+/// the time of the link.
 ///
 /// # Errors
-/// [`Error::Open`] where the system refuses, [`Error::Link`] and [`Error::Timeout`] where nobody answers, or no sound
-/// device.
+/// [`Error::Open`] if the system refuses to open the port, and [`Error::Link`] or [`Error::Timeout`]
+/// if no sound device answers.
 pub fn greet(address: &Address, timeout: Duration) -> Result<Greeting, Error> {
     let mut transport = SerialTransport::open(&Address { baud: FIRST_RATE, ..address.clone() })?;
     let now = transport.now();

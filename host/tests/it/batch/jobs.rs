@@ -1,4 +1,4 @@
-//! Batches: every job gets the mesh that it gets alone, on every device, whatever its neighbours are.
+//! Batches: every job gets the mesh that it gets alone, on every device, whatever the other jobs are.
 
 use crate::common::batches::{alone, bare, batch, check_cancelled};
 use crate::common::mock::Mock;
@@ -7,7 +7,7 @@ use incircle::{Config, Device, DeviceFault, Error, ErrorKind, Options, Order, Po
 use incircle_protocol::{FULL, SMALL};
 use proptest::prelude::*;
 
-/// Sets of every kind: none, one, two and collinear points, duplicates, lattices, larger ones.
+/// Sets of every kind: no points, one, two, collinear ones, duplicates, lattices, and larger sets.
 fn mixed(random: &mut Random, count: usize, most: u32) -> Vec<Vec<Point>> {
     let mut jobs = Vec::new();
     for job in 0..count {
@@ -42,7 +42,7 @@ fn every_device_gives_every_job_its_mesh() {
             for mut device in devices.into_iter().flatten() {
                 let meshes = batch(&mut device, &jobs, &options).expect("meshes");
                 assert!(meshes == right, "{contexts:?}, {order:?}");
-                // And once more: the streams are in step.
+                // A second batch shows that the session is in step.
                 let again = batch(&mut device, &jobs[..20], &options).expect("meshes");
                 assert!(again == right[..20], "{contexts:?}, {order:?}");
             }
@@ -118,13 +118,13 @@ fn lies_end_in_typed_errors() {
     let right = alone(&jobs);
     let (mut kinds, mut mixes) = ([0; 3], 0);
     for packs_records in [true, false] {
-        // Behind the identity.
+        // Lies begin after the identity.
         for place in 9..420 {
             for bits in [1, 1 << 4, 1 << 16, 1 << 20, 1 << 31, 0xffff_ffff] {
                 let mut device = Mock::device(true, packs_records, (place, bits));
                 let mut session = device.session().expect("an honest greeting");
                 match session.triangulate_batch(&jobs, &Options::default()) {
-                    // Behind the last word, or in a link, which is not used.
+                    // This lie is after the last word, or in a neighbour's id, which is not used.
                     Ok(meshes) => {
                         assert!(meshes.into_iter().map(bare).eq(right.iter().cloned()), "{place}, {bits:x}");
                         kinds[0] += 1;

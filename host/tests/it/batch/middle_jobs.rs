@@ -1,5 +1,5 @@
-//! Jobs of a batch that fit into a device more than once and less often than it has contexts: side by side, alone, or as it comes, each
-//! has the mesh that it has alone.
+//! Jobs of which a few fit into a device, but fewer than it has contexts. Whether they go side by side or one after
+//! another, each gets the mesh that it gets alone.
 
 use crate::common::batches::{alone, bare, batch};
 use crate::common::mock::Mock;
@@ -8,11 +8,11 @@ use incircle::{Device, Error, Options, Point, Solution};
 use incircle_protocol::{Config, FULL, SMALL};
 use proptest::prelude::*;
 
-/// Points of the mock, and its contexts.
+/// Points that the mock holds, and the number of its contexts.
 const CAPACITY: usize = 512;
 const CONTEXTS: usize = 5;
 
-/// Jobs with so many points, all different.
+/// Jobs with these numbers of points, all points of a job distinct.
 fn jobs_of(random: &mut Random, lengths: &[usize]) -> Vec<Vec<Point>> {
     lengths.iter().map(|&count| distinct(random, count)).collect()
 }
@@ -28,8 +28,8 @@ fn distinct(random: &mut Random, count: usize) -> Vec<Point> {
     points
 }
 
-/// A job that had the whole memory has its counters.
-fn is_frame(mesh: &Solution) -> bool {
+/// Whether the job had the whole memory, which shows in its counters.
+fn is_exclusive(mesh: &Solution) -> bool {
     mesh.report.counters.is_some()
 }
 
@@ -41,7 +41,7 @@ fn the_capacity_may_be_reached_exactly() {
         vec![fifth; 5],
         vec![fifth + 1, fifth + 1, fifth, fifth, fifth],
         vec![128; 4],
-        // Beyond it by one, and all alone.
+        // These exceed the capacity by one, or go one after another.
         vec![fifth + 1, fifth + 1, fifth + 1, fifth, fifth],
         vec![129, 128, 128, 128],
         vec![171; 3],
@@ -54,9 +54,9 @@ fn the_capacity_may_be_reached_exactly() {
             let mut device = Mock::device(takes_ahead, packs_records, (0, 0));
             let mut session = device.session().expect("a session");
             let meshes = session.triangulate_batch(&jobs, &Options::default()).expect("meshes");
-            // The sums are those of the points sent, as no job is more than a point shorter.
+            // No job of a group is more than a point shorter than the longest, so the sum is the number of points sent.
             let is_divided = sum > CAPACITY;
-            assert_eq!(meshes.iter().any(is_frame), is_divided, "{lengths:?}");
+            assert_eq!(meshes.iter().any(is_exclusive), is_divided, "{lengths:?}");
             assert!(meshes.into_iter().map(bare).eq(alone(&jobs)), "{lengths:?}");
         }
     }
@@ -99,7 +99,7 @@ fn every_core_gives_every_length_its_mesh() {
         (FULL, vec![7, 7, 7, 8, 8, 15, 16, 17, 6]),
     ] {
         let mut jobs = jobs_of(&mut random, &lengths(&parts, config.points));
-        // And some that a host thinks larger than they are.
+        // Two of the jobs have fewer distinct points than the host expects before it has looked at them.
         jobs[1].extend_from_within(..40);
         jobs[2] = (0..300).map(|k| Point::new(2 * k, 3 * k)).collect();
         let mut device = Device::clock_model(config).expect("possible");
@@ -107,7 +107,7 @@ fn every_core_gives_every_length_its_mesh() {
     }
 }
 
-/// Cycles are the same on every machine, so this is no test of time.
+/// The clocks counted are the same on every machine, so this test does not depend on the speed of this one.
 #[test]
 fn side_by_side_they_take_fewer_clocks_than_one_after_the_other() {
     let mut random = Random(84);
@@ -118,13 +118,13 @@ fn side_by_side_they_take_fewer_clocks_than_one_after_the_other() {
         let before = session.clocks().expect("it is counted");
         let meshes = session.triangulate_batch(&jobs, &Options::default()).expect("meshes");
         let together = session.clocks().expect("it is counted") - before;
-        assert!(meshes.iter().all(|mesh| !is_frame(mesh) && mesh.report.contexts == 1));
+        assert!(meshes.iter().all(|mesh| !is_exclusive(mesh) && mesh.report.contexts == 1));
         assert!(together < most * (count * length) as u64, "{together} clocks for {count} jobs of {length}");
-        // A batch of one is a frame, with as many contexts as pay.
+        // The job of a batch of one is exclusive, with as many contexts as pay.
         let before = session.clocks().expect("it is counted");
         for job in &jobs {
             let alone = session.triangulate_batch(std::slice::from_ref(job), &Options::default()).expect("a mesh");
-            assert!(is_frame(&alone[0]) && (8..=16).contains(&alone[0].report.contexts), "{:?}", alone[0].report);
+            assert!(is_exclusive(&alone[0]) && (8..=16).contains(&alone[0].report.contexts), "{:?}", alone[0].report);
         }
         let one_by_one = session.clocks().expect("it is counted") - before;
         assert!(together < one_by_one, "{together} and {one_by_one} clocks for {count} jobs of {length}");

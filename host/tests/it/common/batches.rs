@@ -1,4 +1,4 @@
-//! What tests of batches share.
+//! Helpers for tests of batches.
 
 use std::ops::ControlFlow;
 
@@ -9,7 +9,7 @@ pub fn bare(solution: Solution) -> Mesh {
     solution.mesh
 }
 
-/// Every job alone, by the engine in this process.
+/// The meshes of the jobs, each alone, by the CPU triangulator.
 pub fn alone(jobs: &[Vec<Point>]) -> Vec<Mesh> {
     let mut device = Device::cpu(None);
     let mut session = device.session().expect("a device in this process");
@@ -21,7 +21,8 @@ pub fn batch(device: &mut Device, jobs: &[Vec<Point>], options: &Options<'_>) ->
     device.session()?.triangulate_batch(jobs, options).map(|meshes| meshes.into_iter().map(bare).collect())
 }
 
-/// A listener ends the batch as soon as it hears of so many points under way; the session stays in step and gives the right meshes.
+/// Cancels a batch as soon as the listener hears of `patience` points, and checks that the session stays in step and
+/// then gives the right meshes.
 pub fn check_cancelled(device: &mut Device, jobs: &[Vec<Point>], right: &[Mesh], patience: usize) {
     let listener = |progress: Progress| match progress {
         Progress { stage: Stage::Insert, done, .. } if done >= patience => ControlFlow::Break(()),

@@ -1,5 +1,5 @@
-//! A board at the other end of a serial line, in virtual time: written from the page of the link alone, with a codec of its own, around
-//! the software model.
+//! A board at the other end of a serial line, in virtual time, around the software model. The board is written from the
+//! page of the link alone, with a codec of its own, so that it shares no mistake with the library.
 
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -15,7 +15,7 @@ pub fn crc32(bytes: &[u8]) -> u32 {
     crc32_more(0, bytes)
 }
 
-/// The check sum with more bytes behind those it has.
+/// Continues a check sum with more bytes.
 pub fn crc32_more(crc: u32, bytes: &[u8]) -> u32 {
     let mut crc = !crc;
     for &byte in bytes {
@@ -27,7 +27,7 @@ pub fn crc32_more(crc: u32, bytes: &[u8]) -> u32 {
     !crc
 }
 
-/// The bytes of a frame towards the device; nothing if its last piece is cut.
+/// Decodes a frame to the device; `None` if its last piece is cut short.
 pub fn cobs_decode(bytes: &[u8]) -> Option<Vec<u8>> {
     let mut plain = Vec::new();
     let mut left = 0;
@@ -47,7 +47,7 @@ pub fn cobs_decode(bytes: &[u8]) -> Option<Vec<u8>> {
     (left == 0).then_some(plain)
 }
 
-/// A frame towards the host as it stands on the line.
+/// Encodes a frame to the host as it is on the line.
 pub fn frame(plain: &[u8]) -> Vec<u8> {
     let crc = crc32(plain).to_le_bytes();
     let mut coded = Vec::new();
@@ -69,24 +69,25 @@ pub fn frame(plain: &[u8]) -> Vec<u8> {
     coded
 }
 
-/// The words of a greeting of a sound device.
+/// The words of the greeting of a sound device.
 pub fn greeting(fifo: u32) -> [u32; 13] {
     [0x696e_436c, 1 << 16, CLOCK, fifo, CLOCK / 8, 2000, 0x696e_4369, 1 << 16 | 2, 2 << 8, 16, CAPACITY, 1, 32]
 }
 
-/// The board.
+/// A board with its end of the serial link.
 pub struct Board {
     pub greeting: [u32; 13],
     pub rate: u32,
     pub session: u8,
-    /// Most bits per second at which the line works.
+    /// Highest rate at which the line works, in bits per second.
     pub usable: u32,
     /// Bytes that the core takes in a millisecond.
     pub appetite: usize,
-    /// Frames taken, frames refused for want of room: a sound host makes none of these.
+    /// Number of frames taken.
     pub taken: usize,
+    /// Number of frames refused for want of room. A sound host causes none.
     pub overflows: usize,
-    /// What is changed in the check sums of payload and answers.
+    /// Bits that are flipped in the check sums of payload and answers.
     pub lies: [u32; 2],
     core: CommandModel,
     fifo: VecDeque<u8>,
@@ -97,11 +98,12 @@ pub struct Board {
     has_nacked: bool,
     was_dropped: bool,
     bad_rate: bool,
-    /// `Hello`, `Opened`, `Closed`, `NoSession`, `Ack`, `Nak` that are due.
+    /// Frames that are due, in the order `Hello`, `Opened`, `Closed`, `NoSession`, `Ack`, `Nak`.
     due: [bool; 6],
     new_rate: Option<u32>,
-    /// The answer under way: its words so far and how many of them are out.
+    /// Answers that are not sent to their end.
     answer: VecDeque<Vec<u32>>,
+    /// Words of the first answer that are sent.
     out: usize,
     heard: Duration,
     ate: Duration,
@@ -143,7 +145,7 @@ impl Board {
         }
     }
 
-    /// Forgets all, as by a reset.
+    /// Resets the board.
     pub fn reset(&mut self) {
         self.forget();
         self.session = 0;
@@ -244,7 +246,7 @@ impl Board {
         self.greeting[3] as usize - self.fifo.len()
     }
 
-    /// Lets time pass.
+    /// Lets time pass up to `now`.
     pub fn tick(&mut self, now: Duration) {
         if now.saturating_sub(self.heard) > Duration::from_millis(u64::from(self.greeting[5])) {
             if self.session != 0 || self.rate != FIRST_RATE {
@@ -276,7 +278,7 @@ impl Board {
         !self.fifo.is_empty()
     }
 
-    /// The next frame, as it stands on the line; after the one that carries it, the rate changes.
+    /// The next frame as it is on the line.
     pub fn say(&mut self) -> Option<Vec<u8>> {
         const KINDS: [u8; 6] = [0x81, 0x82, 0x88, 0x87, 0x83, 0x84];
         let due = (0..6).find(|&kind| self.due[kind]);
@@ -323,7 +325,7 @@ impl Board {
         Some(frame(&plain))
     }
 
-    /// The frame is off the line: a change of rate that it announced happens now.
+    /// Hears that the frame is off the line, so that a change of rate that it acknowledged happens now.
     pub fn said(&mut self) {
         if !self.due.contains(&true) {
             if let Some(rate) = self.new_rate.take() {

@@ -1,4 +1,4 @@
-//! A card in memory: the software model of the stream device behind what looks like the three files of its driver.
+//! A card in memory: the software model of the stream device behind three files like those of its driver.
 
 use std::io::{self, Read, Write};
 use std::sync::{Arc, Condvar, Mutex};
@@ -8,33 +8,33 @@ use incircle::transports::parts::{CardFiles, RegisterFile};
 use incircle_model::stream::{ModelCore, StreamModel};
 use incircle_protocol::{Config, StreamRegister};
 
-/// Time after which the driver gives up on a transfer: XDMA has 10 seconds.
+/// Time after which the driver aborts a transfer. With XDMA it is 10 seconds.
 const ENGINE: Duration = Duration::from_millis(400);
-/// What it returns then.
+/// Error that the driver then returns.
 const ERESTARTSYS: i32 = 512;
 
-/// What a test does to the card.
+/// Faults that a test puts into the card. Reads and writes are numbered from 0.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Mischief {
-    /// The read of this number, from 0, fails with this errno.
+    /// The read of this number fails with this errno.
     pub bad_read: Option<(u32, i32)>,
-    /// The write of this number does.
+    /// The write of this number fails with this errno.
     pub bad_write: Option<(u32, i32)>,
-    /// Before the read of this number the card is reset.
+    /// The card is reset before the read of this number.
     pub reset: Option<u32>,
-    /// It is reset when so many bytes of commands have come.
+    /// The card is reset when this many bytes of commands have come.
     pub reset_after: Option<usize>,
-    /// From the read of this number on it is gone.
+    /// The card is gone from the read of this number on.
     pub gone: Option<u32>,
-    /// No read brings more bytes than this.
+    /// Most bytes that a read brings.
     pub short: Option<usize>,
-    /// This register reads as this.
+    /// This register reads as this value.
     pub register: Option<(StreamRegister, u32)>,
-    /// Reads of this number and more bring these bytes, again and again, instead of what the card says.
+    /// Reads from this number on bring these bytes, again and again, in place of answers.
     pub babble: Option<(u32, [u8; 16])>,
     /// Nothing comes from the read of this number on, not even an error.
     pub silent: Option<u32>,
-    /// The card gives up on a transfer after this time instead of its own.
+    /// The driver aborts a transfer after this time in place of the usual one.
     pub patience: Option<Duration>,
 }
 
@@ -49,7 +49,7 @@ struct Inside {
 }
 
 impl Inside {
-    /// Bytes of commands that the device takes now.
+    /// Takes bytes of commands, and returns the number of bytes that the device took.
     fn take(&mut self, bytes: &[u8]) -> usize {
         let until = self.mischief.reset_after.and_then(|after| after.checked_sub(self.taken)).unwrap_or(usize::MAX);
         let taken = self.device.take(&bytes[..bytes.len().min(until)]);
@@ -62,7 +62,7 @@ impl Inside {
     }
 }
 
-/// The card.
+/// A card in memory.
 #[derive(Clone)]
 pub struct MemoryCard {
     inside: Arc<(Mutex<Inside>, Condvar)>,
@@ -73,14 +73,14 @@ impl MemoryCard {
         Self::of(ModelCore::of(config).unwrap(), beat_bits, mischief)
     }
 
-    /// A card with this device behind its beats.
+    /// A card with this core behind its beats.
     pub fn of(core: ModelCore, beat_bits: u32, mischief: Mischief) -> Self {
         let device = StreamModel::new(core, beat_bits);
         let inside = Inside { device, mischief, reads: 0, writes: 0, taken: 0, gone: false };
         Self { inside: Arc::new((Mutex::new(inside), Condvar::new())) }
     }
 
-    /// Reads and writes that were begun.
+    /// Number of reads and of writes that were begun.
     pub fn transfers(&self) -> (u32, u32) {
         let inside = self.inside.0.lock().unwrap();
         (inside.reads, inside.writes)
@@ -94,7 +94,7 @@ impl MemoryCard {
         }
     }
 
-    /// Repeats until there is a result, or the time is over.
+    /// Repeats `step` until it gives a result, or until the driver's time is over.
     fn until<T>(&self, mut step: impl FnMut(&mut Inside) -> Option<io::Result<T>>) -> io::Result<T> {
         let (mutex, changed) = &*self.inside;
         let mut inside = mutex.lock().unwrap();

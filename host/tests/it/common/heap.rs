@@ -1,4 +1,4 @@
-//! Counts what a thread holds on the heap.
+//! Counts the bytes that a thread holds on the heap.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -17,7 +17,7 @@ fn count(bytes: isize) {
     let _ = HELD.try_with(|held| held.set(held.get() + bytes));
 }
 
-// SAFETY: all is left to the system's allocator; only a number is kept beside.
+// SAFETY: everything is left to the system's allocator; only a number is kept beside it.
 #[allow(unsafe_code)] // an allocator cannot be had otherwise
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
@@ -33,12 +33,12 @@ unsafe impl GlobalAlloc for Counting {
     }
 }
 
-/// From now on counts.
+/// Starts to count from 0.
 pub fn watch() {
     HELD.with(|held| held.set(0));
 }
 
-/// Bytes that this thread holds more than when it began to watch.
+/// Bytes by which this thread holds more than when it called [`watch`].
 pub fn held() -> isize {
     HELD.with(Cell::get)
 }

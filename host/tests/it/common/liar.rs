@@ -1,4 +1,4 @@
-//! A device that lies.
+//! A device whose answers are changed on the way.
 
 use std::time::{Duration, Instant};
 
@@ -7,10 +7,10 @@ use incircle::{Transport, TransportError};
 use incircle_model::CommandModel;
 use incircle_protocol::{Command, Opcode};
 
-/// What a lying device does with an answer: opcode, header and length, payload.
+/// Changes an answer, which has the opcode of its command, its header and length, and its payload.
 type Lie = Box<dyn FnMut(Opcode, &mut Vec<u32>)>;
 
-/// A real model whose answers pass through a liar.
+/// A sound model whose answers pass through a lie.
 pub struct Liar {
     model: CommandModel,
     lie: Lie,
@@ -30,7 +30,7 @@ impl Liar {
         }
     }
 
-    /// A way on which the host reads whole records.
+    /// The same device over a transport that reads whole records, with their neighbours.
     pub fn with_links(self) -> Self {
         Self { packs: false, ..self }
     }
@@ -61,7 +61,7 @@ impl Transport for Liar {
             command.encode(&mut words);
             self.model.send(&words);
             let mut answer = vec![0; 2];
-            // A model to which wrong points were sent waits for more.
+            // If a lie made the host send too few points, the model waits for more and does not answer.
             if self.model.receive(&mut answer) < answer.len() {
                 return Err(TransportError::Closed { done: 0, wanted: 2 });
             }

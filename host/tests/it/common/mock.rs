@@ -1,4 +1,4 @@
-//! The software model with five contexts, over any kind of link.
+//! The software model with five contexts, over any kind of transport.
 
 use std::cell::Cell;
 use std::rc::Rc;
@@ -9,18 +9,20 @@ use incircle::{Device, Transport, TransportError};
 use incircle_model::CommandModel;
 use incircle_protocol::{answer_opcode, Command, Opcode};
 
-/// The model for 512 points, behind a link that refuses what its kind must not carry. One word of its answers is a lie.
+/// The model for 512 points, behind a transport that refuses calls that its kind must not get. One word of its answers
+/// may be a lie.
 pub struct Mock {
     model: CommandModel,
     takes_ahead: bool,
     packs_records: bool,
-    /// Which word, and the bits that are turned over.
+    /// Number of the word that is a lie, and the bits that are flipped in it.
     lie: (usize, u32),
     received: usize,
-    /// Commands that have not been answered, where only one may be.
+    /// Number of commands whose answers are outstanding.
     open: usize,
-    /// Jobs or groups of them that were sent and whose first answer has not been received; the most of them.
+    /// Number of jobs, or groups of them, that were sent and whose first answer is outstanding.
     ahead: usize,
+    /// Largest value of `ahead` so far.
     most_ahead: Rc<Cell<usize>>,
 }
 
@@ -29,7 +31,7 @@ impl Mock {
         Self::watched(takes_ahead, packs_records, lie).0
     }
 
-    /// With the number of jobs, or groups of them, that were under way at most.
+    /// A device, with the largest number of jobs, or groups of them, that were under way at one time.
     pub fn watched(takes_ahead: bool, packs_records: bool, lie: (usize, u32)) -> (Device, Rc<Cell<usize>>) {
         let model = CommandModel::new(16, 512, 32).expect("possible").with_contexts(5);
         let most_ahead = Rc::new(Cell::new(0));

@@ -1,4 +1,4 @@
-//! What several tests share: a small random generator, and a brute-force oracle.
+//! Helpers for all tests: devices made for tests, a small random generator, and a brute-force oracle.
 
 pub mod batches;
 pub mod board;
@@ -11,7 +11,8 @@ pub mod rig;
 use incircle::{Device, Point, Solution};
 use incircle_testkit::SplitMix64;
 
-/// The kit's random numbers with bounds of 32 bits, by their remainder: the seeds of many tests stand for these numbers.
+/// The random numbers of the test kit, brought below a bound by their remainder. The seeds of many tests
+/// stand for these very numbers.
 pub struct Random(pub u64);
 
 impl Random {
@@ -38,8 +39,8 @@ pub fn by_model(points: &[Point]) -> Solution {
     by(address, points)
 }
 
-/// The mesh by the engine in this process.
-pub fn by_engine(points: &[Point]) -> Solution {
+/// The mesh by the CPU triangulator.
+pub fn by_cpu(points: &[Point]) -> Solution {
     let mut device = Device::cpu(None);
     let mesh = device.session().and_then(|mut session| session.triangulate(points)).expect("a mesh");
     assert_right(&mesh);
@@ -60,7 +61,7 @@ pub fn brute_force(points: &[Point]) -> Vec<[u32; 3]> {
     incircle_testkit::delaunay(&pairs)
 }
 
-/// The mesh passes the validator, and its counts agree with its lists.
+/// Checks that the mesh passes the validator, and that the counts in its report agree with its lists.
 pub fn assert_right(solution: &Solution) {
     solution.mesh.verify().unwrap_or_else(|error| panic!("{error}"));
     let report = &solution.report;

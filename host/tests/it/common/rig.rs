@@ -1,4 +1,5 @@
-//! The serial protocol and a board on a line with a delay and faults, in virtual time; a transport of the two for whole jobs.
+//! The serial protocol and a board on a line with a delay and faults, in virtual time, and a transport of
+//! the two for whole jobs.
 
 use std::cell::Cell;
 use std::collections::VecDeque;
@@ -18,22 +19,22 @@ use super::Random;
 #[derive(Default)]
 struct Wire {
     free_at: Duration,
-    /// Arrival, rate, bytes.
+    /// Frames on the line, each with its time of arrival, its rate and its bytes.
     under_way: VecDeque<(Duration, u32, Vec<u8>)>,
 }
 
-/// What happens to a frame on the line.
+/// The fate of a frame on the line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fate {
     Passes,
     Lost,
     Twice,
-    /// The next one overtakes it.
+    /// The next frame overtakes this one.
     Overtaken,
     Changed,
 }
 
-/// Which frame it is: towards the host or not, and how many went that way before.
+/// Chooses the fate of a frame by its direction, which is true towards the host, and its number in that direction.
 pub type Faults = Box<dyn FnMut(bool, usize) -> Fate>;
 
 pub struct Rig {
@@ -41,17 +42,18 @@ pub struct Rig {
     pub board: Board,
     pub now: Duration,
     pub delay: Duration,
-    /// The line carries bytes at once, as the pseudo-terminal of a simulated board does; the protocol reckons by the rate all the same.
+    /// Whether the line carries bytes at once, as the pseudo-terminal of a simulated board does. The protocol reckons
+    /// by the rate all the same.
     pub is_instant: bool,
     /// Errors per bit.
     pub noise: f64,
     pub faults: Faults,
-    /// Nothing passes any more from then on.
+    /// Time from which on nothing passes any more.
     pub cut_at: Duration,
-    /// The board is reset then.
+    /// Time at which the board is reset.
     pub reset_at: Option<Duration>,
     pub random: Random,
-    /// Bits that noise has changed.
+    /// Number of bits that noise has changed.
     pub flipped: Rc<Cell<usize>>,
     pub frames: [usize; 2],
     wires: [Wire; 2],
@@ -59,7 +61,7 @@ pub struct Rig {
     speaks_until: Duration,
     speaks: bool,
     answer: VecDeque<u32>,
-    /// Virtual time for a command.
+    /// Time limit for a command, in virtual time.
     pub patience: Duration,
     pub last_fault: Option<SerialFault>,
 }
@@ -91,14 +93,14 @@ impl Rig {
 
     /// Puts bytes on the line.
     fn carry(&mut self, to_host: bool, bytes: &[u8], rate: u32) -> Duration {
-        let way = usize::from(to_host);
+        let direction = usize::from(to_host);
         for piece in bytes.split_inclusive(|&byte| byte == 0) {
             let bits = if self.is_instant { 0 } else { 10 * piece.len() as u64 };
             let time = Duration::from_nanos(bits * 1_000_000_000 / u64::from(rate));
-            self.wires[way].free_at = self.wires[way].free_at.max(self.now) + time;
+            self.wires[direction].free_at = self.wires[direction].free_at.max(self.now) + time;
             let fate = if piece.len() > 1 {
-                self.frames[way] += 1;
-                (self.faults)(to_host, self.frames[way] - 1)
+                self.frames[direction] += 1;
+                (self.faults)(to_host, self.frames[direction] - 1)
             } else {
                 Fate::Passes
             };
@@ -108,20 +110,20 @@ impl Rig {
                 Fate::Lost => vec![],
                 Fate::Twice => vec![bytes.clone(), bytes],
                 Fate::Overtaken => {
-                    self.held[way] = Some(bytes);
+                    self.held[direction] = Some(bytes);
                     vec![]
                 }
                 Fate::Passes | Fate::Changed => vec![bytes],
             };
             if fate != Fate::Overtaken && piece.len() > 1 {
-                pieces.extend(self.held[way].take());
+                pieces.extend(self.held[direction].take());
             }
-            let arrival = self.wires[way].free_at + self.delay;
+            let arrival = self.wires[direction].free_at + self.delay;
             if self.now < self.cut_at {
-                self.wires[way].under_way.extend(pieces.into_iter().map(|bytes| (arrival, rate, bytes)));
+                self.wires[direction].under_way.extend(pieces.into_iter().map(|bytes| (arrival, rate, bytes)));
             }
         }
-        self.wires[way].free_at
+        self.wires[direction].free_at
     }
 
     fn disturb(&mut self, bytes: &mut [u8], must: bool) {
@@ -162,7 +164,7 @@ impl Rig {
         }
     }
 
-    /// Runs until the protocol is through; false if the time is over before.
+    /// Runs until `done` holds. Returns false if the time is over before that.
     pub fn run(&mut self, until: Duration, mut done: impl FnMut(&mut SerialProtocol) -> bool) -> bool {
         loop {
             if self.reset_at.is_some_and(|at| at <= self.now) {
@@ -210,18 +212,18 @@ impl Rig {
         }
     }
 
-    /// Frames and zeros on the line.
+    /// Number of frames, and of zeros between them, on the line.
     pub fn under_way(&self, to_host: bool) -> usize {
         self.wires[usize::from(to_host)].under_way.len()
     }
 
-    /// A command and its answer.
+    /// Sends a command and receives its answer.
     pub fn ask(&mut self, command: &Command<impl AsRef<[u32]>>) -> Result<Vec<u32>, TransportError> {
         self.protocol.ask(command.borrowed(), self.now)?;
         self.finish()
     }
 
-    /// The answer to the command that was asked.
+    /// Receives the answer to the command that was sent.
     pub fn finish(&mut self) -> Result<Vec<u32>, TransportError> {
         let mut answer = None;
         let until = self.now + self.patience;

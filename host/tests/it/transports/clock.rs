@@ -1,4 +1,4 @@
-//! The core's model, clock by clock, through the library: the mesh of the software model, and what the core counts.
+//! The core's model, clock by clock, through the library: the mesh is the software model's, and the counters agree.
 
 use std::time::Duration;
 

@@ -1,16 +1,17 @@
-//! The embedded model through the library, and the engine in this process beside it: hard inputs, orders, chunks, sizes, progress.
+//! The software model through the library, with the CPU triangulator beside it: hard inputs,
+//! orders, chunks, sizes and progress.
 
 use std::cell::RefCell;
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-use crate::common::{assert_right, by_engine, by_model, Random};
+use crate::common::{assert_right, by_cpu, by_model, Random};
 use incircle::{triangulate, Device, Error, ErrorKind, Options, Order, Point, Solution, Stage};
 
-/// By the model, and by the engine in this process, which must agree.
+/// The solution by the model, after a check that the CPU triangulator agrees.
 fn solved(points: &[Point]) -> Solution {
     let solution = by_model(points);
-    let other = by_engine(points);
+    let other = by_cpu(points);
     assert_eq!(solution.mesh, other.mesh);
     solution
 }
@@ -39,7 +40,7 @@ fn lattices_and_boxes_with_duplicates() {
 
 #[test]
 fn circles_parabolas_and_chains() {
-    // All points of the grid on x² + y² = 5² · 13² · 17² around a centre: many exactly cocircular points.
+    // All grid points on the circle x² + y² = 5² · 13² · 17² around a centre, which are many exactly cocircular points.
     let radius = 5 * 13 * 17i64;
     let circle: Vec<Point> = (-radius..=radius)
         .flat_map(|x| {

@@ -1,4 +1,4 @@
-//! The driver of PCIe cards before a card in memory: jobs, each class of faults, cards that lie.
+//! The PCIe transport before a card in memory: jobs, each class of faults, and cards that lie.
 
 use std::time::{Duration, Instant};
 
@@ -12,9 +12,9 @@ use incircle_protocol::{
 };
 use proptest::prelude::*;
 
-/// What the answer to a greeting begins with.
+/// Beginning of the answer to a greeting.
 const HELLO: AnswerHead = answer_head(Opcode::Hello, IDENTITY_WORDS as u32);
-/// Deadline of a job.
+/// Time limit of a job.
 const LIMIT: Duration = Duration::from_secs(20);
 
 fn points(count: u32, seed: u32) -> Vec<Point> {
@@ -31,7 +31,7 @@ fn triangulate(transport: PcieTransport, points: &[Point]) -> Result<Solution, E
     Device::from_transport(Box::new(transport)).session_within(LIMIT)?.triangulate_with(points, &options)
 }
 
-/// The mesh is that of the library without a device.
+/// Checks that the mesh is the one that the CPU triangulator gives.
 fn assert_is_right(mesh: &Mesh, points: &[Point]) {
     let right = incircle::triangulate(points).unwrap();
     assert_eq!((&mesh.triangles, &mesh.hull), (&right.triangles, &right.hull));
@@ -45,7 +45,7 @@ fn another_mesh_is_not_taken_for_the_right_one() {
     assert_is_right(&mesh.mesh, &[&points[..299], &[Point::new(9, 9)]].concat());
 }
 
-/// The job must end with the right mesh.
+/// Checks that a job on a card with these faults ends with the right mesh.
 fn must_be_right(beat_bits: u32, mischief: Mischief, what: &str) {
     let points = points(300, 3);
     let transport = transport(beat_bits, mischief).unwrap();
@@ -53,7 +53,7 @@ fn must_be_right(beat_bits: u32, mischief: Mischief, what: &str) {
     assert_eq!(solution.mesh.triangles, incircle::triangulate(&points).unwrap().triangles, "{what}");
 }
 
-/// The job must end with this kind of error, in time.
+/// Checks that a job on a card with these faults ends with this kind of error, in time.
 fn must_fail(mischief: Mischief, kind: ErrorKind, sentence: &str) {
     let begun = Instant::now();
     let error = transport(64, mischief).and_then(|card| triangulate(card, &points(300, 3))).expect_err(sentence);
@@ -101,7 +101,7 @@ fn a_reset_between_reads_costs_no_job() {
     for number in 0..5 {
         let card = transport(64, Mischief { reset: Some(number), ..Mischief::default() }).unwrap();
         let points = points(300, 3);
-        // The command under way was forgotten, or the records before it, and the job was done once more.
+        // The card forgot the command under way, or the records before it, so the job was done once more.
         let solution = triangulate(card, &points).unwrap_or_else(|error| panic!("read {number}: {error}"));
         assert_eq!(solution.mesh.triangles, incircle::triangulate(&points).unwrap().triangles);
     }
@@ -109,7 +109,8 @@ fn a_reset_between_reads_costs_no_job() {
 
 #[test]
 fn a_reset_in_the_middle_of_the_points_costs_no_job() {
-    // A beat at a time, through the commands before the points and the first of them, which are then taken for commands.
+    // The reset moves a beat at a time, through the commands before the points and through the first points, which the
+    // card then takes for commands.
     for beat in 5..120 {
         must_be_right(64, Mischief { reset_after: Some(8 * beat), ..Mischief::default() }, "a reset");
     }
@@ -135,11 +136,11 @@ fn registers_that_no_sound_card_has_are_refused() {
             Of::StreamVersion,
             2 << 16,
             ErrorKind::Device,
-            "2.0 of the stream device, this library 1.0: update this program",
+            "2.0 of the stream device, but this library has 1.0: update this program",
         ),
         (Of::StreamVersion, 9, ErrorKind::Device, "update the card"),
-        (Of::ProtocolVersion, 9 << 16, ErrorKind::Device, "protocol 9.0"),
-        (Of::ProtocolVersion, 1 << 16, ErrorKind::Device, "protocol 1.0"),
+        (Of::ProtocolVersion, 9 << 16, ErrorKind::Device, "version 9.0 of the protocol"),
+        (Of::ProtocolVersion, 1 << 16, ErrorKind::Device, "version 1.0 of the protocol"),
         (Of::CoordBits, 32, ErrorKind::Device, "32 coordinate bits"),
         (Of::Capacity, u32::MAX, ErrorKind::Device, "4294967295 points"),
         (Of::Contexts, 0, ErrorKind::Device, "0 contexts"),
@@ -148,7 +149,7 @@ fn registers_that_no_sound_card_has_are_refused() {
     ] {
         must_fail(Mischief { register: Some((register, value)), ..Mischief::default() }, kind, sentence);
     }
-    // Another capacity than the core's own: answers have other lengths than the driver awaits.
+    // With another capacity than the core's own, answers have other lengths than the transport awaits.
     let lie = Mischief { register: Some((Of::Capacity, 100_000)), ..Mischief::default() };
     let points = points(300, 3);
     match triangulate(transport(64, lie).unwrap(), &points) {
@@ -159,7 +160,7 @@ fn registers_that_no_sound_card_has_are_refused() {
 
 #[test]
 fn an_answer_without_an_end_is_refused() {
-    // A header of `Clear`, no payload, and then more.
+    // The noise begins with the header of an answer to `Clear` without payload, and goes on after it.
     let mut transport = transport(
         64,
         Mischief { babble: Some((0, [0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0])), ..Mischief::default() },
@@ -178,7 +179,7 @@ fn an_answer_without_an_end_is_refused() {
 fn commands_may_be_sent_ahead_and_end_within_a_beat() {
     let mut transport = transport(128, Mischief::default()).unwrap();
     let deadline = Instant::now() + LIMIT;
-    // Commands that share beats, the last of which is not full; then one that begins a beat.
+    // The first commands share beats, the last of which is not full. The command after them begins a beat.
     let insert = Command::Insert { count: 3, points: &[0, 4, 4 << 16][..] };
     let commands: Vec<_> = std::iter::repeat_n(Command::Latencies, 301).chain([insert]).collect();
     transport.submit(&commands, deadline).unwrap();
@@ -200,7 +201,7 @@ fn an_answer_to_another_command_is_that_of_a_card_that_was_reset() {
     let deadline = Instant::now() + LIMIT;
     for (awaited, command) in [
         (answer_head(Opcode::Counters, 25), Command::Hello),
-        // It has no such records any more.
+        // After the reset the card has no such records any more.
         (answer_head(Opcode::Read, 3), Command::Read(RecordRange { first: 0, count: 1 })),
     ] {
         let mut transport = transport(64, Mischief::default()).unwrap();
@@ -228,9 +229,15 @@ fn deadlines_are_kept() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 200, ..ProptestConfig::default() })]
 
-    /// Whatever a card says, there is an end: a typed error, in time, without a panic.
+    /// Whatever a card sends, the job ends in a typed error, in time and without a panic.
     #[test]
-    fn noise_ends_in_a_typed_error(from in 0_u32..6, noise in any::<[u8; 16]>(), header in any::<bool>(), opcode in 1_u8..8, length in 0_u8..40) {
+    fn noise_ends_in_a_typed_error(
+        from in 0_u32..6,
+        noise in any::<[u8; 16]>(),
+        header in any::<bool>(),
+        opcode in 1_u8..8,
+        length in 0_u8..40,
+    ) {
         let mut noise = noise;
         if header {
             noise[..8].copy_from_slice(&[0, 0, 0, opcode, length, 0, 0, 0]);

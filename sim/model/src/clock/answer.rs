@@ -1,5 +1,5 @@
-//! What answers say: status, length, and the words of a payload that is no record. The hardware takes three clocks to the status, and
-//! two to a word, or three to a counter.
+//! The contents of answers: status, length, and the words of every payload but a read-out. The hardware needs three
+//! clocks for the status, and two for a word, or three for a counter.
 
 use super::counters::Latencies;
 use super::wires::Registers;
@@ -8,9 +8,9 @@ use protocol::{answer_header, Config, Identity, InsertReport, Opcode, Status};
 
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Answer {
-    /// Header and payload length as they would have been one, two and three clocks ago.
+    /// Header and payload length as of one, two and three clocks ago.
     heads: [(u32, u32); 3],
-    /// The counter that is wanted next, as it stood a clock ago.
+    /// The counter that is wanted next, as of one clock ago.
     counter: u32,
     /// The word of the payload in its two ranks of registers.
     words: [u32; 2],
@@ -29,20 +29,20 @@ impl Answer {
         self.words[1]
     }
 
-    /// A clock, with the index of the word of the payload that is wanted from the next clock on.
+    /// Simulates one clock. `index_ahead` is the index of the payload word that is wanted from the next clock on.
     pub(super) fn clock(&mut self, was: &Registers, index_ahead: usize) {
         let (status, length) = head(was);
         self.heads = [(answer_header(was.command.opcode, status), length), self.heads[0], self.heads[1]];
         self.counter = was.counted.words(was.command.refused).get(index_ahead).copied().unwrap_or(0);
     }
 
-    /// A clock in which that word of the payload is chosen.
+    /// Simulates one clock in which a word of the payload is chosen.
     pub(super) fn choose(&mut self, was: &Registers, latencies: &Latencies, config: Config, index: usize) {
         self.words = [payload(was, latencies, config, index), self.words[0]];
     }
 }
 
-/// Status and payload length of the answer to the command that stands in the command port.
+/// Status and payload length of the answer to the command in the command port.
 fn head(was: &Registers) -> (Status, u32) {
     let command = &was.command;
     match Opcode::from_u8(command.opcode) {
@@ -74,7 +74,7 @@ fn head(was: &Registers) -> (Status, u32) {
     }
 }
 
-/// A word of a payload that is no record.
+/// A word of a payload other than a read-out.
 fn payload(was: &Registers, latencies: &Latencies, config: Config, index: usize) -> u32 {
     match Opcode::from_u8(was.command.opcode) {
         Some(Opcode::Hello) => Identity {

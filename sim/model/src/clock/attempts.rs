@@ -1,7 +1,9 @@
-//! The completion of visits: what each asks for next, and the attempt of every context.
+//! The completion of visits: what each visit asks for next, and the attempt of every context.
 //!
-//! A visit that completes belongs to one context, and the state of that context's attempt is read, changed and written back in the
-//! same clock. Nothing else changes it, so no two visits ever meet at it.
+//! Hardware twin: the block `Attempts`.
+//!
+//! A completing visit belongs to one context, and the state of that context's attempt is read, changed and written back
+//! in the same clock. Nothing else changes that state, so two visits can never interfere.
 
 use super::commit_job::CommitJob;
 use super::defect::Defect;
@@ -11,110 +13,111 @@ use super::release::ReleaseJob;
 use super::wires::{Registers, Wires};
 use incircle_protocol::Config;
 
-/// One insertion's cavity, from the visit that locks its root.
+/// The cavity of one insertion, from the root visit on.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Attempt {
-    /// Visits pushed and not completed.
+    /// Number of visits that were pushed and have not completed.
     pub outstanding: u32,
-    /// Ring entries.
+    /// Number of entries in the ring.
     pub count: u32,
-    /// Cavity triangles without a boundary edge.
+    /// Number of inner records.
     pub inners: u32,
-    /// Locks in the log.
+    /// Number of locks in the log.
     pub logged: u32,
-    /// Bit `y`: one of the two edges that entry `y`'s cavity triangle brought has been passed; the root uses bits 0 and 1.
+    /// Bit `y` says that the boundary has moved across one of the two edges that the cavity record of entry `y`
+    /// brought. The root uses bits 0 and 1.
     pub half_open: u64,
-    /// It has failed: its visits run out.
+    /// Whether the attempt aborts: its visits that are out complete first.
     pub drains: bool,
 }
 
-/// What becomes of the context whose visit completes.
+/// The consequences of a completing visit for its context.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Outcome {
     pub context: usize,
-    /// Visits to make.
+    /// The visits to be made next.
     pub push: Option<Bundle>,
-    /// No visit of the context is out any more.
+    /// Whether no visit of the context is out any more.
     pub sleeps: bool,
-    /// It tries its point again when it wakes.
-    pub keeps: bool,
-    /// Where it then starts to walk.
+    /// Whether the context tries its point again when it wakes.
+    pub will_retry: bool,
+    /// The record at which the context then starts to walk.
     pub root: Option<u32>,
-    /// The attempt as it stands afterwards.
+    /// The attempt after this visit.
     pub attempt: Option<Attempt>,
-    /// A final edge of the boundary.
+    /// A final edge of the boundary, with its place in the list.
     pub entry: Option<(usize, Entry)>,
-    /// An inner triangle, with its place in the list.
+    /// An inner record, with its place in the list.
     pub inner: Option<(u32, u32)>,
     /// A lock that was set, with its place in the log.
     pub lock: Option<(u32, u32)>,
     pub commit: Option<CommitJob>,
     pub release: Option<ReleaseJob>,
-    /// It takes the waiting token, if that is free.
-    pub asks_to_wait: bool,
-    /// It gives the waiting token back, if it holds it.
-    pub stops_waiting: bool,
-    /// Its list has overflowed: it asks to be alone.
+    /// Whether the context acquires the priority, if that is free.
+    pub asks_for_priority: bool,
+    /// Whether the context returns the priority, if it holds it.
+    pub returns_priority: bool,
+    /// Whether the list has overflowed, so that the context asks for a solo insertion.
     pub overflows: bool,
     pub aborts: bool,
-    pub retries_root: bool,
-    /// The same visit is made again, or the same because of a lock that the context waits for.
-    pub is_again: bool,
+    pub root_changed: bool,
+    /// Whether the same visit is made again, and whether that is because of a lock for which the context waits.
+    pub revisits: bool,
     pub waits: bool,
     pub duplicate: bool,
-    /// The look at the first three points.
+    /// Whether the visit was the look at the first three points.
     pub looks: bool,
 }
 
-/// What a completion sees of the machine around it.
+/// The surroundings that a completion sees.
 pub(super) struct Around<'a> {
     pub was: &'a Registers,
     pub attempt: Attempt,
-    pub p: u32,
+    pub vertex: u32,
     pub since: u32,
     pub config: Config,
     pub defect: Option<Defect>,
 }
 
 impl Around<'_> {
-    /// L6: a commit or release of the context's last point is due.
+    /// L6: whether a commit or release of the context's last point is due.
     fn is_busy(&self, context: usize) -> bool {
         self.was.noted.busy & 1 << context != 0 && self.defect != Some(Defect::OpensWhileBusy)
     }
 
-    /// L2: the context holds the waiting token.
-    fn waits(&self, context: usize) -> bool {
-        self.was.noted.waiter == Some(context)
+    /// L2: whether the context holds the priority.
+    fn holds_priority(&self, context: usize) -> bool {
+        self.was.noted.priority_context == Some(context)
     }
 }
 
 impl Outcome {
     pub(super) fn of(done: &Completion, around: &Around) -> Self {
-        let out = Self { context: done.token.context, ..Self::default() };
-        match (done.token.rotates, done.token.locks) {
+        let out = Self { context: done.visit.context, ..Self::default() };
+        match (done.visit.rotates, done.visit.locks) {
             (false, false) => out.walk(done, around),
             (false, true) => out.root(done, around),
             _ => out.test(done, around),
         }
     }
 
-    /// The same visit again.
+    /// Asks for the same visit once more.
     fn again(mut self, done: &Completion) -> Self {
-        self.push = Some(Bundle::one(done.token));
-        self.is_again = true;
+        self.push = Some(Bundle::one(done.visit));
+        self.revisits = true;
         self
     }
 
-    /// The context sleeps, and tries again later from this triangle.
-    fn back_off(mut self, root: u32) -> Self {
+    /// Puts the context to sleep; later it tries again from this record.
+    fn abort(mut self, root: u32) -> Self {
         self.sleeps = true;
-        self.keeps = true;
+        self.will_retry = true;
         self.root = Some(root);
         self
     }
 
     fn walk(mut self, done: &Completion, around: &Around) -> Self {
-        let context = done.token.context;
+        let context = done.visit.context;
         if !around.was.seeder.seeded {
             self.looks = true;
             self.sleeps = true;
@@ -128,78 +131,87 @@ impl Outcome {
             self.push = Some(Bundle::look(context, done.walk_next));
         } else if done.falls_onto_corner {
             self.duplicate = true;
-            self.stops_waiting = true;
+            self.returns_priority = true;
             self.sleeps = true;
         } else if around.is_busy(context) {
             return self.again(done);
         } else {
-            self.push = Some(Bundle::root(context, done.token.u));
+            self.push = Some(Bundle::root(context, done.visit.record));
         }
         self
     }
 
-    /// L5: the visit of the root under its lock; what the walk saw may not be true any more.
+    /// L5: the root visit reads the root under its lock, because what the walk saw may not be true any more.
     fn root(mut self, done: &Completion, around: &Around) -> Self {
-        let u = done.token.u;
+        let record = done.visit.record;
         let trusts = around.defect == Some(Defect::TrustsTheWalk);
         let (located, on_corner) = (done.located || trusts, done.falls_onto_corner && !trusts);
-        // L1, L2: the root belongs to another context.
+        // L1, L2: another context holds the lock of the root.
         if done.foreign {
-            if around.waits(self.context) {
+            if around.holds_priority(self.context) {
                 self.waits = true;
                 return self.again(done);
             }
             self.aborts = true;
-            self.asks_to_wait = true;
-            return self.back_off(u);
+            self.asks_for_priority = true;
+            return self.abort(record);
         }
-        self.lock = Some((0, u));
+        self.lock = Some((0, record));
         if located && !on_corner {
             self.push = Some(Bundle::tests(done));
             self.attempt = Some(Attempt { outstanding: 3, count: 3, logged: 1, ..Attempt::default() });
-            self.root = Some(u);
+            self.root = Some(record);
             return self;
         }
         self.release = Some(ReleaseJob { context: self.context, locks: 1 });
         if located {
             self.duplicate = true;
-            self.stops_waiting = true;
+            self.returns_priority = true;
             self.sleeps = true;
-            self.root = Some(u);
+            self.root = Some(record);
             return self;
         }
-        self.retries_root = true;
-        self.back_off(done.walk_next)
+        self.root_changed = true;
+        self.abort(done.walk_next)
     }
 
     fn test(mut self, done: &Completion, around: &Around) -> Self {
         let mut state = around.attempt;
         let foreign = done.foreign && around.defect != Some(Defect::IgnoresForeignLocks);
         if done.took {
-            self.lock = Some((state.logged, done.token.u));
+            self.lock = Some((state.logged, done.visit.record));
             state.logged += 1;
         }
         state.outstanding -= 1;
         if state.drains {
-        } else if foreign && around.waits(self.context) {
+        } else if foreign && around.holds_priority(self.context) {
             self = self.again(done);
             self.waits = true;
             state.outstanding += 1;
         } else if foreign {
-            // L1: the attempt fails; its visits run out before its locks are released.
+            // L1: the attempt aborts, and its visits complete before its locks are released.
             state.drains = true;
             self.aborts = true;
-            self.asks_to_wait = true;
+            self.asks_for_priority = true;
         } else if !done.conflict {
-            let Completion { token, record, slot, .. } = *done;
-            self.entry = Some((token.x, Entry { a: record.v[2], u: token.u, slot, f: token.f, next: token.next }));
+            let Completion { visit, record, slot, .. } = *done;
+            self.entry = Some((
+                visit.entry,
+                Entry {
+                    first_vertex: record.v[2],
+                    outside_record: visit.record,
+                    slot,
+                    cavity_record: visit.cavity_record,
+                    after: visit.after,
+                },
+            ));
         } else if state.count == around.config.ring {
             state.drains = true;
             self.overflows = true;
         } else {
             self.split(done, &mut state);
         }
-        // L1: the locks are released when the attempt's visits have run out.
+        // L1: the locks are released when all visits of the attempt have completed.
         let ends = match around.defect {
             Some(Defect::ReleasesBeforeDrained) => state.outstanding == 0 && !around.attempt.drains || self.aborts,
             _ => state.outstanding == 0,
@@ -216,23 +228,23 @@ impl Outcome {
         self.push = Some(Bundle::split(done, y));
         state.count += 1;
         state.outstanding += 2;
-        if state.passes_last_edge(done.token.f_entry) {
-            self.inner = Some((state.inners, done.token.f));
+        if state.passes_last_edge(done.visit.cavity_entry) {
+            self.inner = Some((state.inners, done.visit.cavity_record));
             state.inners += 1;
         }
     }
 
-    /// The last visit of an attempt has completed.
+    /// Ends an attempt, whose last visit has completed.
     fn end(&mut self, state: &Attempt, around: &Around) {
         self.sleeps = true;
         if state.drains {
-            self.keeps = true;
+            self.will_retry = true;
             self.release = Some(ReleaseJob { context: self.context, locks: state.logged });
         } else {
-            self.stops_waiting = true;
+            self.returns_priority = true;
             self.commit = Some(CommitJob {
                 context: self.context,
-                p: around.p,
+                vertex: around.vertex,
                 inners: state.inners,
                 locks: state.logged,
                 since: around.since,
@@ -242,20 +254,20 @@ impl Outcome {
 }
 
 impl Attempt {
-    fn passes_last_edge(&mut self, f_entry: usize) -> bool {
-        let bit = 1 << f_entry;
+    fn passes_last_edge(&mut self, cavity_entry: usize) -> bool {
+        let bit = 1 << cavity_entry;
         let half = self.half_open & bit != 0;
-        let root_half = f_entry == 0 && half && self.half_open & 2 == 0;
+        let root_half = cavity_entry == 0 && half && self.half_open & 2 == 0;
         self.half_open |= bit | u64::from(root_half) << 1;
         half && !root_half
     }
 }
 
-/// What every context is at; each field is a small memory with a word per context.
+/// The state of every context. Each field is a small memory with a word for each context.
 #[derive(Clone, Debug)]
 pub(super) struct Tables {
     pub attempts: Vec<Attempt>,
-    /// Where a context goes on when it tries its point again.
+    /// The record at which a context starts to walk when it tries its point again.
     pub root: Vec<u32>,
 }
 
@@ -276,8 +288,8 @@ impl Tables {
         if let Some(root) = outcome.root {
             self.root[context] = root;
         }
-        if let Some((x, entry)) = outcome.entry {
-            memory.entries[context][x] = entry;
+        if let Some((place, entry)) = outcome.entry {
+            memory.entries[context][place] = entry;
         }
         if let Some((place, id)) = outcome.inner {
             memory.inner[context][place as usize] = id;

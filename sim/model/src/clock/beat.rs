@@ -1,19 +1,19 @@
-//! A beat of the answer stream: one word or two.
+//! A beat of the answer stream, which is one word or two.
 
-/// What passes at one edge of the answer stream.
+/// The words that pass at one edge of the answer stream.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Beat {
     pub low: u32,
-    /// The word that follows it.
+    /// The word that follows `low`.
     pub high: u32,
-    /// There is one.
+    /// Whether `high` is a word of the answer.
     pub both: bool,
-    /// The last word of the answer is among them.
+    /// Whether the last word of the answer is among them.
     pub last: bool,
 }
 
 impl Beat {
-    /// One word, and not the last.
+    /// A beat of one word that is not the last of the answer.
     pub(super) fn of(word: u32) -> Self {
         Self { low: word, ..Self::default() }
     }

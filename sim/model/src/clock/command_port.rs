@@ -1,9 +1,11 @@
 //! Takes command words: opcodes, arguments, and points one at a time.
+//!
+//! Hardware twin: the block `CommandPort`.
 
 use super::wires::{Registers, Wires};
 use incircle_protocol::{command_contexts, command_opcode, command_starts_batch, Config, Opcode, FIRST_ROUND, PADDING};
 
-/// What the next word means, or what is awaited.
+/// The meaning of the next word, or the event that is awaited.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum State {
     #[default]
@@ -11,7 +13,7 @@ pub(super) enum State {
     First,
     Count,
     Points,
-    /// The last point is taken; the engine finishes.
+    /// The last point is taken, and the insertion engine finishes.
     Settle,
     Answer,
 }
@@ -21,30 +23,31 @@ pub(super) struct CommandPort {
     pub state: State,
     pub opcode: u8,
     pub first: u32,
-    /// Second argument of a read; points still to come of an insert.
+    /// Second argument of a read, or number of points still to come of an insert.
     pub count: u32,
     pub arrived: u32,
     pub refused: u32,
-    /// A point has come at the edge before, and is being stored.
+    /// Whether a point came at the edge before, and is being stored.
     pub came: bool,
     pub came_id: u32,
-    /// Contexts that work.
+    /// Number of contexts that work.
     pub contexts: u32,
-    /// Each of them has a mesh of its own.
+    /// Whether each context has a mesh of its own.
     pub batch: bool,
-    /// A `Clear` asks for more contexts than there are.
+    /// Whether a `Clear` asked for more contexts than there are.
     pub is_refused: bool,
-    /// The mesh is forgotten at the next edge.
+    /// Whether the mesh is forgotten at the next edge.
     pub clears: bool,
-    /// Between a job's first point and its last lock released.
+    /// Set from a job's first point until its last lock is released.
     pub inserting: bool,
-    /// Between a read accepted and its last word taken.
+    /// Set from the acceptance of a read until its last word is taken.
     pub reading: bool,
 }
 
 impl CommandPort {
     pub(super) fn is_ready(&self, was: &Registers, sweeps: bool) -> bool {
-        // The fourth point waits until the first three are known to span a triangle, in a batch that behind the three of each job.
+        // The fourth point waits until the first three are known to span a triangle; in a batch, the point after the
+        // first three of every job waits.
         let start_is_open = was.seeder.has_triple && !was.seeder.seeded && !was.seeder.collinear;
         match self.state {
             State::Command => !sweeps,
@@ -54,12 +57,12 @@ impl CommandPort {
         }
     }
 
-    /// Points are taken in, not refused.
+    /// Whether points are accepted and not refused.
     pub(super) fn stores_points(&self, was: &Registers, config: Config) -> bool {
         !was.seeder.collinear && !was.watchdog.stuck && self.arrived < config.points
     }
 
-    /// The first vertex of those that are dealt to the contexts in turn.
+    /// The first of the vertices that are dealt to the contexts in turn.
     pub(super) fn dealt_from(&self) -> u32 {
         if self.batch {
             3 * self.contexts

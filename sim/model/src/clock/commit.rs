@@ -1,4 +1,6 @@
-//! The commit: one pass over a finished ring writes the star of the new point.
+//! The commit: one pass over a complete ring writes the star of the new vertex.
+//!
+//! Hardware twin: the block `Commit`.
 
 use super::commit_job::CommitJob;
 use super::memory::{Entry, Memory, Write};
@@ -11,13 +13,13 @@ pub(super) enum State {
     Idle,
     /// The record of the current entry is written.
     Record,
-    /// The link of the triangle outside it is written.
+    /// The neighbour in the record outside the current entry is written.
     Link,
-    /// The record of the first entry, which needed the last one's id, is written.
+    /// The record of the first entry is written, which needed the id of the last one.
     Close,
 }
 
-/// Clocks from the place of an inner triangle to its id.
+/// Number of clocks from the place of an inner record to its id.
 const INNER_LATENCY: u32 = 3;
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -28,26 +30,26 @@ pub(super) struct Commit {
     current: Entry,
     current_id: u32,
     current_is_last: bool,
-    /// The current entry is the first, before the last one's id is known.
+    /// Whether the current entry is the first, whose record must wait for the id of the last.
     opens: bool,
     before_id: u32,
-    second_a: u32,
+    second_vertex: u32,
     second_id: u32,
     inner_index: u32,
-    /// Clocks that the place of the next inner triangle has stood, up to `INNER_LATENCY`.
+    /// Number of clocks for which the place of the next inner record has been stable, up to `INNER_LATENCY`.
     inner_age: u32,
     link: Write,
     closes: bool,
     pub write: Write,
     /// The next new id.
     pub fresh: u32,
-    /// New ids up to here are written two, one and no clock from now.
+    /// The numbers below which new ids count as written, two clocks and one clock from now.
     written: [Option<u32>; 2],
-    /// Records of the mesh: ids from here on are not written yet.
+    /// Number of records in the mesh. Ids from here on are not written yet.
     pub records: u32,
 }
 
-/// What a step does.
+/// The effect of one step.
 #[derive(Clone, Copy, Debug)]
 struct Step {
     ahead: Entry,
@@ -62,7 +64,7 @@ impl Commit {
         (self.state == State::Close).then_some(self.job)
     }
 
-    /// The head of the ring reader is taken at this edge.
+    /// Whether the head of the ring reader is taken at this edge.
     pub(super) fn takes(&self, head: Option<Head>, memory: &Memory) -> bool {
         match self.state {
             State::Idle | State::Close => head.is_some(),
@@ -73,7 +75,12 @@ impl Commit {
 
     fn step(&self, head: Option<Head>, memory: &Memory) -> Option<Step> {
         if self.current_is_last {
-            return Some(Step { ahead: self.first, ahead_id: self.first.f, is_inner: false, is_fresh: false });
+            return Some(Step {
+                ahead: self.first,
+                ahead_id: self.first.cavity_record,
+                is_inner: false,
+                is_fresh: false,
+            });
         }
         let Head { entry: ahead, shares, .. } = head?;
         let is_inner = shares && self.inner_index != self.job.inners;
@@ -82,7 +89,7 @@ impl Commit {
             (true, _) if self.inner_age < INNER_LATENCY => return None,
             (true, _) => memory.inner[self.job.context][self.inner_index as usize],
             (_, true) => self.fresh,
-            _ => ahead.f,
+            _ => ahead.cavity_record,
         };
         Some(Step { ahead, ahead_id, is_inner, is_fresh })
     }
@@ -111,11 +118,11 @@ impl Commit {
                 self.state = if self.closes { State::Close } else { State::Record };
             }
             State::Close => {
-                let v = [self.job.p, self.first.a, self.second_a];
-                let n = [self.first.u, self.second_id, self.before_id];
+                let v = [self.job.vertex, self.first.first_vertex, self.second_vertex];
+                let n = [self.first.outside_record, self.second_id, self.before_id];
                 self.write = Write::record(self.current_id, v, n);
                 self.written[0] = Some(self.fresh);
-                memory.hint[self.job.context] = self.first.f;
+                memory.hint[self.job.context] = self.first.cavity_record;
                 self.state = State::Idle;
                 self.load(head);
             }
@@ -133,7 +140,7 @@ impl Commit {
             self.job = job;
             self.first = entry;
             self.current = entry;
-            self.current_id = entry.f;
+            self.current_id = entry.cavity_record;
             self.current_is_last = false;
             self.opens = true;
             self.inner_index = 0;
@@ -142,7 +149,7 @@ impl Commit {
         }
     }
 
-    /// Writes the current entry's record, now that the id of the one ahead is decided, and moves on.
+    /// Writes the record of the current entry, now that the id of the next record is decided, and moves on.
     fn advance(&mut self, step: &Step, head: Option<Head>) {
         let Step { ahead, ahead_id, is_inner, is_fresh } = *step;
         if is_inner {
@@ -153,13 +160,13 @@ impl Commit {
         let current = self.current;
         let mut links = false;
         if self.opens {
-            self.second_a = ahead.a;
+            self.second_vertex = ahead.first_vertex;
             self.second_id = ahead_id;
         } else {
-            let v = [self.job.p, current.a, ahead.a];
-            self.write = Write::record(self.current_id, v, [current.u, ahead_id, self.before_id]);
-            self.link = Write::link(current.u, current.slot, self.current_id);
-            links = self.current_id != current.f;
+            let v = [self.job.vertex, current.first_vertex, ahead.first_vertex];
+            self.write = Write::record(self.current_id, v, [current.outside_record, ahead_id, self.before_id]);
+            self.link = Write::link(current.outside_record, current.slot, self.current_id);
+            links = self.current_id != current.cavity_record;
         }
         self.opens = false;
         self.closes = self.current_is_last;

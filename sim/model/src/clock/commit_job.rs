@@ -1,15 +1,15 @@
-//! The job of the commit path: a finished boundary ring.
+//! The job of the commit path, passed from the attempts through the ring reader to the commit and the release.
 
-/// A finished ring, to be committed.
+/// A complete ring, to be committed.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct CommitJob {
     pub context: usize,
-    /// The new vertex.
-    pub p: u32,
-    /// Inner triangles.
+    /// Id of the new vertex.
+    pub vertex: u32,
+    /// Number of inner records.
     pub inners: u32,
-    /// Locks in the log.
+    /// Number of locks in the log.
     pub locks: u32,
-    /// When the point was taken.
+    /// Clock in which the context took the point.
     pub since: u32,
 }

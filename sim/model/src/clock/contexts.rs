@@ -1,54 +1,58 @@
-//! Which context sleeps, keeps its point, or has writes or locks to get rid of; the waiting token; the turn to be alone.
+//! The flags of the contexts: asleep, retrying, or with a commit or release due; further the context that holds the
+//! priority, and the solo insertion.
+//!
+//! Hardware twin: the block `ContextFlags`.
 
 use super::attempts::Outcome;
 use super::defect::Defect;
 use super::wires::{Registers, Wires};
 
-/// A bit per context.
+/// A set of contexts, with one bit for each.
 pub(super) type Set = u32;
 
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Contexts {
-    /// No visit of it is out.
+    /// Contexts without a visit that is out.
     pub asleep: Set,
-    /// It tries its point again when it wakes.
-    pub keeps: Set,
-    /// Its commit or the release of its locks is due.
+    /// Contexts that try their point again when they wake.
+    pub retrying: Set,
+    /// Contexts whose commit, or release of locks, is due.
     pub busy: Set,
-    /// It has had a point.
+    /// Contexts that have had a point.
     pub began: Set,
-    /// It has had a commit, so its hint is one.
+    /// Contexts that have had a commit, so that their hint is valid.
     pub hinted: Set,
-    /// The context that waits at foreign locks instead of giving up.
-    pub waiter: Option<usize>,
-    /// How often it has met a foreign lock since it took the token, up to `URGENT`.
+    /// The context that holds the priority: it waits at foreign locks instead of aborting.
+    pub priority_context: Option<usize>,
+    /// Number of foreign locks that it has met since it acquired the priority, up to `URGENT`.
     waits: u32,
-    /// The context whose list has overflowed; nobody starts until it has inserted its point alone.
+    /// The context whose list has overflowed. No context starts until the solo insertion of its point has ended.
     pub solo: Option<usize>,
-    /// Points that are in the mesh or known to be duplicates.
+    /// Number of points that are in the mesh or known to be duplicates.
     pub finished: u32,
-    /// Nothing is in flight and no lock is held, as it was known a clock ago, and nobody has started since.
+    /// Whether, as known a clock ago, nothing was in flight and no lock was held, and no context has started since.
     pub rest: bool,
 }
 
-/// L3: foreign locks that the holder of the token meets before the others stop trying again.
+/// L3: number of foreign locks that the context with the priority meets before the others stop retrying.
 const URGENT: u32 = 8;
 
 impl Contexts {
-    /// Contexts that fit a set.
+    /// Largest number of contexts in a set.
     pub(super) const BITS: u32 = Set::BITS;
 
     pub(super) fn reset(&mut self, contexts: u32) {
         *self = Self { asleep: Set::MAX >> (Self::BITS - contexts), ..Self::default() };
     }
 
-    /// Whether a context may try its point again. Contexts that fail again and again could keep the one that waits from its locks for
-    /// ever, in step with it: when it has waited for long, only it tries again, and new points.
+    /// Whether a context may try its point again. Contexts that abort again and again, in step with the context
+    /// that holds the priority, could keep it from its locks for ever. When it has waited for long, it alone
+    /// retries; new points still start.
     pub(super) fn may_try_again(&self, context: usize) -> bool {
-        self.waits < URGENT || self.waiter.is_none_or(|waiter| waiter == context)
+        self.waits < URGENT || self.priority_context.is_none_or(|holder| holder == context)
     }
 
-    /// Nothing is in flight and no lock is held.
+    /// Whether nothing is in flight and no lock is held.
     fn all_rest(&self, contexts: u32) -> bool {
         self.asleep == Set::MAX >> (Self::BITS - contexts) && self.busy == 0
     }
@@ -59,7 +63,7 @@ impl Contexts {
         }
         if let Some(context) = wires.start.map(|start| start.context) {
             self.asleep &= !(1 << context);
-            self.keeps &= !(1 << context);
+            self.retrying &= !(1 << context);
             self.began |= 1 << context;
         }
         if let Some(context) = wires.released {
@@ -70,11 +74,11 @@ impl Contexts {
             self.finished += 1;
         }
         if wires.solo_ends {
-            if self.waiter == self.solo {
-                self.waiter = None;
+            if self.priority_context == self.solo {
+                self.priority_context = None;
             }
             if let Some(context) = self.solo.take() {
-                self.keeps &= !(1 << context);
+                self.retrying &= !(1 << context);
             }
             self.finished += 1;
         }
@@ -93,18 +97,21 @@ impl Contexts {
         if outcome.sleeps {
             self.asleep |= bit;
         }
-        if outcome.keeps {
-            self.keeps |= bit;
+        if outcome.will_retry {
+            self.retrying |= bit;
         }
         if outcome.commit.is_some() || outcome.release.is_some() {
             self.busy |= bit;
         }
-        if outcome.stops_waiting && was.contexts.waiter == Some(context) {
-            self.waiter = None;
+        if outcome.returns_priority && was.contexts.priority_context == Some(context) {
+            self.priority_context = None;
         }
-        // L2: the waiting token goes to who asks while it is free.
-        if outcome.asks_to_wait && was.contexts.waiter.is_none() && defect != Some(Defect::NobodyWaits) {
-            self.waiter = Some(context);
+        // L2: the priority goes to the context that asks while it is free.
+        if outcome.asks_for_priority
+            && was.contexts.priority_context.is_none()
+            && defect != Some(Defect::NobodyTakesPriority)
+        {
+            self.priority_context = Some(context);
             self.waits = 0;
         }
         if outcome.waits {

@@ -8,7 +8,7 @@ use incircle_protocol::{latency_bucket, Counter, COUNTER_WORDS, LATENCY_BITS, LA
 
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Counters {
-    /// A clock count that wraps, for latencies.
+    /// A count of clocks that wraps, for latencies.
     pub now: u32,
     insert_cycles: u64,
     wait_cycles: u64,
@@ -24,7 +24,7 @@ pub(super) struct Counters {
     flips: u32,
     aborts: u32,
     root_retries: u32,
-    waits: u32,
+    priorities_taken: u32,
     issue_cycles: u32,
     write_cycles: u32,
     commit_cycles: u32,
@@ -61,29 +61,29 @@ impl Counters {
     }
 
     fn count_outcome(&mut self, was: &Registers, wires: &Wires) {
-        let asks = was.outcome.is_some_and(|outcome| outcome.asks_to_wait);
-        self.waits += u32::from(asks && was.contexts.waiter.is_none());
+        let asks = was.outcome.is_some_and(|outcome| outcome.asks_for_priority);
+        self.priorities_taken += u32::from(asks && was.contexts.priority_context.is_none());
         let (Some(done), Some(outcome)) = (&wires.done, &wires.outcome) else {
             return;
         };
-        let kind = (done.token.rotates, done.token.locks);
+        let kind = (done.visit.rotates, done.visit.locks);
         self.walk_visits += u32::from(kind == (false, false) && !outcome.looks);
         self.root_visits += u32::from(kind == (false, true));
         self.tests += u32::from(kind == (true, true));
-        self.revisits += u32::from(outcome.is_again);
+        self.revisits += u32::from(outcome.revisits);
         self.duplicates += u32::from(outcome.duplicate);
         self.overflows += u32::from(outcome.overflows);
         self.aborts += u32::from(outcome.aborts);
-        self.root_retries += u32::from(outcome.retries_root);
+        self.root_retries += u32::from(outcome.root_changed);
         self.cavity_triangles += outcome.commit.map_or(0, |_| outcome.attempt.map_or(0, |attempt| attempt.count - 2));
     }
 
-    /// Clocks since then.
+    /// Number of clocks since `since`.
     pub(super) fn latency_since(&self, since: u32) -> u32 {
         self.now.wrapping_sub(since) & ((1 << LATENCY_BITS) - 1)
     }
 
-    /// The answer to `Counters`.
+    /// The payload of the answer to `Counters`.
     pub(super) fn words(&self, refused: u32) -> [u32; COUNTER_WORDS] {
         let mut words = [0; COUNTER_WORDS];
         for (counter, value) in [
@@ -107,7 +107,7 @@ impl Counters {
             (Counter::Revisits, self.revisits),
             (Counter::Aborts, self.aborts),
             (Counter::RootRetries, self.root_retries),
-            (Counter::WaitingTokens, self.waits),
+            (Counter::PrioritiesTaken, self.priorities_taken),
             (Counter::IssueCycles, self.issue_cycles),
             (Counter::WriteCycles, self.write_cycles),
             (Counter::CommitCycles, self.commit_cycles),
@@ -121,11 +121,11 @@ impl Counters {
     }
 }
 
-/// How many insertions took how long; see [`latency_bucket`].
+/// The numbers of insertions by latency; see [`latency_bucket`].
 #[derive(Clone, Debug)]
 pub(super) struct Latencies {
     pub buckets: [u32; LATENCY_BUCKETS],
-    /// The next bucket to be cleared, after reset and `Clear`.
+    /// The next bucket that is cleared, after a reset and after `Clear`.
     sweep: Option<usize>,
 }
 
@@ -134,7 +134,7 @@ impl Latencies {
         Self { buckets: [0; LATENCY_BUCKETS], sweep: Some(0) }
     }
 
-    /// The buckets are being cleared.
+    /// Whether the buckets are being cleared.
     pub(super) fn sweeps(&self) -> bool {
         self.sweep.is_some()
     }

@@ -1,30 +1,30 @@
-//! Rules of the engine that can be left out, to show that each is needed and that tests notice.
+//! Rules of the engine that can be left out, to show that each rule is needed and that tests notice its absence.
 
-/// A rule left out, or a part of one. `docs/engine.md` says what each rule demands.
+/// A rule, or a part of a rule, that is left out. `docs/engine.md` says what each rule demands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Defect {
-    /// L1: a test that finds another context's lock goes on.
+    /// L1: a test that finds a foreign lock goes on.
     IgnoresForeignLocks,
-    /// L1: a failed attempt releases its locks while visits of it are still out.
+    /// L1: an aborting attempt releases its locks while some of its visits are still out.
     ReleasesBeforeDrained,
-    /// L1: a failed attempt does not rest before it tries again.
-    NeverBacksOff,
-    /// L2: nobody ever holds the waiting token.
-    NobodyWaits,
-    /// L3: others try again beside a holder that has waited for long.
+    /// L1: a context that has aborted does not rest before it tries again.
+    NeverRests,
+    /// L2: no context ever holds the priority.
+    NobodyTakesPriority,
+    /// L3: other contexts retry while the context with the priority has waited for long.
     NobodyYields,
-    /// L4: locks are released when the ring is finished, before its star is written.
+    /// L4: locks are released when the ring is complete, before its star is written.
     ReleasesBeforeWritten,
-    /// L5: the visit of the root under its lock takes the walk's word.
+    /// L5: the root visit trusts what the walk found.
     TrustsTheWalk,
     /// L6: a walk ends at its goal while a commit or release of its context is due.
     OpensWhileBusy,
     /// L7: new ids count as written as soon as they are taken.
     ReadsTheUnwritten,
-    /// L7: a record that is being written counts.
+    /// L7: a record that is read while it is being written counts as valid.
     ReadsTheTorn,
     /// L8: all contexts take points from the start.
     AllFromTheStart,
-    /// L9: a lock does not tell its holder: a context's own locks count as foreign.
+    /// L9: a lock does not name its holder, so a context's own locks count as foreign.
     TakesOwnForForeign,
 }

@@ -1,4 +1,6 @@
 //! The memories, and the registered write port of the triangle memory.
+//!
+//! Hardware twin: the blocks of `hdl/src/mesh/`.
 
 use super::defect::Defect;
 use super::wires::{Registers, Wires};
@@ -6,35 +8,35 @@ use crate::mesh::Record;
 use crate::predicate::Point;
 use incircle_protocol::{infinite_vertex, triangle_capacity, Config, Layout};
 
-/// One write into the triangle memory: a whole record, or one link of it.
+/// A write into the triangle memory: a whole record, or one neighbour of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Write {
-    /// There is a write.
+    /// Whether there is a write.
     pub valid: bool,
-    /// The record written.
+    /// Id of the record that is written.
     pub id: u32,
-    /// All vertex columns are written.
+    /// Whether the vertices are written.
     pub vertices: bool,
-    /// These link columns are written.
+    /// The slots whose neighbours are written.
     pub links: [bool; 3],
-    /// Data of the columns.
+    /// The data of vertices and neighbours.
     pub record: Record,
 }
 
 impl Write {
-    /// A whole record.
+    /// A write of a whole record.
     pub(super) fn record(id: u32, v: [u32; 3], n: [u32; 3]) -> Self {
         Self { valid: true, id, vertices: true, links: [true; 3], record: Record { v, n } }
     }
 
-    /// One link; its value stands in all three columns, the other columns' data are zero.
+    /// A write of one neighbour. The value stands in all three slots, and the vertices are zero.
     pub(super) fn link(id: u32, slot: usize, value: u32) -> Self {
         let mut links = [false; 3];
         links[slot] = true;
         Self { valid: true, id, vertices: false, links, record: Record { v: [0; 3], n: [value; 3] } }
     }
 
-    /// Takes the request of whichever block makes one; holds its data while none does.
+    /// Takes the request of the block that makes one. While no block does, the data stay.
     pub(super) fn clock(&mut self, was: &Registers) {
         let sources = [was.commit.write, was.solo.write, was.seeder.write];
         match sources.into_iter().find(|write| write.valid) {
@@ -44,17 +46,17 @@ impl Write {
     }
 }
 
-/// A final boundary edge.
+/// A final edge of the boundary.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Entry {
-    pub a: u32,
-    pub u: u32,
+    pub first_vertex: u32,
+    pub outside_record: u32,
     pub slot: usize,
-    pub f: u32,
-    pub next: usize,
+    pub cavity_record: u32,
+    pub after: usize,
 }
 
-/// All memories.
+/// All memories of the core.
 #[derive(Clone, Debug)]
 pub(super) struct Memory {
     pub infinite: u32,
@@ -63,16 +65,16 @@ pub(super) struct Memory {
     vertices: Vec<Point>,
     pub locks: Vec<bool>,
     /// The context that took the lock last.
-    owners: Vec<usize>,
-    /// Boundary entries, inner triangles and locks of each context.
+    holders: Vec<usize>,
+    /// Entries of the ring, inner records, and logged locks of each context.
     pub entries: Vec<Vec<Entry>>,
     pub inner: Vec<Vec<u32>>,
     pub lock_log: Vec<Vec<u32>>,
-    /// The point at hand of each context, and when it was taken.
+    /// The current point of each context, and the clock in which the context took it.
     pub point_id: Vec<u32>,
     pub position: Vec<Point>,
     pub since: Vec<u32>,
-    /// Where each context's next walk starts.
+    /// The hint of each context: the record at which its next walk starts.
     pub hint: Vec<u32>,
 }
 
@@ -86,7 +88,7 @@ impl Memory {
             records: vec![Record::default(); records],
             vertices: vec![Point::default(); config.points as usize],
             locks: vec![false; records],
-            owners: vec![0; records],
+            holders: vec![0; records],
             entries: vec![vec![Entry::default(); ring]; contexts],
             inner: vec![vec![0; ring]; contexts],
             lock_log: vec![vec![0; 2 * ring]; contexts],
@@ -97,8 +99,8 @@ impl Memory {
         }
     }
 
-    /// Takes a lock for a context; tells whether it took it and whether another context holds it. A lock that is cleared at this
-    /// edge counts as held.
+    /// Takes a lock for a context, and returns whether the context took it and whether another context holds it. A lock
+    /// that is cleared at this edge counts as held by another.
     pub(super) fn take_lock(
         &mut self,
         id: u32,
@@ -111,21 +113,21 @@ impl Memory {
             return (false, true);
         }
         if self.locks[place] {
-            // L9: the stored owner tells a cavity's second visit from a foreign one.
-            let is_own = self.owners[place] == context && defect != Some(Defect::TakesOwnForForeign);
+            // L9: the stored holder tells a second visit of the same cavity from a visit of another context.
+            let is_own = self.holders[place] == context && defect != Some(Defect::TakesOwnForForeign);
             return (false, !is_own);
         }
         self.locks[place] = true;
-        self.owners[place] = context;
+        self.holders[place] = context;
         (true, false)
     }
 
-    /// A record as it stands; ids wrap at the depth of the memory, as address bits above it are ignored.
+    /// The record of this id. Ids wrap at the depth of the memory, which ignores the address bits above.
     pub(super) fn record(&self, id: u32) -> Record {
         self.records[id as usize % self.records.len()]
     }
 
-    /// A vertex; that of the infinite one is arbitrary and never decides anything.
+    /// The point of a vertex. The point of the infinite vertex is arbitrary, and never decides anything.
     pub(super) fn vertex(&self, id: u32) -> Point {
         self.vertices[id as usize % self.vertices.len()]
     }

@@ -1,4 +1,7 @@
-//! The visit pipeline: bundle queue, issue, record and vertex reads, predicates, verdict. One visit a clock, in order.
+//! The visit pipeline: queue of bundles, issue, reads of record and vertices, predicates, verdict. One visit enters in
+//! each clock, and visits complete in the order of issue.
+//!
+//! Hardware twin: the block `VisitPipeline`.
 
 use super::defect::Defect;
 use super::memory::Memory;
@@ -7,129 +10,139 @@ use crate::mesh::Record;
 use crate::predicate::{finite_conflict, ghost_conflict, orient2d};
 use std::collections::VecDeque;
 
-/// Clocks from the issue register, which addresses the triangle memory, to the completion register:
-/// record 2, vertices 2, with slot and rotation beside and behind them, corner registers 1, predicates 10, completion register 1.
+/// Number of clocks from the issue register, which addresses the triangle memory, to the completion register: record 2,
+/// vertices 2 (slot and rotation beside and behind them), corner registers 1, predicates 10, completion register 1.
 const STAGES: usize = 16;
 
-/// Clocks from the issue register to the record.
+/// Number of clocks from the issue register to the record.
 const RECORD_STAGES: usize = 2;
 
-/// One visit.
+/// One visit of a record.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Token {
+pub(super) struct Visit {
     pub context: usize,
-    /// The record is turned so that its link to `f` comes first.
+    /// Whether the record is rotated so that its neighbour `cavity_record` comes first.
     pub rotates: bool,
-    /// The record's lock is taken.
+    /// Whether the visit takes the lock of the record.
     pub locks: bool,
-    /// Ring entry, the entry after it, and the entry that names `f`.
-    pub x: usize,
-    pub next: usize,
-    pub f_entry: usize,
-    pub f: u32,
-    /// The record visited.
-    pub u: u32,
+    /// The entry of the ring, the entry after it, and the entry that stands for `cavity_record`.
+    pub entry: usize,
+    pub after: usize,
+    pub cavity_entry: usize,
+    pub cavity_record: u32,
+    /// Id of the visited record.
+    pub record: u32,
 }
 
 /// One to three visits that one completion asks for.
 ///
-/// The second is from the entry after the first one's, the third from the entry after that.
+/// The second visit is for the entry after that of the first, and the third for the entry after that of the second.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Bundle {
-    pub first: Token,
-    /// Visits.
+    pub first: Visit,
+    /// Number of visits, 1 to 3.
     pub count: u32,
-    /// The entry after the second visit's.
-    second_next: usize,
-    second_u: u32,
-    third_u: u32,
+    /// The entry after that of the second visit.
+    second_after: usize,
+    second_record: u32,
+    third_record: u32,
 }
 
 impl Bundle {
-    pub(super) fn one(first: Token) -> Self {
+    pub(super) fn one(first: Visit) -> Self {
         Self { first, count: 1, ..Self::default() }
     }
 
-    /// A plain look at a record.
-    pub(super) fn look(context: usize, u: u32) -> Self {
-        Self::one(Token { context, u, ..Token::default() })
+    /// A visit that only reads a record.
+    pub(super) fn look(context: usize, record: u32) -> Self {
+        Self::one(Visit { context, record, ..Visit::default() })
     }
 
-    /// The visit that locks a root.
-    pub(super) fn root(context: usize, u: u32) -> Self {
-        Self::one(Token { context, u, locks: true, ..Token::default() })
+    /// A root visit, which takes the lock of the root.
+    pub(super) fn root(context: usize, record: u32) -> Self {
+        Self::one(Visit { context, record, locks: true, ..Visit::default() })
     }
 
-    /// A visit without a lock, turned to the link to `f`.
-    pub(super) fn turned(context: usize, f: u32, u: u32) -> Self {
-        Self::one(Token { context, rotates: true, f, u, ..Token::default() })
+    /// A visit without a lock, with the record rotated so that its neighbour `cavity_record` comes first.
+    pub(super) fn turned(context: usize, cavity_record: u32, record: u32) -> Self {
+        Self::one(Visit { context, rotates: true, cavity_record, record, ..Visit::default() })
     }
 
     /// The tests of the three neighbours of a root.
     pub(super) fn tests(root: &Completion) -> Self {
-        let Token { context, u, .. } = root.token;
+        let Visit { context, record, .. } = root.visit;
         let n = root.record.n;
-        let first = Token { context, rotates: true, locks: true, x: 0, next: 1, f_entry: 0, f: u, u: n[0] };
-        Self { first, count: 3, second_next: 2, second_u: n[1], third_u: n[2] }
+        let first = Visit {
+            context,
+            rotates: true,
+            locks: true,
+            entry: 0,
+            after: 1,
+            cavity_entry: 0,
+            cavity_record: record,
+            record: n[0],
+        };
+        Self { first, count: 3, second_after: 2, second_record: n[1], third_record: n[2] }
     }
 
-    /// The bundle of a conflict: both halves of the edge go on to the triangles behind, the second as the new entry `y`.
+    /// The tests after a conflict: both halves of the edge move on to the neighbours behind it, the second half as
+    /// the new entry `y`.
     pub(super) fn split(done: &Completion, y: usize) -> Self {
         let [_, n1, n2] = done.record.n;
-        let first = Token { next: y, f_entry: y, f: done.token.u, u: n1, ..done.token };
-        Self { first, count: 2, second_next: done.token.next, second_u: n2, third_u: 0 }
+        let first = Visit { after: y, cavity_entry: y, cavity_record: done.visit.record, record: n1, ..done.visit };
+        Self { first, count: 2, second_after: done.visit.after, second_record: n2, third_record: 0 }
     }
 
-    /// The visit with this place in the bundle.
-    fn token(&self, place: u32) -> Token {
+    /// The visit at this place of the bundle.
+    fn visit(&self, place: u32) -> Visit {
         match place {
             0 => self.first,
-            1 => Token { x: self.first.next, next: self.second_next, u: self.second_u, ..self.first },
-            _ => Token { x: self.second_next, next: 0, u: self.third_u, ..self.first },
+            1 => Visit { entry: self.first.after, after: self.second_after, record: self.second_record, ..self.first },
+            _ => Visit { entry: self.second_after, after: 0, record: self.third_record, ..self.first },
         }
     }
 }
 
-/// A visit that has been made.
+/// A completed visit, with what it found out.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Completion {
-    pub token: Token,
-    /// The record, turned if the token says so.
+    pub visit: Visit,
+    /// The record, rotated if the visit asked for it.
     pub record: Record,
-    /// How far it was turned.
+    /// The slot by which the record was rotated.
     pub slot: usize,
-    /// It took the lock.
+    /// Whether the visit took the lock.
     pub took: bool,
-    /// Another context holds the lock.
+    /// Whether another context holds the lock.
     pub foreign: bool,
-    /// The record was not written yet, or being written: a walk looks again.
+    /// Whether the record was not written yet, or being written, so that a walk must revisit it.
     pub again: bool,
-    /// It goes when the context's point comes.
+    /// Whether the record conflicts with the context's point.
     pub conflict: bool,
-    /// The point lies here, or falls onto a corner.
+    /// Whether the record holds the point, and whether the point equals one of the record's vertices.
     pub located: bool,
     pub falls_onto_corner: bool,
-    /// Where a walk goes on.
+    /// The record at which a walk goes on.
     pub walk_next: u32,
     /// The sign of `orient2d(r[0], r[1], p)`.
     pub turn: i32,
 }
 
 impl Completion {
-    /// It may ask for other visits: all do but tests that find their edge final.
+    /// Whether the completion may ask for other visits, as all do but tests that find their edge final.
     pub(super) fn may_ask(&self) -> bool {
-        !self.token.rotates || self.conflict || self.foreign
+        !self.visit.rotates || self.conflict || self.foreign
     }
 }
 
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pipeline {
     queue: VecDeque<Bundle>,
-    /// Visits of the bundle at the head that have been issued.
+    /// Number of visits of the first bundle that have been issued.
     place: u32,
-    issued: Option<Token>,
+    issued: Option<Visit>,
     stages: [Option<Completion>; STAGES],
-    /// Place of the completion register in `stages`, which turns round.
+    /// Place of the completion register in `stages`, which are used as a ring.
     head: usize,
     reads: [Option<u32>; RECORD_STAGES + 1],
 }
@@ -143,26 +156,26 @@ impl Pipeline {
         self.stages[self.head]
     }
 
-    /// A visit reads the memories in this clock.
+    /// Whether a visit reads the memories in this clock.
     pub(super) fn reads(&self) -> bool {
         self.issued.is_some()
     }
 
-    /// The record id whose words a read-out gets at this edge.
+    /// The record whose words a read-out gets at this edge.
     pub(super) fn record_read(&self) -> Option<u32> {
         self.reads[RECORD_STAGES]
     }
 
     pub(super) fn clock(&mut self, was: &Registers, wires: &Wires, memory: &mut Memory, defect: Option<Defect>) {
         self.expect_no_collision(was);
-        let visited = self.issued.map(|token| visit(token, was, wires, memory, defect));
+        let visited = self.issued.map(|visit| complete(visit, was, wires, memory, defect));
         self.stages[self.head] = visited;
         self.head = (self.head + 1) % STAGES;
         self.reads = [wires.read, self.reads[0], self.reads[1]];
         self.queue.extend(was.push);
         self.issued = None;
         if let Some(&bundle) = self.queue.front() {
-            self.issued = Some(bundle.token(self.place));
+            self.issued = Some(bundle.visit(self.place));
             self.place += 1;
             if self.place == bundle.count {
                 self.place = 0;
@@ -171,7 +184,7 @@ impl Pipeline {
         }
     }
 
-    /// A read-out meets no write: it comes when nothing is at work.
+    /// Panics if a read-out meets a write. A read-out comes only when nothing else is in progress.
     fn expect_no_collision(&self, was: &Registers) {
         if let Some(id) = self.reads[0].filter(|&id| was.write.valid && was.write.id == id) {
             panic!("record {id} is read out and written at one edge");
@@ -180,18 +193,19 @@ impl Pipeline {
 }
 
 /// Reads a record, takes its lock if asked to, and evaluates the predicates.
-fn visit(token: Token, was: &Registers, wires: &Wires, memory: &mut Memory, defect: Option<Defect>) -> Completion {
-    // L7: a record that is written while it is read comes out torn, and a new one counts once its commit has ended.
-    let is_torn = was.write.valid && was.write.id == token.u;
+fn complete(visit: Visit, was: &Registers, wires: &Wires, memory: &mut Memory, defect: Option<Defect>) -> Completion {
+    // L7: a record that is read while it is being written is torn, and a new record counts only when
+    // its commit has ended.
+    let is_torn = was.write.valid && was.write.id == visit.record;
     let is_written =
-        token.u < was.commit.records || was.commit.records == 0 || defect == Some(Defect::ReadsTheUnwritten);
-    let stored = if is_torn { Record::default() } else { memory.record(token.u) };
-    let (took, foreign) = match token.locks {
-        true => memory.take_lock(token.u, token.context, wires.clear, defect),
+        visit.record < was.commit.records || was.commit.records == 0 || defect == Some(Defect::ReadsTheUnwritten);
+    let stored = if is_torn { Record::default() } else { memory.record(visit.record) };
+    let (took, foreign) = match visit.locks {
+        true => memory.take_lock(visit.record, visit.context, wires.clear, defect),
         false => (false, false),
     };
-    let p = memory.position[token.context];
-    let slot = if token.rotates { stored.slot_of(token.f) } else { 0 };
+    let p = memory.position[visit.context];
+    let slot = if visit.rotates { stored.slot_of(visit.cavity_record) } else { 0 };
     let record = stored.rotated(slot);
     let infinite = record.v.map(|v| v == memory.infinite);
     let r = record.v.map(|v| memory.vertex(v));
@@ -206,5 +220,5 @@ fn visit(token: Token, was: &Registers, wires: &Wires, memory: &mut Memory, defe
     let falls_onto_corner = ghost.is_none() && r.contains(&p);
     let turn = sides[2].signum() as i32;
     let again = is_torn && defect != Some(Defect::ReadsTheTorn) || !is_written;
-    Completion { token, record, slot, took, foreign, again, conflict, located, falls_onto_corner, walk_next, turn }
+    Completion { visit, record, slot, took, foreign, again, conflict, located, falls_onto_corner, walk_next, turn }
 }

@@ -1,34 +1,35 @@
-//! What goes into the core before a clock edge, and what comes out of it.
+//! The root ports of the core: inputs before a clock edge, and outputs.
 
 use super::memory::Write;
 
-/// What drives the core before a clock edge.
+/// The inputs of the core before a clock edge.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Inputs {
     /// Synchronous reset, active high.
     pub reset: bool,
-    /// A command word is offered.
+    /// Whether a command word is offered.
     pub command_valid: bool,
-    /// The word.
+    /// The command word that is offered.
     pub command_data: u32,
-    /// The host takes an answer word.
+    /// Whether the host takes an answer word.
     pub response_ready: bool,
 }
 
-/// What the core shows before a clock edge. All outputs are functions of registers.
+/// The outputs of the core before a clock edge. All of them are functions of registers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Outputs {
-    /// The core takes a command word.
+    /// Whether the core takes a command word.
     pub command_ready: bool,
-    /// An answer word is offered, or two.
+    /// Whether one or two answer words are offered.
     pub response_valid: bool,
-    /// The word in the low half, the one that follows it in the high; holds the last while none is offered.
+    /// The offered word in the low half, and the word that follows it in the high half. While no word is offered,
+    /// the last value stays.
     pub response_data: u64,
-    /// There is one that follows it.
+    /// Whether the high half holds a word.
     pub response_both: bool,
-    /// The last word of the answer is among them.
+    /// Whether the last word of the answer is among the offered ones.
     pub response_last: bool,
-    /// The write port of the triangle memory (simulation builds).
+    /// The write port of the triangle memory, which only simulation builds have.
     pub write: Write,
 }
 

@@ -1,27 +1,30 @@
-//! The payload of a read-out: reads records, one at a time for their words, or one a clock for their vertices alone.
+//! The payload of a read-out: reads records, one at a time for all their words, or one in each clock
+//! for their vertices only.
+//!
+//! Hardware twin: the block `RecordReads`.
 
 use super::beat::Beat;
 use incircle_protocol::NARROW_ID_BITS;
 
-/// Beats that may wait while more records are asked for.
+/// Largest number of waiting beats with which more records are asked for.
 const ROOM: usize = 4;
-/// Beats that the queue holds.
+/// Number of beats that the queue holds.
 const QUEUE: usize = 16;
-/// Records that fill whole beats.
+/// Number of records that fill whole beats.
 const GROUP: usize = 4;
 
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct RecordReads {
     record_id: u32,
-    /// Records still to be read.
+    /// Number of records still to be read.
     left: u32,
-    /// A record has been asked for and has not come.
+    /// Whether a record has been asked for and has not come.
     fetching: bool,
     buffer_valid: bool,
     buffer: [u32; 3],
-    /// Word of the buffer that is sent next.
+    /// The word of the buffer that is sent next.
     column: usize,
-    /// A record may be asked for: few beats wait.
+    /// Whether a record may be asked for, since few beats wait.
     has_room: bool,
     packer: Packer,
     queue: Queue,
@@ -29,21 +32,21 @@ pub(super) struct RecordReads {
     head: Option<Beat>,
 }
 
-/// What happens to it at an edge.
+/// The events of one edge.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Event {
-    /// The payload has vertices alone.
+    /// Whether the payload has only vertices.
     pub packs: bool,
-    /// A record is asked for.
+    /// Whether a record is asked for.
     pub asks: bool,
-    /// One that was asked for comes.
+    /// The record that comes, if one does.
     pub done: Option<[u32; 3]>,
-    /// The beat that is offered is taken.
+    /// Whether the offered beat is taken.
     pub takes: bool,
 }
 
 impl RecordReads {
-    /// A payload of `count` records from `first` on begins.
+    /// Begins a payload of `count` records from `first` on.
     pub(super) fn start(&mut self, first: u32, count: u32) {
         self.record_id = first;
         self.left = count;
@@ -62,7 +65,7 @@ impl RecordReads {
         self.head
     }
 
-    /// The beat that is offered after it.
+    /// The beat that is offered next.
     fn next_beat(&self, packs: bool) -> Option<Beat> {
         if packs {
             return self.queue.first().or(self.packer.filled);
@@ -106,20 +109,20 @@ impl RecordReads {
 /// Packs ids of 16 bits without gaps.
 #[derive(Clone, Copy, Debug, Default)]
 struct Packer {
-    /// Records still to come.
+    /// Number of records still to come.
     left: u32,
-    /// Those of the present four that have come.
+    /// Number of records of the current group that have come.
     place: usize,
     /// Ids that are in no beat yet.
     held: [u32; 3],
-    /// The rest of the last record is due.
+    /// Whether the rest of the last record is due.
     flushes: bool,
     /// A beat that is full, or the last one.
     filled: Option<Beat>,
 }
 
 impl Packer {
-    /// An edge at which a record comes, or none.
+    /// Simulates one edge, at which a record comes or not.
     fn clock(&mut self, record: Option<[u32; 3]>) {
         let was = *self;
         let is_last = was.left == 1;
@@ -128,7 +131,7 @@ impl Packer {
         if record.is_some() {
             self.left = self.left.wrapping_sub(1);
         }
-        // The rest goes out as if a record of zeros had come.
+        // The rest is packed as if a record of zeros had come.
         let Some([a, b, c]) = record.or(was.flushes.then_some([0; 3])) else {
             return;
         };
@@ -150,7 +153,7 @@ impl Packer {
     }
 }
 
-/// Beats that wait. One that comes and goes at one edge passes.
+/// The beats that wait. A beat may come and go at the same edge.
 #[derive(Clone, Copy, Debug, Default)]
 struct Queue {
     beats: [Beat; QUEUE],

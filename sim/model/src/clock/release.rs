@@ -1,4 +1,7 @@
-//! Releases the locks of finished and failed attempts, one a clock. After reset it clears the whole lock memory.
+//! Releases the locks of committed and aborted attempts, one in each clock. After a reset it clears
+//! the whole lock memory.
+//!
+//! Hardware twin: the block `Release`.
 
 use super::defect::Defect;
 use super::memory::Memory;
@@ -10,7 +13,7 @@ use std::collections::VecDeque;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ReleaseJob {
     pub context: usize,
-    /// Locks in the log; at least one.
+    /// Number of locks in the log, at least one.
     pub locks: u32,
 }
 
@@ -24,17 +27,17 @@ struct Fetch {
 
 #[derive(Clone, Debug, Default)]
 pub(super) struct Release {
-    /// Locks of commits, which go first, and of failed attempts.
+    /// Locks of commits, which go first, and locks of aborted attempts.
     after_commit: VecDeque<ReleaseJob>,
     after_failure: VecDeque<ReleaseJob>,
-    /// The job at work and its next place in the log.
+    /// The current job, and the next place in its log.
     at_work: Option<(ReleaseJob, u32)>,
-    /// Log memory and its output register.
+    /// The log memory and its output register.
     fetched: [Option<Fetch>; 2],
     clear: Option<Fetch>,
-    /// Next lock of the sweep after reset.
+    /// The next lock of the sweep after reset.
     sweep: Option<u32>,
-    /// The lock cleared by the sweep in this clock.
+    /// The lock that the sweep clears in this clock.
     swept: Option<u32>,
 }
 
@@ -43,12 +46,12 @@ impl Release {
         *self = Self { sweep: Some(0), ..Self::default() };
     }
 
-    /// The lock memory is being cleared after reset.
+    /// Whether the lock memory is being cleared after reset.
     pub(super) fn sweeps(&self) -> bool {
         self.sweep.is_some()
     }
 
-    /// The lock cleared in this clock.
+    /// The lock that is cleared in this clock.
     pub(super) fn clear(&self) -> Option<u32> {
         self.clear.map(|fetch| fetch.id).or(self.swept)
     }
@@ -70,7 +73,7 @@ impl Release {
         }
         self.swept = self.sweep;
         self.sweep = self.sweep.map(|id| id + 1).filter(|&id| id < triangle_capacity(config.points));
-        // L4: the locks of a ring are due when its last record is written.
+        // L4: the locks of a ring are due for release when its last record is written.
         let committed = if defect == Some(Defect::ReleasesBeforeWritten) {
             wires.outcome.and_then(|outcome| outcome.commit)
         } else {

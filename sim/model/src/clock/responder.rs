@@ -1,4 +1,6 @@
 //! Sends answers: header and length in one beat, then the payload.
+//!
+//! Hardware twin: the block `Responder`.
 
 use super::answer::Answer;
 use super::beat::Beat;
@@ -24,20 +26,20 @@ pub(super) enum State {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Responder {
     state: State,
-    /// The first of the two clocks of `Prepare` or `Choose` is over.
+    /// Whether the first of the two clocks of `Prepare` or `Choose` is over.
     waited: bool,
     pub answer: Answer,
     pub valid: bool,
-    /// What is offered; holds the last one while nothing is.
+    /// The beat that is offered. While no beat is offered, the last one stays.
     pub offered: Beat,
-    /// Words still to be loaded, of a payload that is no read-out.
+    /// Number of words still to be loaded, of a payload other than a read-out.
     left: u32,
-    /// Words of it loaded.
+    /// Number of words of that payload that are loaded.
     index: usize,
     records: RecordReads,
 }
 
-/// The payload has the vertices of records alone.
+/// Whether the payload has only the vertices of records.
 fn packs(was: &Registers) -> bool {
     was.command.opcode == Opcode::Triangles as u8
 }
@@ -51,7 +53,7 @@ impl Responder {
         self.records.request(packs(was)).filter(|_| self.state == State::Records)
     }
 
-    /// The word of the payload that is wanted from the next clock on.
+    /// Index of the payload word that is wanted from the next clock on.
     fn index_ahead(&self) -> usize {
         match self.state {
             State::Header => 0,
@@ -64,12 +66,12 @@ impl Responder {
         !self.valid || response_ready
     }
 
-    /// The last word is loaded at this edge.
+    /// Whether the last word is loaded at this edge.
     pub(super) fn ends(&self, response_ready: bool) -> bool {
         self.loads(response_ready) && self.next_beat().is_some_and(|beat| beat.last)
     }
 
-    /// The beat that is loaded at this edge, if the last one is taken.
+    /// The beat that is loaded at this edge, if the beat before it is taken.
     fn next_beat(&self) -> Option<Beat> {
         match self.state {
             State::Idle | State::Prepare | State::Choose => None,
@@ -108,7 +110,7 @@ impl Responder {
         }
     }
 
-    /// Steps that load no word.
+    /// Takes the steps that load no word.
     fn wait(&mut self, was: &Registers, latencies: &Latencies) {
         let after = match was.responder.state {
             State::Idle => {
@@ -127,7 +129,7 @@ impl Responder {
         }
     }
 
-    /// The step after the beat that is loaded at this edge.
+    /// Takes the step after the beat that is loaded at this edge.
     fn load(&mut self, was: &Registers) {
         match was.responder.state {
             State::Header => {

@@ -1,30 +1,32 @@
-//! The first triangle and its three ghosts; in a batch one after the other for each job.
+//! Writes the first triangle and its three ghost triangles; in a batch, one after the other for each job.
+//!
+//! Hardware twin: the block `Seeder`.
 
 use super::memory::Write;
 use super::wires::{Registers, Wires};
 
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Seeder {
-    /// Every job has its first triangle.
+    /// Whether every job has its first triangle.
     pub seeded: bool,
     /// The job whose first triangle is made next, or was made last.
     job: u32,
     pub collinear: bool,
-    /// The points of that job's first triangle have come, as it was known a clock ago.
+    /// Whether the points of the job's first triangle have come, as known a clock ago.
     pub has_triple: bool,
-    /// 0: the look at the triple; 1 to 4: the records.
+    /// Step 0 is the look at the first three points; steps 1 to 4 write the records.
     pub step: u32,
     turns_left: bool,
     pub write: Write,
 }
 
 impl Seeder {
-    /// No first triangle is being made, and none can be from the points that have come.
+    /// Whether no first triangle is being made, and none can be made from the points that have come.
     pub(super) fn has_no_start(&self) -> bool {
         (!self.has_triple || self.collinear) && self.step == 0
     }
 
-    /// The last ghost is written at this edge.
+    /// Whether the last ghost triangle is written at this edge.
     pub(super) fn seeds(&self) -> bool {
         self.step == 4
     }
@@ -63,7 +65,7 @@ impl Seeder {
     fn look(&mut self, was: &Registers, wires: &Wires) {
         let (a, first) = (3 * self.job, 4 * self.job);
         if was.command.came && was.command.came_id == a {
-            // The look at the triple needs a record with its vertices.
+            // The look at the first three points is a visit, which needs a record with their vertices.
             self.write = Write::record(first, [a, a + 1, a + 2], [first; 3]);
         }
         let looks = wires.outcome.is_some_and(|outcome| outcome.looks);

@@ -1,4 +1,6 @@
-//! Insertion alone, in constant state: splits the located triangle and flips once round the star.
+//! Solo insertion, in constant memory: splits the root, then flips once round the star.
+//!
+//! Hardware twin: the block `Solo`.
 
 use super::attempts::Tables;
 use super::memory::{Memory, Write};
@@ -10,15 +12,15 @@ use crate::mesh::Record;
 pub(super) enum State {
     #[default]
     Idle,
-    /// The point is located: the mesh has changed since its attempt.
+    /// The point is located again, since the mesh has changed since its attempt.
     Locate,
-    /// Three records replace the located one.
+    /// Three records replace the root.
     Split,
-    /// The outer neighbours of the second and third learn of them.
+    /// The outer neighbours of the second and third record learn the new ids.
     Mend,
-    /// The star triangle at work is read.
+    /// The current triangle of the star is read.
     Fetch,
-    /// The triangle outside it is tested.
+    /// The record outside that triangle is tested.
     Test,
     /// The edge between the two is flipped.
     Flip,
@@ -27,29 +29,29 @@ pub(super) enum State {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Solo {
     pub state: State,
-    /// Clock of `Split` and `Flip`, neighbour of `Mend`.
+    /// The clock within `Split` and `Flip`, or the number of the neighbour within `Mend`.
     step: u32,
-    /// A visit is out.
+    /// Whether a visit is out.
     awaits: bool,
-    /// The context that was to start at the last edge, and the visit that completed in the clock before: all that comes in is looked at
-    /// a clock later.
+    /// The context that started at the last edge, and the visit that completed in the clock before. The block acts on
+    /// all its inputs one clock after they come.
     started: Option<usize>,
     done: Option<Completion>,
     context: usize,
-    p: u32,
-    /// The located triangle.
+    vertex: u32,
+    /// The record that holds the point.
     root_id: u32,
     root: Record,
-    /// The star triangle: `v = (p, a, b)`, `n = (outer, after, before)`.
+    /// The current triangle of the star: `v = (p, a, b)`, `n = (outer, after, before)`.
     id: u32,
     a: u32,
     b: u32,
     outer: u32,
     after: u32,
     before: u32,
-    /// The link by which `outer` leads back.
+    /// The neighbour that `outer` names across this edge.
     back: u32,
-    /// The apex of `outer` and the links that the flip passes on.
+    /// The apex of `outer`, and the neighbours that the flip passes on.
     apex: u32,
     apex_after_a: u32,
     apex_before_b: u32,
@@ -57,7 +59,7 @@ pub(super) struct Solo {
 }
 
 impl Solo {
-    /// The visit asked for at this edge.
+    /// The visit that is asked for at this edge.
     pub(super) fn push_request(&self, was: &Registers) -> Option<Bundle> {
         if self.awaits {
             return None;
@@ -73,28 +75,28 @@ impl Solo {
         }
     }
 
-    /// A test finds no conflict at the last edge of the star.
+    /// Whether a test finds no conflict at the last edge of the star, which ends the insertion.
     pub(super) fn inserts(&self) -> bool {
         let rests = self.done.is_some_and(|done| !done.conflict);
         self.state == State::Test && rests && self.b == self.root.v[1]
     }
 
-    /// The point turns out to be a duplicate.
+    /// Whether the point turns out to be a duplicate.
     pub(super) fn finds_duplicate(&self) -> bool {
         self.state == State::Locate && self.done.is_some_and(|done| done.located && done.falls_onto_corner)
     }
 
-    /// The visits that complete are its own.
+    /// Whether the visits that complete belong to a solo insertion.
     pub(super) fn is_at_work(&self) -> bool {
         self.state != State::Idle
     }
 
-    /// A flip is finished at this edge.
+    /// Whether a flip ends at this edge.
     pub(super) fn flips(&self) -> bool {
         self.state == State::Flip && self.step == 2
     }
 
-    /// A conflict test completes at this edge.
+    /// Whether a test completes at this edge.
     pub(super) fn tests(&self) -> bool {
         self.state == State::Test && self.done.is_some()
     }
@@ -108,7 +110,7 @@ impl Solo {
             (State::Idle, _) => {
                 if let Some(context) = was.solo.started {
                     self.context = context;
-                    self.p = memory.point_id[context];
+                    self.vertex = memory.point_id[context];
                     self.root_id = tables.root[context];
                     self.state = State::Locate;
                 }
@@ -138,7 +140,7 @@ impl Solo {
 
     fn split(&mut self, was: &Registers) {
         let (id, root) = (was.solo.root_id, was.solo.root);
-        let (p, second) = (was.solo.p, was.commit.records);
+        let (p, second) = (was.solo.vertex, was.commit.records);
         let third = second + 1;
         let [v0, v1, v2] = root.v;
         self.write = match was.solo.step {
@@ -155,7 +157,7 @@ impl Solo {
 
     fn mend(&mut self, was: &Registers, done: &Completion) {
         self.awaits = false;
-        self.write = Write::link(done.token.u, done.slot, was.commit.records + was.solo.step);
+        self.write = Write::link(done.visit.record, done.slot, was.commit.records + was.solo.step);
         self.step = 1;
         if was.solo.step == 1 {
             self.id = was.solo.root_id;
@@ -191,7 +193,7 @@ impl Solo {
 
     fn flip(&mut self, was: &Registers) {
         let solo = &was.solo;
-        let p = was.solo.p;
+        let p = was.solo.vertex;
         self.write = match solo.step {
             0 => Write::record(solo.id, [p, solo.a, solo.apex], [solo.apex_after_a, solo.outer, solo.before]),
             1 => Write::record(solo.outer, [p, solo.apex, solo.b], [solo.apex_before_b, solo.after, solo.id]),

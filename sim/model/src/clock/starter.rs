@@ -1,4 +1,7 @@
-//! Wakes sleeping contexts: a pointer goes round them, a context a clock, and starts a walk where one is due.
+//! Wakes sleeping contexts: a pointer visits one context in each clock, round and round, and starts a walk
+//! if one is due.
+//!
+//! Hardware twin: the block `Starter`.
 
 use super::attempts::Tables;
 use super::defect::Defect;
@@ -7,30 +10,30 @@ use super::pipeline::Bundle;
 use super::wires::{Registers, Wires};
 use incircle_protocol::FIRST_ROUND;
 
-/// Rounds of the pointer per round in which contexts that backed off may try again.
-const BACK_OFF_ROUNDS: u32 = 4;
+/// Contexts that have aborted may try again in one of this many rounds of the pointer.
+const REST_ROUNDS: u32 = 4;
 
-/// The context that the pointer has left last, and the vertex it would take.
+/// The context that the pointer left last, and the vertex that it would take.
 #[derive(Clone, Copy, Debug, Default)]
 struct Passed {
     context: usize,
     id: u32,
 }
 
-/// The context before that one, and what has been decided about it.
+/// The context before that one, and the decision about it.
 #[derive(Clone, Copy, Debug, Default)]
 struct Candidate {
-    /// It is due, if nothing stands in its way.
+    /// The walk that is due, unless something holds it.
     due: Option<Start>,
-    /// It wants to be alone.
-    is_alone: bool,
+    /// Whether the context asks for a solo insertion.
+    is_solo: bool,
 }
 
 /// A walk that starts.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Start {
     pub context: usize,
-    /// The vertex taken; `None` if the context tries its point again.
+    /// The vertex that is taken; `None` if the context tries its point again.
     pub id: Option<u32>,
     pub push: Bundle,
 }
@@ -39,18 +42,18 @@ pub(super) struct Start {
 pub(super) struct Starter {
     turn: usize,
     round: u32,
-    /// The pointer has gone round once; before that nobody starts.
+    /// Whether the pointer has gone round once. Before that no context starts.
     is_planned: bool,
     passed: Passed,
     candidate: Candidate,
-    /// The first round is over, or there is none: all contexts work.
+    /// Whether all contexts work, because the first round is over or there is none.
     pub all_work: bool,
 }
 
 impl Starter {
-    /// The context that wants to be alone is the candidate.
-    pub(super) fn is_at_alone(&self) -> bool {
-        self.candidate.is_alone
+    /// Whether the candidate is the context that asks for a solo insertion.
+    pub(super) fn is_at_solo(&self) -> bool {
+        self.candidate.is_solo
     }
 
     /// The walk that starts at this edge, if the queue and the vertex memory are free.
@@ -58,7 +61,8 @@ impl Starter {
         self.candidate.due.filter(|_| was.contexts.solo.is_none())
     }
 
-    /// Whether the context that the pointer has left last is due. A context that works alone may start at this very edge.
+    /// The walk of the context that the pointer left last, if one is due. If only one context works, it may be starting
+    /// at this very edge, and then nothing is due.
     fn due(&self, was: &Registers, tables: &Tables, memory: &Memory, defect: Option<Defect>) -> Option<Start> {
         let Passed { context, id } = self.passed;
         let bit = 1 << context;
@@ -67,9 +71,10 @@ impl Starter {
         {
             return None;
         }
-        if flags.keeps & bit != 0 {
-            // L1: who has failed rests. L3: nobody else tries again beside a holder that has waited for long.
-            let rested = self.round == 0 || defect == Some(Defect::NeverBacksOff);
+        if flags.retrying & bit != 0 {
+            // L1: a context that has aborted rests. L3: no other context retries while the one with the priority
+            // has waited for long.
+            let rested = self.round == 0 || defect == Some(Defect::NeverRests);
             let may = flags.may_try_again(context) || defect == Some(Defect::NobodyYields);
             let ready = flags.busy & bit == 0 && rested && may;
             return ready.then(|| Start { context, id: None, push: Bundle::look(context, tables.root[context]) });
@@ -81,7 +86,7 @@ impl Starter {
         };
         let ready = self.is_planned && id < was.command.arrived && works;
         let start = match flags.hinted & bit {
-            // The first record of its job.
+            // Without a hint, the walk starts at the first record of the job.
             0 if was.command.batch => 4 * context as u32,
             0 => 0,
             _ => memory.hint[context],
@@ -102,15 +107,15 @@ impl Starter {
         }
         if !wires.start_is_held {
             let context = was.starter.turn;
-            let is_alone = was.contexts.solo == Some(self.passed.context);
+            let is_solo = was.contexts.solo == Some(self.passed.context);
             let due = was.starter.due(was, tables, memory, defect);
-            self.candidate = Candidate { due, is_alone };
+            self.candidate = Candidate { due, is_solo };
             self.passed = Passed { context, id: next_id(was, context, memory) };
             self.turn += 1;
             if self.turn as u32 == was.command.contexts {
                 self.turn = 0;
                 self.is_planned = true;
-                self.round = (self.round + 1) % BACK_OFF_ROUNDS;
+                self.round = (self.round + 1) % REST_ROUNDS;
             }
         }
         if let Some(Start { context, id: Some(id), .. }) = wires.start {
@@ -125,8 +130,9 @@ impl Starter {
     }
 }
 
-/// The vertex a context takes next: of the first round all go to context 0, then they are dealt out in turn. In a batch there is no first
-/// round, but each context begins with the third of the three that are its own.
+/// The vertex that a context takes next. The vertices of the first round all go to context 0, and the later
+/// ones are dealt to the contexts in turn. A batch has no first round; each context begins with the third of
+/// its own first three points.
 fn next_id(was: &Registers, context: usize, memory: &Memory) -> u32 {
     let began = was.contexts.began & 1 << context != 0;
     let id = memory.point_id[context];

@@ -1,17 +1,18 @@
-//! `Watchdog` notices that no point is finished any more; `Progress` counts down the points that are left.
+//! `Watchdog` notices that no insertion ends any more, and the count of finished points tells whether any point is
+//! left. The hardware has a block for each.
 
 use super::wires::{Registers, Wires};
 use incircle_protocol::{patience, Config};
 
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Watchdog {
-    /// A point was finished at the edge before, or there was nothing to do.
+    /// Whether a point was finished at the edge before, or there was nothing to do.
     rests: bool,
-    /// Clocks since then.
+    /// Number of clocks since `rests` was last set.
     clocks: u32,
-    /// They have become too many.
+    /// Whether `clocks` has reached the patience.
     is_over: bool,
-    /// A fault: points are refused until reset.
+    /// A fault was found: the core refuses points until it is reset.
     pub stuck: bool,
 }
 
@@ -26,23 +27,23 @@ impl Watchdog {
     }
 }
 
-/// Whether every point is finished, as it was known two clocks ago: a point that is finished is counted a clock later, and the counts
-/// are compared in the clock after that.
+/// The comparison of finished points with points that have come, as known two clocks ago: a finished point is counted
+/// one clock later, and the counts are compared in the clock after that.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Progress {
+pub(super) struct FinishedPoints {
     finished: u32,
-    /// Some point is not finished.
+    /// Whether some point is not finished.
     is_behind: bool,
 }
 
-impl Progress {
-    /// Every point is finished, or never will be.
+impl FinishedPoints {
+    /// Whether every point is finished, or never will be.
     pub(super) fn is_done(&self, was: &Registers) -> bool {
         !self.is_behind || was.seeder.has_no_start()
     }
 
     pub(super) fn clock(&mut self, was: &Registers) {
         self.finished = if was.command.clears { 0 } else { was.contexts.finished };
-        self.is_behind = was.progress.finished != was.command.arrived;
+        self.is_behind = was.finished_points.finished != was.command.arrived;
     }
 }

@@ -1,9 +1,9 @@
-//! What blocks show each other within a clock: their registers as they were, and the wires, functions of registers and
-//! inputs.
+//! The values that parts show each other within a clock: their registers as of the edge, and the wires, which are
+//! functions of registers and inputs.
 //!
-//! The one module that may stand in a circle of imports: every block reads these registers and wires and owns some of
-//! them, with types of its own, as the blocks of the core do. `testbench/tests/it/project/import_circles` allows no
-//! other.
+//! This module alone may stand in a circle of imports: every part reads the registers and wires and defines
+//! some of them, with types of its own, as the blocks of the core do.
+//! `testbench/tests/it/project/import_circles` allows no other.
 
 use super::attempts::{Around, Outcome};
 use super::command_port::{CommandPort, State as CommandState};
@@ -19,29 +19,29 @@ use super::ring::Head;
 use super::seeder::Seeder;
 use super::solo::Solo;
 use super::starter::{Start, Starter};
-use super::watchdog::{Progress, Watchdog};
+use super::watchdog::{FinishedPoints, Watchdog};
 use super::ClockModel;
 use crate::predicate::Point;
 use incircle_protocol::Config;
 
-/// The registers of the core, but those of the visit pipeline, the ring reader and the lock release.
+/// The registers of the core, except those of the visit pipeline, the ring reader and the release.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Registers {
     pub command: CommandPort,
     pub responder: Responder,
     pub contexts: Contexts,
-    /// The contexts as they were a clock ago: part of what a visit means is decided ahead.
+    /// The contexts as of one clock ago: a part of the meaning of a visit is decided ahead of its completion.
     pub noted: Contexts,
     pub starter: Starter,
     pub seeder: Seeder,
     pub commit: Commit,
     pub solo: Solo,
-    pub progress: Progress,
+    pub finished_points: FinishedPoints,
     pub watchdog: Watchdog,
     pub counters: Counters,
-    /// The counters as they were a clock ago: the hardware counts an event a clock after it.
+    /// The counters as of one clock ago: the hardware counts an event one clock after it.
     pub counted: Counters,
-    /// What the visit that completed in the clock before leads to: contexts take note of it in this clock.
+    /// The consequences of the visit that completed in the clock before. The contexts take note of them in this clock.
     pub outcome: Option<Outcome>,
     /// The bundle that enters the queue in this clock.
     pub push: Option<Bundle>,
@@ -60,44 +60,45 @@ impl Registers {
 /// The wires of one clock.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wires {
-    /// The command word taken at this edge.
+    /// The command word that is taken at this edge.
     pub word: Option<u32>,
     pub response_ready: bool,
     /// The infinite vertex of this configuration.
     pub infinite: u32,
     /// The visit that completes.
     pub done: Option<Completion>,
-    /// What it leads to, unless it belongs to an insertion alone.
+    /// The consequences of that visit, unless it belongs to a solo insertion.
     pub outcome: Option<Outcome>,
     /// The record that a read-out asked for three clocks ago, as answer words.
     pub record_read: Option<[u32; 3]>,
-    /// A read-out asks for this record.
+    /// The record that a read-out asks for.
     pub read: Option<u32>,
-    /// The responder loads its last word.
+    /// Whether the responder loads its last word.
     pub answer_ends: bool,
-    /// Every point that has come is in the mesh, and no lock is held.
+    /// Whether every point that has come is in the mesh, and no lock is held.
     pub is_quiet: bool,
-    /// The point accepted at this edge.
+    /// The point that is accepted at this edge.
     pub new_vertex: Option<(u32, Point)>,
-    /// A context starts to walk.
+    /// The walk that a context starts.
     pub start: Option<Start>,
-    /// A context would, but a visit completes, or the vertex memory takes a point: the pointer waits.
+    /// Whether a context would start, but a visit completes or the vertex memory takes a point, so
+    /// that the pointer waits.
     pub start_is_held: bool,
-    /// The last record of the first triangle is written.
+    /// Whether the last record of the first triangle is written.
     pub seeds: bool,
     /// The entry at the head of the ring reader, and whether the commit takes it.
     pub head: Option<Head>,
     pub head_is_taken: bool,
     /// The ring whose last record is written.
     pub committed: Option<CommitJob>,
-    /// The lock being cleared, and the context whose last one it is.
+    /// The lock that is cleared, and the context whose last lock that is.
     pub clear: Option<u32>,
     pub released: Option<usize>,
-    /// The bundle that an insertion alone asks for.
+    /// The bundle that a solo insertion asks for.
     pub solo_push: Option<Bundle>,
-    /// The context that is alone now.
+    /// The context whose solo insertion begins now.
     pub solo_starts: Option<usize>,
-    /// The insertion alone is over; it has inserted its point, or found it to be a duplicate.
+    /// Whether the solo insertion ends, and whether it ends with its point in the mesh and not as a duplicate.
     pub solo_ends: bool,
     pub solo_inserts: bool,
 }
@@ -112,9 +113,10 @@ impl ClockModel {
         let outcome = done.filter(|_| !was.solo.is_at_work()).map(|done| self.outcome(&done));
         let solo_push = was.solo.push_request(was);
         let wanted = was.starter.wants(was);
-        // The queue takes one bundle, and the vertex memory has one port for points that arrive and points that are
-        // taken. Whether a visit that completes asks for others is known too late: all count but those that find their
-        // edge final. The pointer does not know even that much.
+        // The queue takes one bundle in each clock, and the vertex memory has one port for points that arrive
+        // and points that are taken. Whether a completing visit asks for more visits is known too late, so
+        // every visit but a test that finds its edge final counts as asking. The pointer knows even less, and
+        // waits at every completion.
         let lacks_port = wanted.is_some_and(|start| start.id.is_some() && was.command.came);
         let lacks_queue = outcome.is_some() && done.is_some_and(|done| done.may_ask());
         let stored = was.command.state == CommandState::Points && was.command.stores_points(was, config);
@@ -130,7 +132,7 @@ impl ClockModel {
             record_read: self.pipeline.record_read().map(|id| self.memory.record_words(id)),
             read: was.responder.read_request(was),
             answer_ends: was.responder.ends(inputs.response_ready),
-            is_quiet: was.progress.is_done(was) && rests,
+            is_quiet: was.finished_points.is_done(was) && rests,
             new_vertex: word.filter(|_| stored).map(|word| (was.command.arrived, point(word))),
             start: wanted.filter(|_| !lacks_port && !lacks_queue),
             start_is_held: wanted.is_some() && (lacks_port || outcome.is_some()),
@@ -141,19 +143,19 @@ impl ClockModel {
             clear: self.release.clear(),
             released: self.release.released(),
             solo_push,
-            solo_starts: was.contexts.solo.filter(|_| rests && !was.solo.is_at_work() && was.starter.is_at_alone()),
+            solo_starts: was.contexts.solo.filter(|_| rests && !was.solo.is_at_work() && was.starter.is_at_solo()),
             solo_ends: solo_inserts || was.solo.finds_duplicate(),
             solo_inserts,
         }
     }
 
-    /// What becomes of the context whose visit completes.
+    /// The consequences of a completing visit for its context.
     fn outcome(&self, done: &Completion) -> Outcome {
-        let context = done.token.context;
+        let context = done.visit.context;
         let around = Around {
             was: &self.registers,
             attempt: self.tables.attempts[context],
-            p: self.memory.point_id[context],
+            vertex: self.memory.point_id[context],
             since: self.memory.since[context],
             config: self.config,
             defect: self.defect,
@@ -162,7 +164,7 @@ impl ClockModel {
     }
 }
 
-/// A point from its word.
+/// The point in a command word.
 fn point(word: u32) -> Point {
     Point { x: word & 0xffff, y: word >> 16 }
 }

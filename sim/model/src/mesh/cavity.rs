@@ -1,4 +1,4 @@
-//! The cavity of an insertion (Bowyer 1981, Watson 1981).
+//! The cavity of an insertion (Bowyer 1981, Watson 1981). In hardware, `hdl/src/engine/attempt/` grows it.
 //!
 //! The boundary is a singly linked ring of entries, split in place:
 //! ```text
@@ -10,44 +10,45 @@
 //!           X                              b
 //!           p                         p
 //! ```
-//! Tests are carried out in the order in which they arose, as the core's token queue does.
+//! Tests are made in the order in which they arose, like the visits in the core's queue.
 
 use super::record::Record;
 
-/// A final edge of the boundary: from `a` to the next entry's `a`, with `p` on its left.
+/// A final edge of the boundary, from `first_vertex` to that of the next entry, with the point on its left.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Entry {
-    pub(super) a: u32,
-    /// The triangle outside, which stays, and the slot of its link to `f`.
-    pub(super) u: u32,
+    pub(super) first_vertex: u32,
+    /// The record outside, which stays, and the slot in which it names `cavity_record` as its neighbour.
+    pub(super) outside_record: u32,
     pub(super) slot: u8,
-    /// The cavity triangle behind the edge.
-    pub(super) f: u32,
-    pub(super) next: u8,
+    /// The cavity record behind the edge.
+    pub(super) cavity_record: u32,
+    pub(super) after: u8,
 }
 
-/// A test to be made: is `u`, before the edge of entry `x`, in conflict?
+/// A test to be made: does `record`, in front of the edge of `entry`, conflict with the point?
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Test {
-    pub(super) x: u8,
-    pub(super) next: u8,
-    /// The entry that was allocated when `f` joined the cavity, 0 for the root: names `f` in `half_open`.
-    pub(super) f_entry: u8,
-    pub(super) f: u32,
-    pub(super) u: u32,
+    pub(super) entry: u8,
+    pub(super) after: u8,
+    /// The entry that was allocated when `cavity_record` joined the cavity, or 0 for the root. The number stands for
+    /// that record in `half_open`.
+    pub(super) cavity_entry: u8,
+    pub(super) cavity_record: u32,
+    pub(super) record: u32,
 }
 
-/// Scratch memory of an insertion.
+/// The scratch memory of an insertion.
 #[derive(Clone, Debug)]
 pub(super) struct Cavity {
     capacity: u8,
     pub(super) entries: Vec<Entry>,
     pub(super) count: u8,
     pub(super) queue: Vec<Test>,
-    /// Bit `y`: one of the two edges that entry `y`'s cavity triangle brought has been passed. The root brought three
-    /// edges and uses bits 0 and 1.
+    /// Bit `y` says that the boundary has moved across one of the two edges that the cavity record of entry `y`
+    /// brought. The root brought three edges, and uses bits 0 and 1.
     half_open: u64,
-    /// Cavity triangles without a boundary edge.
+    /// Inner records: cavity records without an edge on the boundary.
     pub(super) inner: Vec<u32>,
 }
 
@@ -69,33 +70,40 @@ impl Cavity {
         self.inner.clear();
         self.half_open = 0;
         self.count = 3;
-        for x in 0..3u8 {
-            self.queue.push(Test { x, next: (x + 1) % 3, f_entry: 0, f: root, u: n[usize::from(x)] });
+        for entry in 0..3u8 {
+            self.queue.push(Test {
+                entry,
+                after: (entry + 1) % 3,
+                cavity_entry: 0,
+                cavity_record: root,
+                record: n[usize::from(entry)],
+            });
         }
     }
 
-    /// Passes through the edge of `test`: the ring grows by one entry. False if it has no room.
-    pub(super) fn split(&mut self, test: Test, u: &Record) -> bool {
+    /// Moves the boundary across the edge of `test`, so that the ring grows by one entry. Returns false if
+    /// the list is full.
+    pub(super) fn split(&mut self, test: Test, record: &Record) -> bool {
         if self.count == self.capacity {
             return false;
         }
-        if self.passes_last_edge(test.f_entry) {
-            self.inner.push(test.f);
+        if self.passes_last_edge(test.cavity_entry) {
+            self.inner.push(test.cavity_record);
         }
         let y = self.count;
         self.count += 1;
-        self.queue.push(Test { x: test.x, next: y, f_entry: y, f: test.u, u: u.n[1] });
-        self.queue.push(Test { x: y, next: test.next, f_entry: y, f: test.u, u: u.n[2] });
+        self.queue.push(Test { after: y, cavity_entry: y, cavity_record: test.record, record: record.n[1], ..test });
+        self.queue.push(Test { entry: y, cavity_entry: y, cavity_record: test.record, record: record.n[2], ..test });
         true
     }
 
-    fn passes_last_edge(&mut self, f_entry: u8) -> bool {
-        let bit = 1 << f_entry;
+    fn passes_last_edge(&mut self, cavity_entry: u8) -> bool {
+        let bit = 1 << cavity_entry;
         if self.half_open & bit == 0 {
             self.half_open |= bit;
             return false;
         }
-        if f_entry == 0 && self.half_open & 2 == 0 {
+        if cavity_entry == 0 && self.half_open & 2 == 0 {
             self.half_open |= 2;
             return false;
         }

@@ -1,23 +1,25 @@
-//! The triangle record.
+//! The record of a triangle or ghost triangle.
 
-/// A triangle record: vertex ids counter-clockwise; `n[k]` is the record across the edge opposite `v[k]`.
+/// A triangle record. The vertices are counter-clockwise, and `n[k]` is the record across the edge opposite `v[k]`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Record {
-    /// Vertex ids; one of them is the infinite vertex in a ghost.
+    /// Vertex ids. In a ghost triangle one of them is the infinite vertex.
     pub v: [u32; 3],
-    /// Neighbour record ids.
+    /// Record ids of the neighbours.
     pub n: [u32; 3],
 }
 
 impl Record {
-    /// The slot whose link equals `id`; the triangulation of a sphere has at most one.
+    /// The slot of the neighbour `id`. Since the mesh with its ghost triangles is a triangulated sphere, there is at
+    /// most one such slot.
     #[inline]
     pub fn slot_of(&self, id: u32) -> usize {
-        // Branch-free: links differ, and the callers follow links that lead back.
+        // The code has no branches. Neighbours differ from each other, and callers ask only for
+        // ids that are neighbours.
         usize::from(self.n[1] == id) | usize::from(self.n[2] == id) << 1
     }
 
-    /// Vertices and links rotated so that slot `s` comes first.
+    /// The record with vertices and neighbours rotated so that slot `s` comes first.
     #[inline]
     pub fn rotated(&self, s: usize) -> Record {
         let turn = |c: [u32; 3]| match s {

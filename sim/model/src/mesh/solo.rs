@@ -1,11 +1,13 @@
-//! Insertion in constant state, for cavities too large for the boundary list: split the located triangle, then flip
+//! Solo insertion, in constant memory, for cavities whose boundary is longer than the list: split the root, then flip
 //! once round the star (Lawson's flips, in the order of the star).
+//!
+//! Hardware twin: the blocks of `hdl/src/engine/solo/`.
 
 use super::record::Record;
 use super::Mesh;
 use crate::predicate::Point;
 
-/// The star triangle at work: `v = (p, a, b)`, `n = (outer, after, before)`.
+/// The current triangle of the star: `v = (p, a, b)`, `n = (outer, after, before)`.
 struct Star {
     id: u32,
     a: u32,
@@ -13,13 +15,13 @@ struct Star {
     outer: u32,
     after: u32,
     before: u32,
-    /// The link by which `outer` leads back: the id of the triangle that was flipped away last, or `id`.
+    /// The neighbour that `outer` names across this edge: the id of the triangle that was flipped away last, or `id`.
     back: u32,
 }
 
 impl Mesh {
-    /// Inserts `p`, located in `root`: `2 * flips + 3` tests.
-    pub(super) fn insert_alone(&mut self, p: u32, position: Point, root: u32) {
+    /// Inserts `p`, whose point `root` holds, with `2 * flips + 3` tests.
+    pub(super) fn insert_solo(&mut self, p: u32, position: Point, root: u32) {
         let old = self.records[root as usize];
         self.split(p, root, &old);
         let first = old.v[1];
@@ -42,7 +44,7 @@ impl Mesh {
         }
     }
 
-    /// Replaces `root` by three triangles at `p`; the outer neighbours' links are mended at once.
+    /// Replaces `root` by three triangles at `p`, and corrects the neighbours outside at once.
     fn split(&mut self, p: u32, root: u32, old: &Record) {
         let second = self.records.len() as u32;
         let third = second + 1;
@@ -61,7 +63,8 @@ impl Mesh {
         Star { id, a: v[1], b: v[2], outer: n[0], after: n[1], before: n[2], back: id }
     }
 
-    /// Flips the edge between the star triangle and `u` (rotated: apex first): `u` becomes the next star triangle.
+    /// Flips the edge between the current triangle and `u`, which is rotated so that its apex comes first. The id of
+    /// `u` becomes the next triangle of the star.
     fn flip(&mut self, p: u32, star: &mut Star, u: &Record) {
         self.counts.flips += 1;
         let apex = u.v[0];

@@ -1,4 +1,5 @@
-//! The growth of a cavity and its replacement by the star of the new vertex (Bowyer 1981, Watson 1981).
+//! The growth of a cavity, and its replacement by the star of the new vertex (Bowyer 1981, Watson 1981). In hardware,
+//! `hdl/src/engine/commit/` writes the star.
 
 use super::cavity::{Cavity, Entry};
 use super::record::Record;
@@ -6,7 +7,7 @@ use super::Mesh;
 use crate::predicate::Point;
 
 impl Mesh {
-    /// Finds the cavity of `p`, located in `root`. False if its boundary has more entries than the list.
+    /// Finds the cavity of `p`, whose root is `root`. Returns false if the boundary has more entries than the list.
     pub(super) fn grow(&mut self, root: u32, p: Point) -> bool {
         let mut cavity = std::mem::replace(&mut self.cavity, Cavity::new(0));
         cavity.start(root, self.records[root as usize].n);
@@ -15,26 +16,31 @@ impl Mesh {
         while fits && done < cavity.queue.len() {
             let test = cavity.queue[done];
             done += 1;
-            let record = &self.records[test.u as usize];
-            let slot = record.slot_of(test.f);
-            let u = record.rotated(slot);
-            if self.in_conflict(&u, p) {
-                fits = cavity.split(test, &u);
+            let record = &self.records[test.record as usize];
+            let slot = record.slot_of(test.cavity_record);
+            let turned = record.rotated(slot);
+            if self.in_conflict(&turned, p) {
+                fits = cavity.split(test, &turned);
             } else {
-                cavity.entries[usize::from(test.x)] =
-                    Entry { a: u.v[2], u: test.u, slot: slot as u8, f: test.f, next: test.next };
+                cavity.entries[usize::from(test.entry)] = Entry {
+                    first_vertex: turned.v[2],
+                    outside_record: test.record,
+                    slot: slot as u8,
+                    cavity_record: test.cavity_record,
+                    after: test.after,
+                };
             }
         }
-        // Tests already under way when the list overflows run out, and are counted.
+        // In the core, the visits that are out when the list overflows complete, and are counted.
         self.counts.tests += cavity.queue.len() as u32;
         self.cavity = cavity;
         fits
     }
 
-    /// Replaces the cavity by the star of `p`: one record per boundary entry.
+    /// Replaces the cavity by the star of `p`, with one record for each entry of the boundary.
     ///
-    /// An entry's record takes the id of the cavity triangle behind it, unless the entry before or the first one did;
-    /// then it takes an inner triangle's id, and the last two take new ones.
+    /// The record of an entry takes the id of the cavity record behind it, unless the entry before or the first entry
+    /// took that id. Then it takes the id of an inner record, and the last two take new ids.
     pub(super) fn commit(&mut self, p: u32) {
         let cavity = std::mem::replace(&mut self.cavity, Cavity::new(0));
         self.counts.cavity_triangles += u32::from(cavity.count) - 2;
@@ -46,41 +52,45 @@ impl Mesh {
             })
         };
         let first = cavity.entries[0];
-        let first_id = first.f;
-        let (mut entry, mut id) = (cavity.entries[usize::from(first.next)], 0);
-        let second_a = entry.a;
+        let first_id = first.cavity_record;
+        let (mut entry, mut id) = (cavity.entries[usize::from(first.after)], 0);
+        let second_vertex = entry.first_vertex;
         let mut second_id = 0;
-        let (mut before_f, mut before_id) = (first.f, first_id);
+        let (mut before_record, mut before_id) = (first.cavity_record, first_id);
         let mut at_second = true;
-        // `entry` runs from the second to the last; its record needs the id of the one after it.
-        let mut is_last = first.next == 0;
+        // `entry` runs from the second entry to the last. Writing a record needs the id of the record after it.
+        let mut is_last = first.after == 0;
         let mut pending = None::<(Entry, u32, u32)>;
         while !is_last {
-            id = if entry.f == before_f || entry.f == first.f { fresh(&mut self.records) } else { entry.f };
+            id = if entry.cavity_record == before_record || entry.cavity_record == first.cavity_record {
+                fresh(&mut self.records)
+            } else {
+                entry.cavity_record
+            };
             if at_second {
                 second_id = id;
                 at_second = false;
             }
             if let Some((ahead, ahead_id, back)) = pending {
-                self.write_star(p, ahead, ahead_id, entry.a, id, back);
+                self.write_star(p, ahead, ahead_id, entry.first_vertex, id, back);
             }
             pending = Some((entry, id, before_id));
-            (before_f, before_id) = (entry.f, id);
-            is_last = entry.next == 0;
-            entry = cavity.entries[usize::from(entry.next)];
+            (before_record, before_id) = (entry.cavity_record, id);
+            is_last = entry.after == 0;
+            entry = cavity.entries[usize::from(entry.after)];
         }
         if let Some((last, last_id, back)) = pending {
-            self.write_star(p, last, last_id, first.a, first_id, back);
+            self.write_star(p, last, last_id, first.first_vertex, first_id, back);
         }
-        self.write_star(p, first, first_id, second_a, second_id, id);
+        self.write_star(p, first, first_id, second_vertex, second_id, id);
         self.cavity = cavity;
     }
 
-    /// Writes the record of one entry, and the link of the triangle outside unless it is right already.
+    /// Writes the record of one entry, and the neighbour in the record outside unless it is right already.
     fn write_star(&mut self, p: u32, entry: Entry, id: u32, b: u32, after: u32, before: u32) {
-        self.records[id as usize] = Record { v: [p, entry.a, b], n: [entry.u, after, before] };
-        if id != entry.f {
-            self.records[entry.u as usize].n[usize::from(entry.slot)] = id;
+        self.records[id as usize] = Record { v: [p, entry.first_vertex, b], n: [entry.outside_record, after, before] };
+        if id != entry.cavity_record {
+            self.records[entry.outside_record as usize].n[usize::from(entry.slot)] = id;
         }
     }
 }

@@ -1,11 +1,13 @@
-//! Point location by a visibility walk (Devillers, Pion, Teillaud 2002), over finite triangles.
+//! Point location by a visibility walk (Devillers, Pion, Teillaud 2002) over finite triangles. In hardware,
+//! `hdl/src/engine/visit/verdict_logic.rs` decides each step.
 
 use super::Mesh;
 use crate::predicate::{orient2d, Point};
 
 impl Mesh {
-    /// The record that holds `p`: a finite triangle with `p` inside or on its border, or a ghost with `p` strictly
-    /// beyond its hull edge. Leaves each triangle over its most negative edge, from `start` on.
+    /// The id of the record that holds `p`: a finite triangle with `p` inside or on its border, or a ghost triangle
+    /// with `p` strictly beyond its hull edge. From `start` on, the walk leaves each triangle across the edge with
+    /// the most negative orient2d.
     pub(super) fn locate(&mut self, p: Point, start: u32) -> u32 {
         let mut id = start;
         loop {
@@ -17,7 +19,7 @@ impl Mesh {
         }
     }
 
-    /// The record to visit after `id`, or `None` if `p` is found.
+    /// The record to visit after `id`, or `None` if `id` holds `p`.
     #[inline]
     fn step(&self, id: u32, p: Point) -> Option<u32> {
         let record = &self.records[id as usize];

@@ -1,4 +1,6 @@
-//! Answers of the device on their way into frames.
+//! The answers of the device on their way into frames.
+//!
+//! Hardware twin: the answer packer of `hdl/src/serial/`.
 
 use std::collections::VecDeque;
 
@@ -6,46 +8,47 @@ use incircle_protocol::{ANSWER_HEADER_BYTES, MAX_PAYLOAD};
 
 use super::crc::Crc32;
 
-/// Words of an answer before its payload.
+/// Number of words of an answer before its payload.
 const HEAD_WORDS: u64 = 2;
-/// Most answer words of a frame.
+/// Largest number of answer words in a frame.
 const FRAME_WORDS: u64 = (MAX_PAYLOAD / 4) as u64;
-/// Answer words that wait for the line; the device is held up by so many, and may then have given one more.
+/// Number of answer words that may wait for the line. The device is stopped at this number, and may then have
+/// given one word more.
 const WAITING: usize = 16;
 
-/// The part of an answer that a frame carries.
+/// The part of an answer that one frame carries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Part {
-    /// Bytes before the words.
+    /// The bytes before the words.
     pub header: [u8; ANSWER_HEADER_BYTES],
-    /// How many words.
+    /// Number of words of the part that are still to come.
     pub words: u64,
-    /// The answer ends with them.
+    /// Whether the answer ends with this part.
     pub is_last: bool,
 }
 
-/// Words of answers, in order, and where each of them ends.
+/// The words of answers, in order, and the ends of answers among them.
 #[derive(Clone, Debug, Default)]
 pub struct Answers {
     waiting: VecDeque<u32>,
-    /// Words of the answer that comes in: how many came, and how many it has, if that is known.
+    /// The answer that the device is giving: the number of words so far, and its length if that is known.
     coming: (u64, Option<u64>),
-    /// Answers sent to their end.
+    /// Number of answers that were sent completely, modulo 256.
     sent: u8,
-    /// Words of the present answer that are in frames.
+    /// Number of words of the current answer that are in frames.
     index: u64,
-    /// Words of the present answer, if its length is known.
+    /// Length of the current answer in words, if it is known.
     length: Option<u64>,
     crc: Crc32,
 }
 
 impl Answers {
-    /// Room for one more word.
+    /// Whether there is room for one more word.
     pub fn has_room(&self) -> bool {
         self.waiting.len() < WAITING
     }
 
-    /// One more word of the device; true if it is the last of its answer.
+    /// Adds a word of the device, and returns whether it is the last of its answer.
     pub fn add(&mut self, word: u32) -> bool {
         self.waiting.push_back(word);
         let (came, length) = &mut self.coming;
@@ -60,17 +63,18 @@ impl Answers {
         is_last
     }
 
-    /// Number of answers sent to their end, modulo 256.
+    /// Number of answers that were sent completely, modulo 256.
     pub fn sent(&self) -> u8 {
         self.sent
     }
 
-    /// Nothing waits and no answer is half sent.
+    /// Whether no word waits and no answer has been sent in part.
     pub fn is_quiet(&self) -> bool {
         self.waiting.is_empty() && self.length.is_none()
     }
 
-    /// The next part, if it can be begun: of a new answer the length is there, of an old one a word.
+    /// The next part, if it can begin. A new answer must have come up to its length, and a begun answer must
+    /// have a word ready.
     pub fn begin_part(&mut self) -> Option<Part> {
         if self.length.is_none() {
             let payload = *self.waiting.get(1)?;
@@ -82,7 +86,7 @@ impl Answers {
         Some(Part { header: [self.sent, low, high], words: left.min(FRAME_WORDS), is_last: left <= FRAME_WORDS })
     }
 
-    /// The next word of the part that was begun, if it is there.
+    /// The next word of the part that was begun, if the word has come.
     pub fn word(&mut self) -> Option<u32> {
         let word = self.waiting.pop_front()?;
         self.index += 1;
@@ -90,12 +94,12 @@ impl Answers {
         Some(word)
     }
 
-    /// Check sum of the words of the present answer so far.
+    /// Check sum of the words of the current answer so far.
     pub fn crc(&self) -> u32 {
         self.crc.value()
     }
 
-    /// The last part is sent.
+    /// Ends the current answer, whose last part has been sent.
     pub fn end_answer(&mut self) {
         (self.index, self.length, self.crc) = (0, None, Crc32::default());
         self.sent = self.sent.wrapping_add(1);

@@ -1,19 +1,20 @@
-//! Frames without zeros: COBS towards the device, reverse COBS towards the host.
+//! Encodings of frames without zeros: COBS to the device, reverse COBS to the host. In both directions the device's
+//! side needs almost no memory.
 
-/// The longest piece without a zero, and what its length byte says: no zero stands behind it.
+/// The length byte of the longest piece without a zero. No zero follows such a piece.
 const LONGEST: u8 = 255;
 
-/// Takes COBS byte by byte; needs a counter and one flag.
+/// Decodes COBS byte by byte. The decoder needs a counter and one flag.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CobsDecoder {
-    /// Bytes of the present piece that are still to come.
+    /// Number of bytes of the current piece that are still to come.
     left: u8,
-    /// A zero stands behind the present piece, if another follows.
+    /// Whether a zero follows the current piece, if another piece follows.
     zero_follows: bool,
 }
 
 impl CobsDecoder {
-    /// Takes a byte that is not zero, and gives the decoded byte, if there is one.
+    /// Takes a byte that is not zero, and returns the decoded byte, if there is one.
     pub fn take(&mut self, byte: u8) -> Option<u8> {
         if self.left > 0 {
             self.left -= 1;
@@ -25,7 +26,7 @@ impl CobsDecoder {
         zero
     }
 
-    /// The zero at the end of a frame: true if the last piece was whole. The decoder is as new.
+    /// Takes the zero at the end of a frame, and returns whether the last piece was complete. The decoder starts anew.
     pub fn end(&mut self) -> bool {
         let is_whole = self.left == 0;
         *self = Self::default();
@@ -33,7 +34,7 @@ impl CobsDecoder {
     }
 }
 
-/// Bytes in COBS, without the zero that ends the frame.
+/// The bytes in COBS, without the zero that ends the frame.
 pub fn encode(bytes: &[u8]) -> Vec<u8> {
     let mut encoded = vec![0];
     let mut place = 0;
@@ -55,7 +56,7 @@ pub fn encode(bytes: &[u8]) -> Vec<u8> {
     encoded
 }
 
-/// COBS taken back; nothing if a zero stands in it or the last piece is cut.
+/// The bytes from COBS, or `None` if the encoding contains a zero or ends within a piece.
 pub fn decode(encoded: &[u8]) -> Option<Vec<u8>> {
     let mut decoder = CobsDecoder::default();
     if encoded.is_empty() || encoded.contains(&0) {
@@ -65,15 +66,15 @@ pub fn decode(encoded: &[u8]) -> Option<Vec<u8>> {
     decoder.end().then_some(bytes)
 }
 
-/// Gives reverse COBS byte by byte; needs one counter.
+/// Encodes reverse COBS byte by byte. The encoder needs one counter.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ReverseEncoder {
-    /// Bytes since the last length byte.
+    /// Number of bytes since the last length byte.
     run: u8,
 }
 
 impl ReverseEncoder {
-    /// One more byte of the frame: hands the encoded ones, one or two, to `emit`.
+    /// Adds a byte of the frame, and passes the one or two encoded bytes to `emit`.
     pub fn add(&mut self, byte: u8, mut emit: impl FnMut(u8)) {
         if byte == 0 {
             emit(self.run + 1);
@@ -88,7 +89,7 @@ impl ReverseEncoder {
         }
     }
 
-    /// The byte that ends the frame. The encoder is as new.
+    /// The last length byte of the frame. The encoder starts anew.
     pub fn end(&mut self) -> u8 {
         let last = self.run + 1;
         self.run = 0;
@@ -96,7 +97,7 @@ impl ReverseEncoder {
     }
 }
 
-/// Bytes in reverse COBS, without the zero that ends the frame.
+/// The bytes in reverse COBS, without the zero that ends the frame.
 pub fn encode_reverse(bytes: &[u8]) -> Vec<u8> {
     let mut encoder = ReverseEncoder::default();
     let mut encoded = Vec::with_capacity(bytes.len() + bytes.len() / 254 + 1);
@@ -107,7 +108,8 @@ pub fn encode_reverse(bytes: &[u8]) -> Vec<u8> {
     encoded
 }
 
-/// Reverse COBS taken back, from the end; nothing if a zero stands in it or a length byte points before the start.
+/// The bytes from reverse COBS, decoded from the end. `None` if the encoding contains a zero or a length byte
+/// points before the start.
 pub fn decode_reverse(encoded: &[u8]) -> Option<Vec<u8>> {
     let mut bytes = Vec::with_capacity(encoded.len());
     let mut rest = encoded;
@@ -116,7 +118,7 @@ pub fn decode_reverse(encoded: &[u8]) -> Option<Vec<u8>> {
         if length == 0 {
             return None;
         }
-        // The last piece has no zero behind it, nor has one of the longest.
+        // No zero follows the last piece, nor a piece of the greatest length.
         if !is_last && length != LONGEST {
             bytes.push(0);
         }
@@ -137,7 +139,7 @@ pub fn decode_reverse(encoded: &[u8]) -> Option<Vec<u8>> {
 mod tests {
     use super::*;
 
-    /// Frames around the longest piece, with zeros at all ends, and pseudo-random ones.
+    /// Frames around the greatest length of a piece, with zeros at both ends, and pseudo-random frames.
     fn samples() -> Vec<Vec<u8>> {
         let mut samples = vec![vec![], vec![0], vec![0, 0], vec![1, 0], vec![0, 1], b"123".to_vec()];
         for length in [253, 254, 255, 508, 509, 1037] {
@@ -153,7 +155,7 @@ mod tests {
                 (0..length)
                     .map(|_| {
                         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-                        // Many zeros in some, none in most pieces of others.
+                        // Some frames have many zeros, and in others most pieces have none.
                         ((state >> 24) % (2 + length % 200)) as u8
                     })
                     .collect(),

@@ -1,9 +1,9 @@
 //! The check sum of frames, answers and sessions.
 
-/// Polynomial of Ethernet's CRC-32, lowest power in the top bit.
+/// The polynomial of Ethernet's CRC-32, with the lowest power in the top bit.
 const REFLECTED: u32 = 0xedb8_8320;
 
-/// A CRC-32 that grows byte by byte.
+/// A CRC-32 that is computed byte by byte.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Crc32(u32);
 
@@ -21,7 +21,7 @@ impl Crc32 {
         crc.value()
     }
 
-    /// One more byte.
+    /// Adds a byte to the sum.
     pub fn add(&mut self, byte: u8) {
         self.0 ^= u32::from(byte);
         for _ in 0..8 {

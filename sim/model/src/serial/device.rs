@@ -1,29 +1,29 @@
-//! What stands behind the link: a device that takes and gives words.
+//! The device behind the serial link: it takes and gives words, one clock at a time.
 
 use incircle_protocol::{Config, Identity, CORE_COORD_BITS, CORE_VERSION, MAGIC, PROTOCOL_VERSION};
 
 use crate::{ClockModel, CommandModel, Inputs};
 
-/// A device of two streams of words, a clock at a time.
+/// A device with a stream of command words and a stream of answer words, driven clock by clock.
 pub trait WordDevice {
-    /// Starts anew, as after a reset.
+    /// Resets the device, which forgets everything.
     fn reset(&mut self);
 
-    /// One clock. The device is offered a command word, or none, and may give answer words if `takes_answer`. What is offered stays
-    /// offered in the next clock, on both sides, unless it was taken.
+    /// Simulates one clock. The device is offered a command word, or none, and may give answer words if `takes_answer`.
+    /// On both sides, an offered word that was not taken stays offered in the next clock.
     fn step(&mut self, command: Option<u32>, takes_answer: bool) -> Passed;
 }
 
-/// What passed in a clock.
+/// The words that passed in a clock.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Passed {
-    /// The command word was taken.
+    /// Whether the command word was taken.
     pub is_taken: bool,
-    /// Answer words that were given: none, one, or two in their order.
+    /// The answer words that were given: none, one, or two in their order.
     pub answer: [Option<u32>; 2],
 }
 
-/// The model by commands: it takes a word in a clock, and its insertions take none.
+/// The model by commands, as a device that takes one word in each clock and needs no time for insertions.
 #[derive(Debug)]
 pub struct Instantly {
     model: CommandModel,
@@ -32,10 +32,10 @@ pub struct Instantly {
 }
 
 impl Instantly {
-    /// A device for `capacity` points of `coord_bits` bits.
+    /// A device for `capacity` points of `coord_bits` bits, with boundary lists of `ring` entries.
     ///
     /// # Errors
-    /// As [`CommandModel::new`].
+    /// The errors of [`CommandModel::new`].
     pub fn new(coord_bits: u32, capacity: u32, ring: u32) -> Result<Self, crate::ModelError> {
         let model = CommandModel::new(coord_bits, capacity, ring)?;
         Ok(Self { model, parameters: (coord_bits, capacity, ring), answer: None })
@@ -44,18 +44,18 @@ impl Instantly {
     /// A device with the parameters of a core.
     ///
     /// # Errors
-    /// As [`CommandModel::new`].
+    /// The errors of [`CommandModel::new`].
     pub fn of(config: Config) -> Result<Self, crate::ModelError> {
         Self::new(CORE_COORD_BITS, config.points, config.ring)
     }
 
-    /// What it says of itself.
+    /// The identity of the device.
     pub fn identity(&self) -> Identity {
         let (coord_bits, points, ring) = self.parameters;
         Identity { coord_bits, ..core_identity(Config { name: "", points, ring, contexts: 1 }) }
     }
 
-    /// The answer word that is offered.
+    /// The answer word that is offered now.
     fn offered(&mut self) -> Option<u32> {
         if self.answer.is_none() {
             let mut word = [0];
@@ -79,7 +79,7 @@ impl WordDevice for Instantly {
                 let answer = if takes_answer { self.answer.take() } else { None };
                 Passed { is_taken: false, answer: [answer, None] }
             }
-            // As a core, it takes no word while an answer is under way.
+            // As the core does, the model takes no word while an answer is in progress.
             (None, Some(word)) => {
                 self.model.send(&[word]);
                 Passed { is_taken: true, ..Passed::default() }
@@ -108,7 +108,7 @@ impl WordDevice for ClockModel {
     }
 }
 
-/// What a core of this configuration says of itself.
+/// The identity of a core of this configuration.
 pub fn core_identity(config: Config) -> Identity {
     Identity {
         magic: MAGIC,

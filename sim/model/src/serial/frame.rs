@@ -1,4 +1,4 @@
-//! Frames, whole: what a host's frame says, and the words of a device's.
+//! Whole frames of the serial link, in both directions, and the receiver that finds them among the bytes of a line.
 
 use incircle_protocol::{
     DeviceFrame, HostFrame, CRC_BYTES, DEVICE_HEADER_BYTES, FRAME_END, HOST_HEADER_BYTES, MAX_PAYLOAD,
@@ -7,24 +7,24 @@ use incircle_protocol::{
 use super::cobs::{decode_reverse, encode, encode_reverse, CobsDecoder};
 use super::crc::Crc32;
 
-/// Most bytes of a host's frame, decoded.
+/// Largest number of bytes of a frame to the device, decoded.
 const MAX_HOST_FRAME: usize = HOST_HEADER_BYTES + MAX_PAYLOAD + CRC_BYTES;
 
-/// A host's frame that came whole.
+/// A frame to the device.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FromHost {
-    /// Session that it belongs to.
+    /// Number of the session that the frame belongs to.
     pub session: u8,
-    /// What it is.
+    /// Type of the frame.
     pub kind: HostFrame,
-    /// Its number, if it is data.
+    /// Number of the frame, if it carries data.
     pub number: u8,
-    /// Its payload.
+    /// Payload of the frame.
     pub payload: Vec<u8>,
 }
 
 impl FromHost {
-    /// The bytes on the line, the zero at the end included.
+    /// The bytes on the line, with the zero at the end.
     pub fn to_line(&self) -> Vec<u8> {
         let length = self.payload.len() as u16;
         let mut bytes = vec![self.session, self.kind as u8, self.number];
@@ -37,7 +37,7 @@ impl FromHost {
         line
     }
 
-    /// Frame from decoded bytes; nothing if check sum, length or type are wrong.
+    /// The frame from decoded bytes, or `None` if the check sum, the length or the type is wrong.
     pub fn from_bytes(bytes: &[u8]) -> Option<Self> {
         let (said, crc) = bytes.split_at_checked(bytes.len().checked_sub(CRC_BYTES)?)?;
         if Crc32::of(said).to_le_bytes() != crc {
@@ -52,7 +52,7 @@ impl FromHost {
     }
 }
 
-/// Whether a frame of this kind may have so many bytes of payload.
+/// Whether a frame of this type may have this many bytes of payload.
 fn is_length_of(kind: HostFrame, length: usize) -> bool {
     match kind {
         HostFrame::Data => (4..=MAX_PAYLOAD).contains(&length) && length.is_multiple_of(4),
@@ -61,18 +61,18 @@ fn is_length_of(kind: HostFrame, length: usize) -> bool {
     }
 }
 
-/// What the end of a frame brought.
+/// The result of the end of a frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Received {
-    /// Nothing stood between two zeros.
+    /// There was no byte between two zeros.
     Nothing,
-    /// A frame.
+    /// A valid frame has come.
     Frame(FromHost),
-    /// Something that is no frame.
+    /// The bytes were no valid frame.
     Broken,
 }
 
-/// Takes the bytes of a line and cuts them into frames.
+/// Takes the bytes of a line, and divides them into frames.
 #[derive(Clone, Debug, Default)]
 pub struct FrameReceiver {
     decoder: CobsDecoder,
@@ -82,22 +82,23 @@ pub struct FrameReceiver {
 }
 
 impl FrameReceiver {
-    /// One that has received nothing.
+    /// A receiver that has received nothing.
     pub fn new() -> Self {
         Self { is_empty: true, ..Self::default() }
     }
 
-    /// A byte of the line was lost: what was begun is no frame, whatever follows. Between frames that is nothing.
+    /// Reports that a byte of the line was lost. The frame that had begun is invalid, whatever follows;
+    /// between frames nothing happens.
     pub fn spoil(&mut self) {
         self.is_spoilt |= !self.is_empty;
     }
 
-    /// One byte; something if it ends a frame.
+    /// Takes a byte, and returns a result if that byte ends a frame.
     pub fn take(&mut self, byte: u8) -> Option<Received> {
         if byte != FRAME_END {
             self.is_empty = false;
             if let Some(decoded) = self.decoder.take(byte) {
-                // What is too long is not kept.
+                // Bytes beyond the longest frame are not kept.
                 self.is_spoilt |= self.bytes.len() == MAX_HOST_FRAME;
                 if !self.is_spoilt {
                     self.bytes.push(decoded);
@@ -115,33 +116,33 @@ impl FrameReceiver {
     }
 }
 
-/// A device's frame, as who looks into the line sees it.
+/// A frame to the host, as an observer of the line sees it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FromDevice {
-    /// The open session.
+    /// Number of the open session.
     pub session: u8,
-    /// What it is.
+    /// Type of the frame.
     pub kind: DeviceFrame,
-    /// Number of the data that is awaited.
+    /// Number of the next data frame that the device expects.
     pub expected: u8,
-    /// Answers sent to their end.
+    /// Number of answers that were sent completely, modulo 256.
     pub answers: u8,
-    /// Bytes that are free.
+    /// Number of free bytes in the receive FIFO.
     pub free: u16,
-    /// Status bits.
+    /// Status bits, `STATUS_...` of the protocol.
     pub status: u8,
-    /// The rest.
+    /// The bytes behind the header.
     pub body: Vec<u8>,
 }
 
 impl FromDevice {
-    /// Bytes of the header.
+    /// The bytes of the header.
     pub fn header(&self) -> [u8; DEVICE_HEADER_BYTES] {
         let [low, high] = self.free.to_le_bytes();
         [self.session, self.kind as u8, self.expected, self.answers, low, high, self.status]
     }
 
-    /// The bytes on the line, the zero at the end included.
+    /// The bytes on the line, with the zero at the end.
     pub fn to_line(&self) -> Vec<u8> {
         let mut bytes = self.header().to_vec();
         bytes.extend(&self.body);
@@ -152,7 +153,7 @@ impl FromDevice {
         line
     }
 
-    /// Frame from the bytes on the line, without the zero at their end; nothing if they are none.
+    /// The frame from the bytes on the line, without the zero at their end. `None` if they are no valid frame.
     pub fn from_line(line: &[u8]) -> Option<Self> {
         let bytes = decode_reverse(line)?;
         let (said, crc) = bytes.split_at_checked(bytes.len().checked_sub(CRC_BYTES)?)?;

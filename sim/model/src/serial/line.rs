@@ -1,4 +1,4 @@
-//! Bytes on their way to the host: one frame after the other, encoded as they go.
+//! The line to the host: one frame after the other, encoded byte by byte.
 
 use std::collections::VecDeque;
 
@@ -22,12 +22,12 @@ impl SendingLine {
         self.encoded.pop_front()
     }
 
-    /// All that was added has been given.
+    /// Whether every byte that was added has been given.
     pub fn is_empty(&self) -> bool {
         self.encoded.is_empty()
     }
 
-    /// More bytes of the present frame; the first begin it.
+    /// Adds bytes to the current frame. The first bytes begin a frame.
     pub fn add(&mut self, bytes: &[u8]) {
         self.is_in_frame = true;
         for &byte in bytes {
@@ -36,7 +36,7 @@ impl SendingLine {
         }
     }
 
-    /// The check sum and the end of the present frame.
+    /// Adds the check sum, and ends the current frame.
     pub fn end(&mut self) {
         let crc = self.crc.value();
         self.add(&crc.to_le_bytes());
@@ -45,7 +45,7 @@ impl SendingLine {
         self.is_in_frame = false;
     }
 
-    /// Ends the present frame without a check sum, so that it is none; what is whole stays.
+    /// Ends the current frame without a check sum, which makes it invalid. A complete frame stays.
     pub fn cut(&mut self) {
         if self.is_in_frame {
             self.encoder.end();

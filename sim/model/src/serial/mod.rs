@@ -1,9 +1,11 @@
-//! The device's end of the serial link, byte by byte, as `protocol/SERIAL.md` has it.
+//! The device's end of the serial link, byte by byte, as `protocol/SERIAL.md` describes it.
 //!
-//! [`SerialModel`] stands between a line of bytes and a [`WordDevice`]. Time is the caller's: bytes come and go when it says so, and
-//! clocks pass when it says so. So the same model serves tests in virtual time and boards in real time. Bits are not modelled: a caller that
-//! wants to know how long a byte takes asks for [`SerialModel::rate_step`]. Nothing is shared with the hardware or with a host but
-//! the numbers of the protocol.
+//! Hardware twin: the blocks of `hdl/src/serial/`.
+//!
+//! [`SerialModel`] stands between a line of bytes and a [`WordDevice`]. The caller decides when bytes come and go and
+//! when clocks pass, so the same model serves tests in virtual time and boards in real time. Bits are not modelled: a
+//! caller that needs the duration of a byte asks for [`SerialModel::rate_step`]. The model shares nothing with the
+//! hardware or with a host but the numbers of the protocol.
 //!
 //! ```
 //! use incircle_model::serial::{FromDevice, FromHost, Instantly, SerialModel};
@@ -42,7 +44,7 @@ pub use crc::Crc32;
 pub use device::{core_identity, Instantly, Passed, WordDevice};
 pub use frame::{FrameReceiver, FromDevice, FromHost, Received};
 
-/// Replies that are due, each once.
+/// The replies that must be sent, each once.
 #[derive(Clone, Copy, Debug, Default)]
 struct Due {
     hello: bool,
@@ -53,14 +55,14 @@ struct Due {
     nak: bool,
 }
 
-/// What happens when the last byte of the present frame is given.
+/// The action that follows when the last byte of the current frame is given.
 #[derive(Clone, Copy, Debug)]
 enum Then {
-    /// The next frame.
+    /// Nothing but the next frame.
     Nothing,
-    /// Bits have this step from then on.
+    /// The baud generator takes this step.
     Step(u32),
-    /// An answer has ended.
+    /// The current answer ends.
     AnswerEnds,
 }
 
@@ -75,19 +77,19 @@ pub struct SerialModel<D> {
     due: Due,
     was_bad_rate: bool,
     was_dropped: bool,
-    /// Step to take after the next `Ack`.
+    /// Step of the baud generator that takes effect after the next `Ack`.
     new_step: Option<u32>,
     line: SendingLine,
     then: Then,
-    /// The part of an answer that the present frame carries, with the words still to come.
+    /// The part of an answer that the current frame carries, with the number of words still to come.
     part: Option<Part>,
     step: u32,
-    /// Clocks since the last frame that was one.
+    /// Number of clocks since the last valid frame.
     silent: u64,
 }
 
 impl<D: WordDevice> SerialModel<D> {
-    /// A device that has just been reset. `identity` is what the core says of itself.
+    /// A device that has just been reset. `identity` is the identity of the core.
     pub fn new(link: LinkConfig, identity: Identity, core: D) -> Self {
         let greeting = Greeting {
             magic: LINK_MAGIC,
@@ -116,30 +118,30 @@ impl<D: WordDevice> SerialModel<D> {
         }
     }
 
-    /// The step of the baud generator: a bit takes `2^24 / step` clocks. Ask before [`SerialModel::give`]: the byte that it gives takes as
-    /// long, also where it is the last at this rate.
+    /// The step of the baud generator, with which a bit takes `2^24 / step` clocks. Ask before [`SerialModel::give`]:
+    /// the byte that `give` returns has this rate, even if it is the last at this rate.
     pub fn rate_step(&self) -> u32 {
         self.step
     }
 
-    /// The number of the open session, 0 if there is none.
+    /// Number of the open session, or 0 if there is none.
     pub fn session(&self) -> u8 {
         self.session.as_ref().map_or(0, |session| session.number)
     }
 
-    /// The core is at work on a command, or its answer is not sent.
+    /// Whether the core is working on a command, or its answer has not been sent.
     pub fn is_busy(&self) -> bool {
         self.session.as_ref().is_some_and(|session| session.is_busy || session.waiting_bytes() > 0)
     }
 
-    /// Time changes nothing until a byte comes: no session, nothing to say, the first rate.
+    /// Whether passing time changes nothing until a byte comes: no session, nothing to send, first rate.
     pub fn is_at_rest(&self) -> bool {
         let Due { hello, opened, closed, no_session, ack, nak } = self.due;
         let is_due = hello || opened || closed || no_session || ack || nak;
         self.session.is_none() && !is_due && self.line.is_empty() && self.step == first_step(self.link)
     }
 
-    /// Time passes: the core works, and silence lasts longer.
+    /// Lets this many clocks pass: the core works, and the silence grows longer.
     pub fn pass(&mut self, clocks: u64) {
         if let Some(session) = &mut self.session {
             session.pass(&mut self.core, clocks);
@@ -151,18 +153,18 @@ impl<D: WordDevice> SerialModel<D> {
         }
     }
 
-    /// The line was low for a millisecond.
+    /// Reports a break: the line was low for a millisecond.
     pub fn break_line(&mut self) {
         self.receiver.spoil();
         self.forget_all();
     }
 
-    /// What came was no byte: its stop bit was low. The frame that it fell into is none.
+    /// Reports a symbol that was no byte because its stop bit was low. The frame that it belongs to becomes invalid.
     pub fn spoil(&mut self) {
         self.receiver.spoil();
     }
 
-    /// A byte came.
+    /// Takes a byte from the line.
     pub fn take(&mut self, byte: u8) {
         match self.receiver.take(byte) {
             None | Some(Received::Nothing) => {}
@@ -212,7 +214,7 @@ impl<D: WordDevice> SerialModel<D> {
         self.due.ack = true;
     }
 
-    /// The session ends; what is half sent of an answer stays half.
+    /// Ends the session. An answer that was sent in part stays incomplete.
     fn end_session(&mut self) {
         self.session = None;
         self.due = Due { hello: self.due.hello, ..Due::default() };
@@ -223,14 +225,14 @@ impl<D: WordDevice> SerialModel<D> {
         }
     }
 
-    /// After a silence or a break.
+    /// Ends the session and returns to the first rate, after a silence or a break.
     fn forget_all(&mut self) {
         self.end_session();
         self.step = first_step(self.link);
         self.then = Then::Nothing;
     }
 
-    /// The next byte for the host, if there is one now; the line is free for it.
+    /// The next byte for the host, if there is one now. The caller asks when the line is free.
     pub fn give(&mut self) -> Option<u8> {
         if self.line.is_empty() {
             self.go_on();
@@ -242,7 +244,7 @@ impl<D: WordDevice> SerialModel<D> {
         byte
     }
 
-    /// More of the present frame, or the next one.
+    /// Adds more of the current frame to the line, or begins the next frame.
     fn go_on(&mut self) {
         let Some(part) = &mut self.part else {
             return self.begin_frame();
@@ -292,7 +294,7 @@ impl<D: WordDevice> SerialModel<D> {
         }
     }
 
-    /// A whole frame.
+    /// Adds a whole frame to the line.
     fn send(&mut self, kind: DeviceFrame, body: &[u8]) {
         let header = self.header(kind);
         self.line.add(&header);
@@ -300,7 +302,7 @@ impl<D: WordDevice> SerialModel<D> {
         self.line.end();
     }
 
-    /// What every frame begins with; that something was dropped is said once.
+    /// The header of a frame. The report of a dropped frame is sent once, so building a header clears it.
     fn header(&mut self, kind: DeviceFrame) -> [u8; incircle_protocol::DEVICE_HEADER_BYTES] {
         let session = self.session.as_ref();
         let waiting = session.map_or(0, |session| session.waiting_bytes() as u32);
@@ -322,7 +324,7 @@ impl<D: WordDevice> SerialModel<D> {
         frame.header()
     }
 
-    /// The last byte of a frame is given.
+    /// Acts on the end of a frame, whose last byte has been given.
     fn end_frame(&mut self) {
         match (std::mem::replace(&mut self.then, Then::Nothing), &mut self.session) {
             (Then::Step(step), _) => self.step = step,
@@ -334,7 +336,7 @@ impl<D: WordDevice> SerialModel<D> {
     }
 }
 
-/// The step after reset. A clock too slow for the first rate gets the largest step there is.
+/// The step of the baud generator after reset. A clock too slow for the first rate gets the largest step.
 fn first_step(link: LinkConfig) -> u32 {
     rate_step(FIRST_RATE, link.clock_hz).unwrap_or(MAX_STEP)
 }

@@ -1,4 +1,5 @@
-//! A session of the link: numbers, payload on its way to the core, answers on theirs to the host.
+//! A session of the serial link: numbers of frames, payload on its way to the core, and answers on their
+//! way to the host.
 
 use std::collections::VecDeque;
 
@@ -9,40 +10,40 @@ use super::crc::Crc32;
 use super::device::WordDevice;
 use super::frame::FromHost;
 
-/// How far behind the expected one a number may be to count as old.
+/// Largest distance behind the expected number at which a number counts as old.
 const OLD: u8 = 128;
 
-/// What became of data.
+/// The outcome for a data frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Taken {
-    /// It was awaited, and is in.
+    /// The frame was expected, and its payload is in the FIFO.
     Here,
-    /// It was in before.
+    /// The frame was already taken.
     Before,
-    /// Other data comes first, or there is no room.
+    /// Another frame must come first, or there is no room.
     NotYet,
-    /// The same, and the host has been told since data was last taken.
+    /// Another frame must come first, or there is no room, and the host has been told since the last frame was taken.
     NotYetToldBefore,
 }
 
-/// A session under way.
+/// The open session of a device.
 #[derive(Clone, Debug)]
 pub(super) struct Session {
     pub(super) number: u8,
-    /// The data that is awaited.
+    /// Number of the data frame that is expected next.
     pub(super) expected: u8,
     /// Check sum of all payload that was taken.
     pub(super) taken: Crc32,
-    /// Data came that is not to be taken before other data.
+    /// Whether a data frame came that must not be taken before another.
     has_gap: bool,
     /// Payload that the core has not taken.
     fifo: VecDeque<u32>,
     pub(super) answers: Answers,
-    /// The core has taken a word of a command whose answer has not ended.
+    /// Whether the core has taken a word of a command and the answer has not ended.
     pub(super) is_busy: bool,
-    /// It has taken one since the last word of the last answer came.
+    /// Whether the core has taken a word since the last word of the last answer came.
     is_ahead: bool,
-    /// Clocks since a word passed, and those after which the core can only be waiting for the host.
+    /// Number of clocks since a word passed, and the number after which the core can only be waiting for the host.
     quiet: u64,
     patience: u64,
 }
@@ -63,10 +64,11 @@ impl Session {
         }
     }
 
-    /// Words pass between FIFO, core and answers.
+    /// Lets words pass between the FIFO, the core and the answers, for this many clocks.
     pub(super) fn pass(&mut self, core: &mut impl WordDevice, clocks: u64) {
         for _ in 0..clocks {
-            // Nothing to do, or nothing that can be done before the line has taken an answer word: such clocks are not simulated.
+            // In these clocks nothing is to do, or nothing can be done before the line takes an answer word, so
+            // they are not simulated.
             if self.fifo.is_empty() && (!self.is_busy || self.quiet > self.patience) || !self.answers.has_room() {
                 return;
             }
@@ -81,7 +83,7 @@ impl Session {
                 }
             }
             if passed.is_taken {
-                // Padding between commands is none.
+                // Padding between commands is not part of a command.
                 let is_padding = self.fifo.pop_front() == Some(PADDING) && !self.is_ahead;
                 if !is_padding {
                     (self.is_busy, self.is_ahead) = (true, true);
@@ -90,23 +92,23 @@ impl Session {
         }
     }
 
-    /// Bytes in the FIFO.
+    /// Number of bytes in the FIFO.
     pub(super) fn waiting_bytes(&self) -> usize {
         4 * self.fifo.len()
     }
 
-    /// Data came that is not to be taken before other data.
+    /// Whether a data frame came that must not be taken before another.
     pub(super) fn has_gap(&self) -> bool {
         self.has_gap
     }
 
-    /// The last part of an answer is sent.
+    /// Ends the current answer, whose last part has been sent.
     pub(super) fn end_answer(&mut self) {
         self.answers.end_answer();
         self.is_busy = self.is_ahead || !self.answers.is_quiet();
     }
 
-    /// Data of this session; there is room for it or not.
+    /// Takes a data frame of this session, if it is the expected one and there is room.
     pub(super) fn take_data(&mut self, frame: &FromHost, is_room: bool) -> Taken {
         let behind = self.expected.wrapping_sub(frame.number);
         if behind == 0 && is_room {

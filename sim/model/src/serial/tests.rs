@@ -1,4 +1,4 @@
-//! The model of the device's link shell, rule by rule.
+//! The model of the serial link, rule by rule.
 
 use super::*;
 use crate::{ClockModel, CommandModel};
@@ -6,7 +6,7 @@ use incircle_protocol::{clear_word, command_word, Opcode, SILENCE_MS, SMALL, TIN
 
 const CLOCK: u32 = 125_000_000;
 const LINK: LinkConfig = LinkConfig { clock_hz: CLOCK, fifo_bytes: 4096, silence_ms: SILENCE_MS };
-/// Clocks that pass for a byte.
+/// Number of clocks that a byte takes.
 const BYTE: u64 = 104;
 
 fn board() -> SerialModel<Instantly> {
@@ -22,7 +22,7 @@ fn send(board: &mut SerialModel<impl WordDevice>, frame: &FromHost) {
     frame.to_line().into_iter().for_each(|byte| board.take(byte));
 }
 
-/// All that the board says until it is silent for long.
+/// All frames that the board sends until it has been silent for long.
 fn listen(board: &mut SerialModel<impl WordDevice>) -> Vec<FromDevice> {
     let (mut line, mut silent) = (Vec::new(), 0);
     while silent < 100 {
@@ -54,7 +54,7 @@ fn opened() -> SerialModel<Instantly> {
     board
 }
 
-/// The words of the answers in these frames, checked.
+/// The words of the answers in these frames, with their check sums checked.
 fn words_of(frames: &[FromDevice]) -> Vec<u32> {
     let (mut words, mut answer) = (Vec::new(), Vec::new());
     for frame in frames {
@@ -125,7 +125,7 @@ fn the_core_by_clocks_says_the_same_through_its_link() {
     send(&mut board, &frame(HostFrame::Data, 0, &commands[..3]));
     let half = listen(&mut board);
     assert_eq!((kinds(&half), half[0].status), (vec![DeviceFrame::Ack], STATUS_OPEN));
-    // The core waits for more points.
+    // The insertion is not complete: the core waits for more points.
     let poll = ask(&mut board, HostFrame::Poll, 0, &[]);
     assert_eq!(poll[0].status, STATUS_OPEN | STATUS_BUSY);
     let rest = ask(&mut board, HostFrame::Data, 1, &commands[3..]);
@@ -155,7 +155,7 @@ fn old_data_is_acknowledged_and_a_gap_named_once() {
 #[test]
 fn what_finds_no_room_is_refused_and_taken_later() {
     let mut board = opened();
-    // The core gets no clock, so nothing leaves the FIFO.
+    // The core gets no clock, so no word leaves the FIFO.
     let words = [&[command_word(Opcode::Insert), 2000][..], &[7; 254]].concat();
     for number in 0..4 {
         send(&mut board, &frame(HostFrame::Data, number, &words));
@@ -179,7 +179,7 @@ fn a_broken_frame_is_told_once() {
     let poll = ask(&mut board, HostFrame::Poll, 0, &[]);
     assert_eq!(poll[0].status, STATUS_OPEN | STATUS_DROPPED);
     assert_eq!(ask(&mut board, HostFrame::Poll, 0, &[])[0].status, STATUS_OPEN);
-    // Between frames noise is nothing.
+    // Between frames noise has no effect.
     board.spoil();
     assert_eq!(ask(&mut board, HostFrame::Poll, 0, &[])[0].status, STATUS_OPEN);
     let line = frame(HostFrame::Poll, 0, &[]).to_line();

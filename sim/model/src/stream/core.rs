@@ -1,29 +1,29 @@
-//! What stands behind the beats: a device that takes and gives words, as many at a time as there are.
+//! The device behind the beats of the stream link: it takes and gives words, as many at a time as there are.
 
 use incircle_protocol::{Config, Identity, CORE_COORD_BITS};
 
 use crate::serial::core_identity;
 use crate::{CommandModel, ModelError};
 
-/// A device of two streams of words, without a clock.
+/// A device with a stream of command words and a stream of answer words, without a clock.
 pub trait WordStream {
-    /// Starts anew.
+    /// Resets the device, which forgets everything.
     fn reset(&mut self);
 
-    /// Takes any piece of the command stream.
+    /// Takes a piece of the command stream, of any length.
     fn send(&mut self, words: &[u32]);
 
-    /// Hands out answer words that are ready, and says how many.
+    /// Hands out answer words that are ready, and returns their number.
     fn receive(&mut self, words: &mut [u32]) -> usize;
 
-    /// True if it has a part of a command, or the answer to one.
+    /// Whether the device holds a part of a command, or an answer to one.
     fn is_busy(&self) -> bool;
 
-    /// What it says of itself.
+    /// The identity of the device.
     fn identity(&self) -> Identity;
 }
 
-/// The model by commands.
+/// The model by commands as a word stream.
 #[derive(Debug)]
 pub struct ModelCore {
     model: CommandModel,
@@ -32,16 +32,16 @@ pub struct ModelCore {
 }
 
 impl ModelCore {
-    /// A device for `capacity` points of `coord_bits` bits.
+    /// A device for `capacity` points of `coord_bits` bits, with boundary lists of `ring` entries.
     ///
     /// # Errors
-    /// As [`CommandModel::new`].
+    /// The errors of [`CommandModel::new`].
     pub fn new(coord_bits: u32, capacity: u32, ring: u32) -> Result<Self, ModelError> {
         let model = CommandModel::new(coord_bits, capacity, ring)?;
         Ok(Self { model, parameters: (coord_bits, capacity, ring), contexts: 1 })
     }
 
-    /// The same as if it had so many contexts; see [`CommandModel::with_contexts`].
+    /// The same device with this many contexts; see [`CommandModel::with_contexts`].
     #[must_use]
     pub fn with_contexts(mut self, contexts: u32) -> Self {
         self.model = self.model.with_contexts(contexts);
@@ -49,10 +49,10 @@ impl ModelCore {
         self
     }
 
-    /// A device with the parameters of a core, and one context.
+    /// A device with the parameters of a core, but with one context.
     ///
     /// # Errors
-    /// As [`CommandModel::new`].
+    /// The errors of [`CommandModel::new`].
     pub fn of(config: Config) -> Result<Self, ModelError> {
         Self::new(CORE_COORD_BITS, config.points, config.ring)
     }

@@ -5,14 +5,14 @@ fn device(beat_bits: u32) -> StreamModel<ModelCore> {
     StreamModel::new(ModelCore::of(SMALL).unwrap(), beat_bits)
 }
 
-/// Commands as beats, padded.
+/// The words of commands as beats, filled up with padding.
 fn beats(words: &[u32], beat_bits: u32) -> Vec<u8> {
     let mut words = words.to_vec();
     words.resize(words.len().next_multiple_of(beat_bits as usize / 32), PADDING);
     words.iter().flat_map(|word| word.to_le_bytes()).collect()
 }
 
-/// The next answer, without the rest of its last beat.
+/// The next answer, without the padding of its last beat.
 fn answer(device: &mut StreamModel<ModelCore>) -> Vec<u32> {
     let mut bytes = vec![0; 1 << 16];
     let given = device.give(&mut bytes);
@@ -48,7 +48,7 @@ fn answers_begin_at_a_beat_and_end_one() {
 fn words_wait_where_there_is_no_room() {
     let mut device = device(64);
     let commands = beats(&[command_word(Opcode::Latencies); 4096], 64);
-    // 130 words come for each, and as many as fill a FIFO stay in it.
+    // Each command has 130 words of answer, and as many as fill a FIFO stay in the device.
     let taken = device.take(&commands);
     assert!((4096..8192).contains(&taken), "{taken}");
     let mut left = &commands[taken..];

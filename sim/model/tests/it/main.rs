@@ -1,4 +1,5 @@
-//! The tests of the model, in one program. Modules mirror the sources; `common` drives a core by command words.
+//! The tests of the model, in one test program whose modules mirror the sources. The module `common` drives a
+//! core by command words.
 
 mod common;
 

@@ -1,5 +1,5 @@
-//! The exchanges in `protocol/README.md` are what the model says, by commands and clock by clock, and its tables have the numbers
-//! of the crate.
+//! The exchanges in `protocol/README.md` are those of the model, by commands and clock by clock, and the tables of the
+//! page have the numbers of the crate.
 
 use incircle_model::{ClockModel, CommandModel, Inputs};
 use incircle_protocol::{
@@ -10,10 +10,10 @@ use std::collections::BTreeSet;
 
 const README: &str = include_str!("../../../../protocol/README.md");
 
-/// Words to send, then the words that come back.
+/// The words to send, and the words of the answer.
 type Step = (Vec<u32>, Vec<u32>);
 
-/// One fenced block: a device and what is said.
+/// A fenced block of the page: a device, and an exchange with it.
 struct Exchange {
     coord_bits: u32,
     capacity: u32,
@@ -31,7 +31,7 @@ fn parameter(heading: &str, key: &str) -> u32 {
     value.parse().expect("a number")
 }
 
-/// The words of a line without its direction and its comment.
+/// The words of a line, without its direction and its comment.
 fn words(line: &str) -> Vec<u32> {
     let said = line[1..].split(';').next().expect("a first part");
     said.split_whitespace().map(|word| u32::from_str_radix(word, 16).expect(line)).collect()
@@ -65,7 +65,7 @@ fn exchanges() -> Vec<Exchange> {
     README.split("```exchange").skip(1).map(exchange).collect()
 }
 
-/// For messages: as the document writes words.
+/// Words as the page writes them, for messages.
 fn hex(words: &[u32]) -> String {
     let words: Vec<_> = words.iter().map(|word| format!("{word:08x}")).collect();
     words.join(" ")
@@ -85,7 +85,7 @@ fn the_model_by_commands_says_it() {
     }
 }
 
-/// What the core answers until it is silent for long.
+/// The answer of the core, until the core has been silent for long.
 fn answer_of(core: &mut ClockModel, sent: &[u32]) -> Vec<u32> {
     let (mut rest, mut said, mut silent) = (sent, Vec::new(), 0);
     while silent < 3000 {
@@ -110,8 +110,8 @@ fn answer_of(core: &mut ClockModel, sent: &[u32]) -> Vec<u32> {
     said
 }
 
-/// Sets what a core counts otherwise than the model (clocks, and visits of walks, which start elsewhere) to 0; gives how much
-/// that was.
+/// Sets to 0 what a core counts differently from the model: clocks, and the visits of walks, which start elsewhere.
+/// Returns the sum of the removed numbers.
 fn forget_clocks(said: &mut [u32]) -> u64 {
     let opcode = Opcode::from_u8(answer_opcode(said[0]));
     let payload = &mut said[2..];
@@ -196,7 +196,7 @@ fn the_tables_have_the_numbers_of_the_crate() {
             Revisits,
             Aborts,
             RootRetries,
-            WaitingTokens,
+            PrioritiesTaken,
             IssueCycles,
             WriteCycles,
             CommitCycles,

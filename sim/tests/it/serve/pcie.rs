@@ -1,4 +1,4 @@
-//! `incircle-sim serve-pcie`: three files in a directory, a line when they are ready, an end without a trace.
+//! `incircle-sim serve-pcie`: three files in a directory, a line when they are ready, an end that leaves nothing.
 
 use std::fs::{self, File};
 use std::io::{Read, Write};
@@ -9,7 +9,7 @@ use std::process::{Child, Command};
 use super::service::{self, end};
 use incircle_protocol::{command_word, Opcode, StreamRegister, MAGIC, PROTOCOL_VERSION};
 
-/// A folder of a test's own, which is not there.
+/// A folder of the test's own, which does not exist yet.
 fn folder(name: &str) -> PathBuf {
     std::env::temp_dir().join(format!("incircle-serve-pcie-{name}-{}", std::process::id()))
 }
@@ -30,7 +30,7 @@ fn register(folder: &Path, register: StreamRegister) -> u32 {
     u32::from_le_bytes(word)
 }
 
-/// What answers a `Hello` without a driver: any program may open the files.
+/// Sends a `Hello` without a driver, as any program may open the files, and returns the answer.
 fn greet(folder: &Path, beat_bytes: usize) -> Vec<u32> {
     let mut beat = vec![0; beat_bytes];
     beat[..4].copy_from_slice(&command_word(Opcode::Hello).to_le_bytes());
@@ -47,13 +47,13 @@ fn serves(name: &str, signal: &str, arguments: &[&str], beat_bytes: usize) {
     assert!(line.starts_with(&format!("ready: {shown} has an incircle card, small")), "{line}");
     assert!(line.trim_end().ends_with(&format!("open pcie:{shown}")), "{line}");
     for _ in 0..2 {
-        // Clients come and go.
+        // A service outlives its clients.
         assert_eq!(register(&folder, StreamRegister::Magic), MAGIC);
         let answer = greet(&folder, beat_bytes);
         assert_eq!(answer[..4], [0x0100_0000, 7, MAGIC, PROTOCOL_VERSION]);
         assert_eq!(answer.len(), (9 * 4_usize).next_multiple_of(beat_bytes) / 4);
     }
-    // A client that has a file open is no reason to stay.
+    // A client that still has a file open must not keep the program alive.
     let open = File::open(folder.join("xdma0_user")).unwrap();
     let (status, said) = end(child, signal);
     assert_eq!(status.code(), Some(0), "{said}");
@@ -106,6 +106,6 @@ fn what_cannot_be_used_is_refused() {
     let output = program(&folder, &["--fault", "gremlin=1"]).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
     let said = String::from_utf8(output.stderr).unwrap();
-    assert!(said.contains("there are short-read"), "{said}");
+    assert!(said.contains("choose from short-read"), "{said}");
     fs::remove_dir_all(folder).unwrap();
 }

@@ -1,4 +1,4 @@
-//! The program `incircle-sim`: a terminal behind a link, a line when it is ready, an end without a trace.
+//! The program `incircle-sim`: a terminal behind a link, a line when it is ready, an end that leaves nothing.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
@@ -11,7 +11,7 @@ use super::service::{self, end};
 use incircle_model::serial::{FromDevice, FromHost};
 use incircle_protocol::{DeviceFrame, HostFrame};
 
-/// A folder of a test's own.
+/// A folder of the test's own.
 fn folder(name: &str) -> PathBuf {
     let folder = std::env::temp_dir().join(format!("incircle-serve-{name}-{}", std::process::id()));
     fs::create_dir_all(&folder).unwrap();
@@ -28,7 +28,7 @@ fn start(link: &Path, arguments: &[&str]) -> (Child, String) {
     service::start(program(link, arguments))
 }
 
-/// What answers a `Hello` without a driver: any program may open the terminal.
+/// Sends a `Hello` without a driver, as any program may open the terminal, and returns the answer.
 fn greet(link: &Path) -> FromDevice {
     let mut port = fs::OpenOptions::new().read(true).write(true).open(link).unwrap();
     let hello = FromHost { session: 0, kind: HostFrame::Hello, number: 0, payload: vec![] };
@@ -45,7 +45,7 @@ fn serves(name: &str, signal: &str, arguments: &[&str]) {
     assert!(line.starts_with(&format!("ready: {} is an incircle board, small, 125 MHz", link.display())), "{line}");
     assert!(line.contains(&format!("open serial:{}?slow=", link.display())), "{line}");
     for _ in 0..2 {
-        // Clients come and go.
+        // A service outlives its clients.
         assert_eq!(greet(&link).kind, DeviceFrame::Hello);
     }
     let (status, said) = end(child, signal);
@@ -95,10 +95,10 @@ fn what_is_not_its_own_is_not_replaced() {
         let said = String::from_utf8(output.stderr).unwrap();
         assert!(said.contains(sentence), "{said}");
     };
-    refused("is no symbolic link");
+    refused("is not a symbolic link");
     fs::remove_file(&link).unwrap();
     symlink("/dev/null", &link).unwrap();
-    refused("leads elsewhere");
+    refused("does not lead to a pseudo-terminal");
     fs::remove_dir_all(folder).unwrap();
 }
 
@@ -107,11 +107,11 @@ fn faults_that_do_not_exist_are_refused() {
     let output = program(Path::new("unused"), &["--fault", "gremlin=1"]).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
     let said = String::from_utf8(output.stderr).unwrap();
-    assert!(said.contains("there are ber, drop, double"), "{said}");
+    assert!(said.contains("choose from ber, drop, double"), "{said}");
     assert!(!Path::new("unused").exists());
 }
 
-/// Time that the process has spent on a processor, in ticks of a hundredth of a second.
+/// Time that the process has spent on a processor, in hundredths of a second.
 fn ticks(child: &Child) -> u64 {
     let stat = fs::read_to_string(format!("/proc/{}/stat", child.id())).unwrap();
     let fields: Vec<_> = stat.rsplit_once(')').unwrap().1.split_whitespace().collect();
@@ -124,7 +124,7 @@ fn a_board_at_rest_takes_no_time_of_the_processor() {
     let link = folder.join("board");
     let (child, _) = start(&link, &["--fast", "--slow", "1"]);
     greet(&link);
-    // The board rests once the line has been silent for its time.
+    // The board rests when the line has been silent for long enough.
     let since = Instant::now();
     loop {
         let (before, begun) = (ticks(&child), Instant::now());

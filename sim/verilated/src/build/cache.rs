@@ -1,4 +1,4 @@
-//! One model to one object file, kept from build to build.
+//! From a model to its object files, which are kept from build to build.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,16 +9,17 @@ use super::source::{ModelSource, Optimisation};
 use super::verilator::Verilator;
 use super::{runtime, shim, verilator};
 
-/// The object files of the model. Built in a fresh folder unless the folder holds them already, made from the same
-/// text with the same tool and options.
+/// The object files of the model. The folder's objects are taken if they were made from the same text with the same
+/// tools and options; otherwise the folder is emptied and the model is built in it.
 pub(super) fn objects_of(
     model: &ModelSource,
     verilator: &Verilator,
+    compiler: &str,
     folder: &Path,
     package: &str,
 ) -> Result<Vec<PathBuf>, BuildError> {
     let class = shim::class_name(package, &model.name);
-    let key = key(model, verilator, &class);
+    let key = key(model, verilator, compiler, &class);
     let key_file = folder.join("key");
     let list_file = folder.join("objects");
     if fs::read_to_string(&key_file).is_ok_and(|kept| kept == key) {
@@ -37,19 +38,20 @@ pub(super) fn objects_of(
     let objects = compile(model, verilator, &class, folder)?;
     let list: Vec<_> = objects.iter().map(|object| object.to_string_lossy()).collect();
     write(&list_file, &list.join("\n"))?;
-    // Last, so that a build that was cut short is not taken for a whole one.
+    // The key is written last, so that an interrupted build is not mistaken for a complete one.
     write(&key_file, &key)?;
     Ok(objects)
 }
 
-/// Everything the objects depend on, in full: equal keys mean equal objects.
-fn key(model: &ModelSource, verilator: &Verilator, class: &str) -> String {
+/// Everything on which the objects depend, in full: equal keys mean equal objects.
+fn key(model: &ModelSource, verilator: &Verilator, compiler: &str, class: &str) -> String {
     let arguments = verilator::arguments(model, class).join(" ");
     let optimisation = format!("{:?}", model.optimisation);
-    [verilator.version(), &arguments, &optimisation, shim::HEADER, &model.verilog].join("\n")
+    [verilator.version(), compiler, &arguments, &optimisation, shim::HEADER, &model.verilog].join("\n")
 }
 
-/// Compiles the C++ of the model and its shim, in as few units as makes sense: most of a unit's time goes into headers.
+/// Compiles the C++ of the model and its shim in as few units as is sensible, because headers take most
+/// of a unit's time.
 fn compile(model: &ModelSource, verilator: &Verilator, class: &str, folder: &Path) -> Result<Vec<PathBuf>, BuildError> {
     let cpp = folder.join("cpp");
     let path = cpp.join(format!("{class}.h"));
@@ -80,12 +82,13 @@ fn compile(model: &ModelSource, verilator: &Verilator, class: &str, folder: &Pat
     }
 }
 
-/// Whether the file holds what runs once or while tracing only: construction, symbols, traces. It is most of the code.
+/// Whether the file holds code that runs only once or only while tracing: construction, symbols, traces. Most of the
+/// code is of this kind.
 fn is_seldom(file: &str) -> bool {
     ["Slow", "__Trace__", "__Syms"].iter().any(|part| file.contains(part))
 }
 
-/// The C++ files in the folder, by name.
+/// The C++ files in the folder, sorted by name.
 fn cpp_files(folder: &Path) -> Result<Vec<String>, BuildError> {
     let failed = |source| BuildError::File { path: folder.to_path_buf(), source };
     let mut files = Vec::new();

@@ -1,64 +1,65 @@
-//! Why models could not be built.
+//! The errors of building models.
 
 use std::path::PathBuf;
 
-/// Why models could not be built.
+/// The reason why models could not be built.
 #[derive(Debug, thiserror::Error)]
 pub enum BuildError {
-    /// No Verilator in PATH, or it does not start.
+    /// There is no Verilator in PATH, or it does not start.
     #[error("cannot run Verilator ({0}): install Debian package verilator, 5.006 or newer")]
     Missing(std::io::Error),
-    /// Verilator is older than the binding knows.
-    #[error("this is {found:?}, too old: install Debian package verilator, 5.006 or newer")]
+    /// Verilator is older than the binding supports.
+    #[error("{found:?} is too old: install Debian package verilator, 5.006 or newer")]
     TooOld {
-        /// What `verilator --version` printed.
+        /// The output of `verilator --version`.
         found: String,
     },
     /// Verilator ended with an error.
-    #[error("verilator refuses {what}:\n{output}")]
+    #[error("Verilator failed at {what}:\n{output}")]
     Refused {
-        /// What it was asked to do.
+        /// The command line that failed.
         what: String,
-        /// All it printed.
+        /// Everything that Verilator printed.
         output: String,
     },
     /// The C++ compiler ended with an error, or is missing.
-    #[error("cannot compile the C++ of Verilator (Debian package g++): {0}")]
+    #[error("cannot compile the C++ that Verilator wrote (install Debian package g++ if there is no compiler): {0}")]
     Compiler(#[from] cc::Error),
     /// A file cannot be read or written.
     #[error("cannot read or write {path}: {source}", path = path.display())]
     File {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         source: std::io::Error,
     },
-    /// A port of a kind the binding does not know.
+    /// The binding does not support this kind of port.
     #[error("model {model}: port declaration `{declaration}` is neither a plain input nor a plain output")]
     Port {
-        /// The model.
+        /// Name of the model.
         model: String,
         /// The line in Verilator's header.
         declaration: String,
     },
-    /// A name that cannot become a function.
+    /// The name cannot become the name of a function.
     #[error(
-        "model name {name:?}: use lower-case letters, digits and single underscores, first a letter, and not `find`"
+        "a model cannot be called {name:?}: use lower-case letters, digits and single underscores, begin with a \
+         letter, and avoid `find`"
     )]
     Name {
-        /// The name given.
+        /// The name that was given.
         name: String,
     },
-    /// Two models of one name.
+    /// Two models have the same name.
     #[error("two models are called {name:?}: give each its own name")]
     NameTwice {
-        /// The name.
+        /// The name that both have.
         name: String,
     },
-    /// Called outside a build script.
-    #[error("variable {variable} is not set: models are built in a build script of cargo")]
+    /// The builder was called outside a build script.
+    #[error("the variable {variable} is not set: call this from a build script of cargo")]
     NotABuildScript {
-        /// The variable that cargo sets.
+        /// The variable that cargo sets for build scripts.
         variable: &'static str,
     },
 }

@@ -1,4 +1,4 @@
-//! Files that the build writes.
+//! The files and locks of the build.
 
 use std::fs::{self, File};
 use std::path::Path;
@@ -10,7 +10,8 @@ pub(super) fn write(path: &Path, text: &str) -> Result<(), BuildError> {
     fs::write(path, text).map_err(|source| BuildError::File { path: path.to_path_buf(), source })
 }
 
-/// Makes the folder and locks it for this process until the file is dropped; waits for whoever has it.
+/// Creates the folder and locks it for this process until the returned file is dropped. While another process has the
+/// lock, the call waits.
 pub(super) fn lock(folder: &Path) -> Result<File, BuildError> {
     let path = folder.join("lock");
     let failed = |source| BuildError::File { path: path.clone(), source };

@@ -1,4 +1,4 @@
-//! The build side: Verilog in, a static library and a Rust table of models out.
+//! The build side of the binding: from Verilog to a static library and a Rust table of models.
 
 mod cache;
 mod error;
@@ -19,40 +19,41 @@ pub use runtime::compile_runtime;
 pub use source::{ModelSource, Optimisation};
 pub use verilator::Verilator;
 
-/// Collects models, then builds them all.
+/// Collects models, then builds all of them.
 #[derive(Debug, Default)]
 pub struct Builder {
     models: Vec<ModelSource>,
 }
 
 impl Builder {
-    /// No models yet. Only for use in a build script: reads the variables that cargo sets there.
+    /// A builder without models. Only build scripts can use it, because it reads the variables that
+    /// cargo sets for them.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Adds a model.
+    /// Adds a model to build.
     pub fn model(mut self, model: ModelSource) -> Self {
         self.models.push(model);
         self
     }
 
-    /// Builds and links all models and writes what `verilated::include_models!` includes. A model whose text and
-    /// options have not changed is taken from the last build, whichever profile that was for. Works on as many models at once as
-    /// cargo allows jobs.
+    /// Builds and links all models, and writes the file that `verilated::include_models!` includes. A model whose text,
+    /// options and tools have not changed is taken from the last build, whichever profile that was for. As many models
+    /// are built at a time as cargo allows jobs.
     ///
     /// # Panics
-    /// With the sentence of the error, which is how a build script ends.
+    /// Every error panics with its message, which is how a build script fails.
     pub fn compile(self) {
         if let Err(error) = self.try_compile() {
             panic!("{error}");
         }
     }
 
-    /// As [`Builder::compile`].
+    /// Builds as [`Builder::compile`] does, and returns the error.
     ///
     /// # Errors
-    /// Verilator or the compiler is missing or refuses the input, or a name is bad or used twice.
+    /// Verilator or the compiler is missing or refuses the input, or a name is invalid or used twice.
     pub fn try_compile(self) -> Result<(), BuildError> {
         for (position, model) in self.models.iter().enumerate() {
             model.check_name()?;
@@ -67,9 +68,11 @@ impl Builder {
         let package = cargo_variable("CARGO_PKG_NAME")?.replace('-', "_");
         let verilator = Verilator::locate()?;
         let kept = kept_folder(&out_dir, &package);
-        // Held until the archive is written: another build of this package waits, and then finds the models built.
+        // The lock is held until the archive is written: another build of this package waits, and then
+        // finds the models built.
         let _lock = file::lock(&kept)?;
-        let objects = build_all(&self.models, &verilator, &kept, &package)?;
+        let compiler = runtime::compiler_text(&verilator)?;
+        let objects = build_all(&self.models, &verilator, &compiler, &kept, &package)?;
         if !objects.is_empty() {
             let mut archive = runtime::compiler(&verilator);
             for object in objects {
@@ -84,7 +87,8 @@ impl Builder {
 }
 
 /// The folder that keeps the models of a package from build to build. Cargo gives a build script the folder
-/// `TARGET/PROFILE/build/NAME/out`; models depend on no profile, so they stand beside the profiles and each is translated once.
+/// `TARGET/PROFILE/build/NAME/out`. Models depend on no profile, so they stand beside the profiles, and
+/// each is translated once.
 fn kept_folder(out_dir: &Path, package: &str) -> PathBuf {
     let parents: Vec<&Path> = out_dir.ancestors().skip(2).take(3).collect();
     match parents[..] {
@@ -93,10 +97,11 @@ fn kept_folder(out_dir: &Path, package: &str) -> PathBuf {
     }
 }
 
-/// The objects of all models, in their order.
+/// The objects of all models, in the order of the models.
 fn build_all(
     models: &[ModelSource],
     verilator: &Verilator,
+    compiler: &str,
     kept: &Path,
     package: &str,
 ) -> Result<Vec<PathBuf>, BuildError> {
@@ -115,7 +120,7 @@ fn build_all(
                     break;
                 };
                 let folder = kept.join(&model.name);
-                let objects = cache::objects_of(model, verilator, &folder, package);
+                let objects = cache::objects_of(model, verilator, compiler, &folder, package);
                 if let Ok(mut results) = results.lock() {
                     results.push((position, objects));
                 }

@@ -1,4 +1,5 @@
-//! The text between a Verilated class and Rust: ports read from Verilator's header, C++ and Rust written.
+//! The code between a Verilated class and Rust. This module reads the ports from Verilator's header, and writes the C++
+//! and the Rust that connect them.
 
 use super::error::BuildError;
 
@@ -12,19 +13,19 @@ pub(super) struct DeclaredPort {
     member: String,
     /// Name in Verilog, for example `points$valid`.
     name: String,
-    /// Bits.
+    /// Number of bits of the port.
     width: u32,
-    /// 0 input, 1 output, as in `shim.hpp`.
+    /// Direction: 0 for an input, 1 for an output, as in `shim.hpp`.
     direction: u32,
 }
 
-/// Class of a model, unique in a program: two crates may use one model name.
+/// The class name of a model, made unique in a program by the package, since two crates may use the same model name.
 pub(super) fn class_name(package: &str, model: &str) -> String {
     format!("V{package}_{model}")
 }
 
-/// The ports by name, from lines such as `VL_IN8(&clock,0,0);` or `VL_OUTW(&sum,99,0,4);`. Verilator lists them by size,
-/// so the order of the module's header is lost anyway.
+/// The ports, sorted by name, from lines such as `VL_IN8(&clock,0,0);` or `VL_OUTW(&sum,99,0,4);`. Verilator lists
+/// ports by size, so the order of the Verilog module is lost anyway.
 pub(super) fn ports(model: &str, header: &str) -> Result<Vec<DeclaredPort>, BuildError> {
     let mut ports: Vec<DeclaredPort> = header
         .lines()
@@ -58,7 +59,7 @@ fn is_size(size: &str) -> bool {
     ["", "8", "16", "64", "W"].contains(&size)
 }
 
-/// Undoes Verilator's spelling of characters that C++ names cannot hold: `__0` and two hexadecimal digits.
+/// Undoes Verilator's spelling of characters that names in C++ cannot have: `__0` and two hexadecimal digits.
 fn verilog_name(member: &str) -> String {
     let mut name = String::new();
     let mut rest = member;
@@ -77,7 +78,7 @@ fn verilog_name(member: &str) -> String {
     name
 }
 
-/// The shim of one class, to stand after the class's own files in one unit.
+/// The shim of one class. In the unit it stands after the files of the class.
 pub(super) fn cpp_unit(class: &str, name: &str, ports: &[DeclaredPort]) -> String {
     let mut table = String::new();
     let mut addresses = String::new();
@@ -115,7 +116,8 @@ pub(super) fn rust_table(package: &str, names: &[&str]) -> String {
         arms += &format!("        \"{name}\" => {name}(),\n");
     }
     format!(
-        "#[allow(unsafe_code, non_upper_case_globals)]\nmod linked {{\n    unsafe extern \"C\" {{\n{externs}    }}\n}}\n\
+        "#[allow(unsafe_code, non_upper_case_globals)]\nmod linked {{\n    \
+         unsafe extern \"C\" {{\n{externs}    }}\n}}\n\
          {functions}\
          /// The model of this name, if there is one.\n#[allow(dead_code)]\n\
          pub fn find(name: &str) -> Option<&'static ::verilated::ModelDescription> {{\n    \
@@ -131,7 +133,8 @@ mod tests {
 
     #[test]
     fn reads_ports_of_every_size() {
-        let header = "  VL_IN8(&clock,0,0);\n VL_INW(&wide_a,99,0,4);\n VL_OUT64(&count,39,0);\n VL_OUT(&a__024b,31,0);\n int x;";
+        let header = "  VL_IN8(&clock,0,0);\n VL_INW(&wide_a,99,0,4);\n VL_OUT64(&count,39,0);\n \
+                      VL_OUT(&a__024b,31,0);\n int x;";
         let ports = ports("m", header).unwrap();
         let found: Vec<_> = ports.iter().map(|p| (p.name.as_str(), p.width, p.direction)).collect();
         assert_eq!(found, [("a$b", 32, 1), ("clock", 1, 0), ("count", 40, 1), ("wide_a", 100, 0)]);

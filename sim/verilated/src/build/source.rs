@@ -1,19 +1,19 @@
-//! What there is to build: a model with its options.
+//! A model to build, with its options.
 
 use std::path::Path;
 
 use super::error::BuildError;
 
-/// How hard the C++ compiler works on a model.
+/// The effort of the C++ compiler on a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Optimisation {
-    /// `-O1`: compiled in a second; for blocks that are tested over thousands of clocks.
+    /// `-O1`: a model compiles in a second, for blocks that are tested over thousands of clocks.
     Quick,
-    /// `-O2`, and Verilator's `-O3`; for whole cores that run millions of clocks.
+    /// `-O2`, and `-O3` of Verilator: for whole cores that run millions of clocks.
     Fast,
 }
 
-/// One model to build.
+/// A model to build.
 #[derive(Clone, Debug)]
 pub struct ModelSource {
     pub(super) name: String,
@@ -25,10 +25,11 @@ pub struct ModelSource {
 }
 
 impl ModelSource {
-    /// The module `top` of this Verilog text, as the model `name`: no trace, zero initial state, quick to compile.
+    /// The module `top` of this Verilog text, as the model `name`: without traces, with zero initial
+    /// state, quick to compile.
     ///
-    /// `name` becomes a Rust function and part of C++ names: it starts with a lower-case letter, and holds lower-case letters,
-    /// digits and single underscores; anything else is an error of `Builder::try_compile`.
+    /// `name` becomes a Rust function and part of C++ names. A name starts with a lower-case letter, and has only
+    /// lower-case letters, digits and single underscores; any other name is an error of `Builder::try_compile`.
     pub fn new(name: &str, top: &str, verilog: impl Into<String>) -> Self {
         Self {
             name: name.to_string(),
@@ -40,7 +41,7 @@ impl ModelSource {
         }
     }
 
-    /// The module `top` of a Verilog file, as the model `name`; the build script runs again when the file changes.
+    /// The module `top` of a Verilog file, as the model `name`. The build script runs again when the file changes.
     ///
     /// # Errors
     /// The file cannot be read.
@@ -52,20 +53,21 @@ impl ModelSource {
         Ok(Self::new(name, top, verilog))
     }
 
-    /// Whether the model can write VCD waveforms. Costs compile time and some speed, also while no trace is open.
+    /// Chooses whether the model can write VCD waveforms. Such a model takes longer to compile, and is slower even
+    /// while no trace is open.
     pub fn trace(mut self, on: bool) -> Self {
         self.trace = on;
         self
     }
 
-    /// Whether registers and memories can start with random contents (`Model::randomized`); without it they
-    /// start as zero whatever the seed.
+    /// Chooses whether registers and memories can start with random contents (`Model::randomized`). Without this option
+    /// they start as zero, whatever the seed.
     pub fn random_initial_state(mut self, on: bool) -> Self {
         self.random_initial_state = on;
         self
     }
 
-    /// How hard the C++ compiler works.
+    /// Chooses the effort of the C++ compiler.
     pub fn optimisation(mut self, level: Optimisation) -> Self {
         self.optimisation = level;
         self

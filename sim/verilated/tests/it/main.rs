@@ -1,3 +1,3 @@
-//! The tests of the binding, in one program. Modules mirror the sources.
+//! The tests of the binding, in one test program whose modules mirror the sources.
 
 mod model;

@@ -1,4 +1,4 @@
-//! The binding on two small models: every kind of port, time, waveforms, seeds, mistakes.
+//! The binding on two small models: every kind of port, time, waveforms, seeds, and mistakes of callers.
 
 use std::path::PathBuf;
 

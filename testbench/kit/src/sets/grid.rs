@@ -1,11 +1,11 @@
-//! The grid that points lie on, and room for them.
+//! The grid on which points lie, and memory for them.
 
 use std::fmt;
 
-/// Coordinate bits that a grid can have.
+/// Numbers of coordinate bits that a grid can have.
 pub const BITS: std::ops::RangeInclusive<u32> = 1..=31;
 
-/// Why a set cannot be made.
+/// The reasons why a set cannot be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GenerateError {
     /// Coordinate bits outside [`BITS`].
@@ -30,10 +30,10 @@ impl std::error::Error for GenerateError {}
 /// Bytes that a point takes.
 const POINT_BYTES: usize = size_of::<[u32; 2]>();
 
-/// The points, or that there is no memory for them.
+/// The points, or an error if there is no memory for them.
 pub type Points = Result<Vec<[u32; 2]>, GenerateError>;
 
-/// An empty list with room for `n` points.
+/// Returns an empty list with room for `n` points.
 pub fn room(n: usize) -> Points {
     let mut points = Vec::new();
     match points.try_reserve_exact(n) {
@@ -42,26 +42,26 @@ pub fn room(n: usize) -> Points {
     }
 }
 
-/// The grid that points lie on.
+/// The square grid on which points lie.
 #[derive(Clone, Copy)]
 pub struct Grid {
-    /// Points along a side: 2^bits.
+    /// Number of points along a side: 2^bits.
     pub size: u64,
 }
 
 impl Grid {
-    /// Half the side, in grid units.
+    /// Half of the side, in grid units.
     pub fn half(self) -> f64 {
         self.size as f64 / 2.0
     }
 
-    /// The grid point below and left of this place; `None` outside the grid.
+    /// The grid point below and left of this place, or `None` outside the grid.
     pub fn cell(self, x: f64, y: f64) -> Option<[u32; 2]> {
         let inside = |value: f64| value >= 0.0 && value < self.size as f64;
         (inside(x) && inside(y)).then_some([x as u32, y as u32])
     }
 
-    /// The nearest grid point of the closed grid square.
+    /// The grid point nearest to this place, within the closed square of the grid.
     pub fn nearest(self, x: f64, y: f64) -> [u32; 2] {
         let last = (self.size - 1) as f64;
         [libm::rint(x).clamp(0.0, last) as u32, libm::rint(y).clamp(0.0, last) as u32]

@@ -30,21 +30,21 @@ pub enum Distribution {
     Line,
     /// A chequered board, 7/8 of the points on black squares.
     Checkers,
-    /// A square lattice.
+    /// Points of a square lattice.
     Lattice,
     /// A square lattice, turned by an exact rotation.
     RotatedLattice,
-    /// Near a circle.
+    /// Points close to a circle.
     Circle,
-    /// Gaussian clusters.
+    /// Points in Gaussian clusters.
     Clusters,
-    /// On a parabola.
+    /// Points on a parabola.
     Parabola,
-    /// The same, with the vertex where a Hilbert curve ends.
+    /// The parabola mirrored, with the vertex where a Hilbert curve ends.
     ParabolaInward,
     /// Two convex chains that face each other.
     TwoChains,
-    /// On a spiral.
+    /// Points on a spiral.
     Spiral,
     /// All points of a small box, each about four times.
     Box,
@@ -83,17 +83,17 @@ impl Distribution {
     /// The five distributions of the literature.
     pub const LITERATURE: [Self; 5] = [Self::Uniform, Self::Normal, Self::Kuzmin, Self::Line, Self::Checkers];
 
-    /// All distributions.
+    /// Returns all distributions.
     pub fn all() -> &'static [Self] {
         &Self::ALL
     }
 
-    /// The name, as the command line takes it: lower case, words joined by hyphens.
+    /// Name of the set on the command line: lower case, words joined by hyphens.
     pub fn name(self) -> &'static str {
         NAMED[self as usize].1
     }
 
-    /// What the set is, in a few words.
+    /// Description of the set in a few words.
     pub fn description(self) -> &'static str {
         NAMED[self as usize].2
     }
@@ -105,7 +105,7 @@ impl fmt::Display for Distribution {
     }
 }
 
-/// No distribution has this name.
+/// The error that no distribution has this name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownName(pub String);
 
@@ -159,7 +159,7 @@ pub fn generate(distribution: Distribution, n: usize, bits: u32, seed: u64) -> R
 mod tests {
     use super::*;
 
-    /// FNV-1a over the coordinates: a change in any bit of any point shows.
+    /// FNV-1a over the coordinates, which shows a change in any bit of any point.
     fn fingerprint(points: &[[u32; 2]]) -> u64 {
         let bytes = points.iter().flatten().flat_map(|value| value.to_le_bytes());
         bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
@@ -200,7 +200,7 @@ mod tests {
             let n = usize::MAX / 16;
             let refused = Err(GenerateError::Memory(n));
             if distribution == Distribution::Clusters {
-                // The centres come first.
+                // The centres of clusters come first, so their allocation may fail before that of the points.
                 assert!(generate(distribution, n, 16, 1).is_err());
             } else {
                 assert_eq!(generate(distribution, n, 16, 1), refused, "{distribution}");

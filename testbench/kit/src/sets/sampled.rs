@@ -1,33 +1,33 @@
 //! Sets that are samples of a distribution.
 //!
 //! The first five are those of G. E. Blelloch, G. L. Miller, D. Talmor, "Developing a practical projection-based
-//! parallel Delaunay algorithm", SCG 1996 (uniform, normal, Kuzmin, line singularity), and of K. Buchin, "Constructing
-//! Delaunay triangulations along space-filling curves", ESA 2009, with O. Schrijvers, F. van Bommel, K. Buchin, EuroCG
-//! 2012 (checkers).
+//! parallel Delaunay algorithm", SCG 1996 (uniform, normal, Kuzmin, line singularity), and of K. Buchin,
+//! "Constructing Delaunay triangulations along space-filling curves", ESA 2009, and O. Schrijvers, F. van
+//! Bommel, K. Buchin, EuroCG 2012 (checkers).
 
 use super::grid::{room, Grid, Points};
 use crate::random::SplitMix64;
 
 /// Standard deviations from the centre of the grid to its sides.
 const NORMAL_DEVIATIONS: f64 = 4.0;
-/// Kuzmin's length unit goes this often into half a side.
+/// Number of Kuzmin's length units in half a side of the grid.
 const KUZMIN_UNITS: f64 = 32.0;
 /// The parameter `b` of the line singularity: the share of the plane next to the line that is left out.
 const LINE_OFFSET: f64 = 0.001;
 /// Squares along a side of the chequered board, as on a chess board.
 const BOARD: u64 = 8;
-/// Points of a cluster, on average.
+/// Average number of points of a cluster.
 const CLUSTER_POINTS: usize = 100;
-/// Standard deviations of a cluster that go into a side of the grid.
+/// Number of standard deviations of a cluster along a side of the grid.
 const CLUSTER_DEVIATIONS: f64 = 200.0;
 
-/// Every grid point alike.
+/// Points of which every grid point has an equal chance.
 pub fn uniform(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     repeat(n, || Some(anywhere(grid, random)))
 }
 
-/// Independent Gaussian coordinates around the centre; the sides are four standard deviations away. Points outside
-/// are drawn anew.
+/// Independent Gaussian coordinates around the centre; the sides are four standard deviations away.
+/// A point outside is drawn anew.
 pub fn normal(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     let deviation = grid.half() / NORMAL_DEVIATIONS;
     repeat(n, || {
@@ -75,8 +75,8 @@ pub fn checkers(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     repeat(n, || Some(one(random)))
 }
 
-/// The grid points next to random places of the circle that touches the sides: nearly cocircular, so `incircle` is near
-/// zero everywhere.
+/// The grid points next to random places of the circle that touches the sides: they are nearly cocircular,
+/// so `incircle` is near zero everywhere.
 pub fn circle(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     let centre = grid.half() - 0.5;
     let one = |random: &mut SplitMix64| {
@@ -103,7 +103,8 @@ fn anywhere(grid: Grid, random: &mut SplitMix64) -> [u32; 2] {
     [random.below(grid.size) as u32, random.below(grid.size) as u32]
 }
 
-/// Draws until `n` points lie inside. Every distribution here has at least a quarter of its mass inside, so it ends.
+/// Draws until `n` points lie inside the grid. Every distribution here has at least a quarter of its
+/// mass inside, so the loop ends.
 fn repeat(n: usize, mut draw: impl FnMut() -> Option<[u32; 2]>) -> Points {
     let mut points = room(n)?;
     points.extend(std::iter::from_fn(|| Some(draw())).flatten().take(n));

@@ -3,7 +3,7 @@
 use super::grid::{room, Grid, Points};
 use crate::random::SplitMix64;
 
-/// Copies of each point of a box, on average.
+/// Average number of copies of each point of a box.
 const BOX_COPIES: usize = 4;
 /// Distance of neighbours on the spiral over the distance of its arms.
 const SPIRAL_STEP: f64 = 0.25;
@@ -16,9 +16,9 @@ pub fn lattice(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     shuffled(n, place, random)
 }
 
-/// A square lattice turned by the Gaussian integer 2 + i, times the largest step that fits: (i, j) becomes
-/// (2 i - j, i + 2 j). The turn is exact, so every square of neighbours is cocircular, but no two share a coordinate.
-/// Where the grid is too small for n points they repeat.
+/// A square lattice turned by the Gaussian integer 2 + i, times the largest step that fits: (i, j) becomes (2 i - j, i
+/// + 2 j). The turn is exact, so every square of neighbours is cocircular, but no two neighbours share a coordinate. If
+/// the grid is too small for n points, they repeat.
 pub fn rotated_lattice(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     // A lattice of c columns spans 3 (c - 1) steps in both directions.
     let columns = side_of(n).min((grid.size - 1) / 3 + 1);
@@ -42,9 +42,9 @@ pub fn parabola(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     shuffled(n, place, random)
 }
 
-/// The same, mirrored: a Hilbert curve over an even number of bits ends in the lower right corner, at the vertex. A
-/// point nearer to the vertex than all before it lies in the circles of all their triangles, so tests and cavities
-/// along the curve grow with n.
+/// The same parabola mirrored: a Hilbert curve over an even number of bits ends in the lower right corner, at the
+/// vertex. A point nearer to the vertex than all before it lies in the circles of all their triangles, so tests and
+/// cavities along the curve grow with n.
 pub fn parabola_inward(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     let mut points = parabola(n, grid, random)?;
     let last = (grid.size - 1) as u32;
@@ -71,7 +71,7 @@ pub fn two_chains(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     shuffled(n, place, random)
 }
 
-/// On an Archimedean spiral, evenly spaced along it, neighbours a quarter as far apart as the arms.
+/// Points on an Archimedean spiral, evenly spaced along it; neighbours are a quarter as far apart as the arms.
 pub fn spiral(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     let centre = grid.half() - 0.5;
     // With arms 1 apart, r = a / TAU at angle a and the length to there is about a² / (2 TAU).
@@ -95,7 +95,7 @@ pub fn filled_box(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     shuffled(n, place, random)
 }
 
-/// Columns of the smallest square of at least `n` points, at least 1.
+/// Number of columns of the smallest square of at least `n` points, at least 1.
 fn side_of(n: usize) -> u64 {
     let below = n.isqrt();
     let side = if below * below < n { below + 1 } else { below };
@@ -108,7 +108,7 @@ fn spread(index: u64, count: u64, last: u64) -> u64 {
     (u128::from(index) * u128::from(last) / intervals) as u64
 }
 
-/// The places of `0..n` in random order. All coordinates are below 2^31 by construction.
+/// Returns the places of `0..n` in random order. All coordinates are below 2^31 by construction.
 fn shuffled(n: usize, place: impl Fn(u64) -> [u64; 2], random: &mut SplitMix64) -> Points {
     let mut points = room(n)?;
     points.extend((0..n as u64).map(|index| place(index).map(|value| value as u32)));

@@ -1,4 +1,4 @@
-//! The card and the bridge before it: what stands behind each address of its windows, and what happens meanwhile.
+//! The card and the bridge before it: the register behind each address of the windows, and the passing of time.
 
 use incircle_sim::pcie::Beats;
 use vfio_bindings::bindings::vfio::VFIO_PCI_CONFIG_REGION_INDEX;
@@ -9,10 +9,10 @@ use super::interrupts::Interrupts;
 use super::memory::HostMemory;
 use super::numbers::{block, ALL_ONES, CHANNELS, DMA_BAR, DMA_BYTES, USER_BAR, USER_BYTES};
 
-/// Makes a card, as it is after the reset of its bus.
+/// Makes a card in the state after the reset of its bus.
 pub type MakeCard = Box<dyn Fn() -> Box<dyn Beats> + Send>;
 
-/// What the block with the bridge's choices says it is.
+/// Identifier of the block that holds the bridge's choices.
 const CHOICES_IDENTIFIER: u32 = 0x1fc3_0006;
 /// Bytes of a register.
 const WORD: usize = 4;
@@ -23,9 +23,9 @@ pub struct Bridge {
     card: Box<dyn Beats>,
     config: ConfigSpace,
     channels: [Channel; CHANNELS],
-    /// Its messages.
+    /// Message-signalled interrupts of the device.
     pub interrupts: Interrupts,
-    /// The memory that it may reach.
+    /// Host memory that the device may reach.
     pub memory: HostMemory,
 }
 
@@ -34,7 +34,7 @@ fn channels() -> [Channel; CHANNELS] {
 }
 
 impl Bridge {
-    /// A device with such a card.
+    /// Makes a device around such a card.
     pub fn new(make: MakeCard) -> Self {
         Self {
             card: make(),
@@ -46,7 +46,7 @@ impl Bridge {
         }
     }
 
-    /// The reset of the device, which is that of the card's bus as well: `bus_reset_n`. The host's memory and events stay.
+    /// Resets the device and, through `bus_reset_n`, the card's bus. Memory mappings and events of the host stay.
     pub fn reset(&mut self) {
         self.card = (self.make)();
         self.config = ConfigSpace::new();
@@ -54,14 +54,15 @@ impl Bridge {
         self.interrupts.reset();
     }
 
-    /// The host is gone: nothing of it stays.
+    /// Drops everything that belonged to a host that has gone.
     pub fn forget(&mut self) {
         self.reset();
         self.interrupts.forget();
         self.memory.clear();
     }
 
-    /// Reads from a region. As on a bus, what nobody answers reads as all ones, and so does what the card answers with SLVERR.
+    /// Reads from a region. As on a bus, an address that nobody answers reads as all ones, and so does a read
+    /// that the card answers with SLVERR.
     pub fn read(&mut self, region: u32, offset: u64, bytes: &mut [u8]) {
         if region == VFIO_PCI_CONFIG_REGION_INDEX {
             return self.config.read(offset, bytes);
@@ -77,7 +78,7 @@ impl Bridge {
         self.deliver();
     }
 
-    /// Writes to a region. What nobody takes is lost.
+    /// Writes to a region. A write that nobody takes is lost.
     pub fn write(&mut self, region: u32, offset: u64, bytes: &[u8]) {
         if region == VFIO_PCI_CONFIG_REGION_INDEX {
             self.config.write(offset, bytes);
@@ -88,7 +89,7 @@ impl Bridge {
             let value = u32::from_le_bytes([a, b, c, d]);
             match region {
                 USER_BAR => {
-                    // If the card refuses it, nobody hears of that: a write has no answer.
+                    // A posted write has no answer, so a refusal by the card reaches nobody.
                     let _ = self.card.write(offset, value);
                 }
                 _ => self.write_dma(offset, value),
@@ -97,7 +98,8 @@ impl Bridge {
         self.deliver();
     }
 
-    /// The offset of a register in a window; none if the window is closed, or this is no access to one register of it.
+    /// Returns the offset of a register in a window, or `None` if the window is closed or the
+    /// access is not one aligned word.
     fn register(&self, region: u32, offset: u64, length: usize) -> Option<u32> {
         let bytes = match region {
             USER_BAR => USER_BYTES,
@@ -151,7 +153,7 @@ impl Bridge {
         self.interrupts.deliver(requests, self.config.has_messages());
     }
 
-    /// A slice of time passes. False if nothing changes until the host does something.
+    /// Lets a slice of time pass. Returns false if nothing changes until the host acts.
     pub fn step(&mut self) -> bool {
         let mut has_moved = false;
         if self.config.is_master() {

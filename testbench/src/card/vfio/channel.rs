@@ -1,4 +1,4 @@
-//! A channel of the bridge: it fetches descriptors, and moves beats between the host's memory and the card.
+//! A channel of the bridge, which fetches descriptors and moves beats between the host's memory and the card.
 
 use incircle_sim::pcie::Beats;
 
@@ -6,32 +6,33 @@ use super::descriptor::{Descriptor, Written};
 use super::memory::{HostMemory, Refused};
 use super::numbers::{channel, descriptors, status, RUN};
 
-/// Upper bits of the identifier: of channels, and of their descriptors; the channels are streams.
+/// Upper bits of the identifiers of the channels and of their descriptors. The channels are streams.
 const CHANNEL_IDENTIFIER: [u32; 2] = [0x1fc0_8000, 0x1fc1_8000];
 const DESCRIPTORS_IDENTIFIER: [u32; 2] = [0x1fc4_8000, 0x1fc5_8000];
-/// The bridge's version, of Vivado 2017.1 to now.
+/// Version of the bridge that Vivado 2017.1 and later build.
 const VERSION: u32 = 6;
-/// Any address and any length will do, and addresses have 64 bits.
+/// Says that any address and any length are allowed, and that addresses have 64 bits.
 const ALIGNMENTS: u32 = 0x0001_0140;
-/// Bytes that are moved at once: whole beats of any width.
+/// Bytes that are moved in one step: whole beats of any width.
 const PIECE: usize = 8 << 10;
 
-/// Which way a channel goes. As a number: its place among the channels.
+/// Direction of a channel. As a number, its place among the channels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Way {
-    /// Commands.
+    /// The channel that carries commands.
     ToCard,
-    /// Answers.
+    /// The channel that carries answers.
     ToHost,
 }
 
-/// A descriptor and how many of its bytes were moved.
+/// A descriptor, and the number of its bytes that were moved.
 type Progress = (Descriptor, u32);
 
-/// A channel, with its registers.
+/// A channel and its registers.
 ///
-/// It runs from a descriptor to the next until one says that it is the last. An error stops it, and so does clearing its bit `Run`: at the next
-/// beat, where a real one ends its descriptor first, for which it may wait without end.
+/// A run goes from one descriptor to the next until a descriptor says that it is the last. An error stops the run, and
+/// so does clearing the bit `Run`. This model then stops at the next beat; a real bridge first ends the descriptor, for
+/// which it may wait without end.
 #[derive(Debug)]
 pub struct Channel {
     way: Way,
@@ -42,14 +43,14 @@ pub struct Channel {
     first: u64,
     adjacent: u32,
     is_busy: bool,
-    /// Where the next descriptor is.
+    /// Address of the next descriptor.
     next: u64,
     current: Option<Progress>,
     piece: Vec<u8>,
 }
 
 impl Channel {
-    /// As after a reset.
+    /// Makes a channel in the state after a reset.
     pub fn new(way: Way) -> Self {
         Self {
             way,
@@ -66,12 +67,12 @@ impl Channel {
         }
     }
 
-    /// True if it asks for its interrupt.
+    /// True while the channel asks for its interrupt.
     pub fn requests(&self) -> bool {
         self.status & self.mask != 0
     }
 
-    /// Reads a register of the channel; 0 where there is none.
+    /// Reads a register of the channel; an unused offset reads as 0.
     pub fn read(&mut self, offset: u32) -> u32 {
         let busy = if self.is_busy { status::BUSY } else { 0 };
         match offset {
@@ -86,7 +87,7 @@ impl Channel {
         }
     }
 
-    /// Writes a register of the channel, if there is one.
+    /// Writes a register of the channel; a write to an unused offset does nothing.
     pub fn write(&mut self, offset: u32, value: u32) {
         match offset {
             channel::CONTROL => self.set_control(value),
@@ -100,7 +101,7 @@ impl Channel {
         }
     }
 
-    /// Reads a register of its descriptors; 0 where there is none.
+    /// Reads a register of the channel's descriptors; an unused offset reads as 0.
     pub fn read_descriptors(&self, offset: u32) -> u32 {
         match offset {
             descriptors::IDENTIFIER => DESCRIPTORS_IDENTIFIER[self.way as usize] | VERSION,
@@ -111,12 +112,12 @@ impl Channel {
         }
     }
 
-    /// Writes a register of its descriptors, if there is one.
+    /// Writes a register of the channel's descriptors; a write to an unused offset does nothing.
     pub fn write_descriptors(&mut self, offset: u32, value: u32) {
         match offset {
             descriptors::LOW => self.first = self.first >> 32 << 32 | u64::from(value),
             descriptors::HIGH => self.first = u64::from(value) << 32 | u64::from(self.first as u32),
-            // Those that lie together may be fetched together. Each is fetched alone here.
+            // A real bridge may fetch adjacent descriptors together; this model fetches each by itself.
             descriptors::ADJACENT => self.adjacent = value & 0x3f,
             _ => {}
         }
@@ -138,12 +139,12 @@ impl Channel {
         }
     }
 
-    /// Sets a bit of the status, if the control lets it.
+    /// Sets a bit of the status if the control enables that bit.
     fn note(&mut self, bit: u32) {
         self.status |= bit & self.control;
     }
 
-    /// Moves what can be moved now, a piece at most. False if that was nothing.
+    /// Moves at most one piece. Returns false if nothing could be moved.
     pub fn step(&mut self, card: &mut dyn Beats, memory: &HostMemory) -> bool {
         if !self.is_busy {
             return false;
@@ -155,7 +156,7 @@ impl Channel {
         })
     }
 
-    /// The error is a bit of the status.
+    /// Works on the current descriptor; an error is the bit of the status that reports it.
     fn advance(&mut self, card: &mut dyn Beats, memory: &HostMemory) -> Result<bool, u32> {
         let (descriptor, moved) = match self.current {
             Some(progress) => progress,
@@ -182,16 +183,16 @@ impl Channel {
         is_whole.then_some(descriptor).ok_or(status::LENGTH)
     }
 
-    /// Moves commands to the card; says how many bytes.
+    /// Moves commands to the card and returns the number of bytes moved.
     fn push(&mut self, (of, moved): Progress, card: &mut dyn Beats, memory: &HostMemory) -> Result<u32, u32> {
         let count = PIECE.min((of.length - moved) as usize);
         let piece = &mut self.piece[..count];
         memory.read(of.source.wrapping_add(u64::from(moved)), piece).map_err(|Refused| status::READ)?;
-        // No more than a piece.
+        // The cast is safe: a piece has 8 KiB at most.
         Ok(card.take(piece) as u32)
     }
 
-    /// Moves an answer to the host; says how many bytes, and whether they end it.
+    /// Moves an answer to the host and returns the number of bytes moved, and whether the answer ended with them.
     fn pull(&mut self, (of, moved): Progress, card: &mut dyn Beats, memory: &HostMemory) -> Result<(u32, bool), u32> {
         let count = PIECE.min((of.length - moved) as usize);
         let given = card.give(&mut self.piece[..count]);

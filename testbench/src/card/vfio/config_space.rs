@@ -1,14 +1,14 @@
-//! The card's configuration space: who it is, its two windows, and the switches for memory, for DMA and for messages.
+//! The card's configuration space: its identity, its two windows, and the switches for memory, DMA and messages.
 
 use super::numbers::{block, config, CLASS, DEVICE, DMA_BAR, DMA_BYTES, USER_BAR, USER_BYTES, VECTORS, VENDOR};
 
-/// The subsystem of the bridge, unless the build script names another.
+/// Offset of the subsystem id, which is the bridge's own unless the build script names another.
 const SUBSYSTEM_AT: usize = 0x2c;
 const SUBSYSTEM: u16 = 0x0007;
-/// Bits of the control of messages that the host may write, in its upper byte.
+/// Bits in the upper byte of the messages' control that the host may write.
 const CONTROL_BITS: u8 = ((config::MESSAGES_ENABLED | config::MESSAGES_MASKED) >> 8) as u8;
 
-/// The bytes of it, and which of their bits may be written.
+/// The bytes of the configuration space, and a mask of the bits that the host may write.
 #[derive(Debug)]
 pub struct ConfigSpace {
     bytes: Vec<u8>,
@@ -16,7 +16,7 @@ pub struct ConfigSpace {
 }
 
 impl ConfigSpace {
-    /// As after a reset.
+    /// Makes the space in the state after a reset.
     pub fn new() -> Self {
         let mut space = Self { bytes: vec![0; config::BYTES], writable: vec![0; config::BYTES] };
         space.put(0, &VENDOR.to_le_bytes());
@@ -26,13 +26,14 @@ impl ConfigSpace {
         space.put(SUBSYSTEM_AT, &VENDOR.to_le_bytes());
         space.put(SUBSYSTEM_AT + 2, &SUBSYSTEM.to_le_bytes());
         space.put(config::CAPABILITIES, &[config::MESSAGES_AT as u8]);
-        // The number of messages less one, and where their tables are: an offset, and in its lowest bits the window.
+        // The capability holds the number of messages less one, and the place of each of their tables: an offset
+        // whose lowest bits name the window.
         space.put(config::MESSAGES_AT, &[config::MESSAGES, 0, VECTORS as u8 - 1, 0]);
         space.put(config::MESSAGES_AT + 4, &(block::MESSAGE_TABLE | DMA_BAR).to_le_bytes());
         space.put(config::MESSAGES_AT + 8, &(block::PENDING | DMA_BAR).to_le_bytes());
         space.writable[config::COMMAND] = config::COMMAND_MEMORY | config::COMMAND_MASTER;
         space.writable[config::MESSAGES_AT + 3] = CONTROL_BITS;
-        // A window's address is a multiple of its size, so that all ones written tell the size.
+        // A window's address is a multiple of its size: a host that writes all ones reads the size back.
         for (bar, size) in [(USER_BAR, USER_BYTES), (DMA_BAR, DMA_BYTES)] {
             let at = config::BARS + 4 * bar as usize;
             space.writable[at..at + 4].copy_from_slice(&(!(size as u32 - 1)).to_le_bytes());
@@ -44,7 +45,7 @@ impl ConfigSpace {
         self.bytes[at..at + bytes.len()].copy_from_slice(bytes);
     }
 
-    /// Reads from an offset on; all ones behind the end.
+    /// Reads from an offset on; bytes behind the end are all ones.
     pub fn read(&self, offset: u64, bytes: &mut [u8]) {
         let from = usize::try_from(offset).unwrap_or(usize::MAX);
         for (place, byte) in bytes.iter_mut().enumerate() {
@@ -52,7 +53,7 @@ impl ConfigSpace {
         }
     }
 
-    /// Writes the bits that may be written.
+    /// Writes the bits that the host may write.
     pub fn write(&mut self, offset: u64, bytes: &[u8]) {
         let from = usize::try_from(offset).unwrap_or(usize::MAX);
         for (place, byte) in bytes.iter().enumerate() {
@@ -63,20 +64,20 @@ impl ConfigSpace {
         }
     }
 
-    /// The windows answer.
+    /// True if the host has opened the windows.
     pub fn has_memory(&self) -> bool {
         self.bytes[config::COMMAND] & config::COMMAND_MEMORY != 0
     }
 
-    /// The card may reach the host's memory.
+    /// True if the card may reach the host's memory.
     pub fn is_master(&self) -> bool {
         self.bytes[config::COMMAND] & config::COMMAND_MASTER != 0
     }
 
-    /// It may send messages.
+    /// True if the card may send messages.
     pub fn has_messages(&self) -> bool {
         let control = u16::from(self.bytes[config::MESSAGES_AT + 3]) << 8;
-        // Messages are writes to the host's memory.
+        // A message is a write to the host's memory, so the card must be bus master as well.
         self.is_master() && control & (config::MESSAGES_ENABLED | config::MESSAGES_MASKED) == config::MESSAGES_ENABLED
     }
 }

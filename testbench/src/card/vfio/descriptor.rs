@@ -1,40 +1,42 @@
-//! A descriptor of the bridge: 32 bytes in the host's memory that say what to move, and what the bridge writes back of an answer.
+//! A descriptor of the bridge: 32 bytes in the host's memory that say what to move, and the 8 bytes that the
+//! bridge writes back for an answer.
 
-/// In the upper half of a descriptor's first word.
+/// Upper half of a descriptor's first word.
 const MAGIC: u32 = 0xad4b;
-/// In the upper half of the first word that is written back.
+/// Upper half of the first word that is written back.
 const WRITTEN_MAGIC: u32 = 0x52b4;
-/// Bits of the first word.
+/// Flags in a descriptor's first word.
 const STOP: u32 = 1;
 const COMPLETED: u32 = 1 << 1;
 const END: u32 = 1 << 4;
-/// Bits of a length.
+/// Mask of a descriptor's length.
 const LENGTH: u32 = (1 << 28) - 1;
 
-/// What to move.
+/// One piece of memory to move.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Descriptor {
-    /// It is the last one.
+    /// The run ends with this descriptor.
     pub stops: bool,
-    /// Its end sets a bit of the status.
+    /// The end of this descriptor sets a bit of the status.
     pub completes: bool,
-    /// A packet to the card ends with it. The card's commands have no packets, so that changes nothing.
+    /// A packet to the card ends with this descriptor. Commands are not divided into packets,
+    /// so the flag has no effect.
     pub ends: bool,
-    /// Bytes, less than 2^28.
+    /// Number of bytes, less than 2^28.
     pub length: u32,
-    /// Where the data of commands is; of an answer, where to write back what came.
+    /// Address of the commands to send; for an answer, the address at which the bridge reports what came.
     pub source: u64,
-    /// Where an answer goes.
+    /// Address at which the answer is stored.
     pub destination: u64,
-    /// The next descriptor.
+    /// Address of the next descriptor.
     pub next: u64,
 }
 
 impl Descriptor {
-    /// Bytes of one.
+    /// Bytes of a descriptor in memory.
     pub const BYTES: usize = 32;
 
-    /// As it is in memory.
+    /// Encodes the descriptor as the bridge finds it in memory.
     pub fn to_bytes(self) -> [u8; Self::BYTES] {
         let flags = [(self.stops, STOP), (self.completes, COMPLETED), (self.ends, END)];
         let flags = flags.iter().filter(|flag| flag.0).fold(0, |bits, flag| bits | flag.1);
@@ -48,7 +50,7 @@ impl Descriptor {
         bytes
     }
 
-    /// `None`: it does not begin with the letters of one.
+    /// Decodes a descriptor; `None` if the bytes do not begin with the descriptor's magic number.
     pub fn from_bytes(bytes: [u8; Self::BYTES]) -> Option<Self> {
         let word = |at: usize| u32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]]);
         let address = |at: usize| u64::from(word(at + 4)) << 32 | u64::from(word(at));
@@ -65,27 +67,27 @@ impl Descriptor {
     }
 }
 
-/// What the bridge writes back of a descriptor towards the host.
+/// The bridge's report on a descriptor of the channel to the host.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Written {
-    /// The bytes that came.
+    /// Number of bytes that came.
     pub length: u32,
-    /// An answer ended with them.
+    /// The answer ended with these bytes.
     pub is_end: bool,
 }
 
 impl Written {
-    /// Bytes of one.
+    /// Bytes of the report in memory.
     pub const BYTES: usize = 8;
 
-    /// As it is in memory.
+    /// Encodes the report as the host finds it in memory.
     pub fn to_bytes(self) -> [u8; Self::BYTES] {
         let [a, b, c, d] = (WRITTEN_MAGIC << 16 | u32::from(self.is_end)).to_le_bytes();
         let [e, f, g, h] = self.length.to_le_bytes();
         [a, b, c, d, e, f, g, h]
     }
 
-    /// `None`: nothing was written back.
+    /// Decodes the report; `None` if nothing was written back.
     pub fn from_bytes(bytes: [u8; Self::BYTES]) -> Option<Self> {
         let [a, b, c, d, e, f, g, h] = bytes;
         let first = u32::from_le_bytes([a, b, c, d]);

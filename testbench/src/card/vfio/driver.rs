@@ -1,4 +1,5 @@
-//! A driver in user space for the card behind its socket: it finds the windows, switches DMA and messages on, and maps memory.
+//! A driver in user space for the card behind its socket. Opening the card finds the windows
+//! and switches DMA and messages on.
 
 use std::io;
 use std::os::fd::AsRawFd;
@@ -22,14 +23,14 @@ use super::numbers::CHANNELS;
 use super::places::{find, read, read_config, start, write, write_config};
 use super::transfers::{Answers, Commands, Transfers};
 
-/// The open card, for all that use it.
+/// The open card, shared by all its users.
 pub struct VfioDriver(Arc<Link>);
 
 impl VfioDriver {
     /// Opens the card at a socket.
     ///
     /// # Errors
-    /// [`DriverError`].
+    /// [`DriverError`] says why the card cannot be used.
     pub fn open(path: &Path) -> Result<Self, DriverError> {
         let mut client = Client::new(path)?;
         let places = find(&mut client)?;
@@ -49,15 +50,16 @@ impl VfioDriver {
         })))
     }
 
-    /// The connection.
+    /// The connection to the card.
     pub fn link(&self) -> &Arc<Link> {
         &self.0
     }
 
-    /// The three files of the card, for the library's driver. A transfer that takes longer than `timeout` fails as one of the driver XDMA.
+    /// The three files of the card for the library's driver. A transfer that takes longer than `timeout` fails with the
+    /// error that the driver XDMA would report.
     ///
     /// # Errors
-    /// [`DriverError`]: memory cannot be had.
+    /// [`DriverError`]: the memory for the transfers cannot be had.
     pub fn files(&self, timeout: Duration) -> Result<CardFiles, DriverError> {
         Ok(CardFiles {
             commands: Box::new(Commands(Transfers::new(&self.0, Way::ToCard, timeout)?)),
@@ -66,7 +68,7 @@ impl VfioDriver {
         })
     }
 
-    /// Ends of runs so far that were seen in the status and that no message told: interrupts that were lost.
+    /// Number of lost interrupts: runs so far whose end showed in the status without a message.
     pub fn untold(&self) -> u32 {
         self.0.untold.load(Ordering::Relaxed)
     }
@@ -81,17 +83,17 @@ impl VfioDriver {
         write(&mut self.0.lock(), self.0.places.user, offset.into(), value);
     }
 
-    /// Reads four bytes of configuration space.
+    /// Reads four bytes of the configuration space.
     pub fn config(&self, offset: u64) -> u32 {
         read_config(&mut self.0.lock(), offset)
     }
 
-    /// Writes them.
+    /// Writes four bytes of the configuration space.
     pub fn set_config(&self, offset: u64, value: u32) {
         write_config(&mut self.0.lock(), offset, value);
     }
 
-    /// Masks all messages at the device's end of the socket, or ends that.
+    /// Masks all messages at the device's end of the socket, or removes that mask.
     ///
     /// # Errors
     /// The card is gone.
@@ -100,7 +102,7 @@ impl VfioDriver {
         self.0.lock().set_irqs(VFIO_PCI_MSIX_IRQ_INDEX, action | VFIO_IRQ_SET_DATA_NONE, 0, CHANNELS as u32, &[])
     }
 
-    /// Resets the device, and switches on again what that switches off. Nobody sees it in between.
+    /// Resets the device and switches on again what a reset switches off. No other call comes in between.
     ///
     /// # Errors
     /// The card is gone.

@@ -1,4 +1,5 @@
-//! The bridge's interrupts: what each channel asks for, which message that is, what masks it, and the event that the host waits for.
+//! The bridge's interrupts: the requests of the channels, the message for each, the masks, and the
+//! events that the host waits for.
 
 use std::fs::File;
 use std::io::Write;
@@ -10,14 +11,14 @@ use vfio_bindings::bindings::vfio::{
 
 use super::numbers::{interrupts, CHANNELS, ENTRY_BYTES, ENTRY_CONTROL, ENTRY_MASKED, VECTORS};
 
-/// What the block of registers says it is.
+/// Identifier of the block of registers.
 const IDENTIFIER: u32 = 0x1fc2_0006;
 /// Words of an entry in the table of messages.
 const ENTRY_WORDS: usize = ENTRY_BYTES as usize / 4;
-/// A bit for each channel.
+/// Mask with a bit for each channel.
 const ALL: u32 = (1 << CHANNELS) - 1;
 
-/// A host's message is not one of the card's.
+/// The host named a message that the card does not have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("messages {start} to {start} + {count} are not there: there are {VECTORS}")]
 pub struct NoVector {
@@ -25,26 +26,27 @@ pub struct NoVector {
     count: u32,
 }
 
-/// The state of all interrupts.
+/// State of all interrupts.
 ///
-/// A channel's line is high while it asks and its mask lets it. A line that goes high is worth one message. What cannot be sent, as something masks
-/// it, is sent when that ends and the line is still high: so none is lost.
+/// A channel's line is high while the channel asks and its mask allows the interrupt. Each rise of a line is
+/// worth one message. A message that a mask holds back is sent when the mask goes, if the line is still high by
+/// then: so no interrupt is lost.
 #[derive(Debug)]
 pub struct Interrupts {
-    /// Channels that ask, and that may.
+    /// A bit for each channel: the channels that ask, and those that the host allows.
     requests: u32,
     mask: u32,
     vectors: u32,
     table: [[u32; ENTRY_WORDS]; VECTORS],
-    /// Events of the host, and messages that it masks besides.
+    /// The host's event for each message, and the messages that the host masks at its end of the socket.
     events: [Option<File>; VECTORS],
     is_masked: [bool; VECTORS],
-    /// Channels whose line was told.
+    /// A bit for each channel whose line is high and was reported by a message.
     told: u32,
 }
 
 impl Interrupts {
-    /// As after a reset: no event, each message masked.
+    /// Makes the state after power-up: no event, every message masked.
     pub fn new() -> Self {
         let mut entry = [0; ENTRY_WORDS];
         entry[ENTRY_CONTROL as usize / 4] = ENTRY_MASKED;
@@ -59,13 +61,13 @@ impl Interrupts {
         }
     }
 
-    /// A reset: only the host's events are left.
+    /// Resets everything but the host's events.
     pub fn reset(&mut self) {
         let events = std::mem::replace(&mut self.events, [const { None }; VECTORS]);
         *self = Self { events, ..Self::new() };
     }
 
-    /// Reads a register; 0 where there is none.
+    /// Reads a register; an unused offset reads as 0.
     pub fn read(&self, offset: u32) -> u32 {
         match offset {
             interrupts::IDENTIFIER => IDENTIFIER,
@@ -77,7 +79,7 @@ impl Interrupts {
         }
     }
 
-    /// Writes a register, if there is one.
+    /// Writes a register; a write to an unused offset does nothing.
     pub fn write(&mut self, offset: u32, value: u32) {
         match offset {
             interrupts::CHANNEL_MASK => self.mask = value & ALL,
@@ -88,13 +90,13 @@ impl Interrupts {
         }
     }
 
-    /// Reads the table of messages, by an offset in it; 0 behind its end.
+    /// Reads the table of messages at an offset; behind its end the table reads as 0.
     pub fn read_table(&self, offset: u32) -> u32 {
         let word = offset as usize / 4;
         self.table.get(word / ENTRY_WORDS).map_or(0, |entry| entry[word % ENTRY_WORDS])
     }
 
-    /// Writes it.
+    /// Writes the table of messages at an offset.
     pub fn write_table(&mut self, offset: u32, value: u32) {
         let word = offset as usize / 4;
         if let Some(entry) = self.table.get_mut(word / ENTRY_WORDS) {
@@ -102,7 +104,7 @@ impl Interrupts {
         }
     }
 
-    /// A bit for each message that waits for its mask.
+    /// A bit for each message that is held back by a mask.
     pub fn pending(&self) -> u32 {
         let lines = self.requests & self.mask & !self.told;
         let waiting = (0..CHANNELS).filter(|channel| lines >> channel & 1 != 0);
@@ -113,10 +115,11 @@ impl Interrupts {
         (self.vectors >> (8 * channel) & 0x1f) as usize
     }
 
-    /// What the host does with messages from `start` on: events for them, or none, or a mask.
+    /// Handles the host's request about `count` messages from `start` on: set their events, drop all events,
+    /// send them, mask or unmask them.
     ///
     /// # Errors
-    /// There are not so many messages.
+    /// The card has fewer messages than that.
     pub fn set(&mut self, flags: u32, (start, count): (u32, u32), events: Vec<File>) -> Result<(), NoVector> {
         let range = start as usize..(start as usize).saturating_add(count as usize);
         if range.end > VECTORS {
@@ -128,7 +131,7 @@ impl Interrupts {
                 let mut events = events.into_iter();
                 self.events[range].iter_mut().for_each(|event| *event = events.next());
             }
-            // None of none is the end of all of them.
+            // In the protocol a trigger without data and of no message ends all events.
             VFIO_IRQ_SET_ACTION_TRIGGER if count == 0 => self.events.iter_mut().for_each(|event| *event = None),
             VFIO_IRQ_SET_ACTION_TRIGGER => range.for_each(|vector| self.send(vector)),
             VFIO_IRQ_SET_ACTION_MASK => self.is_masked[range].fill(true),
@@ -138,12 +141,13 @@ impl Interrupts {
         Ok(())
     }
 
-    /// Forgets the host's events, and its masks.
+    /// Forgets the host's events and masks.
     pub fn forget(&mut self) {
         *self = Self::new();
     }
 
-    /// Sends what is to be sent. `requests` has a bit for each channel; `may_send`: configuration space allows messages.
+    /// Sends the messages that are due. `requests` has a bit for each channel; `may_send` says
+    /// that the configuration space allows messages.
     pub fn deliver(&mut self, requests: u32, may_send: bool) {
         self.requests = requests;
         let lines = requests & self.mask;
@@ -162,7 +166,7 @@ impl Interrupts {
 
     fn send(&mut self, vector: usize) {
         if let Some(event) = &mut self.events[vector] {
-            // It counts to 2^64; a host that gave something else than an event has none.
+            // An event counts up to 2^64, so it takes this one. A host that gave another kind of file gets no event.
             let _ = event.write_all(&1u64.to_ne_bytes());
         }
     }

@@ -1,4 +1,4 @@
-//! The connection between a driver and the card.
+//! The connection between the driver and the card.
 
 use std::os::fd::{AsRawFd, OwnedFd};
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -11,12 +11,12 @@ use super::dma_memory::DmaMemory;
 use super::numbers::CHANNELS;
 use super::places::{read, write, Places};
 
-/// The connection. An access is a message and its answer, so one waits for the other.
+/// The connection to a card. An access is a message and its answer, so accesses wait for one another.
 pub struct Link {
     pub(super) client: Mutex<Client>,
     pub(super) places: Places,
     pub(super) events: [OwnedFd; CHANNELS],
-    /// Where memory is mapped that the card may reach.
+    /// Addresses at which memory is mapped for the card.
     pub(super) mapped: Mutex<Vec<u64>>,
     pub(super) ranges: AtomicU32,
     pub(super) untold: AtomicU32,
@@ -32,12 +32,12 @@ impl Link {
         read(&mut self.lock(), self.places.dma, offset.into())
     }
 
-    /// Writes it. To a card that is gone that does nothing.
+    /// Writes a register of the bridge. A write to a card that is gone does nothing.
     pub fn set_dma(&self, offset: u32, value: u32) {
         write(&mut self.lock(), self.places.dma, offset.into(), value);
     }
 
-    /// The event of a channel.
+    /// The event of a channel's message.
     pub fn event(&self, way: Way) -> &OwnedFd {
         &self.events[way as usize]
     }
@@ -46,12 +46,12 @@ impl Link {
         self.mapped.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// A multiple of 4 GiB that nobody else is given.
+    /// Returns a multiple of 4 GiB that no other caller gets.
     pub fn new_range(&self) -> u64 {
         u64::from(self.ranges.fetch_add(1, Ordering::Relaxed) + 1) << 32
     }
 
-    /// Lets the card reach memory.
+    /// Maps memory for the card.
     ///
     /// # Errors
     /// The card is gone.
@@ -61,7 +61,7 @@ impl Link {
         Ok(())
     }
 
-    /// Takes it back, if it can be reached: the crate's client would wait without end for the rest of a refusal.
+    /// Unmaps memory, but only if it is mapped: the crate's client would wait without end for the rest of a refusal.
     ///
     /// # Errors
     /// The card is gone.
@@ -74,7 +74,7 @@ impl Link {
         self.lock().dma_unmap(memory.address(), memory.size())
     }
 
-    /// Counts the end of a run that no message told.
+    /// Counts the end of a run that no message reported.
     pub fn count_untold(&self) {
         self.untold.fetch_add(1, Ordering::Relaxed);
     }

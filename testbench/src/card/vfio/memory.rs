@@ -1,4 +1,4 @@
-//! The host's memory as the card may reach it: what was mapped for it, and nothing else.
+//! The host's memory as the card may reach it: what was mapped for the card, and nothing else.
 
 use std::fs::File;
 
@@ -6,65 +6,69 @@ use rustix::fs::{fcntl_get_seals, SealFlags};
 use vfio_user::DmaMapFlags;
 use vm_memory::{FileOffset, MmapRegion, VolatileMemory};
 
-/// Why memory is not mapped, or not unmapped.
+/// The reasons why memory is not mapped or not unmapped.
 #[derive(Debug, thiserror::Error)]
 pub enum MapError {
-    /// Without a file it could only be reached by messages.
+    /// Memory without a file could be reached by messages only.
     #[error("the memory at {0:#x} comes without a file: give one that can be mapped")]
     NoFile(u64),
-    /// Reading beyond the end of a file that was cut ends the process.
+    /// The process would die if it read beyond the end of a file that was cut.
     #[error("the file of the memory at {0:#x} may become shorter: seal it against that")]
     Shrinks(u64),
-    /// Nor may it end before the range does.
-    #[error("the file of the memory at {address:#x} has {length} bytes, less than {size} from {offset} on: give its true size")]
+    /// The file ends before the range does.
+    #[error(
+        "the file of the memory at {address:#x} has {length} bytes, less than {size} from {offset} on: \
+         give its true size"
+    )]
     Short {
-        /// First address.
+        /// First address of the range.
         address: u64,
         /// Bytes of the file.
         length: u64,
         /// Bytes to be mapped.
         size: u64,
-        /// Where in the file.
+        /// Offset of the range in the file.
         offset: u64,
     },
-    /// No range.
+    /// The addresses form no range.
     #[error("{size} bytes at {address:#x} are no range of addresses: map at least a byte, and at most up to 2^64 - 1")]
     Range {
-        /// First address.
+        /// First address of the range.
         address: u64,
-        /// Bytes.
+        /// Number of bytes in the range.
         size: u64,
     },
-    /// Something is there.
+    /// A part of the range is mapped already.
     #[error("{size} bytes at {address:#x} overlap what is mapped: unmap that first")]
     Overlaps {
-        /// First address.
+        /// First address of the range.
         address: u64,
-        /// Bytes.
+        /// Number of bytes in the range.
         size: u64,
     },
-    /// Nothing is there.
+    /// The range is not a mapping.
     #[error("{size} bytes at {address:#x} are no mapping: unmap what was mapped as a whole")]
     NotMapped {
-        /// First address.
+        /// First address of the range.
         address: u64,
-        /// Bytes.
+        /// Number of bytes in the range.
         size: u64,
     },
-    /// The system refuses.
+    /// The system refuses the mapping.
     #[error("the memory at {address:#x} cannot be mapped: {source}: check offset and size of its file")]
     System {
-        /// First address.
+        /// First address of the memory.
         address: u64,
-        /// Why.
+        /// The reason that the system gives.
         source: vm_memory::mmap::MmapRegionError,
     },
 }
 
-/// An access to what is not mapped, or not for that.
+/// An access to an address that is not mapped, or not mapped for this kind of access.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Refused;
 
+/// Memory of the host at the addresses of the card, with the accesses that the host allows.
 #[derive(Debug)]
 struct Mapping {
     address: u64,
@@ -77,13 +81,13 @@ impl Mapping {
         self.memory.size() as u64
     }
 
-    /// Bytes from its begin to this address, if it has it.
+    /// Number of bytes from the start of the mapping to `address`, if the address lies in the mapping.
     fn offset(&self, address: u64) -> Option<u64> {
         address.checked_sub(self.address).filter(|&offset| offset < self.size())
     }
 }
 
-/// All that is mapped.
+/// All mappings of the card.
 #[derive(Debug, Default)]
 pub struct HostMemory {
     mappings: Vec<Mapping>,
@@ -93,7 +97,7 @@ impl HostMemory {
     /// Maps a piece of a file to these addresses.
     ///
     /// # Errors
-    /// [`MapError`].
+    /// [`MapError`] says why not.
     pub fn map(
         &mut self,
         flags: DmaMapFlags,
@@ -123,17 +127,17 @@ impl HostMemory {
         Ok(())
     }
 
-    /// Unmaps what was mapped to these addresses.
+    /// Unmaps a range that was mapped as a whole.
     ///
     /// # Errors
-    /// [`MapError::NotMapped`].
+    /// [`MapError::NotMapped`] if the range is not a mapping.
     pub fn unmap(&mut self, (address, size): (u64, u64)) -> Result<(), MapError> {
         let place = self.mappings.iter().position(|mapping| (mapping.address, mapping.size()) == (address, size));
         self.mappings.swap_remove(place.ok_or(MapError::NotMapped { address, size })?);
         Ok(())
     }
 
-    /// Unmaps all.
+    /// Unmaps all of the memory.
     pub fn clear(&mut self) {
         self.mappings.clear();
     }
@@ -141,7 +145,7 @@ impl HostMemory {
     /// Reads from these addresses on.
     ///
     /// # Errors
-    /// One of them is not mapped for reading; what was read before it is in `bytes`.
+    /// One of the addresses is not mapped for reading; `bytes` then holds what was read before it.
     pub fn read(&self, address: u64, bytes: &mut [u8]) -> Result<(), Refused> {
         let mut done = 0;
         while done < bytes.len() {
@@ -155,7 +159,7 @@ impl HostMemory {
     /// Writes to these addresses on.
     ///
     /// # Errors
-    /// One of them is not mapped for writing; what goes before it is written.
+    /// One of the addresses is not mapped for writing; the bytes before it are written.
     pub fn write(&self, address: u64, bytes: &[u8]) -> Result<(), Refused> {
         let mut done = 0;
         while done < bytes.len() {
@@ -166,7 +170,8 @@ impl HostMemory {
         Ok(())
     }
 
-    /// The mapping that has the byte `done` from this address, where in it that is, and how many of `length` bytes it has from there.
+    /// Finds the byte that lies `done` bytes behind `address`: its mapping, its offset there, and how many of `length`
+    /// bytes the mapping holds from there on.
     fn piece(
         &self,
         address: u64,
@@ -178,7 +183,7 @@ impl HostMemory {
         let mut allowed = self.mappings.iter().filter(|mapping| mapping.flags.contains(access));
         let found = allowed.find_map(|mapping| Some((mapping, mapping.offset(at)?)));
         let (mapping, offset) = found.ok_or(Refused)?;
-        // Less than its size, which is one of memory.
+        // The cast is safe: the offset is less than the size of the mapping, which is in memory.
         let offset = offset as usize;
         Ok((&mapping.memory, offset, (mapping.memory.size() - offset).min(length - done)))
     }

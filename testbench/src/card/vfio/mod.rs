@@ -1,14 +1,17 @@
-//! A card as a device of vfio-user: a PCI device behind a socket, with configuration space, two windows of registers, DMA into the host's memory,
-//! messages as interrupts, and a reset; and a driver for it in user space.
+//! A card as a vfio-user device, and a driver for the card in user space. The device is a PCI device
+//! behind a socket, with a configuration space, two windows of registers, DMA into the host's memory,
+//! messages as interrupts, and a reset.
 //!
-//! [`VfioCard`] has, around any [`incircle_sim::pcie::Beats`], the bridge that stands before the real card: the registers of its core in the
-//! first window, and in the second those of AMD's DMA bridge, in the subset that one channel each way needs. [`VfioDriver`] finds the windows,
-//! maps memory for DMA, takes interrupts, and gives the three files that the library's own driver wants: so that runs its jobs through all of it.
+//! [`VfioCard`] wraps any [`incircle_sim::pcie::Beats`] in the bridge that stands before the real card. The first
+//! window has the registers of the card; the second has those of AMD's DMA bridge, in the subset that one channel each
+//! way needs. [`VfioDriver`] finds the windows, maps memory for DMA, takes interrupts, and provides the three files
+//! that the library's own driver expects. The library's jobs thus run through every part of a PCIe device.
 //!
-//! Both sides use the crate `vfio_user` 0.1.7, whose limits are these. The client does not look at errors in answers, and would wait without end for
-//! the rest of one to a read; so the device answers every read, with all ones where a bus would. The client has no deadline: its caller has. The
-//! server trusts the sizes in messages, and ends a connection only when the client does. Nor is the table of messages hidden from the host, as
-//! the kernel's VFIO does: the driver writes it.
+//! Both sides use the crate `vfio_user` 0.1.7, whose limits shape this module. The client does not look for errors in
+//! answers, and would wait without end for the rest of an answer to a read; so the device answers every read, with all
+//! ones where a bus would. The client has no deadline, so its caller sets one. The server trusts the sizes in messages,
+//! and ends a connection only when the client does. The table of messages is not hidden from the host, as the kernel's
+//! VFIO would hide it: the driver writes it.
 
 mod bridge;
 mod channel;
@@ -39,7 +42,7 @@ use std::io;
 
 use rustix::fs::{fcntl_add_seals, ftruncate, memfd_create, MemfdFlags, SealFlags};
 
-/// Memory without a name that processes can share, of this size for ever.
+/// Creates anonymous memory that processes can share and whose size never changes.
 fn shared_memory(bytes: u64) -> io::Result<File> {
     let memory = memfd_create("incircle-dma", MemfdFlags::CLOEXEC | MemfdFlags::ALLOW_SEALING)?;
     ftruncate(&memory, bytes)?;

@@ -1,4 +1,5 @@
-//! Where a driver finds things: windows by their sizes and by what they answer, messages among the capabilities; and what it switches on.
+//! Finds the parts of the device and switches them on: the windows by their sizes and by what they
+//! answer, the messages among the capabilities.
 
 use vfio_bindings::bindings::vfio::{VFIO_PCI_BAR5_REGION_INDEX, VFIO_PCI_CONFIG_REGION_INDEX};
 use vfio_user::Client;
@@ -8,19 +9,19 @@ use super::numbers::{
     block, channel, config, interrupts, status, ALL_ONES, CHANNELS, DEVICE, ENTRY_BYTES, ENTRY_CONTROL, VENDOR,
 };
 
-/// Upper bits of what two of the bridge's blocks say they are, by which XDMA finds its window.
+/// Two blocks of the bridge and the upper bits of their identifiers, by which the driver XDMA finds its window too.
 const BLOCKS: [(u32, u32); 2] = [(block::INTERRUPTS, 0x1fc2), (block::CHOICES, 0x1fc3)];
-/// Most capabilities that fit.
+/// Number of capabilities that fit into the configuration space.
 const MOST_CAPABILITIES: usize = 48;
 
-/// Where things are.
+/// The parts of the device that the driver has found.
 #[derive(Clone, Copy, Debug)]
 pub struct Places {
     pub user: u32,
     pub dma: u32,
-    /// The capability of messages, in configuration space.
+    /// Offset of the capability of messages in the configuration space.
     messages: u64,
-    /// Their table: window and offset.
+    /// Window and offset of the table of messages.
     table: (u32, u64),
 }
 
@@ -30,26 +31,26 @@ pub fn read(client: &mut Client, region: u32, offset: u64) -> u32 {
     client.region_read(region, offset, &mut bytes).map_or(ALL_ONES, |()| u32::from_le_bytes(bytes))
 }
 
-/// Writes them. To a card that is gone that does nothing.
+/// Writes four bytes of a region. A write to a card that is gone does nothing.
 pub fn write(client: &mut Client, region: u32, offset: u64, value: u32) {
-    // As on a bus: what cannot be written is lost, and what is read next tells.
+    // As on a bus, a write that fails is lost; the next read shows it.
     let _ = client.region_write(region, offset, &value.to_le_bytes());
 }
 
-/// Reads four bytes of configuration space.
+/// Reads four bytes of the configuration space.
 pub fn read_config(client: &mut Client, offset: u64) -> u32 {
     read(client, VFIO_PCI_CONFIG_REGION_INDEX, offset)
 }
 
-/// Writes them.
+/// Writes four bytes of the configuration space.
 pub fn write_config(client: &mut Client, offset: u64, value: u32) {
     write(client, VFIO_PCI_CONFIG_REGION_INDEX, offset, value);
 }
 
-/// Finds them, by configuration space and by what windows answer.
+/// Finds the parts, by the configuration space and by what the windows answer.
 ///
 /// # Errors
-/// It is another device, or lacks one of them.
+/// The device is another one, or lacks one of the parts.
 pub fn find(client: &mut Client) -> Result<Places, DriverError> {
     let who = read_config(client, 0);
     let (vendor, device) = (who as u16, (who >> 16) as u16);
@@ -57,7 +58,7 @@ pub fn find(client: &mut Client) -> Result<Places, DriverError> {
         return Err(DriverError::Other { vendor, device });
     }
     let bars: Vec<(u32, u64)> = (0..=VFIO_PCI_BAR5_REGION_INDEX).map(|bar| (bar, bar_size(client, bar))).collect();
-    // The windows answer from now on.
+    // The windows have to answer before the bridge can be found among them.
     write_config(client, config::COMMAND as u64, config::COMMAND_MEMORY.into());
     let has_bridge = |client: &mut Client, bar, size| {
         size > u64::from(block::PENDING) && BLOCKS.iter().all(|&(at, who)| read(client, bar, at.into()) >> 16 == who)
@@ -71,7 +72,7 @@ pub fn find(client: &mut Client) -> Result<Places, DriverError> {
     Ok(Places { user, dma, messages, table: (table & 7, u64::from(table & !7)) })
 }
 
-/// Bytes of a window: of an address that is written as all ones, the bits stay that are above its size.
+/// Size of a window: after a write of all ones to its address, only the bits above its size read as ones.
 fn bar_size(client: &mut Client, bar: u32) -> u64 {
     let at = (config::BARS + 4 * bar as usize) as u64;
     let address = read_config(client, at);
@@ -81,7 +82,7 @@ fn bar_size(client: &mut Client, bar: u32) -> u64 {
     u64::from(bits.wrapping_neg())
 }
 
-/// Where the capability of messages is.
+/// Offset of the capability of messages, if there is one.
 fn capability(client: &mut Client) -> Option<u64> {
     let mut at = u64::from(read_config(client, config::CAPABILITIES as u64) & 0xfc);
     for _ in 0..MOST_CAPABILITIES {
@@ -97,7 +98,7 @@ fn capability(client: &mut Client) -> Option<u64> {
     None
 }
 
-/// Switches on what a reset switches off: windows, DMA, messages, and what each channel tells.
+/// Switches on what a reset switches off: the windows, DMA, messages, and the reports of each channel.
 pub fn start(client: &mut Client, places: Places) {
     let switches = u32::from(config::COMMAND_MEMORY | config::COMMAND_MASTER);
     write_config(client, config::COMMAND as u64, switches);
@@ -109,7 +110,7 @@ pub fn start(client: &mut Client, places: Places) {
         let asks = status::STOPPED | status::COMPLETED | status::ERRORS;
         write(client, places.dma, (block::CHANNEL[way] + channel::MASK).into(), asks);
     }
-    // Message 0 for the channel to the card, message 1 for the one to the host.
+    // Message 0 is for the channel to the card, message 1 for the channel to the host.
     write(client, places.dma, (block::INTERRUPTS + interrupts::CHANNEL_VECTORS).into(), 0x0100);
     write(client, places.dma, (block::INTERRUPTS + interrupts::CHANNEL_MASK_SET).into(), 3);
 }

@@ -1,4 +1,4 @@
-//! A card behind a socket: the protocol vfio-user, by which a process shows a PCI device to another.
+//! A card behind a socket that speaks vfio-user, the protocol by which a process offers a PCI device to another.
 
 use std::fs::File;
 use std::io;
@@ -18,23 +18,24 @@ use vfio_user::{DmaMapFlags, DmaUnmapFlags, Error, IrqInfo, Server, ServerBacken
 use super::bridge::{Bridge, MakeCard};
 use super::numbers::{config, DMA_BAR, DMA_BYTES, USER_BAR, USER_BYTES, VECTORS};
 
-/// Names of sockets, so that no two are one.
+/// Numbers the sockets, so that no two cards share one.
 static SERVED: AtomicU32 = AtomicU32::new(0);
 /// Longest sleep of a card that has nothing to do.
 const NAP: Duration = Duration::from_millis(100);
 
-/// A card that is served to one host after the other, until it is dropped.
+/// A card that is served to one host after another, until it is dropped.
 pub struct VfioCard {
     path: PathBuf,
     shared: Arc<Shared>,
 }
 
+/// The card with its bridge, as its own thread and the server share it.
 struct Shared {
     bridge: Mutex<Bridge>,
     changed: Condvar,
-    /// Messages of the host that wait for the card.
+    /// Number of the host's messages that wait for the card.
     waiting: AtomicU32,
-    /// No host is to come.
+    /// The card serves no further host.
     ends: AtomicBool,
     /// The card has left the bus.
     is_gone: AtomicBool,
@@ -45,7 +46,8 @@ impl Shared {
         self.bridge.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// For a message of the host. The server of the crate ends a connection only when the host does, so a card that leaves unwinds out of it.
+    /// Answers a message of the host. The crate's server ends a connection only when the host does, so a card that
+    /// leaves the bus unwinds out of the server.
     fn answer<T>(&self, answer: impl FnOnce(&mut Bridge) -> T) -> T {
         if self.is_gone.load(Ordering::Acquire) {
             std::panic::resume_unwind(Box::new("the card has left the bus"));
@@ -58,13 +60,13 @@ impl Shared {
         answer
     }
 
-    /// The card's own time.
+    /// Lets the card's own time pass, in a thread of its own.
     fn live(&self) {
         let mut bridge = self.lock();
         while !self.ends.load(Ordering::Acquire) {
             if bridge.step() {
                 drop(bridge);
-                // Who waits comes first: else a card at work would take its lock again and again.
+                // A message that waits comes first; otherwise a busy card would take its lock again and again.
                 while self.waiting.load(Ordering::Acquire) > 0 {
                     std::thread::yield_now();
                 }
@@ -79,7 +81,7 @@ impl Shared {
         while !self.ends.load(Ordering::Acquire) {
             let ended = server.run(&mut Messages(Arc::clone(self)));
             self.lock().forget();
-            // Any other error is one of that host's connection.
+            // Any other error concerns the connection of that host only.
             if matches!(ended, Err(Error::SocketAccept(_))) {
                 return;
             }
@@ -91,7 +93,7 @@ impl VfioCard {
     /// Serves a card at a socket of its own.
     ///
     /// # Errors
-    /// There can be no such socket.
+    /// The socket cannot be made.
     pub fn new(make: MakeCard) -> Result<Self, Error> {
         let number = SERVED.fetch_add(1, Ordering::Relaxed);
         let path = std::env::temp_dir().join(format!("incircle-vfio-{}-{number}", std::process::id()));
@@ -109,31 +111,31 @@ impl VfioCard {
         Ok(Self { path, shared })
     }
 
-    /// Its socket.
+    /// The path of the socket.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// It falls off the bus: the host's next message finds the connection closed.
+    /// Lets the card leave the bus: the host's next message finds the connection closed.
     pub fn vanish(&self) {
         self.shared.is_gone.store(true, Ordering::Release);
     }
 }
 
 impl Drop for VfioCard {
-    /// A host that is still there finds the connection closed.
+    /// Closes the connection of a host that is still there.
     fn drop(&mut self) {
         self.vanish();
         self.shared.ends.store(true, Ordering::Release);
         self.shared.changed.notify_all();
-        // Wakes a server that waits for a host. If there is none, nobody has to be woken.
+        // A connection wakes a server that waits for a host. If there is no such server, nobody needs to be woken.
         let _ = UnixStream::connect(&self.path);
-        // The server does the same when it ends, if the process goes on so long.
+        // The server removes the file as well when it ends, but the process may end before that.
         let _ = std::fs::remove_file(&self.path);
     }
 }
 
-/// All regions of a PCI device; those without a size do not exist.
+/// All regions that a PCI device can have; those without a size do not exist.
 fn regions() -> Vec<ServerRegion> {
     let size = |index| match index {
         USER_BAR => USER_BYTES,
@@ -151,7 +153,7 @@ fn regions() -> Vec<ServerRegion> {
     (0..VFIO_PCI_NUM_REGIONS).map(region).collect()
 }
 
-/// All kinds of interrupts of a PCI device; it has one of them.
+/// All kinds of interrupts that a PCI device can have; the card has one of them.
 fn irqs() -> Vec<IrqInfo> {
     let irq = |index| {
         let count = if index == VFIO_PCI_MSIX_IRQ_INDEX { VECTORS as u32 } else { 0 };
@@ -161,7 +163,7 @@ fn irqs() -> Vec<IrqInfo> {
     (0..VFIO_PCI_NUM_IRQS).map(irq).collect()
 }
 
-/// What a host says.
+/// Handles the messages of a host.
 struct Messages(Arc<Shared>);
 
 fn invalid(error: impl std::error::Error + Send + Sync + 'static) -> io::Error {
@@ -207,7 +209,7 @@ impl ServerBackend for Messages {
 
     fn set_irqs(&mut self, index: u32, flags: u32, start: u32, count: u32, fds: Vec<File>) -> io::Result<()> {
         if index != VFIO_PCI_MSIX_IRQ_INDEX {
-            // There are none of another kind, so there is nothing to do.
+            // The card has no other kind of interrupt, so there is nothing to set.
             return Ok(());
         }
         self.0.answer(|bridge| {

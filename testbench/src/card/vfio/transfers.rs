@@ -1,4 +1,4 @@
-//! Transfers by a channel: memory for them, descriptors, a run, and the wait for its message.
+//! Transfers through a channel: their memory, descriptors, a run, and the wait for its message.
 
 use std::io::{self, Read, Write};
 use std::os::fd::OwnedFd;
@@ -20,12 +20,12 @@ const PAGE: usize = 4096;
 const PAGES: usize = 16;
 /// Bytes of data for one run.
 const MOST: usize = PAGES * PAGE;
-/// Where in its page an answer's length is written back.
+/// Offset in the memory at which the bridge reports the length of an answer.
 const WRITTEN: usize = PAGES * Descriptor::BYTES;
-/// Longest wait for a message until the status is read without one.
+/// Longest wait for a message before the status is read without one.
 const LOOK: Duration = Duration::from_millis(100);
 
-/// As the driver XDMA fails: input or output, no such device, its time is over.
+/// Errors as the driver XDMA reports them: a failed transfer, no such device, time over.
 const EIO: i32 = 5;
 const ENODEV: i32 = 19;
 const ERESTARTSYS: i32 = 512;
@@ -34,7 +34,7 @@ fn failed(errno: i32) -> io::Error {
     io::Error::from_raw_os_error(errno)
 }
 
-/// A channel of the card, with memory for what goes through it. While it lives it is the only user of its channel.
+/// A channel of the card with memory for its data. While the value lives, nobody else may use the channel.
 pub struct Transfers {
     link: Arc<Link>,
     way: Way,
@@ -43,18 +43,18 @@ pub struct Transfers {
 }
 
 impl Transfers {
-    /// Memory of its own for the channel, mapped for the card.
+    /// Allocates memory for the channel and maps it for the card.
     ///
     /// # Errors
-    /// The system has none, or the card does not answer.
+    /// The system has no memory, or the card does not answer.
     pub fn new(link: &Arc<Link>, way: Way, timeout: Duration) -> Result<Self, DriverError> {
-        // The data begins where an address of 32 bits has come to its end.
+        // The address of the data is a multiple of 4 GiB: the descriptors before it end where the low 32 bits overflow.
         let memory = DmaMemory::new(link.new_range() - PAGE as u64, PAGE + MOST)?;
         link.map(&memory)?;
         Ok(Self { link: Arc::clone(link), way, memory, timeout })
     }
 
-    /// Its memory: a page for descriptors, then data.
+    /// Memory of the channel: a page for descriptors, then the data.
     pub fn memory(&self) -> &DmaMemory {
         &self.memory
     }
@@ -63,7 +63,7 @@ impl Transfers {
         self.link.event(self.way)
     }
 
-    /// True if messages came since this was asked last.
+    /// True if messages came since the last call.
     pub fn was_told(&self) -> bool {
         rustix::io::read(self.event(), &mut [0u8; 8]).is_ok()
     }
@@ -73,10 +73,10 @@ impl Transfers {
         block::CHANNEL[self.way as usize] + register
     }
 
-    /// Puts descriptors where runs begin, each pointing at the one behind it.
+    /// Stores descriptors at the start of the memory, each pointing at the one behind it.
     ///
     /// # Errors
-    /// They are more than fit.
+    /// There are more descriptors than fit.
     pub fn describe(&self, all: &[Descriptor]) -> io::Result<()> {
         for (place, descriptor) in all.iter().enumerate() {
             let at = place * Descriptor::BYTES;
@@ -86,9 +86,9 @@ impl Transfers {
         Ok(())
     }
 
-    /// Lets the channel run from the descriptor at this address on.
+    /// Starts a run from the descriptor at this address.
     pub fn begin(&self, first: u64) {
-        // What came for an earlier run tells nothing of this one.
+        // A message for an earlier run must not be taken for one of this run.
         self.was_told();
         let at = block::DESCRIPTORS[self.way as usize];
         self.link.set_dma(at + descriptors::LOW, first as u32);
@@ -97,7 +97,7 @@ impl Transfers {
         self.link.set_dma(self.register(channel::CONTROL_SET), RUN);
     }
 
-    /// Waits for the end of the run, and gives the bits of the status that came.
+    /// Waits for the end of the run, and returns the bits of the status that were set meanwhile.
     ///
     /// # Errors
     /// As the driver XDMA: the card is gone, somebody reset it, or the time is over.
@@ -113,7 +113,8 @@ impl Transfers {
             }
             seen |= now & !status::BUSY;
             if seen & (status::STOPPED | status::ERRORS) != 0 {
-                // The message is there before the status tells, so one that is not there now will not come.
+                // The bridge sends the message before the status changes, so a message that
+                // is missing now will not come.
                 if !was_told && !self.was_told() {
                     self.link.count_untold();
                 }
@@ -128,7 +129,7 @@ impl Transfers {
         }
     }
 
-    /// Ends the run, though it may not be at its end.
+    /// Ends the run, even one that is not complete.
     pub fn end(&self) {
         self.link.set_dma(self.register(channel::CONTROL_CLEAR), RUN);
     }
@@ -136,12 +137,12 @@ impl Transfers {
     fn wait_for_message(&self, time: Duration) -> bool {
         let time = Timespec { tv_sec: 0, tv_nsec: time.min(LOOK).subsec_nanos().into() };
         let mut events = [PollFd::new(self.event(), PollFlags::IN)];
-        // An interrupted wait is a short one.
+        // An interrupted wait is a short wait; the caller waits again.
         let _ = poll(&mut events, Some(&time));
         self.was_told()
     }
 
-    /// A run over the descriptors that were put down.
+    /// Runs over the descriptors that were stored.
     fn run(&self) -> io::Result<()> {
         self.begin(self.memory.address());
         let ended = self.wait();
@@ -155,10 +156,10 @@ impl Transfers {
 }
 
 impl Drop for Transfers {
-    /// The card must not reach memory that may be used for something else.
+    /// Stops the card, which must not reach memory that may be used for something else.
     fn drop(&mut self) {
         self.end();
-        // A card that is gone reaches nothing.
+        // An error means that the card is gone, and such a card reaches nothing.
         let _ = self.link.unmap(&self.memory);
     }
 }
@@ -167,7 +168,8 @@ impl Drop for Transfers {
 pub struct Commands(pub Transfers);
 
 impl Write for Commands {
-    /// Moves 64 KiB at most, a descriptor for each page. The pages lie in memory the other way round, as a real driver's lie anywhere.
+    /// Moves at most 64 KiB, with one descriptor for each page. The pages lie in memory in reverse order, since those
+    /// of a real driver may lie anywhere.
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let Self(transfers) = self;
         let count = bytes.len().min(MOST);
@@ -202,7 +204,7 @@ impl Write for Commands {
 pub struct Answers(pub Transfers);
 
 impl Read for Answers {
-    /// Moves 64 KiB at most, and nothing beyond the end of an answer.
+    /// Moves at most 64 KiB, and nothing beyond the end of an answer.
     fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
         let Self(transfers) = self;
         let count = bytes.len().min(MOST);

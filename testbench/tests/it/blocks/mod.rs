@@ -1,8 +1,8 @@
-//! Each block by itself: its Rust behaviour, its Verilog and plain code say the same.
+//! Tests of each block by itself: its Rust behaviour, its Verilog and plain code must agree.
 
+mod commands;
 mod engine;
 mod leaf;
-mod link;
 mod mesh;
 mod predicate;
 mod serial;

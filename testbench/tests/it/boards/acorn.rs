@@ -1,5 +1,6 @@
-//! The card in a PCI Express slot, as far as it can be checked without its vendor's tool: the top passes lint around the exported device,
-//! the build script and the constraints run with stand-ins for the tool's commands, and a missed clock ends the script.
+//! Checks the card in a PCI Express slot as far as possible without the vendor's tool. The top passes lint
+//! around the exported device, the build script and the constraints run with stand-ins for the tool's commands,
+//! and a missed clock ends the script.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -16,7 +17,7 @@ fn text(path: &Path) -> String {
     std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// Runs the build script with stand-ins; `slack` is what timing then says.
+/// Runs the build script with stand-ins; `slack` is the slack that the stand-in for timing reports.
 fn build(slack: &str, arguments: &[&str]) -> Output {
     let constraints = ["pins.xdc", "early.xdc", "crossings.xdc"].map(|name| file(name).display().to_string());
     Command::new("yosys")
@@ -80,7 +81,7 @@ fn every_pin_has_a_site_of_its_own() {
     assert_eq!(named, pins);
     sites.sort_unstable();
     sites.dedup();
-    assert_eq!(sites.len(), pins.len(), "one site for two pins");
+    assert_eq!(sites.len(), pins.len(), "two pins share a site");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! The tops of the boards, and what belongs to one board alone.
+//! Tests of the boards' tops, and of the files that belong to one board.
 
 mod acorn;
 mod tops;

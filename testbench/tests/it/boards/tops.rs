@@ -1,4 +1,5 @@
-//! The boards' tops in simulation, with a tiny device behind them: reset waits for the PLL, and pins lead where they must.
+//! Runs the boards' tops in simulation with a tiny device behind them: reset waits for the PLL, and
+//! every pin leads to its port.
 
 use incircle_blocks::QUICK_LINK;
 use incircle_hdl::board::BOARDS;
@@ -6,9 +7,9 @@ use incircle_protocol::{FIRST_RATE, LINK_MAGIC};
 use incircle_testbench::blocks;
 use verilated::{Model, PortId};
 
-/// Clocks after which the model of the PLL is locked; see `cells/EHXPLLL.v`.
+/// Clocks until the model of the PLL in `cells/EHXPLLL.v` is locked.
 const LOCKED: usize = 100;
-/// Clocks that the reset waits after that, with the two of the synchroniser.
+/// Clocks that the reset lasts after that, with the two of the synchroniser.
 const CALM: usize = 2 + 255 + 1;
 
 /// Clocks of one bit at the first rate.
@@ -34,7 +35,7 @@ fn reset_waits_for_the_lock_and_obeys_the_button() {
     let begin = shown(false, 1000);
     assert_eq!(begin.iter().position(|is_reset| !is_reset), Some(LOCKED + CALM));
     assert!(begin[LOCKED + CALM..].iter().all(|is_reset| !is_reset));
-    // A press of a few clocks, then one that is let go and pressed again before the wait is over.
+    // The button is pressed for a few clocks, let go, and pressed again before the wait is over.
     let pressed = shown(true, 5);
     assert_eq!(pressed, [false, false, false, true, true]);
     assert!(shown(false, 200).iter().all(|is_reset| *is_reset));
@@ -43,13 +44,13 @@ fn reset_waits_for_the_lock_and_obeys_the_button() {
     assert_eq!(released.iter().position(|is_reset| !is_reset), Some(CALM));
 }
 
-/// The check sum of frames, bit by bit.
+/// Computes the check sum of frames bit by bit.
 fn crc32(bytes: &[u8]) -> u32 {
     let step = |crc: u32, _| if crc & 1 == 1 { crc >> 1 ^ 0xedb8_8320 } else { crc >> 1 };
     !bytes.iter().fold(!0, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), step))
 }
 
-/// The frame `Hello` as it stands on the line.
+/// Bytes of the frame `Hello` on the line.
 fn hello() -> Vec<u8> {
     let mut frame = vec![1, 1, 0, 0, 0];
     frame.extend(crc32(&frame).to_le_bytes());
@@ -62,7 +63,7 @@ fn hello() -> Vec<u8> {
     line
 }
 
-/// The bits of some bytes, with start and stop bits, each as long as a bit at the first rate.
+/// Level of the line at each clock: the bytes with start and stop bits at the first rate.
 fn waveform(bytes: &[u8]) -> Vec<bool> {
     let bits = bytes.iter().flat_map(|&byte| {
         let data = (0..8).map(move |bit| byte >> bit & 1 == 1);
@@ -73,7 +74,7 @@ fn waveform(bytes: &[u8]) -> Vec<bool> {
     (0..clocks).map(|clock| bits[(clock as f64 / BIT) as usize]).collect()
 }
 
-/// The bytes that a line carries.
+/// Bytes that a line carries.
 fn bytes(line: &[bool]) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut clock = 0;
@@ -81,7 +82,7 @@ fn bytes(line: &[bool]) -> Vec<u8> {
         let bit = |number: usize| line.get(clock + start + ((number as f64 + 0.5) * BIT) as usize).copied();
         let data = (0..8).filter(|number| bit(1 + number) == Some(true));
         bytes.push(data.fold(0, |byte, number| byte | 1 << number));
-        assert_ne!(bit(9), Some(false), "no stop bit");
+        assert_ne!(bit(9), Some(false), "a stop bit is missing");
         clock += start + (9.5 * BIT) as usize;
         if clock >= line.len() {
             break;
@@ -111,7 +112,7 @@ fn every_board_greets_its_host() {
         let magic = LINK_MAGIC.to_le_bytes();
         assert!(answer.windows(4).any(|window| window == magic), "{}: {answer:02x?}", board.name);
         assert_eq!(answer.last(), Some(&0), "{}: {answer:02x?}", board.name);
-        // Nothing is under way and nothing was dropped.
+        // The lamps say that nothing is under way and nothing was dropped.
         assert_eq!(model.get(lamps) >> 1, 0, "{}", board.name);
     }
 }

@@ -1,6 +1,7 @@
-//! Batches in lock-step: the core beside its model at every root port and every clock, with 2, 4 and 16 jobs side by side, crossed with
-//! idle and back-pressure, jobs of several lengths, lists that overflow, three points on a line, and resets. That every job gets the mesh
-//! it gets alone is shown of the model (`sim/model/tests/it/clock/batch.rs`); here the reports are compared with the model by commands as well.
+//! Runs batches in lock-step: the core and its model are compared at every root port and every clock. There are 2, 4
+//! and 16 jobs side by side, crossed with idle clocks and back-pressure, jobs of several lengths, lists that overflow,
+//! three points on a line, and resets. `sim/model/tests/it/clock/batch.rs` proves for the model that every job gets the
+//! mesh it gets alone; these tests compare the reports with the model by commands as well.
 
 use incircle_model::{CommandModel, Inputs};
 use incircle_protocol::{
@@ -9,6 +10,7 @@ use incircle_protocol::{
 use incircle_testbench::lockstep::{Job, Lockstep, Stalls};
 use incircle_testkit::{Batch, Random32, SplitMix64};
 
+/// A pair of core and model, with the counters summed over all its batches.
 struct Rig {
     pair: Lockstep,
     config: Config,
@@ -22,7 +24,7 @@ impl Rig {
         Self { pair, config, chances: SplitMix64::new(seed.into()), counters: [0; COUNTER_WORDS] }
     }
 
-    /// A whole batch: clear, insert in pieces, read all, latencies, counters.
+    /// Runs a whole batch: clear, insert in pieces, read everything, latencies, counters.
     fn run(&mut self, points: &[u32], piece: usize, jobs: u32, stalls: Stalls) {
         let job = Job::batch_of(points, piece, jobs, self.config);
         let chances = &mut self.chances;
@@ -47,7 +49,7 @@ impl Rig {
     }
 }
 
-/// So many batches of all kinds; about every fourth has three points on a line somewhere.
+/// Runs `batches` batches of all kinds; in about every fourth, some job has three points on a line.
 fn run_all(rig: &mut Rig, batches: u32, most: u32, seed: u64) {
     let mut random = Random32(seed);
     for turn in 0..batches as usize {
@@ -57,7 +59,7 @@ fn run_all(rig: &mut Rig, batches: u32, most: u32, seed: u64) {
         let piece = [points.len(), 1 + random.below(30) as usize][turn % 2];
         rig.run(&points, piece, asked, Stalls::ALL[turn % 9]);
         if turn % 5 == 0 {
-            // What is no batch works as ever in between.
+            // A job that is not a batch must work as ever in between.
             let job = Job::of(&points[..points.len().min(60)], 60, asked, rig.config);
             let chances = &mut rig.chances;
             let done = rig.pair.run(&job, Stalls::NONE, &mut || chances.next_u64());

@@ -1,4 +1,4 @@
-//! The tables of `cycles.md` are what the model counts. `INCIRCLE_BLESS=1` renews all of them.
+//! Checks that the tables of `cycles.md` hold what the model counts. `INCIRCLE_BLESS=1` renews all of them.
 
 use std::path::{Path, PathBuf};
 
@@ -9,27 +9,26 @@ fn file() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("cycles.md")
 }
 
-/// The document as it stands.
+/// The document in the repository.
 fn held() -> String {
     std::fs::read_to_string(file()).unwrap_or_else(|error| panic!("{}: {error}", file().display()))
 }
 
-/// Every table, the largest sizes included: about eighty million clocks of the model, half a minute on two cores.
+/// Counts every table, the largest sizes included: about eighty million clocks of the model,
+/// half a minute on two cores.
 #[test]
 fn all_tables_are_up_to_date() {
     let counted = document().unwrap();
     if std::env::var_os("INCIRCLE_BLESS").is_some() {
         std::fs::write(file(), counted).unwrap();
-        panic!(
-            "blessed: {} is written anew and nothing was compared; run again without INCIRCLE_BLESS",
-            file().display()
-        );
+        panic!("blessed: {} is renewed and nothing was compared; run again without INCIRCLE_BLESS", file().display());
     }
     let held = held();
     let differs = counted.lines().zip(held.lines()).find(|(counted, held)| counted != held);
     assert!(
         counted == held,
-        "cycles.md differs ({differs:?}, counted and held): run `cargo run --release -p incircle-testbench --bin cycles`"
+        "cycles.md differs ({differs:?}, counted and held): \
+         run `cargo run --release -p incircle-testbench --bin cycles`"
     );
 }
 

@@ -1,5 +1,6 @@
-//! The core's Rust behaviour beside its model: here the memories refuse what is undefined in silicon (a record read and written
-//! at one edge comes out poisoned, a lock set and cleared at one edge panics), where Verilator has an order for it.
+//! Runs the core's Rust behaviour beside its model. The memories here refuse accesses that are undefined in
+//! silicon, for which Verilator has an order: a record read and written at one edge comes out poisoned, and a lock
+//! set and cleared at one edge panics.
 
 use incircle_hdl::top::Core;
 use incircle_model::{ClockModel, Inputs, Record, Write};
@@ -8,14 +9,14 @@ use incircle_testbench::lockstep::{Job, Stalls};
 use incircle_testkit::SplitMix64;
 use rust_hdl_core::prelude::*;
 
-/// Passes the core may take to settle: far more than its depth.
+/// Passes that the core may take to settle, far more than its depth.
 const SETTLING_PASSES: usize = 200;
 
 fn settle(core: &mut Core) {
     assert!(simulate(core, SETTLING_PASSES), "the core does not settle");
 }
 
-/// What the core writes into its triangle memory: columns and data.
+/// The core's write to its triangle memory: columns and data.
 fn written(core: &Core) -> Write {
     let write = core.write.val();
     Write {
@@ -39,7 +40,7 @@ fn two_jobs_and_a_batch_clock_by_clock() {
         [0x0000_0000, 0x0000_0009, 0x0009_0000, 0x0003_0003, 0x0009_0009, 0x0005_0001, 0x0003_0003, 0x0001_0008];
     let mut commands = Job::of(&points, 8, 0, TINY).commands;
     commands.extend(Job::of(&points[..5], 2, 1, TINY).commands);
-    // Two jobs of three points, and one more for each.
+    // Two jobs of three points, and one more point for each.
     let batch = [0, 9, 0x0009_0000, 0, 0x0005_0005, 0x0000_0005, 0x0003_0003, 0x0001_0003];
     commands.extend(Job::batch_of(&batch, 8, 0, TINY).commands);
     let mut rest = commands.as_slice();

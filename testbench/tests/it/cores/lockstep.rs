@@ -1,10 +1,10 @@
-//! The core beside its model, every root port at every clock: random and adversarial jobs, crossed with idle and
-//! back-pressure, resets in mid-job, random initial states, 1 to 24 contexts; and broken cores, which must be caught.
-//! More than 30 million clocks in all.
+//! Runs the core beside its model and compares every root port at every clock: random and adversarial jobs, crossed
+//! with idle clocks and back-pressure, resets in the middle of a job, random initial states, 1 to 24 contexts. Broken
+//! cores must be caught. All tests together run more than 30 million clocks.
 //!
-//! At the end of every job the host reads the whole triangle memory, lock bits included, so that is compared too (the
-//! vertex memory shows in every decision only), and all answers are compared with the model by commands, which knows no
-//! clock.
+//! At the end of every job the host reads the whole triangle memory, lock bits included, so that memory is
+//! compared too. The vertex memory shows only in the decisions of the core. All answers are compared with the
+//! model by commands, which knows no clock.
 
 use crate::rig::lockstep::{ordered, word, Rig};
 use incircle_protocol::{
@@ -43,7 +43,7 @@ fn overflowing_lists() {
     for (k, &distribution) in Distribution::all().iter().enumerate() {
         let points = ordered(distribution, 300, 12, k as u64, 4);
         rig.run(&points, 300, 0, Stalls::ALL[k % 9]);
-        // Unordered points make large cavities.
+        // Points without an order make large cavities.
         let mut points = points;
         random.shuffle(&mut points);
         rig.run(&points, 77, k as u32 % 5, Stalls::NONE);
@@ -57,7 +57,7 @@ fn every_distribution_to_the_brim() {
     let mut rig = Rig::new("core_small", SMALL, 3);
     for (k, &distribution) in Distribution::all().iter().enumerate() {
         rig.start_anew(k as u32);
-        // One point more than it holds, one less, and many duplicates in few bits.
+        // One point more than the core holds, one less, and many duplicates in few bits.
         rig.run(&ordered(distribution, 1025, 16, k as u64, 4), 1025, 0, Stalls::ALL[k % 9]);
         rig.run(&ordered(distribution, 1023, 8, k as u64, 3), 400, 3, Stalls::ALL[(k + 4) % 9]);
         rig.run(&ordered(distribution, 600, 16, 7 + k as u64, 1), 600, 1, Stalls::NONE);
@@ -107,7 +107,7 @@ fn four_contexts() {
             rig.start_anew(k as u32 + seed);
             let bits = [16, 10, 6, 4, 12][seed as usize % 5];
             let mut points = ordered(distribution, 1024, bits, u64::from(seed), 4);
-            // Points that come in no order meet in the same places.
+            // Contexts meet often when their points come in no order.
             if seed % 2 == 1 {
                 random.shuffle(&mut points[3..]);
             }
@@ -133,7 +133,7 @@ fn sixteen_contexts() {
         }
     }
     let counted =
-        [Counter::Aborts, Counter::WaitingTokens, Counter::RootRetries, Counter::Revisits, Counter::Overflows];
+        [Counter::Aborts, Counter::PrioritiesTaken, Counter::RootRetries, Counter::Revisits, Counter::Overflows];
     for counter in counted {
         assert!(rig.counted(counter) > 15, "{counter:?}: {}", rig.counted(counter));
     }
@@ -154,8 +154,8 @@ fn resets_in_mid_job() {
     rig.expect_clocks(500_000);
 }
 
-/// A command in any place: with any low bits, also where they mean nothing; batches; inserts of no point and of more
-/// than fit.
+/// A random command at any place of a stream: with any low bits, even where they mean nothing; batches; inserts of no
+/// point and of more points than fit.
 fn any_command(random: &mut SplitMix64, config: Config) -> Vec<u32> {
     let [most, records] = [config.points, 2 * config.points].map(u64::from);
     let mut below = |limit: u64| random.below(limit) as u32;
@@ -186,7 +186,7 @@ fn commands_out_of_place_on(core: &'static str, config: Config, seed: u32) {
         let mut commands = Vec::new();
         for _ in 0..20 {
             let mut more = any_command(&mut random, config);
-            // A random opcode may want arguments.
+            // A random opcode may need arguments.
             match more[0] >> 24 {
                 3 if more.len() == 1 => more.push(0),
                 4 | 7 if more.len() == 1 => more.extend([0, 0]),
@@ -239,10 +239,10 @@ fn the_large_core_to_the_brim() {
     rig.expect_clocks(500_000);
 }
 
-/// A core with faults behind switches, see `src/lockstep/faults.rs`.
+/// A core with faults behind switches; see `src/lockstep/faults.rs`.
 const FAULTY: &str = "faulty_core_small";
 
-/// Runs some jobs with these faults; returns the first mismatch and leaves its waveform.
+/// Runs some jobs with these faults, returns the first mismatch and leaves its waveform.
 fn first_mismatch(core: &str, faults: &[&str], config: Config, jobs: &[Job]) -> Option<(Mismatch, PathBuf)> {
     jobs.iter().find_map(|job| {
         let mut pair = Lockstep::faulty(core, config, 1, faults);
@@ -254,7 +254,7 @@ fn first_mismatch(core: &str, faults: &[&str], config: Config, jobs: &[Job]) -> 
     })
 }
 
-/// Each fault alone is caught by one of the jobs, and the same core without a fault passes all of them.
+/// Checks that one of the jobs catches each fault by itself, and that the same core without a fault passes all jobs.
 fn expect_caught(core: &str, faults: &[&str], config: Config, jobs: &[Job]) {
     let sound = first_mismatch(core, &[], config, jobs).map(|(mismatch, _)| mismatch.to_string());
     assert_eq!(sound, None, "the sound core passes the same jobs");
@@ -279,7 +279,8 @@ fn broken_cores_are_caught_and_reported() {
     expect_caught(FAULTY, &["comparison", "link", "tie"], SMALL, &jobs);
 }
 
-/// Rules of `docs/engine.md`, by their ids: each is left out in hardware, beside the model that has it.
+/// Leaves out each rule of `docs/engine.md` in hardware, beside a model that keeps the rule.
+/// Rules are named by their ids.
 #[test]
 fn cores_without_a_rule_of_the_engine_are_caught() {
     let jobs: Vec<Job> = (0..40)
@@ -290,7 +291,7 @@ fn cores_without_a_rule_of_the_engine_are_caught() {
         })
         .collect();
     expect_caught(FAULTY, &["foreign_lock", "drain", "rest"], SMALL, &jobs); // L1
-    expect_caught(FAULTY, &["token", "yield"], SMALL, &jobs); // L2 and L3
+    expect_caught(FAULTY, &["priority", "yield"], SMALL, &jobs); // L2 and L3
     expect_caught(FAULTY, &["release", "root", "busy"], SMALL, &jobs); // L4, L5 and L6
     expect_caught(FAULTY, &["torn"], SMALL, &jobs); // L7, of records that are being written
     expect_caught(FAULTY, &["first_round", "own_lock"], SMALL, &jobs); // L8 and L9
@@ -298,14 +299,14 @@ fn cores_without_a_rule_of_the_engine_are_caught() {
 
 #[test]
 fn a_core_that_reads_what_is_not_written_yet_is_caught() {
-    // A walk comes close behind the commit only along a parabola, whose cavities are long.
+    // A walk follows close behind a commit only along a parabola, whose cavities are long.
     let jobs: Vec<Job> = (0..40).map(|seed| Job::of(&parabola(250, seed), 250, 0, ONE_CONTEXT_LONG_LIST)).collect();
     expect_caught("faulty_core_long_list_one", &["watermark"], ONE_CONTEXT_LONG_LIST, &jobs);
 }
 
-/// Twenty starts out of random flip-flops: the sound core passes all of them, and a core with a block that is not reset
-/// fails in a quarter of them at least, for most blocks in nearly all. The jobs clear nothing before they insert, so
-/// nothing but the reset mends what a block holds at first.
+/// Starts a core twenty times out of random flip-flops. The sound core passes every time. A core with a block that
+/// lacks its reset fails in at least a quarter of the starts, and for most blocks in nearly all. The jobs clear nothing
+/// before they insert, so only the reset can mend the first state of a block.
 #[test]
 fn cores_with_a_block_that_is_not_reset_are_caught() {
     const STARTS: u32 = 20;

@@ -1,4 +1,4 @@
-//! Whole cores beside their model, and the cycles they take.
+//! Tests of whole cores beside their model, and of the cycles that they take.
 
 mod batch;
 mod cycles;

@@ -1,8 +1,8 @@
-//! What synthesis makes of the core for an ECP5, cell by cell, beside the model at every clock: jobs, stalls, resets in mid-job, and
-//! both initial states: the one that configuration gives, and random ones.
+//! Runs the netlist that synthesis makes for an ECP5, cell by cell, beside the model at every clock: jobs, stalls,
+//! resets in the middle of a job. Both initial states are covered, the one after configuration and random ones.
 //!
-//! So synthesis, the primitives behind `INCIRCLE_ECP5` and their modes are checked, up to the behaviour of the cells, which
-//! `testbench/cells` states. Timing is not: place and route answers for that.
+//! These tests cover synthesis, the primitives behind `INCIRCLE_ECP5` and their modes, as far as the models in
+//! `testbench/cells` state the behaviour of the cells. Timing is left to place and route.
 
 use crate::rig::lockstep::{ordered, word, Rig};
 use incircle_protocol::{Counter, SMALL};
@@ -18,15 +18,15 @@ fn jobs_on_the_netlist() {
     for (k, &distribution) in Distribution::all().iter().enumerate() {
         rig.start_anew(k as u32);
         let mut points = ordered(distribution, 300, [16, 10, 6][k % 3], k as u64, 4);
-        // Points that come in no order make large cavities and meet in the same places.
+        // Points that come in no order make large cavities, and their contexts meet often.
         if k % 2 == 1 {
             random.shuffle(&mut points[3..]);
         }
         rig.run(&points, 120, k as u32 % 5, Stalls::ALL[k % 9]);
     }
-    // To the brim, and one more.
+    // Fills the core to its capacity, and sends one point more.
     rig.run(&ordered(Distribution::Uniform, 1025, 16, 1, 4), 1025, 0, Stalls::NONE);
-    // Jobs side by side, a mesh for each context.
+    // Jobs side by side, with a mesh for each context.
     for (jobs, stalls) in [(4, Stalls::NONE), (3, Stalls::ALL[4])] {
         let spans = [word(0, 0), word(300, 0), word(0, 300)].repeat(jobs as usize);
         let points = [spans, ordered(Distribution::Uniform, 400, 8, 2, 1)].concat();

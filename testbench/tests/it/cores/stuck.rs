@@ -1,13 +1,13 @@
-//! The watchdog in the whole core: core and model both take a context's own locks for those of another one, so a job
-//! hangs in both, and both must say so in the same clock, refuse what comes then, and be mended by reset. Cores in
-//! which some block does not hear of it are caught.
+//! Tests the watchdog in the whole core. Core and model both take a context's own locks for those of another one, so a
+//! job hangs in both. Both must report it in the same clock, refuse what comes then, and work again after a reset.
+//! Cores in which some block does not hear of it must be caught.
 
 use incircle_model::{Defect, Inputs};
 use incircle_protocol::{answer_status, command_word, patience, Opcode, Status, INSERT_REPORT_WORDS, SMALL};
 use incircle_testbench::lockstep::{Job, Lockstep, Mismatch, Stalls};
 use incircle_testkit::SplitMix64;
 
-/// A core with faults behind switches, see `src/lockstep/faults.rs`.
+/// A core with faults behind switches; see `src/lockstep/faults.rs`.
 const FAULTY: &str = "faulty_core_small";
 /// Answer words of an `Insert`, with its header.
 const REPORT: usize = 2 + INSERT_REPORT_WORDS;
@@ -18,17 +18,18 @@ fn points(seed: u64, count: u32) -> Vec<u32> {
     (0..count).map(|_| random.next_u64() as u32).collect()
 }
 
-/// Inserts points at once.
+/// A job that inserts all points at once.
 fn insert(points: &[u32]) -> Job {
     Job { commands: [&[command_word(Opcode::Insert), points.len() as u32], points].concat(), answers: REPORT }
 }
 
-/// A core that hangs, with these faults beside.
+/// A pair in which both hang; the core has these faults besides.
 fn hanging(seed: u32, faults: &[&str]) -> Lockstep {
     Lockstep::faulty(FAULTY, SMALL, seed, &[&["own_lock"], faults].concat()).with_defect(Defect::TakesOwnForForeign)
 }
 
-/// Everything that a stuck core must do: say so, refuse points, answer other commands, and work again after reset.
+/// Checks everything that a stuck core must do: report it, refuse points, answer other commands,
+/// and work again after a reset.
 fn get_stuck(pair: &mut Lockstep, stalls: Stalls) -> Result<(), Mismatch> {
     let mut random = SplitMix64::new(9);
     let mut random = || random.next_u64();
@@ -44,12 +45,12 @@ fn get_stuck(pair: &mut Lockstep, stalls: Stalls) -> Result<(), Mismatch> {
         let commands = vec![command_word(opcode)];
         let answer = pair.run(&Job { commands, answers: 1 }, stalls, &mut random)?;
         assert!(!is_stuck(&answer), "{answer:x?}");
-        // What is left of the answer.
+        // Takes the rest of the answer.
         for _ in 0..400 {
             pair.clock(Inputs { response_ready: true, ..Inputs::default() })?;
         }
     }
-    // `Clear` empties the mesh, but mends nothing: there is no first triangle now, and points must not wait for one.
+    // `Clear` empties the mesh but mends nothing: there is no first triangle then, and points must not wait for one.
     pair.run(&Job { commands: vec![command_word(Opcode::Clear)], answers: 2 }, stalls, &mut random)?;
     let cleared = pair.run(&insert(&points(3, 30)), stalls, &mut random)?;
     assert!(is_stuck(&cleared), "{cleared:x?}");

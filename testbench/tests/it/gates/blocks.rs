@@ -1,4 +1,4 @@
-//! Every exported block passes the gate, each in a folder of its own.
+//! Passes every exported block through the gate, each in a folder of its own.
 
 use incircle_testbench::gate;
 

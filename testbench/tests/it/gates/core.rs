@@ -1,4 +1,5 @@
-//! The cores pass the gate, with the probe and without; and what a small one takes on an ECP5 stays in bounds.
+//! Passes the cores through the gate, with the probe and without, and keeps the size of a small
+//! core on an ECP5 in bounds.
 
 use incircle_hdl::export;
 use incircle_hdl::predicate::VisitPredicates;
@@ -6,7 +7,7 @@ use incircle_hdl::top::CORE_NAME;
 use incircle_protocol::{Config, NAMED, SMALL};
 use incircle_testbench::gate::{self, Cells};
 
-/// The small core by Yosys 0.23, as the README has it.
+/// Cells of the small core by Yosys 0.23, as in the README.
 const MEASURED: Cells = Cells {
     lut4: 5020,
     carry: 1238,

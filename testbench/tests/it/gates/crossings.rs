@@ -1,4 +1,5 @@
-//! What crosses between the clock of the bus and that of the core is what `protocol/STREAM.md` says, and a crossing of any other kind is found.
+//! Proves that the crossings between the clock of the bus and that of the core are those in `protocol/STREAM.md`, and
+//! that a crossing of any other kind is found.
 
 use incircle_hdl::export;
 use incircle_protocol::TINY;
@@ -14,7 +15,7 @@ fn link(beat_bits: u32) -> String {
     export::stream_link(TINY, beat_bits, NAME).unwrap()
 }
 
-/// Every crossing of a link with such beats: where from, where to, by which way, receiver, bits.
+/// Every crossing of a link with beats of this width: from, to, way, receiver, bits.
 fn expected(beat_bits: usize) -> Vec<(&'static str, &'static str, Way, &'static str, usize)> {
     let (bus, core) = ("bus_clock", "core_clock");
     vec![
@@ -49,11 +50,11 @@ fn nothing_crosses_but_what_the_page_says() {
 fn other_crossings_are_found() {
     let sound = link(64);
     for (old, new) in [
-        // A flag that goes round its synchroniser.
+        // A flag that bypasses its synchroniser.
         ("resetting$reply = reply_seen$received;", "resetting$reply = reply;"),
-        // Logic before one.
+        // Logic in front of a synchroniser.
         ("busy_seen$sent = core_busy;", "busy_seen$sent = core_busy & core_beat;"),
-        // A reset of the other side.
+        // A reset by the other side.
         ("answers$write_reset = core$core_reset;", "answers$write_reset = bus$resets;"),
         // A whole word between the clocks.
         ("watch$m_axis_tdata = ((entry)", "watch$m_axis_tdata = ((entry ^ core_beat)"),

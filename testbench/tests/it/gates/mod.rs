@@ -1,4 +1,5 @@
-//! What the Verilog of blocks, cores and devices passes: lint, synthesis, proofs, and the list of clock crossings.
+//! Tests of the gate that the Verilog of blocks, cores and devices has to pass: lint, synthesis, proofs,
+//! and the list of clock crossings.
 
 mod blocks;
 mod core;

@@ -1,6 +1,6 @@
-//! The FIFO between two clocks, the AXI4-Lite port and the clocks of the counters are proven: for every sequence of
-//! inputs, and of edges of two clocks, of any length. So that this says something, faults are put in, and must be
-//! found.
+//! Proves the FIFO between two clocks, the AXI4-Lite port and the clocks of the counters: for every sequence of
+//! inputs, and of edges of two clocks, of any length. Faults are put in as well, and each must be found;
+//! otherwise a proof would say nothing.
 
 use incircle_hdl::export;
 use incircle_hdl::stream::AsyncFifo;
@@ -13,7 +13,7 @@ const PORT: &str = "stream_register_port";
 /// Steps that an induction may take. One is enough for sound designs.
 const STEPS: u32 = 4;
 
-/// Replaces what stands in the text once.
+/// Replaces text that the Verilog holds exactly once.
 fn replace(text: &str, old: &str, new: &str) -> String {
     assert_eq!(text.matches(old).count(), 1, "{old:?} stands in the Verilog once");
     text.replace(old, new)
@@ -30,8 +30,8 @@ fn with_properties(verilog: &str, name: &str, properties: &str) -> String {
     replace(verilog, &end, &format!("{properties}{end}"))
 }
 
-/// A FIFO with pointers of `P` bits, so of `2^(P - 1)` entries, with its properties. They look into the memory and the
-/// synchronisers, so these show what they hold.
+/// A FIFO with pointers of `P` bits, so of `2^(P - 1)` entries, and its properties. The properties look into the memory
+/// and the synchronisers, so these get ports that show their content.
 fn fifo<const P: usize>() -> String {
     let mut fifo = AsyncFifo::<P, 2>::new();
     fifo.connect_all();
@@ -76,7 +76,7 @@ fn port() -> String {
     with_properties(&block(PORT), PORT, include_str!("../../../formal/register_port.v"))
 }
 
-/// A design with this in place of that must not be proven.
+/// Checks that a design with `new` in place of `old` is not proven.
 fn must_fail(text: &str, (name, has_several_clocks): (&str, bool), (old, new): (&str, &str)) {
     let proven = gate::prove(&replace(text, old, new), name, has_several_clocks, STEPS);
     match proven {
@@ -90,9 +90,9 @@ fn prove_fifo<const P: usize>() {
     gate::prove(&fifo::<P>(), FIFO, true, STEPS).unwrap_or_else(|error| panic!("pointers of {P} bits: {error}"));
 }
 
-/// The FIFO is proven with 4, 8 and 16 entries. The real one has 512: its Verilog is the same text, in which the depth
-/// sets only the widths of pointers, addresses and one mask. That carries the proof over by reading, not by a tool.
-/// The time grows with the depth too fast for more: 32 entries take ten times as long as 16.
+/// Proves the FIFO with 4, 8 and 16 entries. The real one has 512: its Verilog is the same text, in which the depth
+/// sets only the widths of pointers, addresses and one mask. The proof carries over by that reading, not by a tool.
+/// More entries take too long: 32 take ten times as long as 16.
 #[test]
 fn the_fifo_is_proven() {
     prove_fifo::<3>();
@@ -110,7 +110,7 @@ fn faults_of_the_fifo_are_found() {
         ("memory$read_address = read_count$q;", "memory$read_address = read_ahead;"),
         ("memory$write_enable = takes;", "memory$write_enable = push;"),
         ("moves = pop | (~shown$q);", "moves = 1'b1;"),
-        // An entry does come through, or nothing would be proven.
+        // An entry must be able to come through, or the proof would be empty.
         ("assert (w_r <= DEPTH);", "assert (w_r <= DEPTH && !valid);"),
     ] {
         must_fail(&text, (FIFO, true), fault);
@@ -130,7 +130,7 @@ fn faults_of_the_register_port_are_found() {
         ("reads = has_read$q & (~is_read$q);", "reads = has_read$q;"),
         ("if (write_is_known) begin", "if (read_is_known) begin"),
         ("s_axi$wready = ~has_data$q;", "s_axi$wready = 1'b1;"),
-        // Answers are given, or nothing would be proven.
+        // Answers must be possible, or the proof would be empty.
         ("if (could_read) assert (s_axi$rvalid);", "if (could_read) assert (!s_axi$rvalid);"),
     ] {
         must_fail(&text, (PORT, false), fault);

@@ -1,11 +1,13 @@
-//! The gate lets sound Verilog pass and rejects each kind of fault that rust-hdl is known to emit without a word.
+//! Shows that the gate lets sound Verilog pass and rejects each kind of fault that rust-hdl is
+//! known to emit without a warning.
 
 use incircle_testbench::gate::{self, Cells, GateError};
 
 /// A module with ports `clock`, `a`, `b` (8 bits), `y` (8 bits) around this body.
 fn module(body: &str) -> String {
     format!(
-        "module block(input wire clock, input wire [7:0] a, input wire [7:0] b, output reg [7:0] y);\n{body}\nendmodule\n"
+        "module block(input wire clock, input wire [7:0] a, input wire [7:0] b, output reg [7:0] y);\n\
+         {body}\nendmodule\n"
     )
 }
 
@@ -29,7 +31,7 @@ fn an_undeclared_name_is_rejected_by_both_tools() {
 
 #[test]
 fn an_undeclared_name_that_yosys_only_mentions_is_rejected() {
-    // Driven and read, so nothing but the mention gives it away.
+    // The net is driven and read, so only its missing declaration gives it away.
     let verilog = module("assign parity = ^a;\nalways @(posedge clock) y <= {7'd0, parity};");
     let error = gate::synthesise(&verilog, "block").unwrap_err();
     assert!(matches!(error, GateError::Complaint { .. }), "{error}");

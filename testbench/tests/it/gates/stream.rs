@@ -1,4 +1,5 @@
-//! A core behind a stream link passes the gate; and what the link takes in an Artix-7 and on an ECP5 stays in bounds.
+//! Passes a core behind a stream link through the gate, and keeps the size of the link in an Artix-7
+//! and on an ECP5 in bounds.
 
 use incircle_hdl::export;
 use incircle_hdl::top::STREAM_TOP_NAME;
@@ -13,7 +14,7 @@ fn devices_with_a_stream_link_pass_lint_and_synthesis() {
     }
 }
 
-/// The links by Yosys 0.23. Logic that a constant swept away, or that a change doubles, leaves the 5 % around it.
+/// Cells of the links by Yosys 0.23. Logic that a constant swept away, or that a change doubles, is more than 5 % off.
 const ECP5: [Cells; 2] = [
     Cells { lut4: 763, carry: 139, distributed_ram: 0, flip_flops: 965, multipliers: 0, block_ram: 4 },
     Cells { lut4: 783, carry: 139, distributed_ram: 0, flip_flops: 1222, multipliers: 0, block_ram: 8 },

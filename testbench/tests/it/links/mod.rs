@@ -1,4 +1,5 @@
-//! The serial link and the stream link: the driver before simulated boards and cards, models beside pins, the pages.
+//! Tests of the serial link and the stream link: the driver in front of simulated boards and cards,
+//! models beside pins, and the pages.
 
 mod model;
 mod page;

@@ -1,4 +1,5 @@
-//! The serial link at its pins beside its model by bytes: one random exchange with noise, breaks and silences, and the same frames come back.
+//! Runs the serial link at its pins beside its model by bytes: one random exchange with noise, breaks and silences must
+//! bring the same frames from both.
 
 use std::collections::VecDeque;
 
@@ -9,15 +10,15 @@ use incircle_model::serial::{core_identity, Passed, SerialModel, WordDevice};
 use incircle_protocol::{HostFrame, MAX_STEP, PHASE_BITS, SMALL, STATUS_BUSY};
 use incircle_testkit::SplitMix64;
 
-/// Clocks of a silent line after which nothing more comes by itself.
+/// Clocks of a silent line after which nothing more comes unasked.
 const QUIET: usize = 600;
-/// Bits of a byte that the line carries.
+/// Bits on the line for each byte.
 const BITS: usize = 10;
 /// Clocks of a break: more than a millisecond and an eighth.
 const BREAK_CLOCKS: usize = 1300;
 const SILENCE: usize = (QUICK_LINK.silence_ms * (QUICK_LINK.clock_hz / 1000)) as usize;
 
-/// The stand-in of the pins' core, a clock at a time.
+/// A stand-in for the core, as behind the pins, that works a clock at a time.
 #[derive(Default)]
 struct Answering(VecDeque<u32>);
 
@@ -35,14 +36,14 @@ impl WordDevice for Answering {
     }
 }
 
-/// What happens on the line to the device.
+/// An event on the line to the device.
 #[derive(Clone, Copy, Debug)]
 enum Event {
     Byte(u8),
-    /// A byte without a stop bit.
+    /// A byte whose stop bit is missing.
     Noise(u8),
     Break,
-    /// Nothing, for so many clocks.
+    /// Silence for this many clocks.
     Silence(usize),
 }
 
@@ -63,14 +64,14 @@ impl Pair {
         f64::from(1u32 << PHASE_BITS) / f64::from(self.model.rate_step())
     }
 
-    /// The frames that come back, from both.
+    /// Sends the events to both, and returns the frames that come back from each.
     fn exchange(&mut self, events: &[Event]) -> [Vec<Heard>; 2] {
         let bit = self.clocks_per_bit();
         self.rig.talker.clocks_per_bit = bit;
         self.rig.listener = Listener::new(bit);
         let found = self.at_the_pins(events, bit);
         let expected = self.by_bytes(events, (BITS as f64 * bit) as usize);
-        // Both have lived as long.
+        // The model catches up, so that both have lived for the same time.
         self.pass(self.clocks[0].saturating_sub(self.clocks[1]));
         [found, expected].map(|frames| frames.into_iter().map(without_time).collect())
     }
@@ -100,7 +101,7 @@ impl Pair {
             let is_idle = self.rig.talker.is_silent() && self.rig.pins.get("tx") == 1;
             quiet = if is_idle { quiet + 1 } else { 0 };
         }
-        assert_eq!(self.rig.listener.faults, 0, "bytes without a stop bit");
+        assert_eq!(self.rig.listener.faults, 0, "some bytes lack their stop bit");
         self.rig.listener.frames()
     }
 
@@ -136,12 +137,12 @@ impl Pair {
     }
 }
 
-/// A frame without what depends on how far the core has come when it begins.
+/// A frame without the fields that depend on how far the core has come when the frame begins.
 fn without_time(frame: Heard) -> Heard {
     Heard { free: 0, status: frame.status & !STATUS_BUSY, ..frame }
 }
 
-/// A host that does everything, now and then wrongly.
+/// A host that sends every kind of frame, and now and then a wrong one.
 struct Host {
     random: SplitMix64,
     session: u8,
@@ -166,7 +167,7 @@ impl Host {
         let words = (0..=one).map(|_| (self.random.below(40) as u32) | ((other as u32 + 1) << 24));
         let words: Vec<u32> = words.collect();
         let step = self.one_of(&[1u32 << 21, 1 << 20, 1 << 19, 0x0012_3456, 0, MAX_STEP + 1, u32::MAX]);
-        // Without a session it opens one, most of the time.
+        // Most frames of a host without a session ask for one.
         let kinds: &[u8] =
             if self.is_open { &[1, 2, 3, 3, 4, 4, 5, 5, 5, 5, 5, 6] } else { &[1, 2, 2, 2, 2, 3, 4, 5, 6] };
         let kind = self.one_of(kinds);
@@ -183,7 +184,7 @@ impl Host {
         }
     }
 
-    /// A frame with what the line does to it, or something else that happens.
+    /// Events for one frame with what the line does to it, or for another disturbance.
     fn events(&mut self) -> Vec<Event> {
         let mut events: Vec<_> = cobs(&self.frame()).into_iter().map(Event::Byte).collect();
         let (place, byte) = (self.random.below(events.len() as u64) as usize, self.byte());
@@ -232,6 +233,6 @@ fn pins_and_bytes_bring_the_same_frames() {
         }
     }
     println!("{kinds:?} frames from Hello to Closed, {rates} changes of the rate");
-    // No answer is so long that it has parts.
+    // No answer here is long enough to have several parts, so frames of that kind need not occur.
     assert!((0..8).all(|kind| kinds[kind] > 20 || kind == 4) && rates > 40, "{kinds:?}, {rates}");
 }

@@ -1,5 +1,5 @@
-//! The real driver before a simulated card, in memory and through the files of a directory: jobs, each class of faults, a card that falls off the
-//! bus, two clients, and cards that lie.
+//! Runs the real driver in front of a simulated card, in memory and through the files of a directory: jobs, each class
+//! of faults, a card that falls off the bus, two clients, and cards that lie.
 
 use std::time::{Duration, Instant};
 
@@ -14,10 +14,10 @@ use incircle_testbench::link::{is_one_mesh, random_points};
 
 /// Deadline of a job.
 const LIMIT: Duration = Duration::from_secs(60);
-/// The driver gives up on a transfer after less than XDMA's ten seconds.
+/// The driver stops waiting for a transfer after this time, far less than XDMA's ten seconds.
 const QUICK: &str = "timeout-ms=400,";
 
-/// How the driver reaches the card.
+/// The way in which the driver reaches the card.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Way {
     Memory,
@@ -30,7 +30,7 @@ fn device(beat_bits: u32) -> Box<dyn Beats> {
     Box::new(StreamModel::new(ModelCore::of(SMALL).unwrap(), beat_bits))
 }
 
-/// A card that is opened; it stays as long as the first is kept.
+/// Opens a card. In a directory, the card lives as long as the first value is kept.
 fn opened(way: Way, beat_bits: u32, faults: &str) -> (Option<MountedCard>, Result<Device, Error>) {
     opened_with(way, device(beat_bits), &format!("{QUICK}{faults}"))
 }
@@ -56,7 +56,7 @@ fn triangulate(device: &mut Device, points: &[Point]) -> Result<Mesh, Error> {
     device.session_within(LIMIT)?.triangulate_with(points, &options).map(|solution| solution.mesh)
 }
 
-/// A job with these faults.
+/// Runs a job with these faults.
 fn job(way: Way, beat_bits: u32, faults: &str, points: &[Point]) -> Result<Mesh, Error> {
     let (_card, device) = opened(way, beat_bits, faults);
     triangulate(&mut device?, points)
@@ -68,7 +68,7 @@ fn must_be_right(way: Way, beat_bits: u32, faults: &str, seed: u64) {
     assert!(is_one_mesh(&mesh, &incircle::triangulate(&points).unwrap()), "{way:?}, {faults}: another mesh");
 }
 
-/// The job must end with an error that says this, in time.
+/// Checks that the job ends in time with an error of one of these kinds, and that its text has this sentence.
 fn must_fail(way: Way, faults: &str, kinds: &[ErrorKind], sentence: &str) {
     let begun = Instant::now();
     let error = job(way, 64, faults, &random_points(600, 2)).map(drop).expect_err(faults);
@@ -147,7 +147,7 @@ fn a_reset_in_mid_job_gives_the_right_mesh_or_says_so() {
                     assert!(kinds.contains(&error.kind()), "{way:?}, {faults}: {error}");
                 }
             }
-            // The next one finds the card as new.
+            // The next user finds the card as new.
             drop(device);
         }
     }
@@ -159,7 +159,7 @@ fn cards_that_lie_are_found_out() {
         for (lie, kind, sentence) in [
             ("magic", ErrorKind::DeviceNotFound, "begin with"),
             ("stream", ErrorKind::Device, "version 2.0 of the stream device"),
-            ("protocol", ErrorKind::Device, "protocol 9.0"),
+            ("protocol", ErrorKind::Device, "version 9.0 of the protocol"),
             ("capacity", ErrorKind::Device, "4294967295 points"),
             ("beat", ErrorKind::Device, "bits of a beat reads 96"),
             ("report", ErrorKind::Device, "1000000"),
@@ -170,7 +170,7 @@ fn cards_that_lie_are_found_out() {
         ] {
             must_fail(way, &format!("liar={lie}"), &[kind], sentence);
         }
-        // Registers that are not the core's bound the answers otherwise, no more: what counts is what the core says.
+        // Registers that disagree with the core only bound the answers differently: the core's own identity counts.
         must_be_right(way, 64, "liar=identity", 2);
     }
     assert_eq!(CardLie::ALL.len(), 11);
@@ -203,7 +203,7 @@ fn two_clients_at_once_are_told_and_the_card_is_free_afterwards() {
         match Device::open(&card.address()) {
             Ok(device) => break device,
             Err(error) if begun.elapsed() > LIMIT => panic!("{error}"),
-            // The threads of the first let go of its files in their own time.
+            // The threads of the first device close its files in their own time.
             Err(_) => std::thread::sleep(Duration::from_millis(10)),
         }
     };
@@ -218,17 +218,17 @@ fn a_call_that_hangs_is_left_behind_in_time_and_keeps_its_card() {
     let begun = Instant::now();
     let options = Options::default().timeout(Duration::from_secs(1));
     let result = device.session().unwrap().triangulate_with(&random_points(600, 2), &options);
-    let error = result.expect_err("the call hangs");
+    let error = result.expect_err("the call should hang");
     assert!(matches!(error.kind(), ErrorKind::Timeout | ErrorKind::Link), "{error}");
     drop(device);
     assert!(begun.elapsed() < Duration::from_secs(10), "{:?}", begun.elapsed());
     assert!(calls_left_behind() > before);
-    let error = Device::open(&card.address()).err().expect("its lock is kept");
+    let error = Device::open(&card.address()).err().expect("the lock should be kept");
     assert!(error.to_string().contains("a call of this one that has not returned"), "{error}");
     drop(card);
 }
 
-/// Jobs on the Verilated card, all its AXI ports driven, one after the other in a session.
+/// Runs jobs on the Verilated card with all its AXI ports driven, one after another in a session.
 fn jobs_at_the_pins(way: Way, beat_bits: u32, faults: &str) {
     let pins: Box<dyn Beats> = Box::new(PinCard::new(SMALL, beat_bits).unwrap());
     let (_card, device) = opened_with(way, pins, &format!("timeout-ms=5000,{faults}"));

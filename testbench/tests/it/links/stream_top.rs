@@ -1,4 +1,5 @@
-//! Whole devices at their AXI ports, with random stalls on all channels and clocks at ratios of 1:4 to 4:1, against the software model.
+//! Runs whole devices at their AXI ports against the model by commands, with random stalls on all channels and clocks
+//! at ratios of 1:4 to 4:1.
 
 use crate::rig::stream_rig::{Rig, Verilog, PERIODS};
 use incircle_model::CommandModel;
@@ -11,11 +12,12 @@ use incircle_testkit::SplitMix64;
 /// Clock edges that a job may take.
 const PATIENCE: usize = 3_000_000;
 
+/// A Verilated device beside the model by commands.
 struct Device {
     rig: Rig<Verilog>,
     model: CommandModel,
     random: SplitMix64,
-    /// Answers that were compared, by status.
+    /// Number of answers that were compared, by status.
     compared: [usize; 6],
 }
 
@@ -23,7 +25,7 @@ fn model(config: Config) -> CommandModel {
     CommandModel::new(CORE_COORD_BITS, config.points, config.ring).expect("a sound configuration")
 }
 
-/// Vertices of records, each from its smallest one, sorted.
+/// Vertices of records, each record from its smallest vertex on, sorted.
 fn sorted(mut all: Vec<[u32; 3]>) -> Vec<[u32; 3]> {
     for record in &mut all {
         let smallest = (0..3).min_by_key(|place| record[*place]).unwrap_or(0);
@@ -33,7 +35,7 @@ fn sorted(mut all: Vec<[u32; 3]>) -> Vec<[u32; 3]> {
     all
 }
 
-/// The vertices that an answer holds, if it is one with records.
+/// Vertices in an answer, if the answer has records.
 fn records(answer: &[u32]) -> Option<Vec<[u32; 3]>> {
     let payload = &answer[2..];
     let ids: Vec<u32> = match answer[0] {
@@ -45,7 +47,7 @@ fn records(answer: &[u32]) -> Option<Vec<[u32; 3]>> {
         }
         _ => return None,
     };
-    // A half-word behind the last record is 0.
+    // The half-word behind the last record is 0.
     let (records, rest) = ids.as_chunks::<3>();
     assert!(rest.iter().all(|id| *id == 0));
     Some(sorted(records.to_vec()))
@@ -58,7 +60,7 @@ impl Device {
         Self { rig, model: model(config), random: SplitMix64::new(seed), compared: [0; 6] }
     }
 
-    /// What the model answers to these words, answer by answer.
+    /// Answers of the model to these words.
     fn expected(&mut self, words: &[u32]) -> Vec<Vec<u32>> {
         let mut answers = Vec::new();
         self.model.send(words);
@@ -74,7 +76,7 @@ impl Device {
         }
     }
 
-    /// Sends commands, padded now and then, and compares the answers with the model's.
+    /// Sends commands, padded now and then, and compares the answers with those of the model.
     fn exchange(&mut self, commands: &[Vec<u32>]) {
         let words_of_beat = self.rig.bus.beat_bytes / 4;
         let mut words = Vec::new();
@@ -92,10 +94,13 @@ impl Device {
             let answer = self.rig.answer(PATIENCE);
             assert_eq!(answer[..2], expected[..2], "header and length");
             match records(&answer) {
-                // The order of records, and where each begins, is the device's own.
+                // The order of records, and the vertex with which each begins, is up to the device.
                 Some(found) => {
-                    assert!(found.iter().all(|record| mesh.binary_search(record).is_ok()), "a record of no mesh");
-                    assert!(found.len() < mesh.len() || found == mesh, "a record twice");
+                    assert!(
+                        found.iter().all(|record| mesh.binary_search(record).is_ok()),
+                        "a record is not in the model's mesh"
+                    );
+                    assert!(found.len() < mesh.len() || found == mesh, "a record comes twice");
                 }
                 None => assert_eq!(answer, expected),
             }
@@ -103,12 +108,12 @@ impl Device {
         }
     }
 
-    /// Every record of the model, as [`records`] has them.
+    /// All records of the model in the form of [`records`].
     fn mesh(&self) -> Vec<[u32; 3]> {
         sorted(self.model.mesh().records().iter().map(|record| record.v).collect())
     }
 
-    /// A job: points on a grid of so many places, and what was made of them.
+    /// Runs a job with random points on a grid of `places` by `places`, and reads parts of the result.
     fn job(&mut self, points: usize, places: u64) {
         let inserts = |points: &[u32]| [&[command_word(Opcode::Insert), points.len() as u32], points].concat();
         let mut point = || self.random.below(places) as u32 | (self.random.below(places) as u32) << 16;
@@ -122,7 +127,7 @@ impl Device {
         }
         commands.push(vec![42 << 24]);
         self.exchange(&commands);
-        // All that there are, of either kind.
+        // Reads all records, once by each kind of read-out.
         let records = self.model.mesh().records().len() as u32;
         let all = |opcode| vec![command_word(opcode), 0, records];
         self.exchange(&[all(Opcode::Triangles), all(Opcode::Read)]);
@@ -174,7 +179,7 @@ fn the_registers_say_what_hello_says() {
     }
 }
 
-/// The page of the protocol, in whose table a row begins with the offset in three hexadecimal digits.
+/// The page of the protocol. A row of its table begins with the offset in three hexadecimal digits.
 const PAGE: &str = include_str!("../../../../protocol/STREAM.md");
 
 #[test]
@@ -224,7 +229,8 @@ fn the_table_of_the_page_is_the_registers() {
 
 #[test]
 fn triangles_leave_the_link_as_fast_as_the_core_gives_them() {
-    // Equal clocks, and a host that takes everything: two records a point, one a clock.
+    // With equal clocks, and a host that takes everything, the read-out takes a clock for each of
+    // the two records of a point.
     let mut device = Device::new("stream_small_128", 128, ONE_CONTEXT_SMALL, [8000, 8000], 2);
     device.job(1000, 1 << 16);
     let records = device.model.mesh().records().len() as u32;
@@ -244,12 +250,12 @@ fn a_device_is_busy_until_it_owes_nothing() {
         device.rig.bus.pace = 1 + round % 3;
         device.job(7, 50);
         device.rig.steps(200);
-        assert!(!is_busy(&mut device), "nothing is owed");
-        // Padding alone is no command.
+        assert!(!is_busy(&mut device), "the device is busy though it owes nothing");
+        // Padding alone is no command, so the device stays idle.
         device.rig.bus.send(&[0; 12]);
         device.rig.steps(400);
         assert!(!is_busy(&mut device) && device.rig.bus.came.is_empty());
-        // All but the last point, then nothing for a while.
+        // All but the last point, and nothing for a while: a command that lacks words keeps the device busy.
         device.rig.bus.send(&[command_word(Opcode::Insert), 3, 0, 9]);
         device.rig.steps(3000);
         assert!(is_busy(&mut device) && device.rig.bus.came.is_empty());

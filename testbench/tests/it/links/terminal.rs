@@ -1,5 +1,5 @@
-//! The real driver before a simulated board, through a pseudo-terminal, in real time: a job, each class of faults, an unplugged cable, a
-//! killed host, two clients, and devices that lie.
+//! Runs the real driver in front of a simulated board, through a pseudo-terminal and in real time: a job, each class of
+//! faults, an unplugged cable, a killed host, two clients, and devices that lie.
 
 use std::time::{Duration, Instant};
 
@@ -8,7 +8,7 @@ use incircle::{Device, Error, ErrorKind, Mesh, Options, Point};
 use incircle_protocol::SMALL;
 use incircle_testbench::link::{is_one_mesh, random_points, Detail, Served};
 
-/// Real time over the board's, for the board and for the driver.
+/// Factor by which the board runs slower than real time, for the board and for the driver.
 const PINS_SLOW: u32 = 100;
 const BYTES_SLOW: u32 = 25;
 const RATE: u32 = 12_000_000;
@@ -20,13 +20,13 @@ fn served(detail: Detail, faults: &str) -> Served {
     Served::new(detail, SMALL, faults, slow).unwrap()
 }
 
-/// Opens, greets, does the job, closes.
+/// Opens the device, does the job and closes it.
 fn triangulate(address: &str, points: &[Point]) -> Result<Mesh, Error> {
     let options = Options::default().timeout(LIMIT);
     Device::open(address)?.session_within(LIMIT)?.triangulate_with(points, &options).map(|solution| solution.mesh)
 }
 
-/// The job must end with the right mesh.
+/// Checks that the job ends with the right mesh.
 fn must_be_right(address: &str, points: usize, seed: u64, what: &str) {
     let points = random_points(points, seed);
     let begun = Instant::now();
@@ -51,14 +51,14 @@ const CLASSES: [&str; 12] = [
     "ber=1e-4,drop-frame=0.05,babble=0.05,direction=to-host,seed=7",
 ];
 
-/// Every class in turn, `count` jobs each.
+/// Runs `count` jobs with each class in turn.
 fn survive(detail: Detail, classes: &[&str], points: usize) {
     for (seed, faults) in (1..).zip(classes) {
         let mut board = served(detail, faults);
         must_be_right(&board.address(RATE), points, seed, faults);
         let figures = board.stop().unwrap();
         println!("{faults}: {figures:?}");
-        assert!(figures.faults > 0, "the line did nothing of {faults}: {figures:?}");
+        assert!(figures.faults > 0, "the line made no fault of {faults}: {figures:?}");
     }
 }
 
@@ -72,7 +72,7 @@ fn a_job_through_the_pins_and_the_next_one() {
     println!("{figures:?}");
 }
 
-/// Runs the command, which must do well.
+/// Runs the command, which must succeed.
 fn command(arguments: &[&str]) {
     let arguments = ["incircle"].into_iter().chain(arguments.iter().copied()).map(std::ffi::OsString::from);
     assert_eq!(incircle_cli::run(arguments), std::process::ExitCode::SUCCESS);
@@ -125,7 +125,7 @@ fn bit_errors_at_the_pins() {
     }
 }
 
-/// The board is at rest, as no session is open, while its greeting is held up on the line.
+/// Time on the board must go on while it is at rest: no session is open, and its greeting is held up on the line.
 #[test]
 fn time_goes_on_while_a_reply_is_on_the_line() {
     const SLOW: u32 = 10;
@@ -178,10 +178,10 @@ fn two_clients_at_once_are_told() {
 fn devices_that_lie_are_found_out() {
     let what = [
         ("liar=version", ErrorKind::Device, "version 2.0 of the link"),
-        ("liar=protocol", ErrorKind::Device, "protocol 9.0"),
+        ("liar=protocol", ErrorKind::Device, "version 9.0 of the protocol"),
         ("liar=capacity", ErrorKind::Device, "4294967295 points"),
         ("liar=index", ErrorKind::Device, "wrongly"),
-        ("liar=endless", ErrorKind::Device, "more than the"),
+        ("liar=endless", ErrorKind::Device, "has more than"),
         ("liar=credit", ErrorKind::Device, "65535 free bytes"),
         ("liar=report", ErrorKind::Device, "1000000"),
     ];

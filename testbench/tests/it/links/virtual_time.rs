@@ -1,4 +1,5 @@
-//! The driver's protocol before simulated boards, in virtual time.
+//! Runs the driver's protocol in front of simulated boards in virtual time: no fault of the line may make a wrong
+//! mesh, and goodput reaches its target.
 
 use std::time::Duration;
 
@@ -8,7 +9,7 @@ use incircle_testbench::link::{measure, soak, Detail, Soak, VirtualLine, RATES, 
 
 const TRIP: Duration = Duration::from_millis(1);
 const LIMIT: Duration = Duration::from_secs(5);
-/// Jobs for each fault.
+/// Number of jobs for each fault.
 const JOBS: u64 = 5;
 
 fn jobs(detail: Detail, spec: &str, jobs: u64, points: usize) -> Soak {
@@ -36,7 +37,7 @@ fn jobs_without_bits_survive_every_fault_of_the_line() {
         let report = soak(&jobs(Detail::Bytes, spec, JOBS, 400)).unwrap();
         println!("{spec}: {report}");
         assert_eq!((report.right, report.wrong), (JOBS, 0), "{spec}: {report}");
-        // At the lowest rate few of these jobs meet a fault, perhaps none.
+        // At the lowest rate few of these jobs meet a fault, and possibly none.
         let least = if spec.is_empty() || spec == "ber=1e-6" { 0 } else { 1 };
         assert!(report.met >= least, "{spec}: {report}");
         met += report.met;
@@ -44,7 +45,7 @@ fn jobs_without_bits_survive_every_fault_of_the_line() {
     assert!(met >= 35, "{met} jobs met a fault");
 }
 
-/// Points as an `Insert` with `count` of them.
+/// An `Insert` of `count` points.
 fn insert(count: u32) -> Command<Vec<u32>> {
     let points = (0..count).map(|j| ((j * 7919) & 0xffff) | (((j * 104_729) & 0xffff) << 16));
     Command::Insert { count, points: points.collect() }
@@ -52,14 +53,15 @@ fn insert(count: u32) -> Command<Vec<u32>> {
 
 #[test]
 fn a_host_that_is_killed_in_mid_job_leaves_a_device_that_the_next_one_finds() {
-    // At the pins all clocks of the silence would be simulated, so the device is left at the first rate there, and hears the next host at once.
+    // At the pins every clock of the silence would be simulated. The device is therefore left at the first rate there,
+    // and hears the next host at once.
     let at_the_pins = (Detail::Pins, FIRST_RATE, &[(4, 5)][..]);
     for (detail, rate, kills) in [(Detail::Bytes, 3_000_000, &[(1, 0), (2, 3), (3, 11)][..]), at_the_pins] {
         for &(seed, limit) in kills {
             let board = detail.board(SMALL).unwrap();
             let mut line = VirtualLine::new(board, rate, TRIP, &FaultSpec::default());
             line.open(LIMIT).unwrap();
-            // Killed while points are on their way, without a goodbye.
+            // The time limit kills the host while points are on their way, without a goodbye.
             line.ask(&insert(1000), Duration::from_millis(limit)).unwrap_err();
             line.restart_host(rate, seed);
             line.open(LIMIT).unwrap();
@@ -72,7 +74,8 @@ fn a_host_that_is_killed_in_mid_job_leaves_a_device_that_the_next_one_finds() {
 
 #[test]
 fn bit_errors_at_the_pins_make_no_wrong_mesh() {
-    // How many of six jobs meet a fault at least: at the lowest rate such small jobs meet none, and do not count as faulty.
+    // Least number of six jobs that meet a fault. At the lowest rate such small jobs meet none,
+    // and do not count as faulty.
     for (ber, least) in [("ber=1e-6", 0), ("ber=1e-5", 1), ("ber=1e-4", 4), ("ber=2e-4", 5)] {
         let report = soak(&jobs(Detail::Pins, ber, 6, 100)).unwrap();
         println!("{ber}: {report}");

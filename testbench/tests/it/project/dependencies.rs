@@ -1,11 +1,12 @@
-//! Who may use whom: the hardware never calls its oracle, and the library needs neither rust-hdl nor Verilator.
+//! Checks which package uses which: the hardware never calls its oracle, and the
+//! library needs neither rust-hdl nor Verilator.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use cargo_metadata::{DependencyKind, MetadataCommand};
 
-/// One package that uses another.
+/// A use of one package by another.
 #[derive(Clone, Debug)]
 struct Use {
     package: String,
@@ -13,10 +14,10 @@ struct Use {
     optional: bool,
 }
 
-/// What every package of the workspace uses directly, packages from outside included.
+/// All direct uses of every package in the workspace, including packages from outside.
 type Graph = BTreeMap<String, Vec<Use>>;
 
-/// Which packages of the workspace each package may use directly, in its tests too.
+/// Packages of the workspace that each package may use directly, also in its tests.
 const ALLOWED: [(&str, &[&str]); 12] = [
     ("incircle-testkit", &[]),
     ("incircle-protocol", &[]),
@@ -48,7 +49,7 @@ const ALLOWED: [(&str, &[&str]); 12] = [
     ),
 ];
 
-/// What a package must not reach by any way that ships, and why.
+/// Packages that a package must not reach by any path that ships, and the reason.
 const UNREACHABLE: [(&str, &[&str], &str); 7] = [
     ("incircle-hdl", &["incircle-model", "incircle", "verilated"], "hardware must not be able to call its own oracle"),
     (
@@ -69,7 +70,7 @@ const UNREACHABLE: [(&str, &[&str], &str); 7] = [
 
 const TESTS_ONLY: &str = "what ships here does without the kit of the tests";
 
-/// All breaches of the rules, a sentence each.
+/// All breaches of the rules, a sentence for each.
 fn breaches(graph: &Graph) -> Vec<String> {
     let mut found = Vec::new();
     for (package, uses) in graph {
@@ -121,7 +122,7 @@ fn reachable(graph: &Graph, package: &str) -> BTreeSet<String> {
     reached
 }
 
-/// The workspace as cargo sees it, and the features that `incircle-cli` has on without being asked.
+/// The workspace as cargo sees it, and the default features of `incircle-cli`.
 fn workspace() -> (Graph, Vec<String>) {
     let metadata = MetadataCommand::new()
         .manifest_path(Path::new(env!("CARGO_MANIFEST_DIR")).join("../Cargo.toml"))
@@ -153,7 +154,7 @@ fn the_workspace_keeps_the_rules() {
     assert!(default_features.is_empty(), "{default_features:?}");
 }
 
-/// The rules as a graph of normal uses (of the kit by tests), which keeps them all, plus one more use.
+/// A graph of normal uses that keeps all the rules (uses of the kit are for tests), with one more use.
 fn allowed_graph_and(user: &str, used: &str, kind: DependencyKind) -> Graph {
     let mut graph: Graph = ALLOWED
         .iter()
@@ -176,7 +177,7 @@ fn a_graph_that_keeps_the_rules_passes() {
     assert_eq!(breaches(&graph), Vec::<String>::new());
 }
 
-/// One use more than allowed, and what the checker must say of it: user, used, kind, part of a sentence.
+/// One use more than allowed, and the checker's complaint about it: user, used, kind, part of a sentence.
 const BREACHES: [(&str, &str, DependencyKind, &str); 20] = [
     ("incircle-hdl", "incircle-model", DependencyKind::Normal, "incircle-hdl reaches incircle-model"),
     ("incircle-hdl", "incircle-model", DependencyKind::Development, "incircle-hdl must not use incircle-model"),

@@ -1,4 +1,4 @@
-//! The glossary is kept: each term's file exists, and no retired word stands where it is refused.
+//! Checks that the glossary is kept: the file of each term exists, and no retired word stands where it is refused.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -11,7 +11,7 @@ fn glossary() -> String {
     std::fs::read_to_string(root().join("docs/glossary.md")).expect("the glossary is there")
 }
 
-/// The cells of all rows of three columns below `heading`, without the table's head.
+/// Cells of all rows of three columns below `heading`, without the head of the table.
 fn rows<'a>(page: &'a str, heading: &str) -> Vec<[&'a str; 3]> {
     let (_, section) = page.split_once(&format!("## {heading}\n")).unwrap_or_else(|| panic!("no section {heading}"));
     let section = section.split("\n## ").next().unwrap_or_default();
@@ -23,8 +23,8 @@ fn rows<'a>(page: &'a str, heading: &str) -> Vec<[&'a str; 3]> {
     .collect()
 }
 
-/// `text` as words of small letters with one blank between them; an underscore separates words, and so does a line's end with
-/// the marks of a comment.
+/// `text` in small letters with one blank between words. Underscores separate words, and so do line ends
+/// with the marks of a comment.
 fn words(text: &str) -> String {
     let mut words = String::from(" ");
     for word in text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()) {
@@ -34,7 +34,7 @@ fn words(text: &str) -> String {
     words
 }
 
-/// The text files that git tracks, but for this test, the glossary, and what is generated or recorded.
+/// Text files that git tracks, except this test, the glossary, and generated or recorded files.
 fn sources() -> Vec<(String, String)> {
     let output = Command::new("git").arg("-C").arg(root()).args(["ls-files", "-z"]).output().expect("git runs");
     assert!(output.status.success(), "git ls-files: {}", String::from_utf8_lossy(&output.stderr));
@@ -46,9 +46,13 @@ fn sources() -> Vec<(String, String)> {
         .collect()
 }
 
-/// The folders or files in backquotes, or the root for `everywhere`.
+/// Folders or files in backquotes, or the root for `everywhere`.
 fn places(cell: &str) -> Vec<&str> {
-    if cell == "everywhere" { vec![""] } else { cell.split('`').skip(1).step_by(2).collect() }
+    if cell == "everywhere" {
+        vec![""]
+    } else {
+        cell.split('`').skip(1).step_by(2).collect()
+    }
 }
 
 #[test]
@@ -61,7 +65,10 @@ fn no_retired_word_is_used() {
     let mut found = Vec::new();
     for [refused, cell, instead] in retired {
         for place in places(cell) {
-            assert!(place.is_empty() || root().join(place).exists(), "the glossary names {place}, which does not exist");
+            assert!(
+                place.is_empty() || root().join(place).exists(),
+                "the glossary names {place}, which does not exist"
+            );
             for word in refused.split(", ") {
                 let looked_for = words(word);
                 let uses = sources.iter().filter(|(name, _)| name.starts_with(place));
@@ -91,7 +98,7 @@ fn the_file_of_each_term_exists() {
             assert!(meaning.ends_with('.'), "{term}: its meaning is no sentence");
             assert!(!terms.contains(&term), "{term} is explained twice");
             terms.push(term);
-            // Links are held by the test of all documents.
+            // Links are checked by the test of all documents.
             if let Some(path) = place.strip_prefix('`').and_then(|rest| rest.strip_suffix('`')) {
                 assert!(root().join(path).exists(), "{term}: {path} does not exist");
             }

@@ -1,10 +1,12 @@
-//! The tests of blocks mirror `hdl/src`: the test of `engine/visit/issue.rs` is `blocks/engine/visit/issue.rs`.
+//! Checks that the tests of blocks mirror `hdl/src`: the file `engine/visit/issue.rs`
+//! there has its test in `blocks/engine/visit/issue.rs`.
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Blocks without a file of their own: the test that runs the block, from `tests/it`, and why that is enough.
+/// Blocks without a test file of their own: the test that runs the block, by its path from `tests/it`,
+/// and why that test is enough.
 const ELSEWHERE: [(&str, &str, &str); 26] = [
     (
         "engine/attempt/aftermath",
@@ -24,7 +26,7 @@ const ELSEWHERE: [(&str, &str, &str); 26] = [
     ("engine/insertions", "cores/lockstep", "wires between the rooms"),
     ("engine/solo/solo_star", "blocks/engine/solo/solo", "a part of solo that only solo's states drive"),
     ("engine/solo/solo_steps", "blocks/engine/solo/solo", "the states of solo, which alone uses them"),
-    ("link/payload_words", "blocks/link/responder", "the payload that only the responder asks for"),
+    ("commands/payload_words", "blocks/commands/responder", "the payload that only the responder asks for"),
     ("leaf/spill_ring", "blocks/leaf/deep_fifo", "the memory behind the deep buffer"),
     ("leaf/unpack", "blocks/engine/visit/issue", "the fields of a structure as wires, in most blocks"),
     ("serial/link_receiver", "blocks/serial/serial_link", "the receiving half of the link, at its pins"),
@@ -38,7 +40,7 @@ const ELSEWHERE: [(&str, &str, &str); 26] = [
     ("top/stream_top", "links/stream_top", "the device at its ports"),
 ];
 
-/// Files that hold more than one block to something.
+/// Test files of more than one block.
 const MORE: [&str; 2] = ["leaf/cells", "serial/serial_link_faults"];
 
 fn root() -> PathBuf {
@@ -49,7 +51,7 @@ fn text(path: &Path) -> String {
     fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// The Rust files below a folder for which this holds, as paths from there without their ending.
+/// Rust files below a folder for whose text `counts` holds, as paths from that folder without their ending.
 fn files(folder: &Path, counts: fn(&str) -> bool) -> BTreeSet<String> {
     let mut found = BTreeSet::new();
     let mut open = vec![folder.to_path_buf()];

@@ -1,7 +1,8 @@
-//! What holds for the project as a whole: who may use whom, what may import what, and the documents.
+//! Tests of the project as a whole: which package may use which, which module may import which, and the documents.
 
 mod dependencies;
 mod documents;
+mod glossary;
 mod import_circles;
 mod mirror;
 mod rules;

@@ -1,10 +1,10 @@
-//! The rules of the engine carry one id each, and all who speak of a rule use it: the page, the hardware, the model by clock, and the
-//! defects that show what happens without the rule.
+//! Checks that each rule of the engine has one id, and that everything about a rule cites it: the page, the hardware,
+//! the model by clock, and the defects that show what happens without the rule.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// The ids of the rules, in the order of the page.
+/// Ids of the rules, in the order of the page.
 const RULES: [&str; 9] = ["L1", "L2", "L3", "L4", "L5", "L6", "L7", "L8", "L9"];
 
 /// The file or folder at a path from the root of the workspace.
@@ -16,7 +16,7 @@ fn text(path: &Path) -> String {
     std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// The Rust files of a folder and of those in it.
+/// The Rust files of a folder and of the folders below.
 fn sources(folder: &Path) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
     let mut found = Vec::new();
@@ -30,14 +30,14 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// The rule ids in a text: an `L` and a number, standing alone.
+/// Rule ids in a text: an `L` and a number, standing alone.
 fn ids(text: &str) -> BTreeSet<String> {
     let is_id =
         |word: &&str| word.strip_prefix('L').is_some_and(|n| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()));
     text.split(|c: char| !c.is_alphanumeric() && c != '_').filter(is_id).map(String::from).collect()
 }
 
-/// The rule ids in comments of Rust files: `is_counted` chooses the comments by what follows the spaces of a line.
+/// Rule ids in comments of Rust files. `is_counted` chooses the comments, given a line without its indentation.
 fn cited(files: &[PathBuf], is_counted: fn(&str) -> bool) -> BTreeSet<String> {
     let comments =
         |path: &PathBuf| text(path).lines().map(str::trim).filter(|line| is_counted(line)).flat_map(ids).collect();
@@ -48,7 +48,7 @@ fn all_rules() -> BTreeSet<String> {
     RULES.map(String::from).into()
 }
 
-/// The variants of `Defect`, each with the first line of its documentation.
+/// Variants of `Defect`, each with the first line of its documentation.
 fn defects() -> Vec<(String, String)> {
     let source = text(&at("sim/model/src/clock/defect.rs"));
     let body = source.split_once("pub enum Defect {").expect("the enum of defects").1;

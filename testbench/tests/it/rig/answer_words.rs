@@ -1,4 +1,4 @@
-//! The answers of a core as `incircle-protocol` states them, for the blocks that put them together.
+//! Answers of a core as `incircle-protocol` states them, for the blocks that put answers together.
 
 use incircle_protocol::{
     Identity, InsertReport, Layout, Opcode, Status, CORE_COORD_BITS, CORE_VERSION, COUNTER_WORDS, LATENCY_BUCKETS,
@@ -6,17 +6,17 @@ use incircle_protocol::{
 };
 use incircle_testkit::SplitMix64;
 
-/// True that many times in a hundred.
+/// Returns true `times` times in a hundred.
 pub fn percent(random: &mut SplitMix64, times: u64) -> bool {
     random.below(100) < times
 }
 
-/// A word of 32 bits, from the corners as often as not.
+/// Returns a random word of 32 bits, often one of the extremes.
 pub fn word(random: &mut SplitMix64) -> u32 {
     [0, 1, u32::MAX, 1 << 31, random.next_u64() as u32, random.below(8) as u32][random.below(6) as usize]
 }
 
-/// Status, payload length and payload of the answer; the payload of a read is open.
+/// Status, payload length and payload of an answer; for a read the payload is left open.
 pub struct Answer {
     pub opcode: u8,
     pub status: Status,
@@ -50,7 +50,7 @@ impl Asked {
             first,
             count: match random.below(3) {
                 0 => word(random),
-                // Just to the last record, one less, one more.
+                // Exactly up to the last record, one less, or one more.
                 _ => rest.wrapping_add(random.below(3) as u32).wrapping_sub(1),
             },
             is_refused: false,
@@ -125,7 +125,7 @@ impl Asked {
     }
 }
 
-/// Random opcodes, each for some clocks: the opcode, whether the command is refused, clocks.
+/// Random opcodes, each for some clocks: the opcode, whether the command is refused, the number of clocks.
 pub fn commands(random: &mut SplitMix64) -> Vec<(u8, bool, usize)> {
     let opcode = |random: &mut SplitMix64| {
         if percent(random, 80) {

@@ -1,4 +1,4 @@
-//! What a frame asks of the serial link: the fields of `Asked` as bits.
+//! The demands of a frame on the serial link: the fields of `Asked` as bits.
 
 pub const HEARS: u32 = 1;
 pub const HELLO: u32 = 1 << 1;

@@ -1,12 +1,12 @@
-//! The state of an attempt in plain numbers.
+//! The state of an attempt as plain numbers.
 
 use super::stepper::bundles::{pack, Layout};
 use incircle_testkit::SplitMix64;
 
-/// drains, outstanding, count, inners, logged, and the halves of `half_open`.
+/// Widths of `drains`, `outstanding`, `count`, `inners`, `logged`, and the two halves of `half_open`.
 const ATTEMPT: Layout<7> = [1, 7, 7, 7, 7, 32, 32];
 
-/// An attempt's state.
+/// State of an attempt, field by field.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct State {
     pub drains: bool,
@@ -30,13 +30,13 @@ impl State {
         }
     }
 
-    /// As an `Attempt`.
+    /// The state packed as an `Attempt`.
     pub fn packed(self) -> u128 {
         let Self { drains, outstanding, count, inners, logged, half_open } = self;
         pack(ATTEMPT, [drains.into(), outstanding, count, inners, logged, half_open & 0xffff_ffff, half_open >> 32])
     }
 
-    /// An edge of entry `y`'s triangle is passed: whether it was its last.
+    /// Passes an edge of the triangle of entry `y`. Returns true if no further edge of that triangle is open.
     pub fn passes(&mut self, y: u64) -> bool {
         // The root brings three edges, all other triangles two.
         let places: &[u64] = if y == 0 { &[0, 1] } else { &[y] };

@@ -1,19 +1,19 @@
-//! Ports of a block by name and as numbers: those of its Rust form, and those of its Verilated Verilog. Packed structures travel as
-//! one number.
+//! Reaches the ports of a block by name and as numbers, in its Rust form and in its Verilated Verilog.
+//! A packed structure is one number.
 
 use std::collections::BTreeMap;
 
+use incircle_hdl::commands::types::{Activity, AnswerProgress, Clearing, Head, Request, TakenWord, Tally};
+use incircle_hdl::commands::{AnswerBeat, CommandState};
 use incircle_hdl::engine::{Arrival, EngineState};
 use incircle_hdl::engine::{
     Attempt, Beyond, Bundle, Case, CommitJob, CommitRequest, Committed, Completion, ContextState, Deal, Entry,
     EntryWrite, Events, Follow, Following, Held, InnerWrite, LockClear, LockWrite, Outcome, Passed, Plan, PlanWrite,
     Pointer, Position, Push, RecordRead, ReleaseJob, ReleaseRequest, Released, RingHead, SeedProgress, SoloPhase,
-    SoloProgress, SoloStart, SoloTurn, StarTriangle, Start, Step, Token, Turned, Upcoming, Verdict, VisitEvents, Write,
+    SoloProgress, SoloStart, SoloTurn, StarTriangle, Start, Step, Turned, Upcoming, Verdict, Visit, VisitEvents, Write,
     WriteEnables,
 };
 use incircle_hdl::leaf::Unpacked;
-use incircle_hdl::link::types::{Activity, AnswerProgress, Clearing, Head, Request, TakenWord, Tally};
-use incircle_hdl::link::{AnswerBeat, CommandState};
 use incircle_hdl::mesh::{ReadRecord, Record};
 use incircle_hdl::predicate::{Corners, EdgeFlags, OrderFlags, Signs};
 use incircle_hdl::serial::types::{AnswerPlace, BytePlace, Contents, FrameHead, Lamps, Receipt, Session};
@@ -22,10 +22,10 @@ use incircle_hdl::stream::{AnswerEvents, CommandEvents};
 use rust_hdl_core::prelude::*;
 use verilated::{Model, PortId};
 
-/// Passes a block may take to settle: far more than its depth.
+/// Passes that a block may take to settle, far more than its depth.
 const SETTLING_PASSES: usize = 100;
 
-/// The value of a whole port: the low 128 bits and the high ones.
+/// Value of a whole port: its low 128 bits and its high 128 bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Whole {
     pub low: u128,
@@ -39,13 +39,13 @@ impl From<u128> for Whole {
 }
 
 impl Whole {
-    /// 64 of the bits, the `place`-th of four.
+    /// Returns 64 of the bits: the quarter at this place, of four.
     fn quarter(self, place: u32) -> u64 {
         let half = if place < 2 { self.low } else { self.high };
         (half >> (64 * (place % 2))) as u64
     }
 
-    /// The value with this quarter, which was zero.
+    /// Returns the value with this quarter filled in, which was zero before.
     fn with_quarter(mut self, place: u32, quarter: u64) -> Self {
         let half = if place < 2 { &mut self.low } else { &mut self.high };
         *half |= u128::from(quarter) << (64 * (place % 2));
@@ -53,7 +53,7 @@ impl Whole {
     }
 }
 
-/// A port value as a number.
+/// A value of a port that can be turned into a number and back.
 pub trait PortValue {
     fn from_number(number: Whole) -> Self;
     fn to_number(self) -> Whole;
@@ -68,7 +68,7 @@ impl PortValue for bool {
     }
 }
 
-/// For blocks with several clocks: they are inputs like others there.
+/// In blocks with several clocks, the clocks are inputs like all others.
 impl PortValue for Clock {
     fn from_number(number: Whole) -> Self {
         (number.low != 0).into()
@@ -105,7 +105,7 @@ impl PortValue for CommandState {
     }
 }
 
-/// Structures travel packed, the first field in the lowest bits.
+/// Structures are packed, with the first field in the lowest bits.
 macro_rules! packed_values {
     ($($structure:ty),*) => {$(
         impl PortValue for $structure {
@@ -119,7 +119,7 @@ macro_rules! packed_values {
     )*};
 }
 packed_values!(
-    Token,
+    Visit,
     Bundle,
     Turned,
     Attempt,
@@ -193,16 +193,17 @@ packed_values!(
     VisitEvents
 );
 
-/// A block whose ports are reached by name: `reset`, and `command_valid` for the signal `valid` of the interface `command`.
+/// A block whose ports are reached by name: `reset`, or `command_valid` for the
+/// signal `valid` of the interface `command`.
 pub trait NamedPorts: Block {
     fn set(&mut self, port: &str, number: Whole);
     fn get(&self, port: &str) -> Whole;
-    /// What a port carries, if the block has the port.
+    /// Layout of a port's value, if the block has the port.
     fn layout(&self, port: &str) -> Option<TypeDescriptor>;
     fn set_clock(&mut self, high: bool);
 }
 
-/// What a signal carries.
+/// Layout of a signal's value.
 pub fn layout_of<D: Direction, T: Synth>(_: &Signal<D, T>) -> Option<TypeDescriptor> {
     Some(T::descriptor())
 }
@@ -220,7 +221,7 @@ impl Place {
         u128::MAX.checked_shr(128 - self.width.min(128)).unwrap_or(0)
     }
 
-    /// These bits of the port's value; at most 128 of them.
+    /// Returns these bits of the port's value; there are at most 128 of them.
     pub fn part_of(&self, value: Whole) -> u128 {
         let part = match self.offset {
             0 => value.low,
@@ -230,7 +231,7 @@ impl Place {
         part & self.mask()
     }
 
-    /// The port's value with these bits replaced.
+    /// Returns the port's value with these bits replaced.
     pub fn put_into(&self, value: Whole, part: u128) -> Whole {
         if self.width > 128 {
             return Whole::from(part);
@@ -245,12 +246,12 @@ impl Place {
     }
 }
 
-/// Names of ports as the tests write them, and of the fields of those that carry a structure: `record_v0`, or `v0` alone where no other
-/// port has that name and no other structure a field of it.
+/// Places of ports and of fields, by the names that tests use. A field of a structure is called `record_v0`, or `v0`
+/// alone if no other port has that name and no other structure has such a field.
 pub struct Places(BTreeMap<String, Option<Place>>);
 
 impl Places {
-    /// The ports of a model, with what `layout` says that they carry.
+    /// Collects the ports of a model; `layout` says which structure each of them carries.
     pub fn new(model: &Model, layout: impl Fn(&str) -> Option<TypeDescriptor>) -> Self {
         let ports: Vec<(String, u32)> =
             model.description().ports().map(|port| (plain(port.name), port.width)).collect();
@@ -259,9 +260,9 @@ impl Places {
             for (field, offset, width) in layout(port).map(|layout| fields(&layout, 0)).unwrap_or_default() {
                 let place = Place { port: port.clone(), offset, width };
                 wholes.push((plain(&format!("{port}_{field}")), Some(place.clone())));
-                // With a dot a name is a field in any case, also where a port has the other form of that name.
+                // A name with a dot is always a field, even if a port has the other form of that name.
                 wholes.push((format!("{port}.{field}"), Some(place.clone())));
-                // By itself, and without the structures around it.
+                // The field by itself, and without the structures around it.
                 for (start, _) in
                     std::iter::once((0, "")).chain(field.match_indices('.').map(|(at, dot)| (at + 1, dot)))
                 {
@@ -276,8 +277,8 @@ impl Places {
         Self(places)
     }
 
-    /// Where a name stands: a port, or a field of its structure. The name may be written with dots. `name[low+:width]`
-    /// stands for some of its bits.
+    /// Finds a port, or a field of its structure. The name may be written with dots. `name[low+:width]`
+    /// stands for some of the bits.
     pub fn find(&self, name: &str) -> Place {
         let Some((name, range)) = name.strip_suffix(']').and_then(|part| part.split_once('[')) else {
             return self.whole(name);
@@ -298,12 +299,13 @@ impl Places {
     }
 }
 
-/// The name of a port as tests write it: members of an interface stand behind its name.
+/// Name of a port as tests write it: members of an interface stand behind the interface's name.
 pub fn plain(name: &str) -> String {
     name.replace(['$', '.'], "_")
 }
 
-/// Names, places and widths of the fields of a structure, and of those of inner structures, behind the name of the field and a dot.
+/// Name, place and width of each field of a structure. Fields of inner structures stand behind the name
+/// of their field and a dot.
 fn fields(layout: &TypeDescriptor, start: u32) -> Vec<(String, u32, u32)> {
     let TypeKind::Composite(outer) = &layout.kind else { return Vec::new() };
     let mut found = Vec::new();
@@ -318,7 +320,7 @@ fn fields(layout: &TypeDescriptor, start: u32) -> Vec<(String, u32, u32)> {
     found
 }
 
-/// Bits of a value.
+/// Number of bits of a value.
 fn width_of(layout: &TypeDescriptor) -> u32 {
     match &layout.kind {
         TypeKind::Bits(width) | TypeKind::Signed(width) => *width as u32,
@@ -327,11 +329,16 @@ fn width_of(layout: &TypeDescriptor) -> u32 {
     }
 }
 
-/// Gives a block [`NamedPorts`]: its type, its inputs, its outputs, and `clock` if it has one. A signal of an interface is written
-/// with a dot: `command.valid`. Before the type may stand generic
-/// parameters in brackets, or none: `[]`.
+/// Implements [`NamedPorts`] for a block: its type, its inputs, its outputs, and `clock` if it has one. A signal
+/// of an interface is written with a dot: `command.valid`. Generic parameters stand in brackets before the type,
+/// or `[]` if there are none.
 macro_rules! named_ports {
-    ([$($generics:tt)*] $block:ty, [$($input:ident $(. $inner:ident)*),*], [$($output:ident $(. $outer:ident)*),*] $(, $clock:ident)?) => {
+    (
+        [$($generics:tt)*] $block:ty,
+        [$($input:ident $(. $inner:ident)*),*],
+        [$($output:ident $(. $outer:ident)*),*]
+        $(, $clock:ident)?
+    ) => {
         impl<$($generics)*> $crate::rig::block_ports::NamedPorts for $block {
             fn set(&mut self, port: &str, number: $crate::rig::block_ports::Whole) {
                 use $crate::rig::block_ports::PortValue;
@@ -345,15 +352,21 @@ macro_rules! named_ports {
             fn get(&self, port: &str) -> $crate::rig::block_ports::Whole {
                 use $crate::rig::block_ports::PortValue;
                 match port {
-                    $(concat!(stringify!($output) $(, "_", stringify!($outer))*) => self.$output$(.$outer)*.val().to_number(),)*
+                    $(concat!(stringify!($output) $(, "_", stringify!($outer))*) => {
+                        self.$output$(.$outer)*.val().to_number()
+                    })*
                     _ => panic!("no output {port}"),
                 }
             }
             fn layout(&self, port: &str) -> Option<rust_hdl_core::prelude::TypeDescriptor> {
                 use $crate::rig::block_ports::layout_of;
                 match port {
-                    $(concat!(stringify!($input) $(, "_", stringify!($inner))*) => layout_of(&self.$input$(.$inner)*),)*
-                    $(concat!(stringify!($output) $(, "_", stringify!($outer))*) => layout_of(&self.$output$(.$outer)*),)*
+                    $(concat!(stringify!($input) $(, "_", stringify!($inner))*) => {
+                        layout_of(&self.$input$(.$inner)*)
+                    })*
+                    $(concat!(stringify!($output) $(, "_", stringify!($outer))*) => {
+                        layout_of(&self.$output$(.$outer)*)
+                    })*
                     _ => None,
                 }
             }
@@ -374,14 +387,14 @@ pub fn settle(block: &mut impl Block, name: &str) {
     assert!(simulate(block, SETTLING_PASSES), "{name} does not settle");
 }
 
-/// Drives an input of the model of any width.
+/// Drives an input of the model, of any width.
 pub fn set_number(model: &mut Model, port: PortId, number: Whole) {
     let word = |place: u32| (number.quarter(place / 2) >> (32 * (place % 2))) as u32;
     let words: Vec<u32> = (0..port.width().div_ceil(32)).map(word).collect();
     model.set_wide(port, &words);
 }
 
-/// An output of the model as a number.
+/// Reads an output of the model as a number.
 pub fn number(model: &Model, port: PortId) -> Whole {
     let mut words = vec![0; port.width().div_ceil(32) as usize];
     model.get_wide(port, &mut words);

@@ -1,7 +1,7 @@
-//! Cavities that several contexts grow in one triangulation, as sets of triangles.
+//! A reference for cavities that several contexts grow in one triangulation, as sets of triangles.
 //!
-//! It knows no entry counts and no bits of half-open triangles: a visit is an element of what is out, a triangle of the cavity
-//! has a number of edges that nobody has passed, and the list of locks is a list.
+//! The reference has no counts of entries and no bits of half-open triangles. A visit is an element of a set, a
+//! triangle of the cavity has a number of edges that no conflict has passed, and the list of locks is a list.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,7 +9,7 @@ use crate::rig::flip_mesh::{Mesh, Point, Record};
 use crate::rig::stepper::bundles::{commit_job, release_job, Edge, Finding, LockFinding, Visit};
 use incircle_testkit::SplitMix64;
 
-/// A point to insert: where it is, the triangles that hold it, and those that it removes.
+/// A point to insert: its place, the triangles that hold it, and the triangles that it removes.
 #[derive(Clone, Debug)]
 pub struct Target {
     pub point: Point,
@@ -23,7 +23,7 @@ pub struct Ground {
     records: BTreeMap<u64, Record>,
 }
 
-/// Spreads numbers over 15 bits, no two to the same.
+/// Spreads numbers over 15 bits, no two to the same value.
 pub fn spread(number: u64) -> u64 {
     number * 0x5a6d % (1 << 15)
 }
@@ -42,7 +42,7 @@ impl Ground {
         Self { records: records.collect(), mesh }
     }
 
-    /// A point to insert, if it lies on no circle of the triangulation or on one of its points.
+    /// Returns the point as one to insert if it lies on no circle of the triangulation, or on one of its points.
     pub fn target(&self, point: Point) -> Option<Target> {
         let conflicts = |record: &Record| [0, 1, 2].map(|slot| self.mesh.conflicts(record.turned(slot).v, point));
         let is_decided = |record: &Record| conflicts(record).iter().all(|conflict| *conflict == conflicts(record)[0]);
@@ -54,26 +54,26 @@ impl Ground {
         })
     }
 
-    /// The record of a visit, as it is turned, and by how much.
+    /// Returns the record of a visit as it is turned, and the slot that comes first.
     pub fn read(&self, visit: &Visit) -> (Record, u64) {
-        let record = self.records[&visit.u];
-        let slot = if visit.rotates { record.slot_to(visit.f) } else { 0 };
+        let record = self.records[&visit.record];
+        let slot = if visit.rotates { record.slot_to(visit.cavity_record) } else { 0 };
         (record.turned(slot), slot as u64)
     }
 
-    /// Any triangle.
+    /// Returns a random triangle.
     pub fn somewhere(&self, random: &mut SplitMix64) -> u64 {
         spread(random.below(self.records.len() as u64))
     }
 
-    /// What a sound core finds out for this point, and a walk that wanders.
+    /// Returns what a sound core finds for this point; a walk may also wander.
     pub fn find(&self, visit: &Visit, target: &Target, random: &mut SplitMix64) -> Finding {
         let (record, _) = self.read(visit);
         let near = target.places[random.below(target.places.len() as u64) as usize];
         let is_corner = |v: &u64| self.mesh.points.get(*v as usize) == Some(&target.point);
         Finding {
             conflict: self.mesh.conflicts(record.v, target.point),
-            located: target.places.contains(&visit.u),
+            located: target.places.contains(&visit.record),
             falls_onto_corner: record.v.iter().any(is_corner),
             walk_next: if random.below(2) == 0 { near } else { self.somewhere(random) },
             is_left: random.below(2) == 0,
@@ -82,7 +82,7 @@ impl Ground {
     }
 }
 
-/// A visit that completes: what was read, and what was found out.
+/// A visit that completes, with the record that was read and the result.
 pub struct Completion {
     pub visit: Visit,
     pub record: Record,
@@ -91,21 +91,21 @@ pub struct Completion {
     pub finding: Finding,
 }
 
-/// What the machine around a context is at.
+/// State of the blocks around a context.
 pub struct Around {
     pub seeded: bool,
     pub ring: u64,
-    pub is_waiter: bool,
+    pub holds_priority: bool,
     pub is_busy: bool,
 }
 
-/// What must come out.
+/// Outputs that must follow a visit.
 #[derive(Default)]
 pub struct Outcome {
-    /// Visits, and the bundle that asks for them.
+    /// Number of visits that follow, and the bundle that asks for them.
     pub push: Option<(usize, u128)>,
     pub sleeps: bool,
-    pub keeps: bool,
+    pub will_retry: bool,
     pub root: Option<u64>,
     pub entry: Option<(u64, Edge)>,
     pub inner: Option<(u64, u64)>,
@@ -113,42 +113,42 @@ pub struct Outcome {
     pub commit: Option<u128>,
     pub triangles: u64,
     pub release: Option<u128>,
-    pub asks_to_wait: bool,
-    pub stops_waiting: bool,
+    pub asks_for_priority: bool,
+    pub returns_priority: bool,
     pub overflows: bool,
     pub duplicate: bool,
     pub looks: bool,
     pub revisit: bool,
-    pub gives_up: bool,
-    pub retries: bool,
+    pub aborts: bool,
+    pub root_changed: bool,
 }
 
-/// A cavity that grows.
+/// A cavity as it grows.
 #[derive(Clone, Debug, Default)]
 pub struct Growth {
     pub has_failed: bool,
     /// Locks, in the order in which they were taken.
     pub log: Vec<u64>,
     pub entries: BTreeMap<u64, Edge>,
-    /// The triangles of the cavity, with the edges of each that nobody has passed; the edge by which it was entered does not
-    /// count.
+    /// Triangles of the cavity, each with the number of its edges that no conflict has passed. The edge by which a
+    /// triangle was entered does not count.
     pub closed_edges: BTreeMap<u64, u64>,
     pub inner: Vec<u64>,
 }
 
-/// A context: the point it has, and the visits of it that are out.
+/// A context: its point, and those of its visits that are out.
 #[derive(Clone, Debug, Default)]
 pub struct Context {
-    pub owner: u64,
+    pub index: u64,
     pub target: usize,
-    pub p: u64,
+    pub vertex: u64,
     pub since: u64,
     pub out: Vec<Visit>,
     pub growth: Growth,
 }
 
 impl Context {
-    /// A visit of it completes, and is out no more.
+    /// Completes a visit of the context, which is not out any more.
     pub fn complete(&mut self, done: &Completion, around: &Around) -> Outcome {
         let mut outcome = match (done.visit.rotates, done.visit.locks) {
             (false, false) => self.complete_walk(done, around),
@@ -166,11 +166,11 @@ impl Context {
     fn push(&mut self, visits: &[Visit]) -> Option<(usize, u128)> {
         self.out.extend(visits);
         let [second, third] = [1, 2].map(|place| visits.get(place).copied().unwrap_or_default());
-        Some((visits.len(), visits[0].bundle(visits.len() as u64, second.after, second.u, third.u)))
+        Some((visits.len(), visits[0].bundle(visits.len() as u64, second.after, second.record, third.record)))
     }
 
     fn complete_walk(&mut self, done: &Completion, around: &Around) -> Outcome {
-        let look = Visit { owner: self.owner, ..Visit::look(done.finding.walk_next) };
+        let look = Visit { context: self.index, ..Visit::look(done.finding.walk_next) };
         if !around.seeded {
             return Outcome { looks: true, ..Outcome::default() };
         }
@@ -181,7 +181,7 @@ impl Context {
             return Outcome { push: self.push(&[look]), ..Outcome::default() };
         }
         if done.finding.falls_onto_corner {
-            return Outcome { duplicate: true, stops_waiting: true, ..Outcome::default() };
+            return Outcome { duplicate: true, returns_priority: true, ..Outcome::default() };
         }
         if around.is_busy {
             return Outcome { revisit: true, ..Outcome::default() };
@@ -190,31 +190,40 @@ impl Context {
     }
 
     fn complete_root(&mut self, done: &Completion, around: &Around) -> Outcome {
-        let u = done.visit.u;
-        let root = Some(u);
+        let record = done.visit.record;
+        let root = Some(record);
         if done.lock.foreign {
-            let waits = around.is_waiter;
+            let waits = around.holds_priority;
             return Outcome {
                 root,
                 revisit: waits,
-                keeps: !waits,
-                gives_up: !waits,
-                asks_to_wait: !waits,
+                will_retry: !waits,
+                aborts: !waits,
+                asks_for_priority: !waits,
                 ..Outcome::default()
             };
         }
-        let (lock, release) = (Some((0, u)), Some(release_job(self.owner, 1)));
+        let (lock, release) = (Some((0, record)), Some(release_job(self.index, 1)));
         if !done.finding.located {
             let root = Some(done.finding.walk_next);
-            return Outcome { root, lock, release, keeps: true, retries: true, ..Outcome::default() };
+            return Outcome { root, lock, release, will_retry: true, root_changed: true, ..Outcome::default() };
         }
         if done.finding.falls_onto_corner {
-            return Outcome { root, lock, release, duplicate: true, stops_waiting: true, ..Outcome::default() };
+            return Outcome { root, lock, release, duplicate: true, returns_priority: true, ..Outcome::default() };
         }
-        self.growth = Growth { log: vec![u], closed_edges: [(u, 3)].into(), ..Growth::default() };
-        let test = |x, after, neighbour| {
-            let f_entry = 0;
-            Visit { owner: self.owner, rotates: true, locks: true, x, after, f_entry, f: u, u: neighbour }
+        self.growth = Growth { log: vec![record], closed_edges: [(record, 3)].into(), ..Growth::default() };
+        let test = |entry, after, neighbour| {
+            let cavity_entry = 0;
+            Visit {
+                context: self.index,
+                rotates: true,
+                locks: true,
+                entry,
+                after,
+                cavity_entry,
+                cavity_record: record,
+                record: neighbour,
+            }
         };
         let [n0, n1, n2] = done.record.n;
         Outcome { root, lock, push: self.push(&[test(0, 1, n0), test(1, 2, n1), test(2, 0, n2)]), ..Outcome::default() }
@@ -224,17 +233,17 @@ impl Context {
         let mut outcome = Outcome::default();
         let visit = done.visit;
         if done.lock.took {
-            outcome.lock = Some((self.growth.log.len() as u64, visit.u));
-            self.growth.log.push(visit.u);
+            outcome.lock = Some((self.growth.log.len() as u64, visit.record));
+            self.growth.log.push(visit.record);
         }
         let is_full = self.growth.closed_edges.len() as u64 + 2 == around.ring;
         match (done.lock.foreign, done.finding.conflict) {
             _ if self.growth.has_failed => {}
-            (true, _) if around.is_waiter => outcome.revisit = true,
+            (true, _) if around.holds_priority => outcome.revisit = true,
             (true, _) => {
                 self.growth.has_failed = true;
-                outcome.gives_up = true;
-                outcome.asks_to_wait = true;
+                outcome.aborts = true;
+                outcome.asks_for_priority = true;
             }
             (false, true) if is_full => {
                 self.growth.has_failed = true;
@@ -242,10 +251,19 @@ impl Context {
             }
             (false, true) => self.pass(done, &mut outcome),
             (false, false) => {
-                let edge =
-                    Edge { a: spread(done.record.v[2]), u: visit.u, slot: done.slot, f: visit.f, after: visit.after };
-                assert!(self.growth.entries.insert(visit.x, edge).is_none(), "entry {} is final twice", visit.x);
-                outcome.entry = Some((visit.x, edge));
+                let edge = Edge {
+                    first_vertex: spread(done.record.v[2]),
+                    outside_record: visit.record,
+                    slot: done.slot,
+                    cavity_record: visit.cavity_record,
+                    after: visit.after,
+                };
+                assert!(
+                    self.growth.entries.insert(visit.entry, edge).is_none(),
+                    "entry {} is final twice",
+                    visit.entry
+                );
+                outcome.entry = Some((visit.entry, edge));
             }
         }
         if self.out.is_empty() && !outcome.revisit {
@@ -254,38 +272,38 @@ impl Context {
         outcome
     }
 
-    /// The cavity grows through the edge of a visit.
+    /// Grows the cavity through the edge of a visit.
     fn pass(&mut self, done: &Completion, outcome: &mut Outcome) {
         let visit = done.visit;
         let y = self.growth.closed_edges.len() as u64 + 2;
-        let behind = self.growth.closed_edges.get_mut(&visit.f).expect("a triangle of the cavity");
+        let behind = self.growth.closed_edges.get_mut(&visit.cavity_record).expect("a triangle of the cavity");
         *behind -= 1;
         if *behind == 0 {
-            outcome.inner = Some((self.growth.inner.len() as u64, visit.f));
-            self.growth.inner.push(visit.f);
+            outcome.inner = Some((self.growth.inner.len() as u64, visit.cavity_record));
+            self.growth.inner.push(visit.cavity_record);
         }
-        assert!(self.growth.closed_edges.insert(visit.u, 2).is_none(), "the cavity meets itself");
+        assert!(self.growth.closed_edges.insert(visit.record, 2).is_none(), "the cavity meets itself");
         let [_, n1, n2] = done.record.n;
-        let half = Visit { f: visit.u, f_entry: y, ..visit };
-        outcome.push = self.push(&[Visit { after: y, u: n1, ..half }, Visit { x: y, u: n2, ..half }]);
+        let half = Visit { cavity_record: visit.record, cavity_entry: y, ..visit };
+        outcome.push = self.push(&[Visit { after: y, record: n1, ..half }, Visit { entry: y, record: n2, ..half }]);
     }
 
     fn end(&mut self, outcome: &mut Outcome) {
         let locks = self.growth.log.len() as u64;
         if self.growth.has_failed {
-            outcome.keeps = true;
-            outcome.release = Some(release_job(self.owner, locks));
+            outcome.will_retry = true;
+            outcome.release = Some(release_job(self.index, locks));
         } else {
-            outcome.stops_waiting = true;
+            outcome.returns_priority = true;
             outcome.triangles = self.growth.closed_edges.len() as u64;
             let inners = self.growth.inner.len() as u64;
-            outcome.commit = Some(commit_job(self.owner, self.p, inners, locks, self.since));
+            outcome.commit = Some(commit_job(self.index, self.vertex, inners, locks, self.since));
         }
     }
 }
 
 impl Growth {
-    /// The ring is that of the cavity, by what the triangulation says alone.
+    /// Checks that the ring is that of the cavity, by the triangulation alone.
     pub fn assert_ring(&self, ground: &Ground, target: &Target) {
         let cavity: BTreeSet<u64> = self.closed_edges.keys().copied().collect();
         assert_eq!(cavity, target.cavity);
@@ -293,22 +311,22 @@ impl Growth {
         let mut place = 0;
         for _ in 0..self.entries.len() {
             let edge = self.entries[&place];
-            let outside = ground.records[&edge.u].turned(edge.slot as usize);
-            assert!(!cavity.contains(&edge.u) && cavity.contains(&edge.f));
-            assert_eq!((outside.n[0], spread(outside.v[2])), (edge.f, edge.a));
-            // The next edge begins where this one ends.
-            assert_eq!(self.entries[&edge.after].a, spread(outside.v[1]));
+            let outside = ground.records[&edge.outside_record].turned(edge.slot as usize);
+            assert!(!cavity.contains(&edge.outside_record) && cavity.contains(&edge.cavity_record));
+            assert_eq!((outside.n[0], spread(outside.v[2])), (edge.cavity_record, edge.first_vertex));
+            // The next edge begins at the end of this one.
+            assert_eq!(self.entries[&edge.after].first_vertex, spread(outside.v[1]));
             place = edge.after;
         }
         assert_eq!(place, 0, "the ring closes after its last edge and not before");
-        let starts: BTreeSet<u64> = self.entries.values().map(|edge| edge.a).collect();
+        let starts: BTreeSet<u64> = self.entries.values().map(|edge| edge.first_vertex).collect();
         assert_eq!(starts.len(), self.entries.len());
 
-        let has_boundary = |id: &u64| self.entries.values().any(|edge| edge.f == *id);
+        let has_boundary = |id: &u64| self.entries.values().any(|edge| edge.cavity_record == *id);
         let inner: BTreeSet<u64> = cavity.iter().copied().filter(|id| !has_boundary(id)).collect();
         assert_eq!(self.inner.iter().copied().collect::<BTreeSet<_>>(), inner);
         assert_eq!(self.inner.len(), inner.len());
-        let around = self.entries.values().map(|edge| edge.u);
+        let around = self.entries.values().map(|edge| edge.outside_record);
         let touched: BTreeSet<u64> = cavity.iter().copied().chain(around).collect();
         assert_eq!(self.log.iter().copied().collect::<BTreeSet<_>>(), touched);
         assert_eq!(self.log.len(), touched.len(), "every lock is logged once");

@@ -1,34 +1,34 @@
-//! The command port as a list of words that are still wanted.
+//! A reference for the command port: a list of the words that it still wants.
 
 use std::collections::VecDeque;
 
 use crate::rig::stepper::bundles::Deal;
 use incircle_protocol::{command_starts_batch, Opcode, FIRST_ROUND, PADDING};
 
-/// Points that the core holds, and contexts that it has.
+/// Capacity of the core, and number of its contexts.
 #[derive(Clone, Copy, Debug)]
 pub struct Shape {
     pub capacity: u32,
     pub contexts: u32,
 }
 
-/// The engine and the responder as the port sees them.
+/// State of the engine and of the responder, as the port sees them.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Surroundings {
     pub sweeping: u64,
-    /// Clocks until all points are in.
+    /// Clocks until all points are inserted.
     pub busy: u64,
     pub triple_is_in: bool,
     pub seeded: bool,
     pub collinear: bool,
-    /// Nothing is finished any more.
+    /// The core is stuck: no insertion ends any more.
     pub stuck: bool,
     /// Clocks until the answer ends.
     pub answering: u64,
     pub answer_is_taken: bool,
 }
 
-/// What the next command word means.
+/// Meaning of the next command word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Meaning {
     Command,
@@ -37,11 +37,11 @@ pub enum Meaning {
     Point,
 }
 
-/// The port as a list of words that it still wants, and what has come of them.
+/// The port as a list of words that it still wants, and the results of those that came.
 #[derive(Clone, Debug, Default)]
 pub struct Reference {
     pub wants: VecDeque<Meaning>,
-    /// Of the command at work.
+    /// Opcode of the command at work.
     pub opcode: Option<u8>,
     pub first: Option<u32>,
     pub count: Option<u32>,
@@ -49,15 +49,15 @@ pub struct Reference {
     pub refused: u32,
     /// The last point is refused, and counted at the next edge.
     pub is_surplus: bool,
-    /// The point that came with the last edge: id and word.
+    /// Id and word of the point that came with the last edge.
     pub came: Option<(u32, u32)>,
     pub clears: bool,
-    /// Contexts that work.
+    /// Number of contexts that work.
     pub contexts: u32,
     pub is_batch: bool,
     pub dealt_from: u64,
     pub is_refused: Option<bool>,
-    /// All words of the command have come; an insert settles first.
+    /// All words of the command have come; an insert settles before it is answered.
     pub is_complete: bool,
     pub settles: bool,
     pub answers: bool,
@@ -80,17 +80,17 @@ impl Reference {
         }
     }
 
-    /// The engine looks at the first three points.
+    /// True while the engine looks at the first three points.
     pub fn start_is_open(&self, around: &Surroundings) -> bool {
         self.arrived == 3 && !around.seeded && !around.collinear
     }
 
-    /// The first vertex that is dealt follows a clock after the rest.
+    /// Deal of points to contexts; the first vertex that is dealt follows a clock after the rest.
     pub fn deal(&self) -> Deal {
         Deal { contexts: self.contexts.into(), is_batch: self.is_batch, dealt_from: self.dealt_from }
     }
 
-    /// An answer is due, and no memory is about to be cleared.
+    /// True if an answer is due and no memory is about to be cleared.
     pub fn answers_now(&self) -> bool {
         self.answers && !self.clears
     }
@@ -140,7 +140,7 @@ impl Reference {
         }
     }
 
-    /// A rising edge, at which `word` is taken if there is one.
+    /// Passes a rising edge, at which `word` is taken if there is one.
     pub fn edge(&mut self, word: Option<u32>, pins: Pins, around: &Surroundings, shape: Shape) {
         let was = self.clone();
         self.dealt_from = if was.is_batch { 3 * u64::from(was.contexts) } else { FIRST_ROUND.into() };

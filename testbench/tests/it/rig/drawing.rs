@@ -7,24 +7,24 @@ use crate::rig::stepper::{Cell, Stepper, Wave};
 use incircle_testbench::blocks;
 use verilated::Direction;
 
-/// When a lane shows something.
+/// Clocks in which a lane shows a value.
 #[derive(Clone, Copy)]
 pub enum When {
     Always,
-    /// While bit 0 of this port is set.
+    /// Clocks in which bit 0 of this port is set.
     If(&'static str),
-    /// In these clocks.
+    /// These clocks and no others.
     At(&'static [usize]),
 }
 
-/// A line of a wave: its name, and where it comes from: port, lowest bit, width. One bit is drawn as a level.
+/// A line of a wave: its name, its port, lowest bit and width, and its clocks. A single bit is drawn as a level.
 pub type Lane = (&'static str, &'static str, u32, u32, When);
 
-/// Values of inputs in some clocks; in all others they are zero.
+/// Values of inputs in some clocks: clock, port, value. In all other clocks an input is zero.
 pub type Stimuli = [(usize, &'static str, u128)];
 
-/// Clocks with `reset` and nothing else before a wave: as many as a visit takes through the lock store, which forgets
-/// nothing at reset.
+/// Clocks with `reset` and nothing else before a wave. They are as many as a visit takes through the lock store, which
+/// does not forget its visits at reset.
 const CLOCKS_BEFORE: usize = 4;
 
 /// Runs `clocks` clocks after [`CLOCKS_BEFORE`], and draws them.

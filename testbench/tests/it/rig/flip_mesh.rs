@@ -1,13 +1,14 @@
-//! A mesh of the test's own: insertion by recursive flips, written as a list of writes, and exact checks that share no formula
-//! with the core.
+//! A mesh for comparison: insertion by recursive flips, written down as a list of writes, and exact checks that
+//! share no formula with the core.
 
 use std::collections::BTreeSet;
 
-/// A grid point; compared by `x`, then by `y`.
+/// A grid point; points compare by `x`, then by `y`.
 pub type Point = (i64, i64);
-/// The infinite vertex.
+/// Number of the infinite vertex.
 pub const INFINITE: u64 = 0x7fff;
 
+/// A record: its vertices `v`, counter-clockwise, and opposite each the id of a neighbour `n`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Record {
     pub v: [u64; 3],
@@ -15,7 +16,7 @@ pub struct Record {
 }
 
 impl Record {
-    /// The slot that leads to `id`; the first if none does.
+    /// Slot of the neighbour `id`, or the first slot if no neighbour has this id.
     pub fn slot_to(&self, id: u64) -> usize {
         self.n.iter().position(|n| *n == id).unwrap_or(0)
     }
@@ -26,20 +27,21 @@ impl Record {
     }
 }
 
-/// A write: a record, or one link.
+/// A write to the mesh: a whole record, or one neighbour of a record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Written {
     Record(u64, Record),
     Link { id: u64, slot: u64, value: u64 },
 }
 
+/// The points and the records of a mesh.
 #[derive(Clone, Debug, Default)]
 pub struct Mesh {
     pub points: Vec<Point>,
     pub records: Vec<Record>,
 }
 
-/// What an insertion does.
+/// Writes, tests and flips of an insertion.
 #[derive(Clone, Debug, Default)]
 pub struct Deeds {
     pub writes: Vec<Written>,
@@ -47,13 +49,14 @@ pub struct Deeds {
     pub flips: usize,
 }
 
-/// Twice the signed area, by the shoelace formula.
+/// Twice the signed area of a triangle, by the shoelace formula.
 fn area(a: Point, b: Point, c: Point) -> i128 {
     let corner = |u: Point, v: Point| i128::from(u.0 * v.1 - v.0 * u.1);
     corner(a, b) + corner(b, c) + corner(c, a)
 }
 
-/// The determinant of the points lifted to a paraboloid: positive if `p` lies inside the circle of a counter-clockwise triangle.
+/// Determinant of the points lifted to a paraboloid: positive if `p` lies inside
+/// the circle of a counter-clockwise triangle.
 fn lifted(triangle: [Point; 3], p: Point) -> i128 {
     let [a, b, c] = triangle.map(|q| {
         let (x, y) = (i128::from(q.0 - p.0), i128::from(q.1 - p.1));
@@ -63,7 +66,7 @@ fn lifted(triangle: [Point; 3], p: Point) -> i128 {
 }
 
 impl Mesh {
-    /// Three points that turn left.
+    /// Makes the mesh of three points that turn left.
     pub fn of(points: [Point; 3]) -> Self {
         let inf = INFINITE;
         let record = |v, n| Record { v, n };
@@ -82,13 +85,13 @@ impl Mesh {
         self.points[vertex as usize]
     }
 
-    /// The hull edge of a ghost, outside on its left.
+    /// End points of the hull edge of a ghost triangle, with the outside on its left; `None` for a finite triangle.
     fn hull_edge(&self, v: [u64; 3]) -> Option<(Point, Point)> {
         let place = v.iter().position(|v| *v == INFINITE)?;
         Some((self.at(v[(place + 1) % 3]), self.at(v[(place + 2) % 3])))
     }
 
-    /// Whether `p` removes this record, turned so that its edge `v1 v2` faces `p`.
+    /// True if `p` removes this record, which is turned so that its edge `v1 v2` faces `p`.
     pub fn conflicts(&self, v: [u64; 3], p: Point) -> bool {
         if let Some((a, b)) = self.hull_edge(v) {
             let side = area(a, b, p);
@@ -96,13 +99,13 @@ impl Mesh {
         }
         let [apex, a, b] = v.map(|v| self.at(v));
         match lifted([apex, a, b], p) {
-            // The diagonal takes the smallest of the four.
+            // By the tie rule, the diagonal starts at the smallest of the four points.
             0 => [apex, p].contains(&[apex, a, b, p].into_iter().min().unwrap_or(p)),
             inside => inside > 0,
         }
     }
 
-    /// A finite triangle that holds `p`, or a ghost strictly beyond whose edge it lies; all there are.
+    /// All finite triangles that hold `p`, and all ghost triangles with `p` strictly beyond their edge.
     pub fn places_of(&self, p: Point) -> Vec<u64> {
         let holds = |record: &Record| match self.hull_edge(record.v) {
             Some((a, b)) => area(a, b, p) > 0,
@@ -129,7 +132,7 @@ impl Mesh {
         deeds.writes.push(written);
     }
 
-    /// Inserts a point in `root` and says how.
+    /// Inserts a point that lies in `root`, and returns the writes.
     pub fn insert(&mut self, point: Point, root: u64) -> Deeds {
         let p = self.points.len() as u64;
         self.points.push(point);
@@ -147,14 +150,14 @@ impl Mesh {
             self.does(&mut deeds, Written::Link { id, slot, value });
         }
         for id in ids {
-            // The flips of an earlier edge may have given this star triangle another neighbour, never another id.
+            // Flips of an earlier edge may have given this star triangle another neighbour, but never another id.
             self.legalise(&mut deeds, id, id);
         }
         deeds
     }
 
-    /// Makes the outer edge of star triangle `id` right, and all that follow from it, from its first vertex to its last; the
-    /// triangle outside knows the star as `back`.
+    /// Flips the outer edge of star triangle `id` if it must go, and then all edges that follow from it, from its first
+    /// vertex to its last. The triangle outside knows the star as `back`.
     fn legalise(&mut self, deeds: &mut Deeds, id: u64, back: u64) {
         deeds.tests += 1;
         let star = self.records[id as usize];
@@ -179,7 +182,8 @@ impl Mesh {
         self.legalise(deeds, outer, outer);
     }
 
-    /// Every link leads back, every edge has two ends in common, and no point lies inside any circle: exact, over all pairs.
+    /// Checks over all pairs, exactly: every link leads back, both ends of every edge agree, and
+    /// no point lies inside any circle.
     pub fn assert_delaunay(&self) {
         assert_eq!(self.records.len(), 2 * self.points.len() - 2);
         let mut edges = BTreeSet::new();

@@ -7,7 +7,7 @@ pub const ID: u32 = 15;
 
 pub const LAST_ID: u64 = (1 << ID) - 1;
 
-/// Ids that meet often in their low bits, with anything above them.
+/// Returns random ids whose low bits are often equal, with random bits above them.
 pub fn id(numbers: &mut SplitMix64, stored_bits: u32) -> u64 {
     let near = [0, LAST_ID - 3][numbers.bits(1) as usize] ^ numbers.bits(2);
     if stored_bits == ID {

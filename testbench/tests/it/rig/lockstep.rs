@@ -1,4 +1,5 @@
-//! Runs jobs on a pair of core and model, compares the answers with the model by commands, and on a mismatch leaves a waveform.
+//! Runs jobs on a pair of core and model, compares the answers with those of the model by commands, and
+//! leaves a waveform of a mismatch.
 
 use incircle::Point;
 use incircle_model::{CommandModel, Inputs};
@@ -10,7 +11,7 @@ use incircle_testbench::lockstep::{Job, Lockstep, Mismatch, Stalls};
 use incircle_testkit::{canonical, generate, Distribution, SplitMix64, StoredRecord};
 use std::path::PathBuf;
 
-/// A point as its word.
+/// A point as a command word.
 pub fn word(x: u64, y: u64) -> u32 {
     x as u32 | (y as u32) << 16
 }
@@ -41,7 +42,7 @@ fn make_first_three_span(points: &mut [Point]) {
     }
 }
 
-/// A pair that runs one job after the other.
+/// A pair of core and model that runs one job after another.
 pub struct Rig {
     name: &'static str,
     config: Config,
@@ -66,31 +67,31 @@ impl Rig {
         }
     }
 
-    /// Out of the state that an ECP5 has after configuration.
+    /// Makes the pair in the state that an ECP5 has after configuration.
     pub fn configured(name: &'static str, config: Config) -> Self {
         Self { pair: Lockstep::configured(name, config), ..Self::new(name, config, 1) }
     }
 
-    /// Another random initial state.
+    /// Starts again from another random initial state.
     pub fn start_anew(&mut self, salt: u32) {
         self.clocks += self.pair.clocks();
         self.seed = self.seed.wrapping_mul(31).wrapping_add(salt);
         self.pair = Lockstep::new(self.name, self.config, self.seed);
     }
 
-    /// Holds that the test ran as long as it is meant to.
+    /// Checks that the test ran for at least so many clocks.
     pub fn expect_clocks(&mut self, least: u64) {
         self.clocks += self.pair.clocks();
         println!("{}: {} clocks", self.name, self.clocks);
         assert!(self.clocks >= least, "{} clocks, {least} are meant", self.clocks);
     }
 
-    /// A counter summed over all jobs.
+    /// Value of a counter summed over all jobs.
     pub fn counted(&self, counter: Counter) -> u64 {
         self.counters[counter as usize]
     }
 
-    /// A whole job with this many contexts (0: all): insert in pieces, read all, latencies, counters.
+    /// Runs a whole job with this many contexts (0 for all): insert in pieces, read everything, latencies, counters.
     pub fn run(&mut self, points: &[u32], piece: usize, contexts: u32, stalls: Stalls) {
         let job = Job::of(points, piece, contexts, self.config);
         let answers = self.execute(&job, stalls);
@@ -102,8 +103,8 @@ impl Rig {
         self.compare(points, piece, &answers, &expected);
     }
 
-    /// What the core answers, against the model by commands, which knows no clock and no contexts: all reports are the same and all
-    /// meshes, under whatever ids.
+    /// Compares the core's answers with those of the model by commands, which knows no clock and no contexts: all
+    /// reports are equal, and all meshes apart from their ids.
     fn compare(&self, points: &[u32], piece: usize, answers: &[u32], expected: &[u32]) {
         let reports = points.chunks(piece.max(1)).len() * (2 + INSERT_REPORT_WORDS);
         let triangles = 2 + IDENTITY_WORDS + 2 + reports;
@@ -136,10 +137,12 @@ impl Rig {
         assert!(timed <= answers[counters + Counter::Insertions as usize], "{timed} latencies");
     }
 
-    /// Any commands; `Counters` answers may hold cycles, so answers are compared clock by clock only.
+    /// Runs any commands. `Counters` answers may hold cycles, so these answers are compared with
+    /// the model clock by clock only.
     pub fn run_commands(&mut self, commands: &[u32], stalls: Stalls) {
         let mut job = Job { commands: commands.to_vec(), answers: 0 };
-        // The pair keeps its mesh from run to run, so the number of answer words comes from running dry.
+        // The pair keeps its mesh from run to run, so the number of answer words is known only
+        // when no more of them come.
         self.execute(&job, stalls);
         job.commands.clear();
         for _ in 0..400 {
@@ -147,7 +150,7 @@ impl Rig {
         }
     }
 
-    /// Part of a job, then a reset at some clock.
+    /// Runs a part of a job, then resets at some clock.
     pub fn run_and_reset(&mut self, points: &[u32], clocks: u64, stalls: Stalls) {
         let job = Job::of(points, 40, 0, self.config);
         let mut rest = job.commands.as_slice();
@@ -196,7 +199,7 @@ impl Rig {
     fn by_commands(&self, job: &Job) -> Vec<u32> {
         let mut model = CommandModel::new(CORE_COORD_BITS, self.config.points, self.config.ring)
             .unwrap_or_else(|error| panic!("{error}"));
-        // It has one context, whatever the core has.
+        // The model by commands has one context, however many the core has.
         let mut commands = job.commands.clone();
         commands[1] = command_word(Opcode::Clear);
         model.send(&commands);

@@ -1,4 +1,4 @@
-//! What the tests of memories share: both forms, stimuli, and a memory as an array.
+//! Helpers for the tests of memories: both forms of a block, stimuli, and a memory as an array.
 
 use crate::rig::stepper::{Expected, NamedPorts};
 use incircle_testkit::SplitMix64;
@@ -8,12 +8,12 @@ const CYCLES: usize = 20_000;
 
 pub const MEMORY_PORTS: [&str; 4] = ["write_address", "write_data", "write_enable", "read_address"];
 
-/// The model of a block as neutral Verilog, and that with the primitives of the ECP5.
+/// Names of the models of a block: neutral Verilog, and Verilog with the primitives of the ECP5.
 pub fn both_forms(name: &str) -> [String; 2] {
     [name.to_string(), format!("{name}_ecp5")]
 }
 
-/// Runs a block in Rust alone.
+/// Runs one clock of a block in Rust alone.
 pub fn edge(block: &mut impl NamedPorts, inputs: &[(&str, u64)]) {
     for (port, value) in inputs {
         block.set(port, u128::from(*value).into());
@@ -24,7 +24,7 @@ pub fn edge(block: &mut impl NamedPorts, inputs: &[(&str, u64)]) {
     }
 }
 
-/// Random reads and writes; a read never meets a write of the same word.
+/// Random reads and writes in which a read never meets a write of the same word.
 pub fn memory_stimuli(port_bits: usize, data_bits: usize, word_bits: usize) -> Vec<Vec<u64>> {
     let mut numbers = SplitMix64::new(2);
     let word = (1 << word_bits) - 1;
@@ -40,7 +40,7 @@ pub fn memory_stimuli(port_bits: usize, data_bits: usize, word_bits: usize) -> V
         .collect()
 }
 
-/// A memory as an array: the word that the inputs of a cycle read, and then its write.
+/// A memory as an array: returns the word that the inputs of a cycle read, then does their write.
 pub fn memory_reference(address_bits: usize, stored_bits: usize) -> impl FnMut(&[u64]) -> Expected {
     let mut words: Vec<Expected> = vec![None; 1 << address_bits];
     let last = words.len() - 1;

@@ -1,4 +1,5 @@
-//! Finished rings of random cavities, grown as a cavity grows: a triangle joins behind one edge of the boundary and brings two.
+//! Makes finished rings of random cavities in the way in which a cavity grows: a triangle joins behind one edge of
+//! the boundary and brings two edges.
 
 use std::collections::{btree_map::Entry, BTreeMap};
 
@@ -6,60 +7,63 @@ use incircle_testkit::SplitMix64;
 
 use crate::rig::stepper::bundles::{commit_job, Edge};
 
-/// Ids of cavity triangles start here; ids below are free for new records.
+/// Lowest id of a cavity record; ids below are free for new records.
 pub const OLD_IDS: u64 = 1 << 14;
 
-/// A finished ring of a context.
+/// The finished ring of a context.
 #[derive(Clone, Debug, Default)]
 pub struct Ring {
-    pub owner: u64,
-    pub p: u64,
+    pub context: u64,
+    pub vertex: u64,
     pub locks: u64,
     pub since: u64,
-    /// Entries by number; the ring starts at 0.
+    /// Entries by number; the ring starts at entry 0.
     pub entries: Vec<Edge>,
-    /// Triangles of the cavity that have no edge on its boundary, in the order in which they lost the last one.
+    /// Triangles of the cavity that have no edge on its boundary, in the order in which they lost their last one.
     pub inner: Vec<u64>,
 }
 
 impl Ring {
-    /// A ring of this many edges.
-    pub fn random(edges: usize, owner: u64, random: &mut SplitMix64) -> Self {
+    /// Makes a ring with this many edges.
+    pub fn random(edges: usize, context: u64, random: &mut SplitMix64) -> Self {
         let mut edges_of = BTreeMap::new();
         let root = new_triangle(3, &mut edges_of, random);
-        let mut entries: Vec<Edge> = [1, 2, 0].map(|after| Edge { f: root, after, ..Edge::default() }).to_vec();
+        let mut entries: Vec<Edge> =
+            [1, 2, 0].map(|after| Edge { cavity_record: root, after, ..Edge::default() }).to_vec();
         let mut inner = Vec::new();
         while entries.len() < edges {
-            let x = random.below(entries.len() as u64) as usize;
-            let passed = entries[x];
-            let open = edges_of.get_mut(&passed.f).expect("a triangle of the cavity");
+            let place = random.below(entries.len() as u64) as usize;
+            let passed = entries[place];
+            let open = edges_of.get_mut(&passed.cavity_record).expect("a triangle of the cavity");
             *open -= 1;
             if *open == 0 {
-                inner.push(passed.f);
+                inner.push(passed.cavity_record);
             }
-            let f = new_triangle(2, &mut edges_of, random);
-            entries.push(Edge { f, ..passed });
-            entries[x] = Edge { f, after: entries.len() as u64 - 1, ..passed };
+            let cavity_record = new_triangle(2, &mut edges_of, random);
+            entries.push(Edge { cavity_record, ..passed });
+            entries[place] = Edge { cavity_record, after: entries.len() as u64 - 1, ..passed };
         }
         for entry in &mut entries {
-            (entry.a, entry.u, entry.slot) = (random.below(1 << 15), random.below(1 << 15), random.below(3));
+            (entry.first_vertex, entry.outside_record, entry.slot) =
+                (random.below(1 << 15), random.below(1 << 15), random.below(3));
         }
-        let (p, locks, since) = (random.below(1 << 15), 1 + random.below(126), random.below(1 << 22));
-        Self { owner, p, locks, since, entries, inner }
+        let (vertex, locks, since) = (random.below(1 << 15), 1 + random.below(126), random.below(1 << 22));
+        Self { context, vertex, locks, since, entries, inner }
     }
 
-    /// As a `CommitJob`.
+    /// The ring's job for the commit, packed as a `CommitJob`.
     pub fn job(&self) -> u128 {
-        commit_job(self.owner, self.p, self.inner.len() as u64, self.locks, self.since)
+        commit_job(self.context, self.vertex, self.inner.len() as u64, self.locks, self.since)
     }
 
-    /// The triangle behind the entry with this place in the order lies behind the one before it or the first one too.
+    /// True if the entry at this place in the order has the same cavity record as the entry before
+    /// it or as the first one.
     pub fn shares(&self, place: usize) -> bool {
         let order = self.in_order();
-        place > 0 && [order[place - 1].f, order[0].f].contains(&order[place].f)
+        place > 0 && [order[place - 1].cavity_record, order[0].cavity_record].contains(&order[place].cavity_record)
     }
 
-    /// The entries from entry 0 on.
+    /// Entries in the order of the ring, from entry 0 on.
     pub fn in_order(&self) -> Vec<Edge> {
         let mut ring = vec![self.entries[0]];
         while ring[ring.len() - 1].after != 0 {
@@ -69,7 +73,7 @@ impl Ring {
     }
 }
 
-/// Lengths of rings, the shortest and the longest among them.
+/// Returns random lengths of rings, often the shortest or the longest.
 pub fn random_length(longest: u64, random: &mut SplitMix64) -> usize {
     let length = match random.below(8) {
         0 => 3,
@@ -79,7 +83,7 @@ pub fn random_length(longest: u64, random: &mut SplitMix64) -> usize {
     length as usize
 }
 
-/// An id that no triangle of the cavity has yet, with so many edges on the boundary.
+/// Returns an id that no triangle of the cavity has yet, and gives it `edges` edges on the boundary.
 fn new_triangle(edges: u32, edges_of: &mut BTreeMap<u64, u32>, random: &mut SplitMix64) -> u64 {
     loop {
         let id = OLD_IDS + random.below(OLD_IDS);

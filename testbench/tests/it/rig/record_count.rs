@@ -1,17 +1,17 @@
-//! The count of records, as the test of a commit keeps it.
+//! The number of records, as the test of a commit keeps it.
 
 use std::collections::VecDeque;
 
-/// The count of records: what is known of it at each clock.
+/// The count of records: `fresh` with those that are about to be written, `records` without them.
 #[derive(Default)]
 pub struct Count {
     pub fresh: u64,
     pub records: u64,
-    /// Rings that have ended and do not count as written yet: the clocks left, and what is written then.
+    /// Rings that have ended and do not count as written yet: the clocks left, and the number of records written then.
     ended: VecDeque<(u32, u64)>,
 }
 
-/// What happens to the count at an edge.
+/// Events at an edge that change the number.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Event {
     pub takes: bool,
@@ -50,7 +50,7 @@ impl Count {
         }
     }
 
-    /// Nothing is at work, and all that has been is written.
+    /// True if nothing is at work, and all records count as written.
     pub fn is_settled(&self) -> bool {
         self.ended.is_empty() && self.fresh == self.records
     }

@@ -2,12 +2,12 @@
 
 use std::collections::VecDeque;
 
-/// The check sum of Ethernet and zip, a bit at a time.
+/// The check sum of Ethernet and zip, computed one bit at a time.
 pub fn crc32(bytes: &[u8]) -> u32 {
     !crc32_state(bytes)
 }
 
-/// Its state before the final complement.
+/// State of the check sum before its final complement.
 pub fn crc32_state(bytes: &[u8]) -> u32 {
     bytes.iter().fold(u32::MAX, |state, byte| {
         (0..8).fold(
@@ -23,7 +23,7 @@ pub fn crc32_state(bytes: &[u8]) -> u32 {
     })
 }
 
-/// Bytes in COBS, with the zero behind them.
+/// Encodes bytes in COBS, with the zero behind them.
 pub fn cobs(bytes: &[u8]) -> Vec<u8> {
     let mut encoded = Vec::new();
     let mut pieces = bytes.split(|byte| *byte == 0).peekable();
@@ -40,7 +40,7 @@ pub fn cobs(bytes: &[u8]) -> Vec<u8> {
     encoded
 }
 
-/// Bytes out of reverse COBS, without the zero behind them; nothing if they are no frame.
+/// Decodes bytes from reverse COBS, without the zero behind them; `None` if they are no frame.
 pub fn from_reverse_cobs(mut encoded: &[u8]) -> Option<Vec<u8>> {
     let mut reversed = Vec::new();
     let mut owes_zero = false;
@@ -57,7 +57,7 @@ pub fn from_reverse_cobs(mut encoded: &[u8]) -> Option<Vec<u8>> {
     Some(reversed)
 }
 
-/// Bytes in reverse COBS, with the zero behind them.
+/// Encodes bytes in reverse COBS, with the zero behind them.
 pub fn reverse_cobs(bytes: &[u8]) -> Vec<u8> {
     let mut encoded = Vec::new();
     let mut length = 1;
@@ -73,7 +73,7 @@ pub fn reverse_cobs(bytes: &[u8]) -> Vec<u8> {
     encoded
 }
 
-/// The bytes of a frame towards the device before they are encoded.
+/// Bytes of a frame to the device before they are encoded.
 pub fn host_frame(session: u8, kind: u8, number: u8, payload: &[u8]) -> Vec<u8> {
     let [low, high] = (payload.len() as u16).to_le_bytes();
     let mut bytes = [&[session, kind, number, low, high], payload].concat();
@@ -81,7 +81,7 @@ pub fn host_frame(session: u8, kind: u8, number: u8, payload: &[u8]) -> Vec<u8> 
     bytes
 }
 
-/// A frame from the device.
+/// A frame from the device, as the host heard it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Heard {
     pub session: u8,
@@ -94,7 +94,7 @@ pub struct Heard {
 }
 
 impl Heard {
-    /// The frame in these bytes, without the zero behind them; nothing if they are none.
+    /// Decodes a frame, without the zero behind it; `None` if the bytes are no sound frame.
     pub fn parse(encoded: &[u8]) -> Option<Self> {
         let bytes = from_reverse_cobs(encoded)?;
         let (covered, sum) = bytes.split_last_chunk::<4>()?;
@@ -116,11 +116,11 @@ impl Heard {
     }
 }
 
-/// Bits onto a line, each of which takes a number of clocks that need not be whole.
+/// Puts bits onto a line; each takes a number of clocks that need not be whole.
 pub struct Talker {
     pub clocks_per_bit: f64,
     bits: VecDeque<bool>,
-    /// Time left of the bit on the line.
+    /// Clocks left of the bit on the line.
     left: f64,
     level: bool,
 }
@@ -138,7 +138,7 @@ impl Talker {
         }
     }
 
-    /// So many bits of this level.
+    /// Holds this level for so many bits.
     pub fn hold(&mut self, level: bool, bits: usize) {
         self.bits.extend(std::iter::repeat_n(level, bits));
     }
@@ -147,7 +147,7 @@ impl Talker {
         self.bits.is_empty() && self.left <= 0.0
     }
 
-    /// The line in the next clock.
+    /// Level of the line in the next clock.
     pub fn clock(&mut self) -> bool {
         if self.left <= 0.0 {
             match self.bits.pop_front() {
@@ -167,7 +167,7 @@ impl Talker {
     }
 }
 
-/// Bytes from a line, sampled in the middle of bits.
+/// Takes bytes from a line, which it samples in the middle of bits.
 pub struct Listener {
     pub clocks_per_bit: f64,
     /// Clocks since the start bit began.
@@ -175,7 +175,7 @@ pub struct Listener {
     bits: Vec<bool>,
     /// Bytes that have come.
     pub bytes: Vec<u8>,
-    /// Bytes without a stop bit.
+    /// Number of bytes without a stop bit.
     pub faults: usize,
 }
 
@@ -184,7 +184,7 @@ impl Listener {
         Self { clocks_per_bit, since: None, bits: Vec::new(), bytes: Vec::new(), faults: 0 }
     }
 
-    /// The line in this clock.
+    /// Takes the level of the line in this clock.
     pub fn clock(&mut self, level: bool) {
         let since = match self.since {
             None if level => return,
@@ -208,7 +208,7 @@ impl Listener {
         }
     }
 
-    /// The frames that have come whole; what is not sound is left out.
+    /// Returns the frames that have come whole; broken ones are left out.
     pub fn frames(&mut self) -> Vec<Heard> {
         let mut frames = Vec::new();
         while let Some(end) = self.bytes.iter().position(|byte| *byte == 0) {

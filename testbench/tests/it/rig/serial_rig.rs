@@ -19,7 +19,7 @@ named_ports!(
     clock
 );
 
-/// A link in one form or both.
+/// The pins of a link, in one form or both.
 pub trait Pins {
     fn set(&mut self, port: &'static str, value: u64);
     fn settle(&mut self);
@@ -45,10 +45,10 @@ impl Pins for Stepper<SerialLink> {
 /// Fields of the bundle `lamps`, the first in its lowest bit.
 const LAMPS: [&str; 3] = ["alive", "busy", "error"];
 
-/// The Verilog alone: fast.
+/// The link as Verilog alone, which runs fast.
 pub struct Verilog {
     model: Model,
-    /// By their names in the exported device: a signal of a channel is `command_valid`, not `command$valid`.
+    /// Ports by their names in the exported device; a signal of a channel is `command_valid`, not `command$valid`.
     ports: BTreeMap<String, PortId>,
 }
 
@@ -80,19 +80,20 @@ impl Pins for Verilog {
     }
 }
 
-/// A core of words: a command is one word, whose low 16 bits say how many words its answer has behind the first two.
+/// A stand-in for the core. A command is one word, whose low 16 bits are the number of
+/// answer words behind the first two.
 #[derive(Default)]
 pub struct StandIn {
     pub taken: Vec<u32>,
     answer: VecDeque<u32>,
-    /// The words that are offered: one or two, and whether the answer ends with them.
+    /// The words on offer, one or two, and whether the answer ends with them.
     offered: Option<(u32, Option<u32>, bool)>,
     pub resets: usize,
-    /// Takes a command this seldom, for a FIFO that fills.
+    /// Takes a command once in so many clocks, so that a FIFO can fill.
     pub pace: u64,
 }
 
-/// The words of its answer.
+/// Words of the stand-in's answer to a command.
 pub fn answer_of(word: u32) -> Vec<u32> {
     let length = word & 0xffff;
     let mut words = vec![word, length];
@@ -100,6 +101,7 @@ pub fn answer_of(word: u32) -> Vec<u32> {
     words
 }
 
+/// A link at its pins between a talking and listening host and the stand-in.
 pub struct Rig<P> {
     pub pins: P,
     pub core: StandIn,
@@ -109,7 +111,7 @@ pub struct Rig<P> {
     clocks: usize,
 }
 
-/// At the first rate.
+/// Clocks of a bit at the first rate.
 pub const CLOCKS_PER_BIT: f64 = QUICK_LINK.clock_hz as f64 / FIRST_RATE as f64;
 pub const SESSION: u8 = 0x5a;
 
@@ -124,7 +126,7 @@ impl<P: Pins> Rig<P> {
             clocks: 0,
         };
         rig.pins.set("reset", 1);
-        // Before its first edge a device shows what its flip-flops start with.
+        // Before its first edge a device shows the values with which its flip-flops start.
         rig.pins.set("rx", 1);
         rig.pins.settle();
         rig.pins.edge();
@@ -182,7 +184,7 @@ impl<P: Pins> Rig<P> {
         self.say(SESSION, HostFrame::Data, number, &payload);
     }
 
-    /// Runs until a frame has come, for so many clocks at most.
+    /// Runs until a frame has come, for at most so many clocks.
     pub fn hear_within(&mut self, clocks: usize) -> Option<Heard> {
         for _ in 0..clocks {
             self.clock();
@@ -214,10 +216,10 @@ impl<P: Pins> Rig<P> {
         assert_eq!(opened.status & !STATUS_DROPPED, STATUS_OPEN);
     }
 
-    /// A whole answer, whose frames are checked.
+    /// Collects a whole answer and checks its frames.
     pub fn answer(&mut self, number: u8) -> Vec<u32> {
         let mut bytes = Vec::new();
-        // A frame of another session is nothing, but it breaks the silence.
+        // A frame of another session is dropped, but it breaks the silence.
         self.say(SESSION ^ 1, HostFrame::Poll, 0, &[]);
         loop {
             let frame = self.hear_within(200_000).expect("a part of an answer");
@@ -239,14 +241,14 @@ impl<P: Pins> Rig<P> {
     }
 }
 
-/// Opens a session, and says what it was before.
+/// Makes a link and opens a session on it.
 pub fn opened(seed: u32) -> Rig<Verilog> {
     let mut rig = Rig::new(Verilog::new(seed));
     rig.open();
     rig
 }
 
-/// Words as bytes.
+/// Words as bytes, little-endian.
 pub fn payload(words: &[u32]) -> Vec<u8> {
     words.iter().flat_map(|word| word.to_le_bytes()).collect()
 }

@@ -9,7 +9,7 @@ pub fn set_bits<U: NamedPorts>(block: &mut Stepper<U>, bits: &[(&'static str, bo
     }
 }
 
-/// The words side by side, the first in the lowest bits.
+/// Puts words side by side, the first in the lowest bits.
 pub fn wide(words: &[u32]) -> u128 {
     words.iter().rev().fold(0, |number, word| number << 32 | u128::from(*word))
 }

@@ -6,10 +6,10 @@ use crate::rig::stepper::{NamedPorts, Stepper};
 use incircle_protocol::{Layout, CORE_COORD_BITS, MAX_POINTS};
 use incircle_testkit::SplitMix64;
 
-/// The layout of the largest core.
+/// Layout of the words of the largest core.
 pub const LAYOUT: Layout = Layout::of(CORE_COORD_BITS, MAX_POINTS);
 
-/// A beat as its fields.
+/// A beat, field by field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Beat {
     pub low: u32,
@@ -29,7 +29,7 @@ impl Beat {
     }
 }
 
-/// The beats of these vertices, after the layout.
+/// Beats of these vertices, by the protocol's layout.
 pub fn beats_of(records: &[[u32; 3]]) -> VecDeque<Beat> {
     let length = LAYOUT.triangles_words(records.len() as u32).expect("few records");
     let mut words = vec![0; length as usize];
@@ -56,7 +56,7 @@ pub fn set_vertices<U: NamedPorts>(block: &mut Stepper<U>, vertices: [u32; 3]) {
     }
 }
 
-/// A record whose columns tell its id.
+/// A record whose columns are made from its id.
 pub fn columns(id: u32) -> ([u32; 3], [u32; 3], bool) {
     let column = |k: u32| (id ^ (0x1357 * k)) & 0x7fff;
     ([column(1), column(2), column(3)], [column(4), column(5), column(6)], id.is_multiple_of(3))

@@ -1,18 +1,21 @@
-//! What a visit finds out, from the geometry alone. Shares no formula with the hardware: orientation is a sum over the corners,
-//! incircle the 3 x 3 determinant of the lifted points, the walk a minimum, the tie a minimum of four points.
+//! Computes the result of a visit from the geometry alone, without a formula of the hardware: orientation
+//! is a sum over the corners, incircle the 3 x 3 determinant of the lifted points, the walk a minimum, the
+//! tie a minimum of four points.
 
 use crate::rig::stepper::bundles::{turned, Finding, LockFinding};
 
-/// A verdict as outputs: conflict, what holds however the record is turned, what holds only where it is not.
+/// Parts of a verdict at the ports: the conflict, the bits that hold however the record is turned, and the bits that
+/// hold only if it is not turned.
 pub const VERDICT_PARTS: [&str; 3] = ["verdict[0+:1]", "verdict[1+:2]", "verdict[3+:17]"];
 
-/// Those parts, nothing where they are arbitrary: ties of corners that fall together, and what no turned record is visited for.
+/// The parts of a verdict; `None` where a part is arbitrary: a tie of corners that fall together, or bits for
+/// which no turned record is visited.
 pub fn verdict_parts(verdict: u128, slot: usize, r: [Point; 3]) -> [Option<u128>; 3] {
     let differ = r[0] != r[1] && r[1] != r[2] && r[2] != r[0];
     [differ.then_some(verdict & 1), Some(verdict >> 1 & 3), (slot == 0).then_some(verdict >> 3)]
 }
 
-/// A point; compared by `x`, then by `y`.
+/// A point; points compare by `x`, then by `y`.
 pub type Point = (i64, i64);
 
 /// A point as the ports take it.
@@ -30,7 +33,8 @@ pub fn orientation(a: Point, b: Point, c: Point) -> i64 {
     corner(a, b) + corner(b, c) + corner(c, a)
 }
 
-/// The determinant of the points lifted to a paraboloid, relative to `p`: positive inside the circle of a counter-clockwise triangle.
+/// Determinant of the points lifted to a paraboloid, relative to `p`: positive if `p` lies inside
+/// the circle of a counter-clockwise triangle.
 pub fn incircle(triangle: [Point; 3], p: Point) -> i128 {
     let [a, b, c] = triangle.map(|vertex| {
         let (x, y) = (i128::from(vertex.0 - p.0), i128::from(vertex.1 - p.1));
@@ -39,7 +43,7 @@ pub fn incircle(triangle: [Point; 3], p: Point) -> i128 {
     a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
 }
 
-/// Locks and who holds them: the plain statement of what a visit does to one.
+/// The locks with their holders, as plain code.
 #[derive(Clone, Debug)]
 pub struct Locks(Vec<Option<u64>>);
 
@@ -48,18 +52,19 @@ impl Locks {
         Self(vec![None; locks])
     }
 
-    /// Who holds a lock.
+    /// Holder of a lock, if there is one.
     pub fn holder(&self, id: usize) -> Option<u64> {
         self.0[id]
     }
 
-    /// A visit of this context wants the lock; `is_cleared` at the same edge. Tells whether it took it, and whether it is foreign.
-    pub fn take(&mut self, id: usize, owner: u64, is_cleared: bool) -> (bool, bool) {
+    /// A visit of this context wants the lock, which may be cleared at the same edge. Returns whether the visit took
+    /// the lock, and whether the lock is foreign.
+    pub fn take(&mut self, id: usize, context: u64, is_cleared: bool) -> (bool, bool) {
         match self.0[id] {
             _ if is_cleared => (false, true),
-            Some(holder) => (false, holder != owner),
+            Some(holder) => (false, holder != context),
             None => {
-                self.0[id] = Some(owner);
+                self.0[id] = Some(context);
                 (true, false)
             }
         }
@@ -78,9 +83,9 @@ pub struct Record {
 }
 
 impl Record {
-    /// The slot that comes first when a visit from `f` turns the record.
-    pub fn slot(&self, rotates: bool, f: u64) -> usize {
-        self.n.iter().position(|link| rotates && *link == f).unwrap_or(0)
+    /// Slot that comes first when a visit from `cavity_record` turns the record.
+    pub fn slot(&self, rotates: bool, cavity_record: u64) -> usize {
+        self.n.iter().position(|link| rotates && *link == cavity_record).unwrap_or(0)
     }
 
     pub fn turned(&self, slot: usize) -> Self {
@@ -90,15 +95,15 @@ impl Record {
         turned
     }
 
-    /// This record, turned already, as the structure `Turned`; `lock` is took, foreign and again.
+    /// Packs this record, already turned, as a `Turned`; `lock` is took, foreign and again.
     pub fn pack_turned(&self, slot: usize, lock: [bool; 3], infinite: u64) -> u128 {
         let [took, foreign, again] = lock;
         let lock = LockFinding { took, foreign, again };
         turned(self.v, self.n, slot as u64, lock, self.v.map(|vertex| vertex == infinite))
     }
 
-    /// What a visit of this record, as stored, finds out about `p` if it turns it by `slot`; `r` are its corners, any word for the infinite
-    /// one.
+    /// Verdict about `p` of a visit that turns this stored record by `slot`. `r` has the corners of the record, with
+    /// any point for the infinite vertex.
     pub fn verdict(&self, slot: usize, mut r: [Point; 3], p: Point, infinite: u64) -> u128 {
         r.rotate_left(slot);
         self.turned(slot).verdict_turned(r, p, infinite)
@@ -109,7 +114,8 @@ impl Record {
         let (conflict, located, falls_onto_corner, next);
         if let Some(k) = self.v.iter().position(|vertex| *vertex == infinite) {
             let (a, b) = (r[(k + 1) % 3], r[(k + 2) % 3]);
-            // The lower end counts as between. It is a vertex, and a point on a vertex is a duplicate that no cavity is dug for.
+            // The lower end counts as between. A point on that end is on a vertex, so it is a duplicate,
+            // for which no cavity is opened.
             let is_between = a.min(b) <= p && p < a.max(b);
             conflict = side[k] > 0 || (side[k] == 0 && is_between);
             located = side[k] > 0;

@@ -1,7 +1,7 @@
-//! Points that put the predicates of a visit in danger, and the predicates in plain integer arithmetic.
+//! Points that are hard for the predicates of a visit, and the predicates in plain integer arithmetic.
 //!
-//! The references share no formula with the hardware: orientation is a sum over the corners of the triangle, incircle the 3 x 3
-//! determinant of the lifted points.
+//! The references share no formula with the hardware: orientation is a sum over the corners of the triangle, incircle
+//! the 3 x 3 determinant of the lifted points.
 
 use crate::rig::stepper::{Delay, Expected, NamedPorts, Stepper};
 use incircle_testkit::SplitMix64;
@@ -38,7 +38,7 @@ pub const ORDER_FLAGS: [&str; 9] = [
 
 pub const POINT_PORTS: [&str; 4] = ["r0", "r1", "r2", "p"];
 
-/// A point; compared by `x`, then by `y`.
+/// A point; points compare by `x`, then by `y`.
 pub type Point = (i64, i64);
 
 pub fn word(point: Point) -> u64 {
@@ -49,7 +49,7 @@ pub fn point(word: u64) -> Point {
     ((word & 0xffff) as i64, (word >> 16) as i64)
 }
 
-/// `value` in two's complement of `bits` bits.
+/// Returns `value` in two's complement with `bits` bits.
 pub fn bits_of(value: i128, bits: u32) -> u128 {
     value as u128 & ((1 << bits) - 1)
 }
@@ -60,7 +60,8 @@ pub fn orientation(a: Point, b: Point, c: Point) -> i128 {
     corner(a, b) + corner(b, c) + corner(c, a)
 }
 
-/// The determinant of the points lifted to a paraboloid, relative to `p`: positive inside the circle of a counter-clockwise triangle.
+/// Determinant of the points lifted to a paraboloid, relative to `p`: positive if `p` lies inside
+/// the circle of a counter-clockwise triangle.
 pub fn lifted_incircle(triangle: [Point; 3], p: Point) -> i128 {
     let [a, b, c] = triangle.map(|vertex| {
         let (x, y) = (i128::from(vertex.0 - p.0), i128::from(vertex.1 - p.1));
@@ -89,12 +90,12 @@ pub fn all_flags(r: [Point; 3], p: Point) -> Vec<u128> {
     [edge_flags(e), flags([incircle > 0, incircle == 0]), order_flags(r, p)].concat()
 }
 
-/// Outputs of a pipeline: known values, or nothing while it fills.
+/// Outputs of a pipeline: known values, or `None` for each output while the pipeline fills.
 pub fn shown(delayed: Option<Vec<u128>>, outputs: usize) -> Vec<Expected> {
     delayed.map_or(vec![None; outputs], |values| values.into_iter().map(Some).collect())
 }
 
-/// Four points, as the ports take them: from every corner of the input space that is dangerous, in turn.
+/// Four points, as the ports take them; the calls cycle through all the dangerous parts of the input space.
 pub fn visit(numbers: &mut SplitMix64) -> Vec<u64> {
     let bits = [16, 16, 16, 4, 2, 8][numbers.below(6) as usize];
     let random = |numbers: &mut SplitMix64| (numbers.bits(bits) as i64, numbers.bits(bits) as i64);
@@ -103,12 +104,12 @@ pub fn visit(numbers: &mut SplitMix64) -> Vec<u64> {
         0 => points = points.map(|(x, y)| ((x & 1) * LARGEST, (y & 1) * LARGEST)),
         1 => points[3] = points[numbers.below(3) as usize],
         2 => {
-            // All on one line through the origin corner.
+            // All four points lie on one line through the corner at the origin.
             let (x, y) = (numbers.bits(6) as i64, numbers.bits(6) as i64);
             points = points.map(|(k, _)| (x * (k & 0x3ff), y * (k & 0x3ff)));
         }
         3 => {
-            // On one circle: reflections of one vector about a centre.
+            // All four points lie on one circle: they are reflections of one vector about a centre.
             let (x, y) = (numbers.bits(15) as i64, numbers.bits(15) as i64);
             let around = [(x, y), (-y, x), (-x, -y), (y, -x), (-x, y), (x, -y), (y, x)];
             points = points.map(|_| {
@@ -151,10 +152,10 @@ pub fn signed(value: u64, bits: u32) -> i128 {
     i128::from(((value << (64 - bits)) as i64) >> (64 - bits))
 }
 
-/// The inputs of a product of two vectors.
+/// Inputs of a product of two vectors.
 pub const DIFFERENCE_PORTS: [&str; 4] = ["a_x", "a_y", "b_x", "b_y"];
 
-/// Differences of coordinates as 18 bits, and what they stand for.
+/// Returns a difference of two coordinates in 18 bits.
 fn difference(numbers: &mut SplitMix64) -> u64 {
     let value = match numbers.below(4) {
         0 => [0, 1, -1, LARGEST, -LARGEST][numbers.below(5) as usize],

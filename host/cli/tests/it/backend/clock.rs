@@ -1,4 +1,4 @@
-//! The back end `clock` gives the meshes of the back end `model`, whatever the set, the order and the number of contexts.
+//! Tests that the back end `clock` gives the meshes of the back end `model`, for any set, order and number of contexts.
 
 use crate::common::Scratch;
 use incircle::{Device, Options, Order, Point, Session, Solution};
@@ -6,7 +6,7 @@ use incircle_protocol::{Config, LARGE};
 use incircle_testkit::{generate, Distribution};
 use serde_json::Value;
 
-/// Contexts that are tried.
+/// The numbers of contexts that are tested.
 const CONTEXTS: [u32; 6] = [1, 2, 4, 8, 16, 24];
 
 fn triangulate(session: &mut Session<'_>, points: &[Point], order: Order, contexts: Option<u32>) -> Solution {
@@ -14,7 +14,8 @@ fn triangulate(session: &mut Session<'_>, points: &[Point], order: Order, contex
     session.triangulate_with(points, &options).expect("a mesh")
 }
 
-/// Every set in every order with every number of contexts on this core. The order of the records depends on them, the mesh does not.
+/// Triangulates every set in every order with every number of contexts on this core. The sequence of the records
+/// depends on all three, but the mesh does not.
 fn compare(config: Config, count: usize) {
     let mut clock = Device::clock_model(config).expect("the clock model");
     let mut clock = clock.session().expect("a session");
@@ -42,7 +43,7 @@ fn compare(config: Config, count: usize) {
 
 #[test]
 fn all_sets_in_all_orders_with_all_contexts() {
-    // Thirty points for every context of the largest core.
+    // The set has thirty points for every context of the largest core.
     compare(LARGE, 800);
 }
 
@@ -51,7 +52,7 @@ fn short_boundary_lists_change_nothing() {
     compare(Config { ring: 7, ..LARGE }, 400);
 }
 
-/// Triangulates `p.csv` with both back ends and gives the report of the clock's.
+/// Triangulates `p.csv` with both back ends and returns the report of the back end `clock`.
 #[track_caller]
 fn files(scratch: &Scratch, options: &str) -> Value {
     scratch.run("triangulate p.csv -o model.ele").ok();
@@ -99,11 +100,11 @@ fn sets_without_triangles_take_no_cycles() {
 fn the_smallest_core_that_holds_the_points_is_taken() {
     let scratch = Scratch::new();
     for (n, config) in [(3, "tiny"), (8, "tiny"), (9, "small"), (1024, "small"), (1025, "full")] {
-        // All different: evenly spaced on a parabola.
+        // All points are distinct, because they are evenly spaced on a parabola.
         scratch.run(&format!("generate parabola -n {n} -o p.csv")).ok();
         assert_eq!(files(&scratch, "")["config"], config, "{n}");
     }
-    // Duplicates do not count.
+    // Duplicates take no room in the core.
     scratch.write("p.csv", "0,0\n9,0\n0,9\n".repeat(100));
     assert_eq!(files(&scratch, "")["config"], "tiny");
 }
@@ -161,11 +162,11 @@ fn an_address_chooses_what_an_argument_chooses() {
     for (bad, sentence) in [
         ("clock?config=full --config full", "both choose"),
         ("cpu?threads=1 --threads 1", "both choose"),
-        ("clock?config=huge", "there are tiny, small, full, large"),
+        ("clock?config=huge", "choose one of tiny, small, full, large"),
         ("clock?threads=2", "\"config\" is known"),
         ("model --config full", "it needs --backend clock"),
     ] {
-        // Some are refused as values of the argument, before the command begins, in a form of their own.
+        // clap refuses some of the values before the command begins, and its messages have another form.
         let run = scratch.run(&format!("info --backend {bad}"));
         assert!(run.code == Some(2) && run.stdout.is_empty() && run.stderr.contains(sentence), "{bad}: {run:?}");
     }
@@ -188,7 +189,7 @@ fn an_address_chooses_the_bits_of_the_grid() {
     let about = report("triangulate half.csv -o m.ele --json --backend model?coord-bits=10");
     assert_eq!((&about["coord_bits"], &about["quantisation"]["scale"]), (&10.into(), &2046.0.into()));
 
-    // A grid of 8 bits has 256 times 256 places: fewer distinct points than on one of 16.
+    // A grid of 8 bits has only 256 times 256 places, so there are fewer distinct points than on a grid of 16 bits.
     let distinct = |arguments: &str| report(&format!("bench uniform -n 5000 --json {arguments}"));
     let (by_address, by_argument) = (distinct("--backend model?coord-bits=8"), distinct("--coord-bits 8"));
     assert_eq!(by_address["coord_bits"], 8);

@@ -1,4 +1,5 @@
-//! PCIe back ends without a card: what is no address, and what is no card, is told in a sentence. Jobs are tested with the simulated card.
+//! Tests of PCIe back ends without a card: a wrong address, or files that are no card, are named in a sentence. Other
+//! tests run jobs with the simulated card.
 
 use crate::common::Scratch;
 
@@ -7,7 +8,7 @@ fn addresses_are_checked_before_anything_is_opened() {
     let scratch = Scratch::new();
     scratch.write("p.csv", "0,0\n4,0\n0,4\n");
     for (backend, parts) in [
-        ("pcie:", ["names no card", "pcie:0"]),
+        ("pcie:", ["no card is named", "pcie:0"]),
         ("pcie:300", ["from 0 to 255", "numbers"]),
         ("pcie", ["'pcie:N'", "pcie:0"]),
     ] {
@@ -27,14 +28,16 @@ fn cards_that_cannot_be_had_end_with_exit_code_4() {
     scratch.run("triangulate p.csv -o m.ele --backend pcie:/nowhere").fails(4, &missing);
     scratch.run("bench --backend pcie:/nowhere").fails(4, &missing);
     scratch.run("info --backend pcie:/nowhere").fails(4, &missing);
-    // The driver has nothing to do with a directory.
+    // A card that is named by its directory needs no driver, so the advice must not name one.
     let refusal = scratch.run("info --backend pcie:/nowhere");
     assert!(refusal.stderr.contains("serve-pcie") && !refusal.stderr.contains("modprobe"), "{refusal:?}");
-    // Files that are no card: they end, or have other registers.
+    // These files are no card, because they are too short or have other registers.
     for name in ["xdma0_h2c_0", "xdma0_c2h_0", "xdma0_user"] {
         scratch.write(name, "");
     }
-    scratch.run("info --backend pcie:.").fails(5, &["the reading of a register failed", "the file ends before it"]);
+    scratch
+        .run("info --backend pcie:.")
+        .fails(5, &["the reading of a register failed", "the file ends before this register"]);
     scratch.write("xdma0_user", "none".repeat(64));
     scratch.run("info --backend pcie:.").fails(4, &["begin with 0x656e6f6e", "choose another card"]);
 }

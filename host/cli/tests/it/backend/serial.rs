@@ -1,9 +1,9 @@
-//! Serial back ends without a board: what is no port, no address, or no choice is told in a sentence. Jobs over a line are tested with the
-//! simulated board.
+//! Tests of serial back ends without a board: a wrong port, address or choice is named in a sentence. Other tests run
+//! jobs over a line with the simulated board.
 
 use crate::common::{Run, Scratch};
 
-/// Arguments that are wrong by themselves are told with how to get help.
+/// The error of wrong arguments says how to get help.
 fn refused(run: &Run, parts: &[&str]) {
     assert_eq!(run.code, Some(2), "{run:?}");
     assert!(parts.iter().all(|part| run.stderr.contains(part)), "{run:?}");
@@ -14,7 +14,7 @@ fn addresses_are_checked_before_anything_is_opened() {
     let scratch = Scratch::new();
     scratch.write("p.csv", "0,0\n4,0\n0,4\n");
     for (backend, parts) in [
-        ("serial:", ["names no port", "serial:/dev/ttyUSB0"]),
+        ("serial:", ["no port is named", "serial:/dev/ttyUSB0"]),
         ("serial", ["'serial:PORT'", "/dev/ttyUSB0"]),
         ("serial:/nowhere/tty?baud=9600", ["baud", "115200"]),
         ("serial:/nowhere/tty?parity=odd", ["parity", "slow"]),
@@ -42,7 +42,7 @@ fn ports_that_cannot_be_had_end_with_exit_code_4() {
     assert_eq!(scratch.files(), ["p.csv"]);
 }
 
-/// A pseudo-terminal of which nobody holds the other end is a board that says nothing.
+/// A pseudo-terminal whose other end nobody holds is like a board that never answers.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_timeout_bounds_the_opening_of_a_board_too() {
@@ -59,7 +59,7 @@ fn a_timeout_bounds_the_opening_of_a_board_too() {
 fn devices_lists_what_the_system_knows() {
     let scratch = Scratch::new();
     let run = scratch.run("devices").ok();
-    // A machine has any number of ports, each with a line; without one there is a sentence.
+    // A machine has any number of ports, each with a line. Without ports there is a sentence.
     assert_ne!(run.stdout.is_empty(), run.stderr.is_empty(), "{run:?}");
     assert!(run.stdout.lines().all(|line| line.contains(" (")), "{run:?}");
 }

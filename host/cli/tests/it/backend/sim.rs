@@ -1,10 +1,10 @@
-//! The back end `sim` gives the files of the back end `model`, byte for byte, and the cycles of the back end `clock`. The order in
-//! which a core holds its records depends on its contexts; the files do not.
+//! Tests that the back end `sim` gives the files of the back end `model`, byte for byte, and the cycles of the back end
+//! `clock`. The sequence of a core's records depends on its contexts, but the files do not.
 
 use crate::common::Scratch;
 use serde_json::Value;
 
-/// Triangulates `p.csv` with both back ends, the core with these options, and gives the simulation's report.
+/// Triangulates `p.csv` with both back ends, the core with these options, and returns the report of the simulation.
 #[track_caller]
 fn compare(scratch: &Scratch, grid: &str, core: &str) -> Value {
     scratch.run(&format!("triangulate p.csv -o model.ele {grid}")).ok();
@@ -25,7 +25,8 @@ fn named_sets_of_a_thousand_points() {
         let cycles = report["cycles"].as_f64().expect("cycles are counted");
         let distinct = report["distinct"].as_f64().expect("a count");
         assert_eq!(report["cycles_per_insertion"], cycles / distinct);
-        // Waiting lies within the span, and is told apart; reading out lies outside.
+        // The wait cycles are part of the insertion cycles and are counted once more by themselves. The read-out is no
+        // part of the insertion cycles.
         let wait = report["wait_cycles"].as_f64().expect("cycles are counted");
         assert!(wait < cycles, "{report}");
         assert!(report["read_cycles"].as_u64() > Some(0), "{report}");
@@ -74,7 +75,8 @@ fn the_clock_model_counts_what_the_core_counts() {
     }
 }
 
-/// The longest is told from the last word of the mesh before it to the last of its own; not where a group is among them.
+/// The time of the longest job is measured from the last word of the previous mesh to the last word of its own. There
+/// is none if the batch has a group.
 #[test]
 fn a_batch_and_its_longest_job_take_the_same_clocks() {
     let scratch = Scratch::new();
@@ -119,11 +121,11 @@ fn sets_without_triangles() {
 fn the_smallest_core_that_holds_the_points_is_taken() {
     let scratch = Scratch::new();
     for (n, config) in [(3, "tiny"), (8, "tiny"), (9, "small"), (1024, "small")] {
-        // All different: evenly spaced on a parabola.
+        // All points are distinct, because they are evenly spaced on a parabola.
         scratch.run(&format!("generate parabola -n {n} -o p.csv")).ok();
         assert_eq!(compare(&scratch, "", "")["config"], config, "{n}");
     }
-    // Duplicates do not count.
+    // Duplicates take no room in the core.
     scratch.write("p.csv", "0,0\n9,0\n0,9\n".repeat(100));
     assert_eq!(compare(&scratch, "", "")["config"], "tiny");
 }
@@ -167,7 +169,7 @@ fn a_trace_is_a_waveform_of_the_whole_job() {
     for part in ["$timescale", "$enddefinitions", "command_valid", "response_data"] {
         assert!(trace.contains(part), "{part}");
     }
-    // Insertion and read-out are in it, clock by clock.
+    // The waveform covers insertion and read-out, clock by clock.
     let clocks = trace.lines().filter(|line| line.starts_with('#')).count() as u64;
     let job = report["cycles"].as_u64().zip(report["read_cycles"].as_u64());
     let (insert, read) = job.expect("cycles are counted");

@@ -1,11 +1,11 @@
-//! `incircle bench`: a table for people, an object for scripts.
+//! Tests of `incircle bench`: a table for people, an object for scripts.
 
 use std::path::Path;
 
 use crate::common::{Run, Scratch};
 use serde_json::Value;
 
-/// The words of every row, the lines above the rows left out.
+/// The words of every row, without the lines above the rows.
 fn rows(run: &Run, above: usize) -> Vec<Vec<String>> {
     let lines = run.stdout.lines().skip(above);
     lines.map(|line| line.split_whitespace().map(str::to_owned).collect()).collect()
@@ -19,7 +19,7 @@ fn a_core_has_a_row_per_set_with_every_column() {
     let about = "clock small, 4 contexts; sets of 600 points, 16 bits, seed 3, order brio-hilbert\n";
     assert!(run.stdout.starts_with(about), "{run:?}");
     assert!(run.stdout.lines().nth(1).is_some_and(|line| line.contains("at 125 MHz")), "{run:?}");
-    // All lines of the table end together.
+    // All lines of the table have the same width.
     let widths: Vec<usize> = run.stdout.lines().skip(1).map(str::len).collect();
     assert!(widths.iter().all(|&width| width == widths[0] && width < 140), "{widths:?}");
     let rows = rows(&run, 3);
@@ -92,7 +92,7 @@ fn the_software_model_has_host_times() {
 }
 
 #[test]
-fn the_engine_on_the_processor_has_host_times_and_no_counters() {
+fn the_cpu_triangulator_has_host_times_and_no_counters() {
     let scratch = Scratch::new();
     let run = scratch.run("bench uniform -n 3000 --backend cpu --threads 1").ok();
     assert!(run.stdout.starts_with("cpu, 1 thread; sets of 3000 points, 16 bits, seed 1\n"), "{run:?}");
@@ -120,7 +120,9 @@ fn sets_that_the_host_answers_alone_have_dashes() {
 fn a_batch_is_told_from_the_first_word_to_the_last_triangle() {
     let scratch = Scratch::new();
     let run = scratch.run("bench --batch 40 -n 200 --backend clock --seed 5").ok();
-    let about = "clock full, 16 contexts; 40 jobs of 200 points each, 16 bits, seeds from 5, order brio-hilbert, ms at 125 MHz\n";
+    let about =
+        "clock full, 16 contexts; 40 jobs of 200 points each, 16 bits, seeds from 5, order brio-hilbert, ms at \
+                 125 MHz\n";
     assert!(run.stdout.starts_with(about), "{run:?}");
     let widths: Vec<usize> = run.stdout.lines().skip(1).map(str::len).collect();
     assert!(widths.iter().all(|&width| width == widths[0]), "{widths:?}");
@@ -129,12 +131,12 @@ fn a_batch_is_told_from_the_first_word_to_the_last_triangle() {
     for row in &rows {
         let value = |column: usize| row[column].parse::<f64>().unwrap_or_else(|_| panic!("column {column}: {row:?}"));
         let (points, cycles, ms) = (value(1), value(3), value(7));
-        // Groups of 14, 13 and 13 jobs.
+        // The batch runs in groups of 14, 13 and 13 jobs.
         assert!(points > 7900.0 && cycles > 10.0 && cycles < 25.0, "{row:?}");
         assert!((cycles * points / 125e3 - ms).abs() < 0.01, "{row:?}");
         assert!((value(8) - 25.0 * ms).abs() < 0.1 && (value(9) - 8.0 * cycles).abs() < 0.1, "{row:?}");
         assert!((40.0 * value(5) - cycles * points).abs() < 0.01 * points, "{row:?}");
-        // They share the memory, so none is timed by itself.
+        // The jobs share the memory, so none has a time of its own.
         assert_eq!((row[4].as_str(), row[6].as_str()), ("-", "-"));
     }
     let run = scratch.run("bench uniform --batch 20 -n 60 --backend clock --config small --contexts 3 --json").ok();
@@ -146,7 +148,7 @@ fn a_batch_is_told_from_the_first_word_to_the_last_triangle() {
     assert_eq!(set["cycles_per_point"], cycles / set["distinct"].as_f64().expect("a count"));
     assert_eq!((&set["longest_job_cycles"], &set["engine_cycles_per_point"]), (&Value::Null, &Value::Null));
     assert_eq!(set["seconds_at_mhz"], cycles / 125e6);
-    // Side by side they take a fraction of the time of one after the other.
+    // Jobs side by side take a fraction of the time of the same jobs one after the other.
     let alone = scratch.run("bench uniform --batch 20 -n 60 --backend clock --config small --contexts 1 --json").ok();
     let alone: Value = serde_json::from_str(&alone.stdout).expect("an object");
     assert!(alone["sets"][0]["cycles"].as_f64().expect("cycles") > 2.0 * cycles);
@@ -172,17 +174,17 @@ fn a_batch_of_which_no_job_reaches_the_core_has_no_cycles() {
     assert_eq!((&bench["sets"][0]["distinct"], bench["sets"][0].get("cycles")), (&Value::from(2), None));
 }
 
-/// All points are in memory at once.
+/// All points are in memory at once, so their number is limited.
 #[test]
 fn a_batch_of_too_many_points_is_refused() {
     let scratch = Scratch::new();
     scratch.run("bench --batch 1000000 -n 2000").fails(2, &["2000000000 points", "at most 67108864"]);
     scratch.run("bench --batch 4096 -n 16385").fails(2, &["67112960 points"]);
-    // As many as may be: the next thing that is wrong is said.
+    // The largest allowed number passes this check, and the next wrong argument is named.
     scratch.run("bench --batch 4096 -n 16384 --backend clock --config small").fails(7, &["16384"]);
 }
 
-/// As many as fit, but for jobs of 1,200 points, of which 6 would: those are frames.
+/// As many jobs share the core as fit. Jobs of 1,200 points, of which only 6 would fit, are exclusive jobs.
 #[test]
 fn jobs_of_middle_size_go_side_by_side() {
     let scratch = Scratch::new();
@@ -193,17 +195,17 @@ fn jobs_of_middle_size_go_side_by_side() {
     let cycles = |set: &Value| set["cycles_per_point"].as_f64().expect("cycles are counted");
     let [small, middle, large] = [(39, 520), (40, 1000), (10, 1200)].map(|(jobs, n)| measured(jobs, n));
     assert!(cycles(&small) < 18.0 && cycles(&middle) < 24.0 && cycles(&large) < 28.0, "{small} {middle} {large}");
-    let is_frame = [&small, &middle, &large].map(|set| !set["longest_job_cycles"].is_null());
-    assert_eq!(is_frame, [false, false, true]);
-    let readme =
-        std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../README.md")).expect("it is there");
+    let is_exclusive = [&small, &middle, &large].map(|set| !set["longest_job_cycles"].is_null());
+    assert_eq!(is_exclusive, [false, false, true]);
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/performance.md");
+    let page = std::fs::read_to_string(page).expect("docs/performance.md is there");
     let figure = format!("{:.1} cycles a point", cycles(&middle));
-    assert!(readme.contains(&figure), "README.md has no {figure}");
+    assert!(page.contains(&figure), "docs/performance.md has no {figure}");
 }
 
-/// The figures of the README. Cycles are the same on every machine, so this is no test of time.
+/// Checks figures of the documents. Cycles are the same on every machine, so this test does not depend on time.
 #[test]
-fn a_sequence_of_frames_costs_little_more_than_the_engine() {
+fn a_sequence_of_exclusive_jobs_costs_little_more_than_the_insertions() {
     let scratch = Scratch::new();
     let run = scratch.run("bench uniform --batch 20 -n 4000 --backend clock --json").ok();
     let bench: Value = serde_json::from_str(&run.stdout).expect("an object");
@@ -213,12 +215,12 @@ fn a_sequence_of_frames_costs_little_more_than_the_engine() {
     assert_eq!(number("cycles_per_job"), number("cycles") / 20.0);
     assert!(number("cycles_per_job") <= number("longest_job_cycles"), "{set}");
     assert!(number("longest_job_cycles") <= 90_000.0, "{set}");
-    // As the documents have them: a comma after the thousands.
+    // The documents have a comma after the thousands.
     let shown = |key: &str| {
         let cycles = number(key).round() as u64;
         format!("{},{:03}", cycles / 1000, cycles % 1000)
     };
-    for document in ["README.md", "docs/engine.md"] {
+    for document in ["docs/performance.md", "docs/core.md", "docs/engine.md", "docs/batches.md"] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(document);
         let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         for figure in [shown("cycles_per_job"), shown("longest_job_cycles")] {
@@ -241,7 +243,7 @@ fn what_does_not_fit_is_told_before_any_row() {
     run.fails(7, &["4096 distinct points", "--config full or --backend model"]);
     scratch.run("bench --backend clock --coord-bits 17").fails(7, &["16 bits", "17"]);
     scratch.run("bench --backend clock --contexts 17").fails(2, &["17 contexts", "the 16 of the core full"]);
-    // Duplicates are no matter: 20000 points fall onto 5000 places.
+    // Only distinct points count: 20000 points fall onto 5000 places.
     let run = scratch.run("bench box -n 20000 --backend clock").ok();
     assert!(run.stdout.starts_with("clock full,"), "{run:?}");
 }

@@ -1,4 +1,4 @@
-//! `incircle generate`: the same points on every machine, in every format.
+//! Tests of `incircle generate`: the same points on every machine, in every format.
 
 use crate::common::Scratch;
 use incircle_testkit::{generate, Distribution};
@@ -94,7 +94,7 @@ fn orders_are_drawn_and_points_written_in_them() {
     assert_ne!(plain, ordered);
 }
 
-/// The names of the product's orders, and where the others are.
+/// The refusal of another name lists the orders and says where the other ones are.
 #[test]
 fn orders_of_other_names_are_refused_with_the_names_that_there_are() {
     let scratch = Scratch::new();

@@ -1,4 +1,4 @@
-//! Runs of the command in a folder of their own.
+//! Helpers that run the command in a folder of its own.
 
 use std::ffi::OsStr;
 use std::io::Write;
@@ -35,7 +35,7 @@ impl Scratch {
         std::fs::read_to_string(self.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
     }
 
-    /// Names of all files, sorted.
+    /// The names of all files, sorted.
     pub fn files(&self) -> Vec<String> {
         let entries = std::fs::read_dir(&self.folder).expect("the scratch folder can be read");
         let names = entries.map(|entry| entry.expect("an entry").file_name());
@@ -44,20 +44,20 @@ impl Scratch {
         names
     }
 
-    /// The command, to be run in this folder.
+    /// The command, ready to run in this folder.
     pub fn command<S: AsRef<OsStr>>(&self, arguments: impl IntoIterator<Item = S>) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_incircle"));
         command.args(arguments).current_dir(&self.folder).stdin(Stdio::null());
         command
     }
 
-    /// Runs the command; its arguments are parted by spaces.
+    /// Runs the command with arguments that are separated by spaces.
     pub fn run(&self, arguments: &str) -> Run {
         let output = self.command(arguments.split_whitespace()).output();
         Run::of(output.expect("the command starts"))
     }
 
-    /// Runs the command and hands it this standard input.
+    /// Runs the command with this standard input.
     pub fn run_with_input(&self, arguments: &str, input: &[u8]) -> Run {
         let mut command = self.command(arguments.split_whitespace());
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -75,7 +75,7 @@ impl Drop for Scratch {
     }
 }
 
-/// What a run left behind.
+/// The exit code and the outputs of a run.
 #[derive(Debug)]
 pub struct Run {
     pub code: Option<i32>,
@@ -92,14 +92,14 @@ impl Run {
         }
     }
 
-    /// The run ended well.
+    /// Asserts that the run succeeded.
     #[track_caller]
     pub fn ok(self) -> Self {
         assert_eq!(self.code, Some(0), "{self:?}");
         self
     }
 
-    /// The run failed with this code and one sentence that holds all of these parts.
+    /// Asserts that the run failed with this exit code and one sentence that contains all of these parts.
     #[track_caller]
     pub fn fails(self, code: i32, parts: &[&str]) -> Self {
         assert_eq!(self.code, Some(code), "{self:?}");
@@ -114,8 +114,8 @@ impl Run {
     }
 }
 
-/// Triangulates a file of this name and content, which must be refused with a sentence that holds the file's name and
-/// these parts.
+/// Triangulates a file of this name and content, and asserts that it is refused with a sentence that contains the name
+/// of the file and these parts.
 #[track_caller]
 pub fn refuse(name: &str, content: impl AsRef<[u8]>, parts: &[&str]) {
     let scratch = Scratch::new();
@@ -125,7 +125,7 @@ pub fn refuse(name: &str, content: impl AsRef<[u8]>, parts: &[&str]) {
     assert_eq!(scratch.files(), [name]);
 }
 
-/// Triangulates a file of this content, which must give this many triangles.
+/// Triangulates a file of this content, and asserts the number of triangles.
 #[track_caller]
 pub fn accept(name: &str, content: impl AsRef<[u8]>, triangles: usize) {
     let scratch = Scratch::new();

@@ -1,4 +1,4 @@
-//! Each bad input gets one clear sentence and the right exit code, and leaves no file behind.
+//! Tests that each bad input leads to one clear sentence and the right exit code, and leaves no file behind.
 
 use crate::common::{accept, refuse, Scratch};
 
@@ -101,8 +101,8 @@ fn node_counts_and_ids() {
 fn obj_of_wrong_form() {
     refuse("p.obj", "v 1\n", &["row 1, column 3", "missing"]);
     refuse("p.obj", "v 1 inf 0\n", &["row 1, column 3", "finite"]);
-    // What is no OBJ must not pass for one without points.
-    refuse("p.obj", "hello world\n", &["row 1", "'hello'", "no statement of OBJ"]);
+    // A file that is no OBJ must not pass for an OBJ without points.
+    refuse("p.obj", "hello world\n", &["row 1", "'hello'", "not start a statement of OBJ"]);
     refuse("p.obj", "v 0 0 0\n\nV 1 0 0\n", &["row 3", "'V'"]);
     refuse("p.obj", b"v 0 0 0\nv 1 0 0\n\x8f\x01\xfe\n", &["row 3", "UTF-8"]);
     refuse("p.obj", b"# \0\n", &["row 1", "UTF-8"]);

@@ -1,4 +1,5 @@
-//! Files with a structure that is wrong: PLY, GeoJSON, meshes. One clear sentence each, no file left behind.
+//! Tests that PLY, GeoJSON and mesh files with a wrong structure lead to one clear sentence each and
+//! leave no file behind.
 
 use crate::common::{accept, refuse, Scratch};
 
@@ -73,7 +74,7 @@ fn json_points_of_wrong_form() {
     refuse("p.json", r#"{"points":[[0,null]]}"#, &["points[0]"]);
     refuse("p.json", r#"{"points":[[0,1e999]]}"#, &["GeoJSON"]);
     refuse("p.json", r#"{"points":[[0,0],[1,70000]]}"#, &["point 2, y", "70000"]);
-    // What says that it is GeoJSON is read as such.
+    // An object with a `type` is read as GeoJSON.
     let named = r#"{"type":"LineString","coordinates":[[1,2],[3,4]],"points":[[0,0]]}"#;
     refuse("p.json", named, &["LineString"]);
     refuse("p.json", r#"{"triangles":[]}"#, &["GeoJSON"]);

@@ -1,4 +1,4 @@
-//! Every format of points gives the same mesh, and every format of meshes can be read back or looked at.
+//! Tests that every format of points gives the same mesh, and that every format of meshes can be read back or viewed.
 
 use crate::common::Scratch;
 use serde_json::Value;
@@ -13,10 +13,11 @@ fn rows(row: impl Fn(usize, f64, f64) -> String) -> String {
 }
 
 fn binary_ply(format: &str, bytes: fn(f64) -> Vec<u8>) -> Vec<u8> {
-    // A list before the wanted values, and an element before the wanted one.
+    // The file has a list before the properties that are read, and an element before the one that is read.
     let header = format!(
         "ply\r\nformat {format} 1.0\r\ncomment test\r\nelement extra 1\r\nproperty uchar a\r\nelement vertex 6\r\n\
-         property uchar flag\r\nproperty double x\r\nproperty double y\r\nproperty list uchar uchar more\r\nend_header\r\n"
+         property uchar flag\r\nproperty double x\r\nproperty double y\r\nproperty list uchar uchar more\r\n\
+         end_header\r\n"
     );
     let mut file = header.into_bytes();
     file.push(9);
@@ -35,7 +36,8 @@ fn every_point_format_gives_the_same_mesh() {
     let collection = |items: String| format!("{{\"type\":\"FeatureCollection\",\"features\":[{items}]}}");
     let feature = |x, y| {
         format!(
-            "{{\"type\":\"Feature\",\"properties\":{{\"a\":1}},\"geometry\":{{\"type\":\"Point\",\"coordinates\":[{x},{y}]}}}}"
+            "{{\"type\":\"Feature\",\"properties\":{{\"a\":1}},\
+             \"geometry\":{{\"type\":\"Point\",\"coordinates\":[{x},{y}]}}}}"
         )
     };
     let features = POINTS.map(|[x, y]| feature(x, y)).join(",");
@@ -54,7 +56,8 @@ fn every_point_format_gives_the_same_mesh() {
         (
             "ascii.ply",
             format!(
-                "ply\nformat ascii 1.0\nelement vertex 6\nproperty list uchar int more\nproperty int x\nproperty float y\n\
+                "ply\nformat ascii 1.0\nelement vertex 6\nproperty list uchar int more\nproperty int x\n\
+                 property float y\n\
                  end_header\n{}",
                 rows(|_, x, y| format!("2 8 9 {x} {y}"))
             )
@@ -93,7 +96,7 @@ fn meshes_can_be_read_back() {
     for format in ["ele", "obj", "ply", "json", "csv"] {
         scratch.run(&format!("triangulate p.csv -o m.{format}")).ok();
         scratch.run(&format!("verify p.csv m.{format}")).ok();
-        // The format can also be named.
+        // An option can name the format as well.
         scratch.run(&format!("triangulate p.csv -o m.bin --format {format}")).ok();
         assert_eq!(scratch.read("m.bin"), scratch.read(&format!("m.{format}")), "{format}");
         scratch.run(&format!("verify p.csv m.bin --format {format}")).ok();
@@ -207,7 +210,7 @@ fn the_airports_of_the_world_become_a_picture() {
     let report: Value = serde_json::from_str(&run.stdout).expect("the report is JSON");
     assert_eq!(report["points"], 28_298);
     assert_eq!(report["distinct"], 28_266);
-    // Five airports share a place; at 16 bits 27 more fall together.
+    // Five airports share a place with another; on the grid of 16 bits 27 more do.
     assert_eq!(report["quantisation"]["merged"], 27);
     assert!(scratch.read("world.svg").len() < 1_500_000);
     let run = scratch.run(&format!("triangulate {data} -o world.ele --coord-bits 31 --json")).ok();

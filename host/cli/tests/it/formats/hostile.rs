@@ -1,4 +1,4 @@
-//! No reader panics, whatever the bytes; what it accepts is finite.
+//! Tests that no reader panics on any bytes, and that accepted coordinates are finite.
 
 use incircle_cli::formats::{MeshFormat, PointFormat};
 use incircle_testkit::SplitMix64;
@@ -10,22 +10,27 @@ const POINT_FILES: [(PointFormat, &[u8]); 9] = [
     (PointFormat::Obj, b"o a\nv 1 2 3\nvn 0 0 1\nv 4.5 5 6\nf 1/1/1 2//2 1\n"),
     (
         PointFormat::Ply,
-        b"ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty double y\nproperty list uchar int l\nend_header\n\
+        b"ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty double y\nproperty list uchar int l\n\
+          end_header\n\
           1 2 2 3 4\n5 6 0\n",
     ),
     (
         PointFormat::Ply,
-        b"ply\nformat binary_little_endian 1.0\nelement e 1\nproperty list uint uchar l\nelement vertex 2\nproperty short x\n\
+        b"ply\nformat binary_little_endian 1.0\nelement e 1\nproperty list uint uchar l\nelement vertex 2\n\
+          property short x\n\
           property float y\nend_header\n\x02\0\0\0ab12345612\x7f\x7f\x7f\x7f",
     ),
     (
         PointFormat::Ply,
-        b"ply\nformat binary_big_endian 1.0\nelement vertex 1\nproperty list char double l\nproperty uint x\nproperty char y\n\
+        b"ply\nformat binary_big_endian 1.0\nelement vertex 1\nproperty list char double l\n\
+          property uint x\nproperty char y\n\
           end_header\n\x0112345678abcde",
     ),
     (
         PointFormat::Geojson,
-        br#"{"type":"FeatureCollection","features":[{"type":"Feature","properties":null,"geometry":{"type":"GeometryCollection","geometries":[{"type":"Point","coordinates":[1,2]},{"type":"MultiPoint","coordinates":[[3,4.5],[5e3,6,7]]}]}}]}"#,
+        b"{\"type\":\"FeatureCollection\",\"features\":[{\"type\":\"Feature\",\"properties\":null,\
+          \"geometry\":{\"type\":\"GeometryCollection\",\"geometries\":[{\"type\":\"Point\",\"coordinates\":[1,2]},\
+          {\"type\":\"MultiPoint\",\"coordinates\":[[3,4.5],[5e3,6,7]]}]}}]}",
     ),
     (PointFormat::Json, br#"{"points":[[1,2],[3.5,-4e2]],"triangles":[],"hull":[]}"#),
 ];
@@ -35,17 +40,18 @@ const MESH_FILES: [(MeshFormat, &[u8]); 5] = [
     (MeshFormat::Obj, b"v 1 2 3\nf 1 2 3\nf 2/1 4//1 3/2/1\n"),
     (
         MeshFormat::Ply,
-        b"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nelement face 2\nproperty list uchar int vertex_indices\n\
+        b"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nelement face 2\n\
+          property list uchar int vertex_indices\n\
           end_header\n1\n3 0 1 2\n3 1 3 2\n",
     ),
     (MeshFormat::Json, br#"{"points":[[1,2]],"triangles":[[0,1,2],[1,3,2]],"hull":[]}"#),
     (MeshFormat::Csv, b"a,b,c\n0,1,2\n1,3,2\n"),
 ];
 
-/// Bytes that mean something to some format.
+/// Bytes that have a meaning in some format.
 const SPICE: &[u8] = b"0123456789-+.eE,; \t\r\n\"#/[]{}:naif\xff\x00\x80";
 
-/// One to four random edits: a byte replaced, put in, taken out, or the end cut off.
+/// Makes one to four random edits: replaces, inserts or removes a byte, or cuts off the end.
 fn spoil(sample: &[u8], random: &mut SplitMix64) -> Vec<u8> {
     let mut bytes = sample.to_vec();
     for _ in 0..=random.below(4) {

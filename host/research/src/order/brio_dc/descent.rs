@@ -1,32 +1,33 @@
-//! Points on their way down the tree, to the leaves that can be their nearest neighbours: linear time.
+//! The descent of points through the tree, to the leaves that can be their nearest neighbours, in linear time.
 //!
-//! At each node come together the points that came to the node above and those paired with this one. They meet, and
-//! whoever is nearer to another than to the node stays behind. Those that go on are farther from each other than from
-//! the node, of which there is room for a constant number. Callahan and Kosaraju 1995.
+//! Each node gets the points that came to the node above, and those paired with the node itself. These points meet, and
+//! a point that is nearer to another one than to the node stays behind. The points that go on are farther from each
+//! other than from the node, so there is room for a constant number of them. Source: Callahan and Kosaraju 1995.
 
 use super::pairs::Pair;
 use super::quadtree::{is_leaf, place, Quadtree};
 use incircle_geometry::sort::sort_by_key;
 
-/// No pair of a list: larger than all numbers.
+/// Marks the end of a list of pairs; larger than all numbers of pairs.
 const END: u32 = u32::MAX;
 
-/// The pairs of each node of several points, as a list.
+/// A linked list of pairs for each node of several points.
 #[derive(Debug, Default)]
 pub(super) struct Lists {
-    /// The first pair of each node, by half its number, which is odd.
+    /// The first pair of each node. Such nodes have odd numbers, and the index is half the number.
     first: Vec<u32>,
-    /// The pair behind each pair, of the same node.
+    /// For each pair, the next pair of the same node.
     next: Vec<u32>,
-    /// The points that have come to the nodes from the first to the one at work, by node.
+    /// The points that have come to the nodes on the path from the top to the current node, by node.
     coming: Vec<u32>,
 }
 
 impl Lists {
-    /// Lets the points of all pairs go down the tree and meet the leaves they come to. O(n): no node is visited twice
-    /// but by points.
+    /// Lets the points of all pairs go down the tree and meet the leaves that they come to. O(n), because a node is
+    /// visited more than once only by points.
     pub(super) fn descend_with(&mut self, tree: &mut Quadtree, pairs: &mut Vec<Pair>) {
-        // A node above another is larger: its points come first, and take those of the other with them.
+        // A node above another one is larger. Its pairs come first, so its descent takes the points of
+        // the other with it.
         sort_by_key(pairs);
         for (list, length) in [(&mut self.first, tree.nodes.len() / 2), (&mut self.next, pairs.len())] {
             list.clear();
@@ -44,7 +45,7 @@ impl Lists {
     }
 }
 
-/// The descent under way.
+/// The state of a descent.
 struct Descent<'d> {
     tree: &'d mut Quadtree,
     pairs: &'d [Pair],
@@ -52,8 +53,8 @@ struct Descent<'d> {
 }
 
 impl Descent<'_> {
-    /// Takes the points that came to the node above, from `above` on, and those paired with this node, down to the
-    /// leaves.
+    /// Takes points down to the leaves: those that came to the node above, from `above` on in the list, and those
+    /// paired with this node.
     fn go(&mut self, node: u32, above: usize) {
         let own = self.lists.coming.len();
         for come in above..own {
@@ -70,7 +71,7 @@ impl Descent<'_> {
                 number = self.lists.next[number as usize];
             }
         }
-        // Where nobody goes on, pairs further below have a turn of their own.
+        // If no point goes on, the pairs of the nodes below are left to their own calls.
         if !is_leaf(node) && self.lists.coming.len() > own {
             let (left, right) = self.tree.children(node);
             self.go(left, own);
@@ -79,8 +80,8 @@ impl Descent<'_> {
         self.lists.coming.truncate(own);
     }
 
-    /// Lets a point come to a node where it meets those that are there, from `own` on; whoever is nearer to another
-    /// than to the node leaves.
+    /// Adds a point to those at a node, from `own` on in the list. The point meets all of them, and those that are
+    /// nearer to another point than to the node leave.
     fn admit(&mut self, point: u32, node: u32, own: usize) {
         let mut there = own;
         while let Some(&other) = self.lists.coming.get(there) {

@@ -1,7 +1,6 @@
-//! Squares of distances, exact for coordinates below 2^31, the most that a device takes.
+//! Squares of distances, exact for coordinates below 2^31, which are the widest that a device takes.
 //!
-//! Beyond that, squares of 2^64 and more count as equal. All that follows from them stays consistent, and points are
-//! never lost.
+//! With wider coordinates, squares of 2^64 and more count as equal. All results stay consistent, and no point is lost.
 
 use incircle_geometry::Point;
 
@@ -14,14 +13,14 @@ fn squares(x: u32, y: u32) -> Distance {
     (x * x).saturating_add(y * y)
 }
 
-/// Between two points; of a box, its diagonal.
+/// The square of the distance between two points, or of the diagonal of a box with these corners.
 pub(super) fn span(one: Point, other: Point) -> Distance {
     squares(one.x.abs_diff(other.x), one.y.abs_diff(other.y))
 }
 
-/// Between two boxes, each given by its lowest and its highest corner; 0 where they meet.
+/// The square of the distance between two boxes, each given by its lowest and its highest corner; 0 if the boxes meet.
 pub(super) fn gap([low, high]: [Point; 2], [other_low, other_high]: [Point; 2]) -> Distance {
-    // Of the two differences of an axis one at most is above 0.
+    // At most one of the two differences of an axis is above 0.
     let x = other_low.x.saturating_sub(high.x) | low.x.saturating_sub(other_high.x);
     let y = other_low.y.saturating_sub(high.y) | low.y.saturating_sub(other_high.y);
     squares(x, y)

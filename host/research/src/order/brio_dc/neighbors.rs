@@ -1,14 +1,14 @@
-//! The nearest-neighbour graph: of each point, the nearest other one; of equally near ones, the first along the
-//! Z-curve.
+//! The nearest-neighbour graph: for each point the nearest other point, and among equally near ones the
+//! first along the Z-curve.
 //!
-//! With a fixed order among equally near points each component has exactly one pair of points that are nearest to each
-//! other: on a longer cycle all steps would be equally long, and the step behind the cycle's first point would have to
-//! lead back to it.
+//! With a fixed order among equally near points, each component has exactly one pair of points that are nearest to each
+//! other: on a longer cycle all steps would be equally long, and the step after the cycle's first point would have to
+//! lead back to that point.
 //!
-//! Two ways from the well-separated pairs to the graph. In linear time (Callahan and Kosaraju 1995): points come down
-//! the tree to the nodes that can hold their nearest neighbour. And by looking at all points of the node of each pair
-//! (Har-Peled, *Geometric approximation algorithms*, 2011, section 3.2): a node of a level has a constant number of
-//! pairs, so that is O(n log U), and simpler.
+//! Two algorithms lead from the well-separated pairs to the graph. In the linear one (Callahan and Kosaraju 1995)
+//! points descend through the tree to the nodes that can hold their nearest neighbour. The other one looks at all
+//! points of the node of each pair (Har-Peled, *Geometric approximation algorithms*, 2011, section 3.2). A node of a
+//! level has a constant number of pairs, so the second algorithm takes O(n log U), and it is simpler.
 
 use super::descent::Lists;
 use super::kind::BrioDc;
@@ -17,7 +17,7 @@ use super::quadtree::Quadtree;
 use incircle_geometry::pages::with_room;
 use incircle_geometry::Point;
 
-/// Finds graphs, one after the other in the same memory.
+/// A search for nearest-neighbour graphs, one after the other in the same memory.
 #[derive(Debug)]
 pub(super) struct Search {
     by: BrioDc,
@@ -28,17 +28,17 @@ pub(super) struct Search {
 }
 
 impl Search {
-    /// For up to so many points.
+    /// Makes a search with room for `points` points.
     pub(super) fn with_room(points: usize, by: BrioDc) -> Self {
         let (tree, nearest) = (Quadtree::with_room(points), with_room(points));
         Self { by, tree, pairs: Vec::new(), lists: Lists::default(), nearest }
     }
 
-    /// The nearest neighbour of each point, by place. The points are distinct, in Z-order, and at least two.
+    /// Finds the nearest neighbour of each point, by place. There must be at least two points, distinct and in Z-order.
     pub(super) fn run(&mut self, points: &[Point]) -> &[u32] {
         let Self { tree, pairs, .. } = self;
         pairs.clear();
-        // Pairs are made as soon as both of their nodes are, while these are still at hand.
+        // Pairs are made as soon as both of their nodes exist, while the nodes are still in the cache.
         match self.by {
             BrioDc::Linear => tree.build_by_stack(points, |tree, node| add_pairs(tree, node, pairs)),
             BrioDc::LogU => tree.build_from_top(points, |tree, node| add_pairs(tree, node, pairs)),
@@ -53,7 +53,7 @@ impl Search {
     }
 }
 
-/// Lets each point meet all those of the nodes it is paired with.
+/// Lets each point meet all points of the nodes that it is paired with.
 fn meet_all(tree: &mut Quadtree, pairs: &[Pair]) {
     for &Pair { place, node, .. } in pairs {
         if tree.is_within_reach(place, node) {

@@ -1,12 +1,13 @@
 //! Well-separated pairs in which a point can have its nearest neighbour.
 //!
-//! Two nodes are well separated if they are farther apart than either is wide: then a point has its nearest neighbour
-//! across only if it is alone in its node. Callahan and Kosaraju, *A decomposition of multidimensional point sets with
-//! applications to k-nearest-neighbors and n-body potential fields*, 1995.
+//! Two nodes are well separated if they are farther apart than either is wide. Then a point has its nearest neighbour
+//! in the other node only if it is alone in its own node. Source: Callahan and Kosaraju, *A decomposition of
+//! multidimensional point sets with applications to k-nearest-neighbors and n-body potential fields*, 1995.
 //!
-//! The decomposition halves the larger node of a pair until it is well separated: O(n) pairs. Pairs farther apart than
-//! either node *reaches* hold no nearest neighbours, whatever is in them, and are left out with all that would follow.
-//! A node reaches at most as far as it is wide, so the pairs made are among those of the whole decomposition.
+//! The decomposition halves the larger node of a pair until the pair is well separated, which gives O(n) pairs.
+//! Pairs that are farther apart than either node *reaches* hold no nearest neighbours and are left out, with all
+//! pairs that would follow from them. A node reaches at most as far as it is wide, so all pairs are among those
+//! of the whole decomposition.
 
 use bytemuck::Zeroable;
 
@@ -22,14 +23,14 @@ pub(super) struct Pair {
 }
 
 impl Keyed for Pair {
-    /// Larger nodes first.
+    /// The key sorts larger nodes first.
     fn key(&self) -> u64 {
         u64::from(u32::MAX - self.level)
     }
 }
 
-/// Adds the pairs between the halves of a node, all of those within the halves having been made; then the node knows
-/// how far it reaches. Few points meet at once and make no pair.
+/// Adds the pairs between the halves of a node, and then sets how far the node reaches. All pairs within the halves
+/// must have been made before. A few points meet directly and make no pair.
 pub(super) fn add_pairs(tree: &mut Quadtree, node: u32, pairs: &mut Vec<Pair>) {
     let (left, right) = tree.children(node);
     Decomposition { tree, pairs }.between(left, right);
@@ -37,14 +38,14 @@ pub(super) fn add_pairs(tree: &mut Quadtree, node: u32, pairs: &mut Vec<Pair>) {
     tree.nodes[node as usize].reach = reach(left).max(reach(right));
 }
 
-/// The decomposition under way. Nodes are as deep as a coordinate pair has bits, and its calls twice as deep.
+/// The state of a decomposition. Nodes are as deep as a pair of coordinates has bits, and the calls twice as deep.
 struct Decomposition<'d> {
     tree: &'d mut Quadtree,
     pairs: &'d mut Vec<Pair>,
 }
 
 impl Decomposition<'_> {
-    /// The pairs between two nodes.
+    /// Adds the pairs between two nodes.
     fn between(&mut self, one: u32, other: u32) {
         let nodes = &self.tree.nodes;
         let (u, v) = (&nodes[one as usize], &nodes[other as usize]);
@@ -65,7 +66,7 @@ impl Decomposition<'_> {
         }
     }
 
-    /// Keeps a pair of a leaf and a node.
+    /// Adds the pair of a leaf and a node.
     fn keep(&mut self, leaf: u32, node: u32) {
         let place = place(leaf);
         match self.tree.few_places(node) {

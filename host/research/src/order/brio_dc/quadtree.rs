@@ -1,8 +1,8 @@
-//! A compressed quadtree over points in Z-order, its nodes numbered from left to right.
+//! A compressed quadtree over points in Z-order, with nodes numbered from left to right.
 //!
-//! A square is halved in x and then in y, so a node has two children; squares with points in one half only have no
-//! node. Two ways to build it: in one pass with a stack (Chan, *Well-separated pair decomposition in linear time?*,
-//! 2008), or from the top.
+//! A square is halved in x and then in y, so a node has two children. Squares with points in only one half have no
+//! node. The tree is built in one pass with a stack (Chan, *Well-separated pair decomposition in linear time?*, 2008),
+//! or from the top.
 
 use std::ops::RangeInclusive;
 
@@ -10,22 +10,22 @@ use super::distance::{gap, span, Distance};
 use incircle_geometry::pages::with_room;
 use incircle_geometry::Point;
 
-/// So many points are looked at one by one: it takes constant time.
+/// Nodes of up to this many points are searched point by point, in constant time.
 const FEW: u32 = 8;
-/// No point: larger than all places.
+/// Stands for the absence of a point; larger than all places.
 const NOBODY: u32 = u32::MAX;
 
-/// A square, or half of one, with all its points.
+/// A node: a square or half of one, with all its points.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
-    /// The corners of the smallest box around the points.
+    /// The lowest and the highest corner of the smallest box around the points.
     pub(super) low: Point,
     pub(super) high: Point,
-    /// No point below has its nearest neighbour farther away than this. Of a leaf: the square of the distance of the
-    /// nearest point that it has met.
+    /// The square of a distance within which every point below the node has its nearest neighbour. For a leaf, the
+    /// square of the distance of the nearest point that its point has met.
     pub(super) reach: Distance,
-    /// The halves with smaller and with larger coordinates. Of a leaf: itself, and the place of the nearest point that
-    /// it has met.
+    /// The halves with smaller and with larger coordinates. For a leaf, the leaf itself, and the place of the nearest
+    /// point that its point has met.
     links: [u32; 2],
 }
 
@@ -40,20 +40,20 @@ impl Node {
         span(self.low, self.high)
     }
 
-    /// The bit at which the halves differ, from 1; 0 for a leaf. The higher, the larger is the square.
+    /// The bit at which the halves differ, counted from 1; 0 for a leaf. Larger squares have higher levels.
     pub(super) fn level(&self) -> u32 {
         level(self.low, self.high)
     }
 }
 
-/// The tree. The leaf of the point at place `j` is node `2 j`; the node whose left half ends at place `j` is node `2 j
-/// + 1`.
+/// The quadtree. The leaf of the point at place `j` is node `2 j`, and the node whose left half ends at place `j` is
+/// node `2 j + 1`.
 #[derive(Debug)]
 pub(super) struct Quadtree {
     pub(super) nodes: Vec<Node>,
     pub(super) root: u32,
-    /// While it is built from left to right: nodes whose right halves are not complete, and their levels, each higher
-    /// than the next.
+    /// While the tree is built from left to right, the nodes whose right halves are not complete, with their levels.
+    /// Each level is higher than the next.
     open: Vec<(u32, u32)>,
 }
 
@@ -72,21 +72,21 @@ pub(super) const fn leaf(place: u32) -> u32 {
     place << 1
 }
 
-/// The highest bit at which the positions of two points along the Z-curve differ, from 1; 0 if they are equal.
+/// The highest bit at which the positions of two points along the Z-curve differ, counted from 1; 0 if they are equal.
 pub(super) fn level(one: Point, other: Point) -> u32 {
     let bits = |difference: u32| 2 * (u32::BITS - difference.leading_zeros());
     bits(one.x ^ other.x).max(bits(one.y ^ other.y).saturating_sub(1))
 }
 
 impl Quadtree {
-    /// A tree that has room for this many points, and none yet.
+    /// Makes an empty tree with room for this many points.
     pub(super) fn with_room(points: usize) -> Self {
         Self { nodes: with_room(2 * points), root: 0, open: Vec::new() }
     }
 
-    /// Builds it anew in one pass from left to right: O(n). The points are distinct, in Z-order, and at least one.
-    /// Tells of each node when all below it is complete; by then each point below has met its neighbours along the
-    /// curve.
+    /// Builds the tree anew in one pass from left to right, in O(n). There must be at least one point, and all must be
+    /// distinct and in Z-order. `complete` is called with each node once all below it is complete. By then each point
+    /// below has met its neighbours along the curve.
     pub(super) fn build_by_stack(&mut self, points: &[Point], mut complete: impl FnMut(&mut Self, u32)) {
         self.nodes.clear();
         let mut before = None;
@@ -104,8 +104,8 @@ impl Quadtree {
         self.root = self.complete_below(leaf(points.len() as u32 - 1), u32::MAX, &mut complete);
     }
 
-    /// Completes the open nodes below this level, the lowest with this right half. Returns the last, or that half if
-    /// there was none.
+    /// Completes the open nodes below this level, the lowest of them with the right half `half`. Returns the last node
+    /// that was completed, or `half` if there was none.
     fn complete_below(&mut self, half: u32, size: u32, complete: &mut impl FnMut(&mut Self, u32)) -> u32 {
         let mut right = half;
         while let Some((node, _)) = self.open.pop_if(|&mut (_, lower)| lower < size) {
@@ -116,15 +116,16 @@ impl Quadtree {
         right
     }
 
-    /// Builds it anew from the top, each node's right half found by bisection: O(n log n), which is less than O(n log
-    /// U). Points and what is told as before.
+    /// Builds the tree anew from the top and finds the right half of each node by bisection, in O(n log n), which is
+    /// less than O(n log U). Points and `complete` are as in [`Self::build_by_stack`].
     pub(super) fn build_from_top(&mut self, points: &[Point], mut complete: impl FnMut(&mut Self, u32)) {
         self.nodes.clear();
         (0..).zip(points).for_each(|(place, &point)| self.add_leaf(place, point));
         self.root = self.halve(points, 0, &mut complete);
     }
 
-    /// The node of these points, the first of which is at place `first`. As deep as a coordinate pair has bits.
+    /// Makes the node of these points, the first of which is at place `first`. The recursion is as deep as a pair
+    /// of coordinates has bits.
     fn halve(&mut self, points: &[Point], first: u32, complete: &mut impl FnMut(&mut Self, u32)) -> u32 {
         let [low, .., high] = *points else {
             return leaf(first);
@@ -140,7 +141,7 @@ impl Quadtree {
         node
     }
 
-    /// A leaf, which meets the one before it; between them is room for a node.
+    /// Adds a leaf, whose point meets that of the previous leaf. Between both leaves there is room for a node.
     fn add_leaf(&mut self, place: u32, point: Point) {
         let own = Node { low: point, high: point, reach: Distance::MAX, links: [leaf(place), NOBODY] };
         if place == 0 {
@@ -151,7 +152,7 @@ impl Quadtree {
         }
     }
 
-    /// Gives a node its right half; its box follows.
+    /// Gives a node its right half, and computes its box from both halves.
     fn close(&mut self, node: u32, right: u32) {
         let (left, _) = self.children(node);
         let (one, other) = (self.nodes[left as usize], self.nodes[right as usize]);
@@ -160,7 +161,7 @@ impl Quadtree {
         self.nodes[node as usize] = Node { low, high, reach: Distance::MAX, links: [left, right] };
     }
 
-    /// The halves of a node.
+    /// The left and the right half of a node.
     pub(super) fn children(&self, node: u32) -> (u32, u32) {
         let [left, right] = self.nodes[node as usize].links;
         (left, right)
@@ -178,7 +179,7 @@ impl Quadtree {
         place(first)..=place(last)
     }
 
-    /// The places of all points below a node of [`FEW`] points at most, in constant time; `None` of a larger one.
+    /// The places of all points below a node of at most [`FEW`] points, in constant time; `None` for a larger node.
     pub(super) fn few_places(&self, node: u32) -> Option<RangeInclusive<u32>> {
         let (mut first, mut last) = (node, node);
         for _ in 1..FEW {
@@ -189,7 +190,7 @@ impl Quadtree {
         is_whole.then(|| place(first)..=place(last))
     }
 
-    /// Lets two points meet.
+    /// Lets two points meet: each remembers the other one if that is the nearest so far.
     pub(super) fn meet(&mut self, one: u32, other: u32) {
         let at = |place: u32| self.nodes[leaf(place) as usize].low;
         let distance = span(at(one), at(other));
@@ -229,7 +230,7 @@ mod tests {
         assert_eq!(level(at(0, 0), at(u32::MAX, u32::MAX)), 64);
     }
 
-    /// What must hold at each node.
+    /// Checks what must hold at each node.
     fn check(tree: &Quadtree, points: &[Point], id: u32) {
         let node = tree.nodes[id as usize];
         let places = tree.places(id);

@@ -1,4 +1,4 @@
-//! The graph against brute force, and the promises of the order.
+//! Tests of the graph against brute force, and of the promises of the order.
 
 use super::distance::{span, Distance};
 use super::neighbors::Search;
@@ -6,20 +6,20 @@ use super::z_order::distinct_in_z_order;
 use super::*;
 use proptest::prelude::*;
 
-/// The nearest neighbour of each point, by looking at all.
+/// The nearest neighbour of each point, found by a look at all others.
 fn by_brute_force(points: &[Point]) -> Vec<u32> {
     let others = |own: u32| (0..points.len() as u32).filter(move |&other| other != own);
     let key = |own: u32, other: u32| (span(points[own as usize], points[other as usize]), other);
     (0..points.len() as u32).filter_map(|own| others(own).min_by_key(|&other| key(own, other))).collect()
 }
 
-/// The nearest neighbour of each point, as the order finds it.
+/// The nearest neighbour of each point, found by the code of the order.
 fn nearest_neighbors(points: &[Point], by: BrioDc) -> Vec<u32> {
     Search::with_room(points.len(), by).run(points).to_vec()
 }
 
-/// Sets on which a search for neighbours can go wrong: even, in a box, long and thin, on a lattice, in clusters, on a
-/// line.
+/// Sets on which a search for neighbours can go wrong: even ones, in a box, long and thin, on a lattice, in clusters,
+/// and on a line.
 fn sets() -> impl Strategy<Value = Vec<Point>> {
     let raw = prop::collection::vec((any::<u32>(), any::<u32>()), 0..160);
     (raw, 0u32..32, 0u32..32, 0u32..5).prop_map(|(raw, wide, high, shape)| {
@@ -35,7 +35,7 @@ fn sets() -> impl Strategy<Value = Vec<Point>> {
     })
 }
 
-/// Everything that an order promises.
+/// Checks everything that an order promises.
 fn check(points: &[Point], guided: &Guided) {
     let mut sorted = guided.order.clone();
     sorted.sort_unstable();
@@ -49,7 +49,7 @@ fn check(points: &[Point], guided: &Guided) {
     assert!(guided.starts.is_sorted() && guided.starts.first().is_none_or(|&start| start == 0));
 }
 
-/// In each round every guide is a nearest vertex.
+/// Checks that in each round every guide is a nearest vertex.
 fn check_nearest(points: &[Point], guided: &Guided) {
     let at = |&index: &u32| points[index as usize];
     for (place, (point, guide)) in guided.order.iter().zip(&guided.guides).enumerate().skip(1) {
@@ -102,7 +102,9 @@ proptest! {
     }
 
     #[test]
-    fn coordinates_beyond_all_devices_are_ordered_too(raw in prop::collection::vec((any::<u32>(), any::<u32>()), 0..60)) {
+    fn coordinates_beyond_all_devices_are_ordered_too(
+        raw in prop::collection::vec((any::<u32>(), any::<u32>()), 0..60),
+    ) {
         let points: Vec<Point> = raw.into_iter().map(Point::from).collect();
         for by in BrioDc::ALL {
             check(&points, &brio_dc(&points, by));

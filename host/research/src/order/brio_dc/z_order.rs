@@ -1,4 +1,4 @@
-//! Points along the Z-curve, equal ones together: sorted by radix, or by comparison.
+//! Points along the Z-curve, with equal ones together, sorted by radix or by comparison.
 
 use super::kind::BrioDc;
 use super::quadtree::level;
@@ -7,11 +7,11 @@ use incircle_geometry::pages::with_room;
 use incircle_geometry::sort::{sort_by_key, Entry, Narrow, Wide};
 use incircle_geometry::Point;
 
-/// Points along the curve.
+/// Points in the order of the Z-curve.
 pub(super) struct Along {
-    /// Their indices; of equal points, in input order.
+    /// The indices of the points; those of equal points in input order.
     pub(super) indices: Vec<u32>,
-    /// The same points.
+    /// The points themselves, in the same order.
     pub(super) points: Vec<Point>,
 }
 
@@ -26,7 +26,7 @@ pub(super) fn along_z(points: &[Point], by: BrioDc) -> Along {
             let points = indices.iter().map(|&index| points[index as usize]).collect();
             Along { indices, points }
         }
-        // Positions of points of 16 bits have 32.
+        // Positions have 32 bits if coordinates have 16.
         BrioDc::Linear if all < 1 << 16 => {
             sorted(points.iter().zip(indices).map(|(p, index)| Narrow::new(position(p.x, p.y) as u32, index)))
         }
@@ -34,7 +34,7 @@ pub(super) fn along_z(points: &[Point], by: BrioDc) -> Along {
     }
 }
 
-/// Sorts by position, of which the points are made again: that is faster than to fetch them from all over the input.
+/// Sorts by position, and computes the points from their positions, which is faster than scattered reads of the input.
 fn sorted<E: Entry>(entries: impl Iterator<Item = E>) -> Along {
     let mut along = with_room(entries.size_hint().0);
     along.extend(entries);
@@ -44,8 +44,8 @@ fn sorted<E: Entry>(entries: impl Iterator<Item = E>) -> Along {
     Along { indices: along.iter().map(Entry::value).collect(), points }
 }
 
-/// Which of two points comes first, decided by the axis in which they differ at the higher bit. Chan, *A minimalist's
-/// implementation of an approximate nearest neighbor algorithm in fixed dimensions*, 2006.
+/// Compares two points along the curve by the axis in which they differ at the higher bit. Source: Chan, *A
+/// minimalist's implementation of an approximate nearest neighbor algorithm in fixed dimensions*, 2006.
 fn compare(one: Point, other: Point) -> std::cmp::Ordering {
     let differs_in_x = level(one, other).is_multiple_of(2);
     if differs_in_x {
@@ -55,7 +55,7 @@ fn compare(one: Point, other: Point) -> std::cmp::Ordering {
     }
 }
 
-/// The distinct ones of some points, in Z-order.
+/// The distinct points of a list, in Z-order.
 #[cfg(test)]
 pub(super) fn distinct_in_z_order(points: &[Point]) -> Vec<Point> {
     let mut along = along_z(points, BrioDc::Linear).points;
@@ -78,7 +78,8 @@ mod tests {
             let order = along_z(&points, BrioDc::Linear);
             let other = along_z(&points, BrioDc::LogU);
             prop_assert_eq!((&order.indices, &order.points), (&other.indices, &other.points));
-            prop_assert!(order.indices.iter().zip(&order.points).all(|(&index, &point)| points[index as usize] == point));
+            let mut pairs = order.indices.iter().zip(&order.points);
+            prop_assert!(pairs.all(|(&index, &point)| points[index as usize] == point));
             let key = |index: &u32| (position(points[*index as usize].x, points[*index as usize].y), *index);
             prop_assert!(order.indices.iter().is_sorted_by_key(key));
             prop_assert_eq!(order.indices.len(), points.len());

@@ -1,4 +1,5 @@
-//! Divisions are sound and the cheapest there are, and what they are chosen by is what the model by clock counts.
+//! Divisions fit the device and are the cheapest there are, and the formulas agree with the
+//! clocks that the model counts.
 
 use incircle_protocol::{Config, FULL, LARGE};
 use proptest::prelude::*;
@@ -8,7 +9,7 @@ use crate::job::group::{Group, Ordered};
 use crate::job::prepare::Prepared;
 use crate::{Device, Options, Point};
 
-/// Points that are all over the grid, from a seed.
+/// Points spread over the whole grid, from a seed.
 fn points(seed: u32, count: usize) -> Vec<Point> {
     let mix = |k: u32| (u64::from(k) + (u64::from(seed) << 32) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     let spread = |k: u32| mix(k) ^ mix(k) >> 29;
@@ -16,9 +17,9 @@ fn points(seed: u32, count: usize) -> Vec<Point> {
     (0..count as u32).map(|k| Point::new(point(k) as u32 & 0xffff, point(k) as u32 >> 16)).collect()
 }
 
-/// Points of a group that are sent, counted.
+/// Points of a group that are sent, counted one by one.
 fn sent(group: &Group, sets: &[Vec<Point>]) -> usize {
-    // Of jobs that share the memory there are no more than it says.
+    // Asking for more points than `sent` says must bring none. A job alone has no such bound: its order is indexed.
     let beyond = if group.jobs.len() > 1 { 9 } else { 0 };
     let mut count = 0;
     group.for_points(sets, 0..group.sent() + beyond, |_| count += 1);
@@ -26,7 +27,7 @@ fn sent(group: &Group, sets: &[Vec<Point>]) -> usize {
     count
 }
 
-/// Clocks of these jobs in one batch with so many contexts, without the two that it takes to read a point.
+/// Clocks that the model counts for these jobs in one batch, without the read-out of two clocks a point.
 fn counted(config: Config, contexts: u32, jobs: &[Vec<Point>]) -> u64 {
     let mut device = Device::clock_model(config).expect("possible");
     let mut session = device.session().expect("a session");
@@ -67,7 +68,7 @@ fn jobs_that_are_over_cost_next_to_nothing() {
 }
 
 #[test]
-fn a_frame_takes_what_is_expected() {
+fn an_exclusive_job_takes_what_is_expected() {
     let mut device = Device::clock_model(LARGE).expect("possible");
     let mut session = device.session().expect("a session");
     let plan = Plan::new(LARGE.contexts, LARGE.points);
@@ -90,7 +91,7 @@ fn a_frame_takes_what_is_expected() {
             mesh.report.counters.expect("they are counted").insert_cycles
         };
         let mean = (0..16).map(clocks).sum::<u64>() / 16;
-        assert_near(mean, plan.frame_with(count, contexts), 12, &format!("{count} points, {contexts} contexts"));
+        assert_near(mean, plan.exclusive_with(count, contexts), 12, &format!("{count} points, {contexts} contexts"));
     }
 }
 
@@ -103,16 +104,16 @@ fn the_full_core_shares_its_memory_up_to_a_seventh() {
     }
     assert!(!plan.shares(8193) && !plan.shares(u32::MAX as usize));
     assert_eq!(plan.divide(&[1170; 7]), [Part::Group(7)]);
-    assert_eq!(plan.divide(&[1171; 7]), [Part::Frame; 7]);
-    // Jobs that are left over are frames if they are few.
-    assert_eq!(plan.divide(&[1000; 17]), [Part::Group(8), Part::Group(8), Part::Frame]);
-    assert_eq!(plan.divide(&[300; 2]), [Part::Frame; 2]);
+    assert_eq!(plan.divide(&[1171; 7]), [Part::Exclusive; 7]);
+    // A few jobs that are left over go one after another.
+    assert_eq!(plan.divide(&[1000; 17]), [Part::Group(8), Part::Group(8), Part::Exclusive]);
+    assert_eq!(plan.divide(&[300; 2]), [Part::Exclusive; 2]);
     assert_eq!(plan.divide(&[]), []);
-    assert_eq!([4000, 1000, 10].map(|points| plan.frame_contexts(points)), [16, 12, 1]);
+    assert_eq!([4000, 1000, 10].map(|points| plan.exclusive_contexts(points)), [16, 12, 1]);
 }
 
 #[test]
-fn one_context_has_one_job_at_a_time_and_no_frames() {
+fn one_context_has_one_job_at_a_time_and_no_exclusive_ones() {
     for capacity in [8, 1024, 1 << 20] {
         let plan = Plan::new(1, capacity);
         for points in [1, 3, 8, 1000, 8192, 1 << 20] {
@@ -125,7 +126,7 @@ fn one_context_has_one_job_at_a_time_and_no_frames() {
     assert_eq!(Plan::new(0, 8).divide(&[5]), [Part::Group(1)]);
 }
 
-/// Jobs of these lengths, whatever their points are.
+/// Jobs of these lengths. Their points are all the same, since only the counts matter.
 fn jobs_of(lengths: &[usize]) -> (Vec<Vec<Point>>, Vec<Ordered>) {
     let sets: Vec<Vec<Point>> = lengths.iter().map(|&count| vec![Point::new(0, 0); count]).collect();
     let ordered = |(job, &count): (usize, &usize)| {
@@ -135,10 +136,10 @@ fn jobs_of(lengths: &[usize]) -> (Vec<Vec<Point>>, Vec<Ordered>) {
     (sets, lengths.iter().enumerate().map(ordered).collect())
 }
 
-/// What a part takes, if it fits: the points that are sent are counted one by one.
+/// Cost of a part, if it fits, with the points that are sent counted one by one.
 fn clocks_of(plan: &Plan, part: Part, lengths: &[usize]) -> Option<u64> {
     let Part::Group(jobs) = part else {
-        return Some(plan.frame(lengths[0]).0);
+        return Some(plan.exclusive(lengths[0]).0);
     };
     let own = &lengths[..jobs];
     let (sets, ordered) = jobs_of(own);
@@ -147,14 +148,14 @@ fn clocks_of(plan: &Plan, part: Part, lengths: &[usize]) -> Option<u64> {
     fits.then(|| COMMANDS + steps.sum::<u64>() + FIRST_TRIANGLE * jobs as u64)
 }
 
-/// The fewest clocks of all divisions, each of them tried.
+/// The lowest cost of all divisions, found by trying each of them.
 fn fewest(plan: &Plan, lengths: &[usize]) -> u64 {
     if lengths.is_empty() {
         return 0;
     }
-    let parts = std::iter::once(Part::Frame).chain((1..=lengths.len()).map(Part::Group));
+    let parts = std::iter::once(Part::Exclusive).chain((1..=lengths.len()).map(Part::Group));
     let clocks = |part: Part| Some(clocks_of(plan, part, lengths)? + fewest(plan, &lengths[part.jobs()..]));
-    parts.filter_map(clocks).min().expect("a frame always fits")
+    parts.filter_map(clocks).min().expect("an exclusive job always fits")
 }
 
 proptest! {
@@ -177,7 +178,7 @@ proptest! {
 
     #[test]
     fn the_capacity_may_be_reached_exactly(jobs in 2usize..17, share in 3usize..60, longer in 0usize..16) {
-        // So many are a point longer than the others: the last round is theirs.
+        // `longer` of the jobs are a point longer than the others, so the last round is theirs alone.
         let longer = longer % jobs;
         let mut lengths = vec![share; jobs];
         lengths[..longer].fill(share + 1);

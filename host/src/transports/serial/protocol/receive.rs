@@ -1,4 +1,4 @@
-//! What the host makes of frames.
+//! Receiving: what the host does with each frame of the device.
 
 use std::time::Duration;
 
@@ -10,10 +10,11 @@ use crate::transports::serial::fault::SerialFault;
 use crate::transports::serial::reader::Reader;
 use crate::transports::serial::sender::Sender;
 
-/// Frames of one kind that prove that the session is gone; a single one may have been on its way from before.
+/// Frames of one kind that prove that the session is gone. A single one may have been on its way since before.
 const PROOF: u32 = 2;
+
 impl SerialProtocol {
-    /// Takes what came from the line.
+    /// Takes bytes that came from the line.
     pub fn receive(&mut self, bytes: &[u8], now: Duration) {
         self.statistics.bytes_received += bytes.len() as u64;
         if let Stage::Connecting(connect) = &mut self.stage {
@@ -44,7 +45,7 @@ impl SerialProtocol {
             Stage::Searching { .. } if message.kind == DeviceFrame::Hello => Err(self.session_gone(message.session)),
             Stage::Idle | Stage::Searching { .. } => Ok(()),
             Stage::Closing { .. } => {
-                // The session that such a frame names is over, or none.
+                // Both frames say that the session is over.
                 if matches!(message.kind, DeviceFrame::Closed | DeviceFrame::NoSession) {
                     self.closed(now);
                 }
@@ -58,7 +59,7 @@ impl SerialProtocol {
         self.set_rate(FIRST_RATE, now);
     }
 
-    /// The device knows nothing of our session: of another one, or of none.
+    /// The fault of a device that has forgotten the session. `open` is the number of the session that it has, or 0.
     fn session_gone(&self, open: u8) -> SerialFault {
         if open != 0 && open != self.session {
             return SerialFault::Taken { session: open };
@@ -76,7 +77,7 @@ impl SerialProtocol {
         if is_opened {
             self.begin_session();
         }
-        // Before that it is of a session from before: what is late of one tells nothing of this one.
+        // A frame that comes before the session is open belongs to an earlier session, and tells nothing of this one.
         if has_session && message.session == self.session && message.kind != DeviceFrame::Hello {
             self.take_header(message, now)?;
         }
@@ -90,12 +91,12 @@ impl SerialProtocol {
         Ok(())
     }
 
-    /// The device has forgotten all, and so do we.
+    /// Starts a session with a new sender and a new reader, since the device has forgotten everything.
     fn begin_session(&mut self) {
         self.resent_before += self.sender.resent();
         self.repeated_before += self.reader.repeated();
         let identity = self.greeting.map(|greeting| greeting.identity);
-        // Checked with the greeting, so the layout exists.
+        // A session opens only after a checked greeting, so the default is never used.
         let layout = identity.map_or(Layout { point_words: 1, record_words: 3 }, |identity| {
             Layout::of(identity.coord_bits, identity.capacity)
         });
@@ -141,11 +142,11 @@ impl SerialProtocol {
         Ok(())
     }
 
-    /// Takes what every frame of the session tells. False if that is not news of now.
+    /// Takes the header that every frame of the session has. Returns false if the header is not up to date.
     fn take_header(&mut self, message: &Message<'_>, now: Duration) -> Result<bool, SerialFault> {
         let fifo = self.greeting.map_or(0, |greeting| greeting.fifo_bytes);
         let free = u32::from(message.free);
-        // A larger FIFO than the field can tell is never exceeded by what it tells.
+        // A FIFO may be larger than the field can tell; then no claim is refused.
         if free > fifo {
             return Err(SerialFault::Credit { free, fifo });
         }
@@ -165,7 +166,8 @@ impl SerialProtocol {
         Ok(true)
     }
 
-    /// A `Nak`: a frame is missing. One that was on its way before the frame went again is no news.
+    /// Takes a `Nak`, which says that a frame is missing, and sends again from that frame on. A `Nak` that was on its
+    /// way before the frame was sent again is ignored.
     fn go_back_once(&mut self, now: Duration) {
         let is_old = self.sender.first_was_repeated()
             && self.sender.first_left_at().is_some_and(|left_at| now < left_at + self.trips.mean() * 3 / 4);
@@ -175,7 +177,7 @@ impl SerialProtocol {
         self.polled = None;
     }
 
-    /// An `Ack` after a `Poll`: what was out before the `Poll` and has not been taken is lost.
+    /// Takes the `Ack` to a `Poll`: frames that were out before the `Poll` and have not been taken are lost.
     fn hear_polled(&mut self, now: Duration) {
         let Some(Polled { base, cut, .. }) = self.polled.filter(|polled| now >= polled.left_at) else { return };
         self.polled = None;

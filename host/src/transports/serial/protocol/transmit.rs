@@ -1,4 +1,4 @@
-//! What the host says, and when.
+//! Sending: what the host sends, and when.
 
 use std::time::Duration;
 
@@ -9,22 +9,24 @@ use crate::transports::serial::codec::{encode, MOST_OVERHEAD};
 use crate::transports::serial::fault::SerialFault;
 use crate::transports::serial::timing::POLL_EVERY;
 
-/// Bytes are handed out so far ahead of the line: enough to keep it busy, and little to wait for when frames must go
-/// again.
+/// Time by which bytes are handed out ahead of the line: enough to keep it busy, but little to wait for when
+/// frames must be sent again.
 const AHEAD: Duration = Duration::from_millis(4);
-/// Beyond the device's silence, until the host believes that the device has forgotten it.
+/// Time beyond the device's silence after which the host believes that the device has forgotten the session.
 const SILENCE_SLACK: Duration = Duration::from_millis(300);
-/// How long the host looks for a device that fell silent, and how often it calls.
+/// Time for which the host looks for a device that fell silent.
 const SEARCH_FOR: Duration = Duration::from_millis(1000);
+/// Time from one greeting to the next while the host looks for the device.
 const SEARCH_EVERY: Duration = Duration::from_millis(150);
-/// Times that `Close` is said, and the time from one to the next.
+/// Most times that the host sends `Close`.
 const CLOSES: u32 = 3;
+/// Least time from one `Close` to the next.
 const CLOSE_EVERY: Duration = Duration::from_millis(60);
 /// Bytes of a frame on the line besides its payload: header, check sum, a length byte, the closing zero.
 const FRAME_BYTES: usize = HOST_HEADER_BYTES + CRC_BYTES + 2;
 
 impl SerialProtocol {
-    /// Appends the bytes that are due.
+    /// Appends the bytes that are due to `out`.
     pub fn transmit(&mut self, now: Duration, out: &mut Vec<u8>) {
         let before = out.len();
         match self.stage {
@@ -38,7 +40,8 @@ impl SerialProtocol {
         self.statistics.bytes_sent += (out.len() - before) as u64;
     }
 
-    /// When to call [`SerialProtocol::transmit`] again if nothing comes; `None` if there is nothing to wait for.
+    /// Time at which to call [`SerialProtocol::transmit`] again if nothing comes; `None` if there
+    /// is nothing to wait for.
     pub fn next_wake(&self) -> Option<Duration> {
         match &self.stage {
             Stage::Closing { due, .. } => Some(*due),
@@ -47,7 +50,7 @@ impl SerialProtocol {
             Stage::Connecting(connect) => Some(connect.due()),
             Stage::Searching { due, until, .. } => Some(*due.min(until)),
             Stage::Open => {
-                // Nothing is handed out, be it ever so due, before the line has taken what it has.
+                // However due a frame is, none is handed out before the line has room for it.
                 let has_room_at = self.line.free_at().saturating_sub(AHEAD);
                 let due = if self.sender.has_due() { has_room_at } else { self.poll_at() };
                 Some(due.min(self.poll_at()).max(has_room_at).min(self.silent_at()))
@@ -72,12 +75,12 @@ impl SerialProtocol {
         self.line.carry(out.len() - before, now);
     }
 
-    /// When the device has been silent for so long that it has forgotten the session, or is gone.
+    /// Time at which the device will have been silent for so long that it has forgotten the session, or is gone.
     fn silent_at(&self) -> Duration {
         self.last_heard + self.silence + SILENCE_SLACK
     }
 
-    /// When the next `Poll` is due.
+    /// Time at which the next `Poll` is due.
     fn poll_at(&self) -> Duration {
         let every = POLL_EVERY.min(self.silence / 4);
         let keep = self.last_said + every;
@@ -112,8 +115,9 @@ impl SerialProtocol {
     fn say_poll(&mut self, now: Duration, out: &mut Vec<u8>) {
         encode(self.session, HostFrame::Poll, 0, &[], out);
         let left_at = self.line.carry(FRAME_BYTES, now);
-        // One that had no answer stays: an answer that comes before its `Poll` has left the line, as from a simulated
-        // board, may be of the one before, and what was out then is lost all the same.
+        // An earlier `Poll` without an answer is kept. An answer that comes before the latest `Poll` has left
+        // the line, as from a simulated board, may belong to the earlier one, and frames that were out then
+        // are lost all the same.
         let base = self.sender.base();
         if self.polled.as_ref().is_none_or(|polled| polled.base != base) {
             self.polled = Some(Polled { base, cut: self.sender.cut(), left_at });

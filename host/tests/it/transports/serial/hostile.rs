@@ -1,5 +1,5 @@
-//! Serial devices that lie, and lines that babble: whatever comes, the protocol neither panics nor hangs, holds no more than the job needs, and
-//! hands out nothing but a whole answer of the right length or a fault of its own.
+//! Serial devices that lie, and lines that babble. Whatever comes, the protocol neither panics nor hangs, holds no more
+//! memory than the job needs, and hands out either a whole answer of the right length or a fault of its own.
 
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -12,11 +12,11 @@ use incircle_protocol::{Command, RecordRange};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 
-/// Of each property.
+/// Cases tried for each property.
 const CASES: u32 = 36_000;
-/// What the protocol may hold besides command and answer: frames under way, a frame that comes, small change.
-const BESIDES: isize = 48 * 1024;
-/// Words of the longest legal answer that is not a range of records.
+/// Bytes that the protocol may hold besides command and answer, for frames under way and a frame that comes.
+const MOST_OVERHEAD: isize = 48 * 1024;
+/// Words of the longest answer that is not a range of records.
 const LONGEST: usize = 2 + 128;
 
 /// Something that happens to the protocol.
@@ -24,15 +24,15 @@ const LONGEST: usize = 2 + 128;
 enum Event {
     /// Time passes, in microseconds.
     Wait(u32),
-    /// Bytes that are no frame.
+    /// Bytes come that are not a frame.
     Noise(Vec<u8>),
-    /// A frame of the device; what it says is anything, its check sum holds. A session of 1 stands for the right one.
+    /// A frame of any content comes, with a check sum that holds. A session of 1 stands for the right one.
     Frame { session: u8, kind: u8, header: [u8; 5], body: Body },
-    /// All frames of the host but so many are taken, and the check sum of their payload is right.
+    /// The device acknowledges all frames of the host but the last `behind`, with the right check sum of their payload.
     Proof { behind: usize },
-    /// The last frame once more, or only its first bytes.
+    /// The last frame comes once more, or only its first bytes.
     Again { bytes: usize },
-    /// The host gives up.
+    /// The host closes the session.
     Close,
 }
 
@@ -44,7 +44,7 @@ enum Body {
         place: usize,
         value: u32,
     },
-    /// A part of an answer: how far its number and its index are off, its words, and whether its check sum is right.
+    /// A part of an answer, with any number and index, and with a check sum that may be wrong.
     Part {
         number: u8,
         index: u16,
@@ -53,7 +53,7 @@ enum Body {
         words: usize,
         is_sound: bool,
     },
-    /// The check sum of so many bytes of payload: right for none.
+    /// A check sum of payload, which is right only by chance.
     Digest(u32),
 }
 
@@ -111,7 +111,7 @@ fn command() -> impl Strategy<Value = Command<Vec<u32>>> {
     ]
 }
 
-/// Words that its answer may have.
+/// Most words of the answer to a command.
 fn most_words(command: &Command<Vec<u32>>) -> usize {
     match command {
         Command::Read(records) => 2 + 3 * records.count as usize,
@@ -146,19 +146,20 @@ fn bytes_of(session: u8, kind: u8, header: [u8; 5], body: &Body) -> Vec<u8> {
     frame(&plain)
 }
 
-/// The protocol under test, with what is held of it.
+/// The protocol under test, with a record of the frames that it sent.
 struct Bench {
     protocol: SerialProtocol,
     now: Duration,
     session: u8,
     last: Vec<u8>,
-    /// `Data` frames of the session, and the check sums of the payload up to the last of them.
+    /// Number of `Data` frames of the session.
     frames: usize,
     answers: u8,
+    /// Check sums of the payload up to each of the last frames.
     digests: VecDeque<u32>,
 }
 
-/// Answers that were handed out.
+/// Number of answers that were handed out.
 static HANDED_OUT: AtomicUsize = AtomicUsize::new(0);
 
 impl Bench {
@@ -168,7 +169,7 @@ impl Bench {
         Self { protocol, now, session: 42, last, frames: 0, answers: 0, digests }
     }
 
-    /// Lets the protocol say what is due, as often as it wants within the time.
+    /// Lets the protocol send the bytes that are due, as often as it wants until that time.
     fn wait(&mut self, until: Duration) {
         let (mut last, mut idle) = (self.now, 0);
         for _ in 0..10_000 {
@@ -176,7 +177,7 @@ impl Bench {
             self.protocol.transmit(self.now, &mut out);
             assert!(out.len() < 64 * 1024, "{} bytes at once", out.len());
             self.heed(&out);
-            // Whoever waits until it wants to be called must not wait in vain.
+            // A protocol that asks to be called at a time must have something to send then.
             idle = if out.is_empty() && self.now == last { idle + 1 } else { 0 };
             assert!(idle < 4, "it wakes for nothing at {:?}", self.now);
             last = self.now;
@@ -191,7 +192,7 @@ impl Bench {
         panic!("it wakes without end until {until:?}");
     }
 
-    /// Takes note of `Data` frames that go out for the first time.
+    /// Records the `Data` frames that go out for the first time.
     fn heed(&mut self, out: &[u8]) {
         for piece in out.split(|&byte| byte == 0) {
             let frame = cobs_decode(piece).unwrap_or_default();
@@ -206,7 +207,7 @@ impl Bench {
         }
     }
 
-    /// The device has taken all frames but so many, and says so.
+    /// Makes the device acknowledge all frames but the last `behind`.
     fn prove(&mut self, behind: usize) {
         let behind = behind.min(self.digests.len() - 1);
         let digest = Body::Digest(self.digests[self.digests.len() - 1 - behind]);
@@ -233,12 +234,12 @@ impl Bench {
         self.wait(self.now);
     }
 
-    /// A sound device up to the open session.
+    /// Plays a sound device up to the open session.
     fn open(&mut self) {
         self.open_with(13, 0);
     }
 
-    /// As [`Bench::open`], with another word in the greeting.
+    /// Does what [`Bench::open`] does, with another word in the greeting.
     fn open_with(&mut self, place: usize, value: u32) {
         self.wait(self.now);
         let greeting = Body::Greeting { place, value };
@@ -248,10 +249,10 @@ impl Bench {
     }
 }
 
-/// Runs the events; the protocol must stay within its bounds at each of them.
+/// Runs the events, and checks that the protocol stays within its bounds at each of them.
 fn check(bench: &mut Bench, command: &Command<Vec<u32>>, events: &[Event]) -> Result<(), TestCaseError> {
     let most = most_words(command);
-    let bound = 4 * (command.words() + most) as isize + BESIDES;
+    let bound = 4 * (command.words() + most) as isize + MOST_OVERHEAD;
     for event in events {
         bench.happen(event);
         prop_assert!(heap::held() <= bound, "{} bytes held, {bound} allowed", heap::held());
@@ -261,7 +262,7 @@ fn check(bench: &mut Bench, command: &Command<Vec<u32>>, events: &[Event]) -> Re
             HANDED_OUT.fetch_add(1, Ordering::Relaxed);
         }
     }
-    // Left alone it comes to an end, or goes on asking without haste.
+    // Left alone, the protocol comes to an end, or goes on polling without haste.
     bench.wait(bench.now + Duration::from_secs(8));
     prop_assert!(bench.protocol.check().is_err() || bench.protocol.is_closed() || !bench.protocol.is_open());
     Ok(())
@@ -305,7 +306,7 @@ fn whatever_bytes_come() {
     run(CASES, (command(), events), true, &[]);
 }
 
-/// A device that goes on with one answer for ever is stopped.
+/// A device that never ends an answer is stopped.
 #[test]
 fn an_answer_without_end() {
     for command in [Command::Hello, read(0, 3000), Command::Latencies] {
@@ -320,7 +321,7 @@ fn an_answer_without_end() {
             index += 256;
         }
         let fault = bench.protocol.check().expect_err("stopped").to_string();
-        assert!(fault.contains("more than the"), "{fault}");
+        assert!(fault.contains("has more than"), "{fault}");
     }
 }
 
@@ -360,7 +361,7 @@ fn an_answer_needs_a_question_that_was_taken() {
         let fault = bench.protocol.check().expect_err("it has taken nothing").to_string();
         assert!(fault.contains("has taken 0"), "{fault}");
     }
-    // A question that was taken in part was not taken.
+    // A command of which the device has taken a part is not taken.
     let mut bench = asked(&insert(3000));
     bench.protocol.receive(&bytes_of(42, 0x86, [1, 0, 0, 16, 1], &REPORT), bench.now);
     let fault = bench.protocol.check().expect_err("more is to come").to_string();
@@ -372,19 +373,19 @@ fn an_answer_needs_a_question_that_was_taken() {
     assert_eq!(bench.protocol.take_answer().map(|answer| answer.len()), Some(7));
 }
 
-/// A device that counts answers for ever makes nothing grow, whether it takes what is asked or not.
+/// A device that counts answers for ever makes no memory grow, whether it takes the commands or not.
 #[test]
 fn answers_that_are_counted_and_never_come() {
     for (command, takes) in commands().into_iter().flat_map(|command| [(command.clone(), false), (command, true)]) {
         heap::watch();
         let mut bench = asked(&command);
-        let bound = 4 * (command.words() + most_words(&command)) as isize + BESIDES;
+        let bound = 4 * (command.words() + most_words(&command)) as isize + MOST_OVERHEAD;
         for step in 0..100_000 {
             if takes {
                 bench.wait(bench.now + Duration::from_millis(3));
                 bench.prove(0);
             }
-            // Whoever takes what is asked has all of it by then.
+            // By then a device that takes commands has taken all of the command.
             if !takes || step > 1000 {
                 bench.answers = bench.answers.wrapping_add(1);
             }
@@ -407,12 +408,12 @@ fn no_answer_is_longer_than_its_command_may_bring() {
         bench.prove(0);
         match bench.protocol.check() {
             Ok(()) => assert!(is_longest && bench.protocol.take_answer().is_some_and(|answer| answer.len() == words)),
-            Err(fault) => assert!(!is_longest && fault.to_string().contains("more than the 130 words"), "{fault}"),
+            Err(fault) => assert!(!is_longest && fault.to_string().contains("more than 130 words"), "{fault}"),
         }
     }
 }
 
-/// A short silence asks for a `Poll` before the line has carried the frame before it.
+/// With a short silence a `Poll` is due before the line has carried the frame before it.
 #[test]
 fn what_is_due_waits_for_the_line() {
     let mut bench = Bench::new(vec![]);

@@ -1,8 +1,9 @@
-//! The serial link's protocol against a board in virtual time: sound lines, faults of every kind at every place, and what ends a job.
+//! The serial protocol against a board in virtual time: sound lines, faults of every kind at every place, and
+//! errors that end a job.
 
 use std::time::Duration;
 
-use crate::common::by_engine;
+use crate::common::by_cpu;
 use crate::common::rig::{Fate, Rig};
 use crate::common::Random;
 use incircle::serial::SerialFault;
@@ -29,21 +30,21 @@ fn points(count: usize) -> Vec<Point> {
     Random(3).points(count, 1 << 16)
 }
 
-/// A whole job.
+/// Does a whole job over the rig.
 fn triangulate(rig: Rig, points: &[Point]) -> Result<Solution, Error> {
     let mut device = Device::from_transport(Box::new(rig));
     let mut session = device.session()?;
     session.triangulate(points)
 }
 
-/// A whole job, which must end in this list of triangles; `what` says of which one that was not so.
+/// Does a whole job, and checks that it ends in this list of triangles. `what` names the case in a failure.
 fn ends_right(rig: Rig, points: &[Point], expected: &[[u32; 3]], what: &str) {
     let solution = triangulate(rig, points).unwrap_or_else(|error| panic!("{what}: {error}"));
     assert_eq!(solution.mesh.triangles, expected, "{what}");
 }
 
 fn expected(points: &[Point]) -> Solution {
-    by_engine(points)
+    by_cpu(points)
 }
 
 fn fault(result: Result<Vec<u32>, TransportError>) -> SerialFault {
@@ -105,24 +106,27 @@ fn both_directions_carry_nine_tenths_of_what_the_line_can() {
     }
 }
 
-/// One frame after the other is lost, changed, doubled, or overtaken; the job ends as without.
+/// One frame after another is lost, changed, doubled or overtaken. The job ends with the same
+/// mesh as without the fault.
 #[test]
 fn a_fault_of_any_frame_leaves_no_trace() {
     let points = points(300);
     let expected = expected(&points).mesh.triangles;
     for fate in [Fate::Lost, Fate::Changed, Fate::Twice, Fate::Overtaken] {
-        for way in [false, true] {
+        for direction in [false, true] {
             for place in 0..40 {
                 let mut rig = rig();
-                rig.faults =
-                    Box::new(move |to_host, frame| if to_host == way && frame == place { fate } else { Fate::Passes });
-                ends_right(rig, &points, &expected, &format!("{fate:?} {way} {place}"));
+                rig.faults = Box::new(
+                    move |to_host, frame| if to_host == direction && frame == place { fate } else { Fate::Passes },
+                );
+                ends_right(rig, &points, &expected, &format!("{fate:?} {direction} {place}"));
             }
         }
     }
 }
 
-/// Simulated boards answer a `Poll` before it would have left a real line: such an answer tells of what was out before all the same.
+/// A simulated board answers a `Poll` before the `Poll` would have left a real line. Such an answer still tells which
+/// frames before it were lost.
 #[test]
 fn a_lost_frame_goes_again_also_where_answers_come_sooner_than_the_rate_allows() {
     let points = points(300);
@@ -135,7 +139,7 @@ fn a_lost_frame_goes_again_also_where_answers_come_sooner_than_the_rate_allows()
     }
 }
 
-/// All kinds of faults, a few per cent each.
+/// All kinds of faults at once, each for a few per cent of the frames.
 #[test]
 fn many_faults_leave_no_trace_either() {
     let points = points(700);
@@ -154,7 +158,7 @@ fn many_faults_leave_no_trace_either() {
     }
 }
 
-/// Whether noise alone can end in it.
+/// Whether noise alone can end in this fault.
 fn is_of_noise(fault: &SerialFault) -> bool {
     use SerialFault::{Lost, Noise, Reset, Silent};
     matches!(fault, Silent | Noise { .. } | Lost { .. } | Reset { .. })
@@ -196,7 +200,7 @@ fn a_rate_that_does_not_work_is_left_for_a_lower_one() {
         rig.ask(&HELLO).unwrap_or_else(|error| panic!("{usable}: {error}"));
         assert_eq!(rig.protocol.rate(), found);
     }
-    // The device's own limit is known before.
+    // The greeting tells the device's own limit, so higher rates are not tried.
     let mut rig = rig();
     rig.board.greeting[4] = 2_000_000;
     rig.ask(&HELLO).expect("a sound line");
@@ -228,7 +232,7 @@ fn a_device_that_was_reset_is_told() {
         let fault = fault(rig.ask(&insert(8192)));
         assert_eq!(fault, SerialFault::Reset { silence_ms: 2000 }, "{delay}");
     }
-    // At the first rate the device itself says so.
+    // At the first rate the device itself says that it has no session.
     let mut rig = Rig::new(Params { rates: vec![], session: 0 }, 4096);
     rig.ask(&HELLO).expect("a sound line");
     rig.board.reset();
@@ -241,7 +245,7 @@ fn a_device_that_was_reset_is_told() {
 fn a_line_that_another_host_took_is_told() {
     let mut rig = rig();
     rig.ask(&HELLO).expect("a sound line");
-    // The other host keeps it awake.
+    // The long silence stands for the other host, which keeps the session alive.
     rig.board.reset();
     rig.board.session = 99;
     rig.board.greeting[5] = 60_000;
@@ -262,7 +266,8 @@ fn digests_are_compared_both_ways() {
     assert_eq!((payload.kind(), answer.kind()), (ErrorKind::Device, ErrorKind::Device));
 }
 
-/// The acknowledgement of the only frame of the command is lost: the answer acknowledges it, and is not believed before the digest has come.
+/// The acknowledgement of the only frame of a command is lost. The answer acknowledges the frame as well, but is not
+/// believed before the digest has come.
 #[test]
 fn no_answer_is_believed_before_the_digest() {
     let mut rig = rig();
@@ -317,7 +322,7 @@ fn closing_brings_the_device_back_at_once() {
     assert!(rig.run(until, |protocol| protocol.is_closed()));
     assert!(rig.now - since < Duration::from_millis(10));
     assert_eq!((rig.board.rate, rig.board.session, rig.protocol.rate()), (115_200, 0, 115_200));
-    // And it is opened again when asked.
+    // The next command opens a session again.
     rig.ask(&HELLO).expect("a sound line");
 }
 
@@ -341,10 +346,10 @@ fn a_pause_between_jobs_is_no_matter_and_one_within_a_job_is_told() {
 fn what_the_link_cannot_carry_is_refused() {
     let range = |first, count| RecordRange { first, count };
     for (command, sentence) in [
-        (Command::Triangles(range(0, 1)), "reads whole records"),
-        (Command::Read(range(u32::MAX, 1)), "passes the last record number"),
-        (Command::Insert { count: 2, points: &[7][..] }, "of another device"),
-        (Command::Insert { count: 0, points: &[7][..] }, "of another device"),
+        (Command::Triangles(range(0, 1)), "only reads whole records"),
+        (Command::Read(range(u32::MAX, 1)), "goes beyond the last record number"),
+        (Command::Insert { count: 2, points: &[7][..] }, "laid out for another device"),
+        (Command::Insert { count: 0, points: &[7][..] }, "laid out for another device"),
     ] {
         let fault = fault(rig().ask(&command));
         assert!(matches!(fault, SerialFault::Command(why) if why.contains(sentence)), "{fault}");

@@ -1,4 +1,5 @@
-//! The serial transport over pseudo-terminals, in real time: a job, a port that others have, one that goes, one where nobody reads.
+//! The serial transport over pseudo-terminals, in real time: a job, a port that another program has, a port that goes
+//! away, and a port where nobody reads.
 
 use std::io::{Read, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -12,7 +13,7 @@ use incircle::serial::{greet, Address, PortFault, SerialFault, SerialTransport};
 use incircle::{Device, Error, ErrorKind, Options, Point};
 use serialport::{SerialPort, TTYPort};
 
-/// What takes well under a second may take so long where other programs run as well.
+/// Time for an action that takes well under a second, on a machine where other programs run as well.
 const BUSY_MACHINE: Duration = Duration::from_secs(3);
 
 /// A board behind a pseudo-terminal.
@@ -21,7 +22,7 @@ struct Virtual {
     board: Arc<Mutex<Board>>,
     stop: Arc<AtomicBool>,
     thread: Option<JoinHandle<()>>,
-    /// Held open, so that the master's end works between two hosts.
+    /// The other end, held open so that the master's end works between two hosts.
     _slave: TTYPort,
 }
 
@@ -54,7 +55,7 @@ impl Virtual {
         format!("serial:{}?baud=3000000", self.port)
     }
 
-    /// The master's end is closed: the cable is pulled.
+    /// Closes the master's end, as if the cable were pulled.
     fn unplug(&mut self) {
         self.stop.store(true, Ordering::SeqCst);
         if let Some(thread) = self.thread.take() {
@@ -73,7 +74,7 @@ fn points(count: usize) -> Vec<Point> {
     Random(9).points(count, 1 << 16)
 }
 
-/// What the link has found.
+/// The fault that the link has found, if this is an error of the link.
 fn link_fault(error: &Error) -> Option<&SerialFault> {
     match error {
         Error::Link { source, .. } => source.fault(),
@@ -121,7 +122,7 @@ fn a_greeting_opens_nothing() {
     assert_eq!(host.board.lock().expect("no panic").session, 0);
 }
 
-/// A caller that wants to wait for ever may say so.
+/// A caller may choose to wait for ever.
 #[test]
 fn a_timeout_may_be_longer_than_any_clock_runs() {
     let host = Virtual::new();
@@ -136,7 +137,7 @@ fn only_one_program_has_a_port() {
     let host = Virtual::new();
     let first = Device::open(&host.address()).expect("a port");
     assert!(matches!(refusal(&host.port), PortFault::Busy));
-    // The refused one left the first one's port as it was.
+    // The refused attempt has left the port to the first program.
     assert!(matches!(refusal(&host.port), PortFault::Busy));
     drop(first);
     drop(Device::open(&host.address()).expect("a port"));
@@ -170,13 +171,13 @@ fn nobody_reads_and_nobody_answers() {
     drop((transport, master));
 }
 
-/// The other end takes nothing, though the whole session works: writes must not block.
+/// After a session has worked, the other end stops reading. Writes must not block.
 #[test]
 fn deadlines_hold_when_nobody_reads() {
     let host = Virtual::new();
     let mut device = Device::open(&host.address()).expect("a port");
     let mut session = device.session().expect("a board");
-    // Whoever holds the board stops its thread.
+    // Holding the lock of the board stops its thread.
     let board = host.board.lock().expect("no panic");
     let since = Instant::now();
     let options = Options::default().timeout(Duration::from_millis(700));

@@ -1,4 +1,5 @@
-//! Sessions of the serial link's protocol, one after the other, in virtual time: what is late of one, what is left of one, and rates that do not work.
+//! Sessions of the serial protocol, one after another, in virtual time: late frames of an earlier session, sessions
+//! that were left open, and rates that do not work.
 
 use std::time::Duration;
 
@@ -16,7 +17,7 @@ fn rig() -> Rig {
     Rig::new(Params::with_rate(12_000_000), 4096)
 }
 
-/// At the first rate.
+/// A rig that stays at the first rate.
 fn slow_rig(session: u8) -> Rig {
     Rig::new(Params { rates: vec![], session }, 4096)
 }
@@ -30,7 +31,7 @@ fn a_late_frame_of_a_session_is_nothing_to_the_next() {
     assert!(rig.run(rig.now + Duration::from_secs(1), |protocol| protocol.statistics().polls > polls));
     rig.run(rig.now + Duration::from_micros(2500), |_| false);
     assert_eq!(rig.under_way(true), 1);
-    // So long that the session is opened anew for a command that needs nothing of it.
+    // After this pause the session is opened anew for a command that does not need the device's memory.
     rig.now += Duration::from_millis(1700);
     rig.ask(&HELLO).expect("a sound line");
     assert_eq!(rig.board.session, 9);
@@ -59,7 +60,8 @@ fn every_session_has_another_number() {
     }
 }
 
-/// The device forgets the session before the host has seen that the rate does not work, and the first acknowledgement is lost.
+/// The first acknowledgement is lost, and the device forgets the session before the host has seen that
+/// the rate does not work.
 #[test]
 fn a_rate_that_does_not_work_is_left_also_where_silence_is_short() {
     let mut rig = rig();
@@ -93,14 +95,14 @@ fn a_device_with_the_longest_silence_is_found_at_any_rate() {
     assert_eq!(rig.protocol.rate(), 3_000_000);
 }
 
-/// The longest way to a session: a device at a high rate, then no rate that works and no acknowledgement that comes.
+/// The longest time to a session: a device was left at a high rate, no rate works, and no acknowledgement comes.
 #[test]
 fn the_ladder_of_rates_is_done_in_the_time_for_a_greeting() {
     let mut rig = rig();
     rig.ask(&HELLO).expect("a sound line");
     rig.protocol = SerialProtocol::new(Params { session: 77, ..Params::with_rate(12_000_000) });
     rig.board.usable = 200_000;
-    // `Hello`, `Opened`, `Ack`, three times.
+    // The device sends `Hello`, `Opened` and `Ack` three times, and each `Ack` is lost.
     let first = rig.frames[1];
     rig.faults = Box::new(move |to_host, frame| {
         let is_lost = to_host && frame < first + 9 && (frame - first) % 3 == 2;
@@ -129,7 +131,7 @@ fn a_command_may_follow_a_greeting_at_once() {
 }
 
 #[test]
-fn closing_gives_up_the_command_under_way() {
+fn closing_abandons_the_command_under_way() {
     for microseconds in [0, 300, 3_000, 20_000, 100_000] {
         let mut rig = rig();
         rig.protocol.ask(HELLO, rig.now).expect("a command");

@@ -1,4 +1,5 @@
-//! Jobs side by side in one memory: every one of them gets the mesh that it gets alone, from the model by commands and clock by clock.
+//! Jobs side by side in one memory: each job gets the mesh that it gets on its own, from the model by commands
+//! and clock by clock.
 
 use crate::common::batches::taken_apart;
 use crate::common::bench::{limit, Answer, Answers, Bench, Stalls};
@@ -10,7 +11,7 @@ use incircle_protocol::{
 };
 use incircle_testkit::Batch;
 
-/// `Clear` for a batch, and an `Insert` for each piece of so many points.
+/// A `Clear` for a batch, and an `Insert` for each piece of `piece` points.
 fn words_of(clear: u32, points: &[u32], piece: usize) -> Vec<u32> {
     let mut words = vec![clear];
     for piece in points.chunks(piece.max(1)) {
@@ -20,7 +21,7 @@ fn words_of(clear: u32, points: &[u32], piece: usize) -> Vec<u32> {
     words
 }
 
-/// What the model by commands answers.
+/// The answers of the model by commands.
 fn expected(model: &mut CommandModel, words: &[u32]) -> Vec<Answer> {
     model.send(words);
     let mut answers = Answers::default();
@@ -35,7 +36,7 @@ fn model(config: Config) -> CommandModel {
     CommandModel::new(16, config.points, config.ring).expect("possible").with_contexts(config.contexts)
 }
 
-/// Every job of a batch has the mesh that it has alone.
+/// Checks that every job of a batch has the mesh that it has on its own.
 fn expect_single_meshes(records: &[[u32; 3]], points: &[u32], jobs: u32, config: Config) {
     let apart = taken_apart(records, jobs, config).unwrap_or_else(|fault| panic!("{fault}, {points:x?}"));
     for (job, records) in (0..jobs).zip(apart) {
@@ -52,7 +53,7 @@ fn expect_single_meshes(records: &[[u32; 3]], points: &[u32], jobs: u32, config:
     }
 }
 
-/// Runs a batch on both models and compares; returns the counters.
+/// Runs a batch on both models and compares them; returns the counters.
 fn compare(bench: &mut Bench, jobs: u32, points: &[u32], piece: usize, stalls: Stalls, random: &mut Random) -> Answer {
     let config = bench.config;
     let words = words_of(batch_word(jobs), points, piece);
@@ -96,7 +97,7 @@ fn every_job_gets_the_mesh_it_gets_alone() {
                 let most = [4, 20, 400 / jobs, 600 / jobs][turn % 4];
                 let batch = Batch::random(&mut random, jobs, most, true);
                 let mut points = batch.points();
-                // The last round may be cut short: later jobs are then a point shorter.
+                // The last round may be cut short, which leaves the later jobs a point shorter.
                 points.truncate(points.len() - random.below(jobs) as usize);
                 let points = &points[..points.len().max(3 * jobs as usize)];
                 let stalls = [(0, 0), (2, 3), (5, 2), (40, 40)][turn % 4];
@@ -107,7 +108,7 @@ fn every_job_gets_the_mesh_it_gets_alone() {
                     *sum += u64::from(*value);
                 }
                 if turn % 3 == 0 {
-                    // What is no batch works as ever in between.
+                    // A job outside a batch still works in between.
                     let points = sets::started(sets::boxed(&mut random, 60, 100));
                     let answer = bench.insert(0, &points).expect("in time");
                     assert!(answer.is(Status::Ok));
@@ -158,7 +159,7 @@ fn fewer_points_than_three_a_job_are_waited_for() {
         for count in 0..=3 * contexts as usize {
             compare(&mut bench, contexts, &points[..count], 1 + count / 3, Stalls::default(), &mut random);
         }
-        // More jobs than the memory has room for.
+        // The batch has more jobs than the memory has room for.
         let tight = Config { points: 4, ..config };
         let mut bench = Bench::new(tight);
         compare(&mut bench, contexts, &points, points.len(), Stalls::default(), &mut random);
@@ -191,10 +192,10 @@ fn reset_in_mid_batch_leaves_nothing_behind() {
             let points = Batch::random(&mut random, contexts, 12, true).points();
             let clocks = u64::from(random.below(6000));
             let words = words_of(batch_word(0), &points, points.len());
-            // It may end before that or not.
+            // The run may end before the limit or not; both are fine.
             let _ = bench.run(&words, 2, Stalls::default(), clocks, &mut random);
             bench.reset();
-            // A reset ends the batch, too.
+            // A reset must end the batch as well.
             let points = sets::started(sets::boxed(&mut random, 60, 50));
             let words = words_of(clear_word(0), &points, points.len());
             let answers = bench.run(&words[1..], 1, Stalls::default(), limit(60), &mut random).expect("in time");
@@ -204,7 +205,7 @@ fn reset_in_mid_batch_leaves_nothing_behind() {
     }
 }
 
-/// Sixteen jobs of 200 points each, with nothing that holds them up.
+/// Sixteen jobs of 200 points each, without back-pressure.
 #[test]
 fn sixteen_small_jobs_side_by_side_keep_the_core_busy() {
     let mut random = Random(36);

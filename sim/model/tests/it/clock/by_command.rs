@@ -1,4 +1,4 @@
-//! The model clock by clock against the model by commands: same answers, same mesh, all locks released.
+//! The model clock by clock against the model by commands: the same answers, the same mesh, and all locks released.
 //!
 //! Ids depend on the order in which insertions finish, so meshes are compared in their canonical form.
 
@@ -11,7 +11,7 @@ use incircle_protocol::{
     COUNTER_WORDS, LATENCY_BUCKETS, PADDING,
 };
 
-/// A job: contexts that work, and the points of each `Insert`.
+/// A job: the number of contexts that work, and the points of each `Insert`.
 struct Job {
     contexts: u32,
     pieces: Vec<Vec<u32>>,
@@ -22,7 +22,7 @@ impl Job {
         self.pieces.concat()
     }
 
-    /// `Clear` for so many contexts, and an `Insert` for each piece.
+    /// A `Clear` for this many contexts, and an `Insert` for each piece.
     fn words(&self, contexts: u32) -> Vec<u32> {
         let mut words = vec![clear_word(contexts)];
         for piece in &self.pieces {
@@ -32,7 +32,7 @@ impl Job {
         words
     }
 
-    /// Of any kind that fits the core, and a little more than fits.
+    /// A random job of any kind, with as many points as fit the core or a few more.
     fn random(config: Config, random: &mut Random) -> Self {
         let most = config.points.min(300);
         let count = 1 + random.below(most + most / 4);
@@ -42,7 +42,7 @@ impl Job {
             1 => sets::parabola(random, count.min(255)),
             2 => sets::wheel(random, count),
             3 => {
-                // On one line, or nearly.
+                // The points lie on one line, or nearly so.
                 let mut points: Vec<u32> = (0..count).map(|_| random.below(side) * 0x1_0001).collect();
                 points.extend(sets::boxed(random, count / 4, side));
                 points
@@ -59,7 +59,7 @@ impl Job {
     }
 }
 
-/// What the model by commands answers.
+/// The answers of the model by commands.
 fn expected(model: &mut CommandModel, words: &[u32]) -> Vec<Answer> {
     model.send(words);
     let mut answers = Answers::default();
@@ -70,7 +70,7 @@ fn expected(model: &mut CommandModel, words: &[u32]) -> Vec<Answer> {
     answers.whole
 }
 
-/// Runs a job on both and compares; returns the counters.
+/// Runs a job on both models and compares them; returns the counters.
 fn compare(bench: &mut Bench, job: &Job, stalls: Stalls, random: &mut Random) -> Answer {
     let config = bench.config;
     let mut model = CommandModel::new(16, config.points, config.ring).unwrap();
@@ -108,7 +108,7 @@ fn compare(bench: &mut Bench, job: &Job, stalls: Stalls, random: &mut Random) ->
     bench.counters().unwrap()
 }
 
-/// What must hold of the counters after a job that made a mesh, whatever the timing.
+/// Checks the relations between the counters that hold after every job that made a mesh, whatever the timing.
 fn check_counters(bench: &mut Bench, job: &Job, counters: &Answer) {
     let latencies = {
         let words = [command_word(Opcode::Latencies)];
@@ -120,29 +120,31 @@ fn check_counters(bench: &mut Bench, job: &Job, counters: &Answer) {
     let expect = |holds: bool, rule: &str| assert!(holds, "{rule}: {}", what());
     let insertions = of(Counter::Insertions);
     let commits: u64 = latencies.iter().map(|&count| u64::from(count)).sum();
-    let alone = insertions - 3 - commits;
+    let solo = insertions - 3 - commits;
     let (flips, tests) = (of(Counter::Flips), of(Counter::Tests));
     let (walks, roots, cavities) = (of(Counter::WalkVisits), of(Counter::RootVisits), of(Counter::CavityTriangles));
     let sent = job.points().len() as u64;
     expect(insertions + of(Counter::Duplicates) + of(Counter::Refused) == sent, "every point has one fate");
-    expect(alone <= of(Counter::Overflows), "none is alone without an overflow");
+    expect(solo <= of(Counter::Overflows), "no solo insertion without an overflow");
     expect(walks >= insertions - 3 + of(Counter::Duplicates), "every point is walked to");
     expect(roots >= commits, "every cavity has a root");
     expect(cavities >= commits && tests >= cavities + 2 * commits, "every edge of a boundary is tested");
-    expect(tests >= cavities + 2 * commits + 2 * flips + 3 * alone, "two tests a flip, and three");
+    expect(tests >= cavities + 2 * commits + 2 * flips + 3 * solo, "two tests a flip, and three");
 
-    // The look at the first three; for one alone: its place, two links to mend, and each triangle of its star.
+    // One visit is that of the first three points. A solo insertion has a visit of its root, two neighbours to correct,
+    // and a visit for each triangle of its star.
     let visits = 1 + walks + roots + tests;
     match of(Counter::Overflows) {
         0 => expect(of(Counter::IssueCycles) == visits, "every visit is counted"),
-        _ => expect(of(Counter::IssueCycles) >= visits + 6 * alone + flips, "alone it looks at its star"),
+        _ => expect(of(Counter::IssueCycles) >= visits + 6 * solo + flips, "a solo insertion looks at its star"),
     }
-    // The first three points and their ghosts, and the records of stars; a link for each record at most.
+    // The writes are the first triangle and its ghosts, the records of stars, and at most one
+    // neighbour for each record.
     let stars = cavities + 2 * commits;
-    let splits = 5 * alone + 3 * flips;
+    let splits = 5 * solo + 3 * flips;
     let writes = of(Counter::WriteCycles);
     expect(writes >= 5 + stars + splits, "every record of a star is written");
-    expect(writes <= 5 + 2 * stars + splits + flips + 3 * alone, "no more than a link for each");
+    expect(writes <= 5 + 2 * stars + splits + flips + 3 * solo, "no more than a link for each");
     expect(of(Counter::CommitCycles) >= stars + commits, "a commit writes once a clock, but for its first");
     expect(of(Counter::ReleaseCycles) <= roots + tests, "only locks that were taken are released");
     expect(of(Counter::ReleaseCycles) >= 2 * commits, "and those are");
@@ -152,7 +154,7 @@ fn check_counters(bench: &mut Bench, job: &Job, counters: &Answer) {
         .max();
     expect(busiest <= Some(of(Counter::InsertCycles)), "nothing is counted twice in a clock");
     expect(of(Counter::ReadCycles) >= 3 * (2 * insertions - 2), "a word a clock is read");
-    expect(of(Counter::WaitingTokens) <= of(Counter::Aborts), "only who aborts asks to wait");
+    expect(of(Counter::PrioritiesTaken) <= of(Counter::Aborts), "only who aborts takes the priority");
 
     let (least, most) = (of(Counter::LatencyMin) as u32, of(Counter::LatencyMax) as u32);
     let first = latencies.iter().position(|&count| count != 0).map(latency_of_bucket);
@@ -162,7 +164,7 @@ fn check_counters(bench: &mut Bench, job: &Job, counters: &Answer) {
     expect(last.is_none_or(|last| latency_bucket(most) == last), "the most is in its bucket");
     if job.contexts == 1 || bench.config.contexts == 1 {
         expect(of(Counter::Aborts) == 0, "one context meets no foreign lock");
-        expect(alone == of(Counter::Overflows), "and is alone with each overflow");
+        expect(solo == of(Counter::Overflows), "and each overflow leads to a solo insertion");
     }
 }
 
@@ -201,7 +203,7 @@ fn answers_as_the_model_by_commands() {
     least(Counter::Aborts, 20_000);
     least(Counter::RootRetries, 300);
     least(Counter::Revisits, 8000);
-    least(Counter::WaitingTokens, 3000);
+    least(Counter::PrioritiesTaken, 3000);
 }
 
 #[test]
@@ -266,7 +268,7 @@ fn reset_in_mid_job_leaves_nothing_behind() {
             let mut words = vec![clear_word(0), command_word(Opcode::Insert), 128];
             words.extend(points);
             let clocks = u64::from(random.below(6000));
-            // The job may end before that or not.
+            // The job may end before the limit or not; both are fine.
             let _ = bench.run(&words, 2, Stalls::default(), clocks, &mut random);
             bench.reset();
             let job = Job::random(config, &mut random);
@@ -275,7 +277,7 @@ fn reset_in_mid_job_leaves_nothing_behind() {
     }
 }
 
-/// A host that is in step with the pointer that goes round the contexts keeps none of them from its turn.
+/// A host in step with the pointer that goes round the contexts must not keep any of them from its turn.
 #[test]
 fn no_beat_of_the_host_slows_the_core_down() {
     let mut random = Random(9);

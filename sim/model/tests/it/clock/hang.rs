@@ -1,8 +1,8 @@
-//! No job hangs: thousands of small jobs in tiny boxes, where everything is in the way of everything: 2,000 for
-//! each of six numbers of contexts, and 200 for each of the others up to 24.
+//! No job hangs: thousands of small jobs in tiny boxes, where insertions hinder each other all the time. There are
+//! 2,000 jobs for each of six numbers of contexts, and 200 for each of the other numbers up to 24.
 //!
-//! A job of `n` points may take 100 times 2,000 + 40 n clocks, and its mesh must be that of the model by commands. The jobs of a
-//! number of contexts are the same in every run.
+//! A job of `n` points may take 100 times 2,000 + 40 n clocks, and its mesh must be that of the model by commands. For
+//! each number of contexts the jobs are the same in every run.
 
 use crate::common::bench::Bench;
 use crate::common::mesh_check::{canonical, records_of};
@@ -11,12 +11,12 @@ use incircle_model::CommandModel;
 use incircle_protocol::{command_word, Config, Opcode, Status, MAX_CONTEXTS};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Jobs for each of these numbers of contexts.
+/// Number of jobs for each of these numbers of contexts.
 const JOBS: u32 = 2000;
 const CONTEXTS: [u32; 6] = [1, 2, 4, 8, 16, 24];
-/// Jobs for each of the others: who goes round in step with whom depends on their number.
+/// Number of jobs for each of the other numbers of contexts, on which it depends which contexts run in step.
 const OTHER_JOBS: u32 = 200;
-/// Jobs that one thread does in a row.
+/// Number of jobs that one thread does in a row.
 const PORTION: u32 = 100;
 
 fn points(random: &mut Random) -> Vec<u32> {
@@ -28,7 +28,7 @@ fn points(random: &mut Random) -> Vec<u32> {
     }
 }
 
-/// One job; the fault, if there is one.
+/// Does one job, and returns the fault, if there is one.
 fn job(bench: &mut Bench, points: &[u32]) -> Result<(), String> {
     let Config { points: capacity, ring, .. } = bench.config;
     let mut model = CommandModel::new(16, capacity, ring).expect("a model that can be built");
@@ -51,7 +51,7 @@ fn job(bench: &mut Bench, points: &[u32]) -> Result<(), String> {
     Ok(())
 }
 
-/// Some jobs for one number of contexts.
+/// Does some jobs for one number of contexts.
 fn portion(contexts: u32, which: u32) {
     let mut random = Random(u64::from(contexts << 16 | which));
     let ring = random.pick(&[6, 9, 12, 32, 32, 64]);

@@ -24,7 +24,7 @@ fn every_order_gives_the_same_mesh() {
                 let sent = sets::started(points.clone());
                 let mut words = vec![clear_word(0), command_word(Opcode::Insert), sent.len() as u32];
                 words.extend(&sent);
-                // The mesh does not depend on when points come either.
+                // The mesh must not depend on when the points come, either.
                 let stalls = Stalls { idle: random.pick(&[0, 2, 3]), ..Stalls::default() };
                 let answers = bench.run(&words, 2, stalls, 1_000_000, &mut random).unwrap();
                 assert!(answers[1].is(Status::Ok), "{answers:?}, {}", bench.core.describe());

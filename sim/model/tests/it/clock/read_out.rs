@@ -1,10 +1,10 @@
-//! Reading a mesh from the core: how long it takes, and that every range is what it should be under any back-pressure.
+//! Reading a mesh from the core: how long it takes, and that every range comes right under any back-pressure.
 
 use crate::common::bench::{Bench, Stalls};
 use crate::common::{sets, Random};
 use incircle_protocol::{command_word, Counter, Layout, Opcode, Status, CORE_COORD_BITS, FULL, TINY};
 
-/// A core with the mesh of so many points, most of them different, and its records.
+/// A core with a mesh of this many points, most of them different, and the number of its records.
 fn filled(points: u32) -> (Bench, u32) {
     let mut bench = Bench::new(FULL);
     let points = sets::started(sets::boxed(&mut Random(9), points - 3, 1 << 16));
@@ -13,7 +13,8 @@ fn filled(points: u32) -> (Bench, u32) {
     (bench, answer.report().records)
 }
 
-/// Clocks from a read-out accepted to its last word taken, by a host that takes whatever it is offered.
+/// Number of clocks from the acceptance of a read-out until its last word was taken, by a host that takes
+/// every word at once.
 fn clocks_of(bench: &mut Bench, opcode: Opcode, count: u32) -> u64 {
     let read_cycles = |bench: &mut Bench| bench.counters().expect("counters").counter(Counter::ReadCycles);
     let before = read_cycles(bench);
@@ -28,7 +29,7 @@ fn triangles_take_two_clocks_a_point() {
     let points = 4096;
     let (mut bench, records) = filled(points);
     let triangles = clocks_of(&mut bench, Opcode::Triangles, records);
-    // A record a clock; the rest is the way there and back.
+    // One record is read in each clock; the rest is latency.
     assert!(triangles <= u64::from(records) + 16, "{triangles} clocks for {records} records");
     let per_point = triangles as f64 / f64::from(points);
     println!("{per_point:.3} clocks a point");
@@ -72,7 +73,7 @@ fn padding_has_no_answer_and_leaves_all_as_it_was() {
         bench.run(&words, 4, Stalls { idle: 3, ..Stalls::default() }, 10_000, &mut Random(1)).expect("an end");
     let opcodes: Vec<u8> = answers.iter().map(|answer| answer.opcode).collect();
     assert_eq!(opcodes, [Opcode::Hello as u8, Opcode::Hello as u8, Opcode::Insert as u8, 0]);
-    // A point of zeros is a point, and a word with opcode 0 that is not all zero is a command that is not known.
+    // A point of zeros is a valid point. A word with opcode 0 that is not all zeros is an unknown command.
     assert_eq!(answers[2].report().inserted, 3);
     assert!(answers[3].is(Status::UnknownOpcode));
 }

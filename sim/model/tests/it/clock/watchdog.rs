@@ -1,4 +1,5 @@
-//! The watchdog: a core that finishes nothing any more says so, takes the rest of its points and refuses them; reset mends it.
+//! The watchdog: a core that stops finishing points reports it, takes the rest of its points and refuses them. A
+//! reset restores the core.
 
 use crate::common::bench::{Bench, Stalls};
 use crate::common::mesh_check::canonical;
@@ -8,7 +9,7 @@ use incircle_protocol::{clear_word, command_word, patience, Config, Counter, Opc
 
 const CONFIG: Config = Config { name: "test", points: 128, ring: 32, contexts: 4 };
 
-/// A core that aborts at its own locks, and points in whose mesh there are such.
+/// A core that aborts at its own locks, and points whose insertion meets such locks.
 fn hanging() -> (Bench, Vec<u32>) {
     (Bench::with_defect(CONFIG, Some(Defect::TakesOwnForForeign)), sets::boxed(&mut Random(1), 100, 1 << 16))
 }
@@ -45,14 +46,14 @@ fn reset_mends_a_stuck_core() {
     let (mut bench, points) = hanging();
     assert!(bench.insert(0, &points).unwrap().is(Status::Stuck));
     bench.reset();
-    // So few points meet no lock of their own.
+    // With so few points no attempt meets a lock of its own.
     let few = [0, 9, 0x9_0000, 0x2_0002];
     let answer = bench.insert(0, &few).unwrap();
     assert!(answer.is(Status::Ok), "{answer:?}");
     canonical(&bench.records(answer.report().records), &few, CONFIG.points).unwrap();
 }
 
-/// Clocks with nothing offered.
+/// Runs clocks in which nothing is offered.
 fn rest(bench: &mut Bench, clocks: u32) {
     for _ in 0..clocks {
         bench.core.clock(Inputs { response_ready: true, ..Inputs::default() });
@@ -66,7 +67,7 @@ fn a_slow_host_is_no_fault() {
     let mut words = vec![clear_word(0), command_word(Opcode::Insert), 12];
     words.extend(&points);
     let mut answers = Vec::new();
-    // It rests in front of the first point, after each of the first four, and in front of the last.
+    // The host rests before the first point, after each of the first four, and before the last.
     for (piece, count) in [(0..3, 1), (3..4, 0), (4..5, 0), (5..6, 0), (6..7, 0), (7..14, 0), (14..15, 1)] {
         answers.extend(bench.run(&words[piece], count, Stalls::default(), 100_000, &mut Random(4)).unwrap());
         rest(&mut bench, patience(CONFIG.points) + 100);

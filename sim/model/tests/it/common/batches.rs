@@ -1,8 +1,8 @@
-//! The mesh of each job, taken out of the memory that the jobs of a batch share.
+//! The meshes of the jobs of a batch, separated from the memory that the jobs share.
 
 use incircle_protocol::{infinite_vertex, Config, Layout};
 
-/// The job that a vertex belongs to.
+/// Number of the job that a vertex belongs to.
 fn job_of(vertex: u32, jobs: u32) -> u32 {
     match vertex.checked_sub(3 * jobs) {
         None => vertex / 3,
@@ -10,7 +10,7 @@ fn job_of(vertex: u32, jobs: u32) -> u32 {
     }
 }
 
-/// Its number within the job.
+/// Number of a vertex within its job.
 fn place_of(vertex: u32, jobs: u32) -> u32 {
     match vertex.checked_sub(3 * jobs) {
         None => vertex % 3,
@@ -18,10 +18,11 @@ fn place_of(vertex: u32, jobs: u32) -> u32 {
     }
 }
 
-/// The records of each job as if it had been alone on a device of this configuration: its own ids, in the order of the shared ones.
+/// The records of each job as if the job had been the only one on a device of this configuration: with ids of its own,
+/// in the order of the shared ids.
 ///
 /// # Errors
-/// A record with vertices of two jobs, or a link from one job to another.
+/// A record with vertices of two jobs, or a neighbour in another job.
 pub fn taken_apart(records: &[[u32; 3]], jobs: u32, config: Config) -> Result<Vec<Vec<[u32; 3]>>, String> {
     let layout = Layout::of(16, config.points);
     let infinite = infinite_vertex(config.points);
@@ -29,12 +30,12 @@ pub fn taken_apart(records: &[[u32; 3]], jobs: u32, config: Config) -> Result<Ve
     let mut places = Vec::with_capacity(records.len());
     for (id, words) in records.iter().enumerate() {
         let (v, _) = layout.record_from_words(words);
-        let owners: Vec<u32> = v.iter().filter(|&&v| v != infinite).map(|&v| job_of(v, jobs)).collect();
-        if owners.windows(2).any(|pair| pair[0] != pair[1]) || owners.len() < 2 {
-            return Err(format!("record {id} has vertices of the jobs {owners:?}"));
+        let jobs_of_vertices: Vec<u32> = v.iter().filter(|&&v| v != infinite).map(|&v| job_of(v, jobs)).collect();
+        if jobs_of_vertices.windows(2).any(|pair| pair[0] != pair[1]) || jobs_of_vertices.len() < 2 {
+            return Err(format!("record {id} has vertices of the jobs {jobs_of_vertices:?}"));
         }
-        let job: &mut Vec<_> = &mut apart[owners[0] as usize];
-        places.push((owners[0], job.len() as u32));
+        let job: &mut Vec<_> = &mut apart[jobs_of_vertices[0] as usize];
+        places.push((jobs_of_vertices[0], job.len() as u32));
         job.push(*words);
     }
     for (job, records) in (0..).zip(&mut apart) {

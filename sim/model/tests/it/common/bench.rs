@@ -1,4 +1,4 @@
-//! The model clock by clock, driven by command words over both channels.
+//! A test bench for the model clock by clock, which drives both channels by command words.
 
 use super::Random;
 use incircle_model::{ClockModel, Defect, Inputs};
@@ -6,23 +6,23 @@ use incircle_protocol::{
     answer_opcode, answer_status, clear_word, command_word, Config, Counter, InsertReport, Opcode, Status,
 };
 
-/// Clocks that a job of `points` points may take: a hundred times what one context needs.
+/// Number of clocks that a job of `points` points may take: a hundred times what one context needs.
 pub fn limit(points: usize) -> u64 {
     100 * (2000 + 40 * points as u64)
 }
 
-/// How the two channels are held up.
+/// The ways in which the two channels are held up.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Stalls {
-    /// The next word is not offered yet in one of so many clocks; 0: never.
+    /// In one of this many clocks the next word is not offered yet; 0 means never.
     pub idle: u32,
-    /// No answer is taken in one of so many clocks; 0: never.
+    /// In one of this many clocks no answer is taken; 0 means never.
     pub full: u32,
-    /// A word is first offered in every clock of so many; 0: in any.
+    /// Words are offered first in every clock of this many; 0 means in any clock.
     pub beat: u64,
 }
 
-/// One answer.
+/// An answer of the core.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Answer {
     pub opcode: u8,
@@ -40,7 +40,7 @@ impl Answer {
         InsertReport::from_words(self.payload[..].try_into().expect("an insert report"))
     }
 
-    /// One value of an answer to `Counters`.
+    /// The value of a counter in an answer to `Counters`.
     pub fn counter(&self, counter: Counter) -> u64 {
         let high = match counter {
             Counter::InsertCycles | Counter::WaitCycles | Counter::ReadCycles => self.payload[counter as usize + 1],
@@ -50,7 +50,7 @@ impl Answer {
     }
 }
 
-/// Clocks ran out.
+/// The error that the clocks ran out, with the state of the core.
 #[derive(Clone, Debug)]
 pub struct Hang(pub String);
 
@@ -59,7 +59,7 @@ pub struct Hang(pub String);
 pub struct Answers {
     pub whole: Vec<Answer>,
     header: Option<u32>,
-    /// Words of the payload still to come.
+    /// Number of words of the payload that are still to come.
     left: Option<u32>,
     payload: Vec<u32>,
 }
@@ -81,13 +81,13 @@ impl Answers {
         }
     }
 
-    /// Nothing of another answer has come.
+    /// Whether no part of another answer has come.
     pub fn are_whole(&self) -> bool {
         self.header.is_none()
     }
 }
 
-/// A core, and the clocks it has run.
+/// A core, and the number of clocks that it has run.
 pub struct Bench {
     pub core: ClockModel,
     pub config: Config,
@@ -111,10 +111,10 @@ impl Bench {
         self.core.clock(Inputs { reset: true, ..Inputs::default() });
     }
 
-    /// Sends words and takes this many answers.
+    /// Sends words, and waits for this many answers.
     ///
     /// # Errors
-    /// The clocks run out.
+    /// The clocks ran out.
     pub fn run(
         &mut self,
         words: &[u32],
@@ -125,7 +125,7 @@ impl Bench {
     ) -> Result<Vec<Answer>, Hang> {
         let mut answers = Answers::default();
         let mut rest = words;
-        // Once offered, a word stays until it is taken.
+        // A word that was offered must stay offered until it is taken.
         let mut offered = false;
         let last = self.clocks + limit;
         while answers.whole.len() < count || !rest.is_empty() {
@@ -160,7 +160,7 @@ impl Bench {
     /// Clears the core for `contexts` contexts, 0 for all, and inserts points with one command.
     ///
     /// # Errors
-    /// The clocks run out.
+    /// The clocks ran out.
     pub fn insert(&mut self, contexts: u32, points: &[u32]) -> Result<Answer, Hang> {
         let mut words = vec![clear_word(contexts), command_word(Opcode::Insert), points.len() as u32];
         words.extend(points);
@@ -168,17 +168,17 @@ impl Bench {
         Ok(answers.swap_remove(1))
     }
 
-    /// The counters as they stand.
+    /// The current values of the counters.
     ///
     /// # Errors
-    /// The clocks run out.
+    /// The clocks ran out.
     pub fn counters(&mut self) -> Result<Answer, Hang> {
         let words = [command_word(Opcode::Counters)];
         let mut answers = self.run(&words, 1, Stalls::default(), 1000, &mut Random(0))?;
         Ok(answers.swap_remove(0))
     }
 
-    /// The first records, as they stand in the memory.
+    /// The first `count` records of the memory.
     pub fn records(&self, count: u32) -> Vec<[u32; 3]> {
         (0..count).map(|id| self.core.record_words(id)).collect()
     }

@@ -1,4 +1,4 @@
-//! Records of the model as words, and the check of a mesh as words.
+//! The records of the model as words, and the check of a mesh in words.
 
 use incircle_model::Mesh;
 use incircle_protocol::{infinite_vertex, Layout};
@@ -14,10 +14,10 @@ pub fn records_of(mesh: &Mesh, capacity: u32) -> Vec<[u32; 3]> {
     mesh.records().iter().map(words).collect()
 }
 
-/// The canonical form of a mesh from the words of its records, or the first thing that is wrong with it.
+/// The canonical form of a mesh from the words of its records, or the first fault that is found in it.
 ///
 /// # Errors
-/// See [`incircle_testkit::canonical`].
+/// The errors of [`incircle_testkit::canonical`].
 pub fn canonical(records: &[[u32; 3]], points: &[u32], capacity: u32) -> Result<Canonical, String> {
     let layout = Layout::of(16, capacity);
     let stored = records.iter().map(|words| {

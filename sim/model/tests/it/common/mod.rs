@@ -1,4 +1,4 @@
-//! What several tests share: a core that is driven by command words, and the check of a mesh.
+//! Code that several tests share: a core that is driven by command words, and the check of a mesh.
 
 pub mod batches;
 pub mod bench;

@@ -1,4 +1,4 @@
-//! Walks that begin at a record of the caller's choice: the mesh is the same.
+//! Walks that begin at a record of the caller's choice give the same mesh.
 
 use crate::common::mesh_check::{canonical, records_of};
 use crate::common::{sets, Random};
@@ -11,7 +11,7 @@ fn point(word: &u32) -> Point {
     Point { x: word & 0xffff, y: word >> 16 }
 }
 
-/// Even points, points of a small box of which most fall together, points with large cavities, points on the hull.
+/// Points spread evenly, points of a small box of which most are equal, points with large cavities, points on the hull.
 fn set(random: &mut Random, which: u32) -> Vec<u32> {
     sets::started(match which % 5 {
         0 => sets::boxed(random, 200, 1 << 16),
@@ -54,7 +54,7 @@ fn a_point_is_approached_and_then_inserted() {
 #[test]
 fn nothing_is_approached_in_a_batch() {
     let mut random = Random(34);
-    // Two jobs in turn, of which a record of the other would lead into a wrong mesh.
+    // Two jobs in turn. A record of the other job would lead the walk into a wrong mesh.
     let words = [sets::started(vec![]), sets::started(sets::boxed(&mut random, 120, 300))].concat();
     let (mut mesh, mut plain) = (Mesh::new(CAPACITY, 32), Mesh::new(CAPACITY, 32));
     mesh.clear_for(2);

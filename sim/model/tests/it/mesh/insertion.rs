@@ -1,4 +1,5 @@
-//! The model against a brute-force oracle of its own: same answer in every order and with every list size.
+//! The model against a brute-force oracle of its own: the same answer in every order and with every length
+//! of the boundary list.
 
 use crate::common::Random;
 use incircle_model::predicate::Point;
@@ -6,7 +7,7 @@ use incircle_model::{Insertion, Mesh};
 use incircle_protocol::infinite_vertex;
 use std::collections::{BTreeSet, HashMap};
 
-/// The sign of the lifted determinant of four points, as rows of the 3x3 minor.
+/// The sign of the lifted determinant of four points, whose rows are differences to `d`.
 fn lifted(a: Point, b: Point, c: Point, d: Point) -> i128 {
     let row = |q: Point| {
         let (x, y) = (i128::from(q.x) - i128::from(d.x), i128::from(q.y) - i128::from(d.y));
@@ -16,7 +17,7 @@ fn lifted(a: Point, b: Point, c: Point, d: Point) -> i128 {
     a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
 }
 
-/// Finite triangles as point triples; panics if the records are no valid canonical mesh.
+/// The finite triangles as triples of points. Panics unless the records are a valid canonical mesh.
 fn triangles(mesh: &Mesh, points: &[Point], capacity: u32) -> BTreeSet<[Point; 3]> {
     let inf = infinite_vertex(capacity);
     let mut finite = BTreeSet::new();
@@ -87,16 +88,17 @@ fn every_order_and_list_size_gives_the_same_mesh() {
             assert_eq!(first.get_or_insert_with(|| set.clone()), &set, "ring {ring}, points {points:?}");
         }
     }
-    assert!(runs > 8000 && alone > 40_000, "{runs} runs, {alone} insertions alone");
+    assert!(runs > 8000 && alone > 40_000, "{runs} runs, {alone} solo insertions");
 }
 
 #[test]
-fn insertion_alone_makes_two_tests_a_flip_and_three() {
+fn a_solo_insertion_makes_two_tests_a_flip_and_three() {
     let mut random = Random(2);
     let points: Vec<Point> = (0..500).map(|_| Point { x: random.below(300), y: random.below(300) }).collect();
     let (mesh, _) = build(&points, 3).unwrap();
     let counts = mesh.counts();
-    // A ring of three entries holds no conflict, and every insertion has at least the three tests of its first attempt.
+    // A list of three entries has no room for any conflict, so every insertion makes at least the three tests
+    // of its first attempt.
     let tests_alone = 2 * counts.flips + 3 * counts.overflows;
     let kept = counts.insertions - 3 - counts.overflows;
     assert_eq!(counts.tests, tests_alone + 3 * counts.overflows + 3 * kept);

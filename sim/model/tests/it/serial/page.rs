@@ -1,4 +1,5 @@
-//! The exchange in `protocol/SERIAL.md` is what the model of the link says, byte by byte, and its tables have the numbers of the crate.
+//! The exchange in `protocol/SERIAL.md` is that of the model of the serial link, byte by byte, and the tables of the
+//! page have the numbers of the crate.
 
 use incircle_model::serial::{core_identity, FrameReceiver, FromDevice, FromHost, Received, SerialModel};
 use incircle_model::ClockModel;
@@ -9,13 +10,13 @@ use incircle_protocol::{
 use incircle_testkit::exchange_steps;
 use std::collections::BTreeSet;
 
-/// The page.
+/// The text of the page.
 const PAGE: &str = include_str!("../../../../../protocol/SERIAL.md");
 
-/// Clocks of a byte while the exchange is replayed.
+/// Number of clocks of a byte while the exchange is replayed.
 const BYTE: u64 = 10_850;
 
-/// The link of the board that the page shows.
+/// The serial link of the board that the page shows.
 const LINK: LinkConfig = LinkConfig { clock_hz: 125_000_000, fifo_bytes: 4096, silence_ms: 200 };
 
 fn hex(bytes: &[u8]) -> String {
@@ -62,7 +63,7 @@ fn the_exchange_shows_the_kinds_of_frames() {
         }
     }
     assert_eq!(asked, BTreeSet::from([1, 2, 3, 4, 5, 6]));
-    // `Answer` needs an answer that would fill the page.
+    // `Answer` is missing, since such an answer would fill the page.
     assert_eq!(said, BTreeSet::from([0x81, 0x82, 0x83, 0x84, 0x86, 0x87, 0x88]));
 }
 

@@ -1,4 +1,4 @@
-//! The blocks of `hdl/src/engine`.
+//! Tests of the blocks in `hdl/src/engine`.
 
 mod attempt;
 mod commit;

@@ -1,4 +1,4 @@
-//! `BankedMemory`: Rust, Verilog and an independent reference agree clock by clock.
+//! Runs `BankedMemory` in Rust and in Verilog beside an independent reference: all three must agree in every clock.
 
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::leaf::BankedMemory;
@@ -16,7 +16,7 @@ fn banked_memory<const M: usize, const B: usize, const A: usize, const D: usize>
     let mut numbers = SplitMix64::new(9);
     let stimuli: Vec<_> = (0..CYCLES)
         .map(|_| {
-            // Banks that are there, and now and then one that is not; one bank is read, or none.
+            // Banks that exist, and now and then one that does not; one bank is read, or none.
             let bank = numbers.bits(B as u32) % (banks as u64 + 1);
             let read = 1u64 << (numbers.bits(B as u32) % (M as u64 + 1));
             let [write_address, read_address] = [(); 2].map(|()| numbers.bits(A as u32));

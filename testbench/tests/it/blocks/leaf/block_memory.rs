@@ -1,4 +1,4 @@
-//! `BlockMemory`: Rust, Verilog and an independent reference agree clock by clock.
+//! Runs `BlockMemory` in Rust and in Verilog beside an independent reference: all three must agree in every clock.
 
 use crate::rig::memories::{both_forms, edge, memory_reference, memory_stimuli, MEMORY_PORTS};
 use crate::rig::stepper::{named_ports, Delay, NamedPorts, Stepper};
@@ -33,7 +33,7 @@ fn block_memory_ignores_what_is_above_its_shape() {
 
 #[test]
 fn block_memory_of_every_width_of_a_block_ram() {
-    // Words of 18 bits are in the tests above; a word of these takes more than one block RAM, the last in part.
+    // The tests above cover words of 18 bits. A word of 20 bits takes more than one block RAM, the last only in part.
     block_memory::<11, 20>("block_memory_11x20", 11, 20);
     block_memory::<12, 10>("block_memory_12x10", 12, 10);
     block_memory::<13, 3>("block_memory_13x3", 13, 3);

@@ -1,4 +1,4 @@
-//! Each leaf of the core maps to the primitive it is meant for, and to nothing else.
+//! Proves by synthesis that each leaf of the core maps to the primitive it is meant for, and to nothing else.
 
 use crate::rig::cells::{cells, cells_with};
 use incircle_testbench::gate::Cells;
@@ -55,7 +55,7 @@ fn memories_as_primitives_are_block_ram_and_nothing_else() {
 #[test]
 fn deep_fifo_is_block_ram_behind_two_banks_in_luts() {
     let cells = cells("deep_fifo_5x37");
-    // Ten slices of four bits for either bank, and one for the bit that tells them apart.
+    // Each bank takes ten slices of four bits, and one more slice holds the bit that tells the banks apart.
     assert_eq!((cells.block_ram, cells.distributed_ram), (2, 21));
 }
 

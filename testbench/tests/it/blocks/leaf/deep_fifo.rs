@@ -1,4 +1,4 @@
-//! `DeepFifo`: Rust, Verilog and an independent reference agree clock by clock.
+//! Runs `DeepFifo` in Rust and in Verilog beside an independent reference: all three must agree in every clock.
 
 use super::fifo::queue;
 use crate::rig::stepper::named_ports;
@@ -10,7 +10,7 @@ named_ports!([const A: usize, const D: usize] DeepFifo<A, D>,
 
 const CYCLES: usize = 20_000;
 
-/// Pushes and pops as [`fifo_stimuli`], at any pair of rates, for so long that a deep buffer fills and empties.
+/// Pushes and pops as [`fifo_stimuli`] does, at any pair of rates, for so long that a deep buffer fills and empties.
 fn deep_fifo_stimuli(data_bits: usize, places: u32) -> Vec<Vec<u64>> {
     let mut numbers = SplitMix64::new(9);
     let (mut held, mut push_pace, mut pop_pace, mut left) = (0, 1, 1, 0);

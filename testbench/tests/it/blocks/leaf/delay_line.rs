@@ -1,4 +1,4 @@
-//! `DelayLine`: Rust, Verilog and an independent reference agree clock by clock.
+//! Runs `DelayLine` in Rust and in Verilog beside an independent reference: all three must agree in every clock.
 
 use crate::rig::stepper::{named_ports, Delay, Stepper};
 use incircle_hdl::leaf::DelayLine;

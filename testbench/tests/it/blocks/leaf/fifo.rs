@@ -1,4 +1,4 @@
-//! `Fifo`: Rust, Verilog and an independent reference agree clock by clock.
+//! Runs `Fifo` in Rust and in Verilog beside an independent reference: all three must agree in every clock.
 
 use std::collections::VecDeque;
 
@@ -11,7 +11,8 @@ named_ports!([const A: usize, const D: usize] Fifo<A, D>,
 
 const CYCLES: usize = 20_000;
 
-/// Pushes and pops at changing rates, within the contract: never more entries than places, no pop of nothing.
+/// Pushes and pops at changing rates, within the contract: never more entries than places, and
+/// no pop from an empty buffer.
 fn fifo_stimuli(data_bits: usize, places: u32) -> Vec<Vec<u64>> {
     let mut numbers = SplitMix64::new(7);
     let mut held = 0;
@@ -27,7 +28,7 @@ fn fifo_stimuli(data_bits: usize, places: u32) -> Vec<Vec<u64>> {
         .collect()
 }
 
-/// Runs a buffer against a queue; the stimuli must fill it to its last place and empty it again.
+/// Runs a buffer beside a queue; the stimuli must fill it to its last place and empty it again.
 pub fn queue<U: NamedPorts>(name: &str, rust: U, places: usize, stored_bits: usize, stimuli: Vec<Vec<u64>>) {
     let mut entries = VecDeque::new();
     let mut is_reset = false;
@@ -37,7 +38,7 @@ pub fn queue<U: NamedPorts>(name: &str, rust: U, places: usize, stored_bits: usi
         if values[1] == 1 {
             entries.push_back(u128::from(values[2]) & ((1 << stored_bits) - 1));
         }
-        // Registers start with anything: what the buffer shows before its first reset is open.
+        // Registers start with random values, so the outputs before the first reset are open.
         let shown = match is_reset {
             true => vec![Some(u128::from(!entries.is_empty())), entries.front().copied()],
             false => vec![None, None],

@@ -1,4 +1,4 @@
-//! `FlagDelay`: Rust, Verilog and an independent reference agree clock by clock.
+//! Runs `FlagDelay` in Rust and in Verilog beside an independent reference: all three must agree in every clock.
 
 use crate::rig::stepper::{named_ports, Delay, Stepper};
 use incircle_hdl::leaf::FlagDelay;

@@ -1,4 +1,4 @@
-//! `LockMemory`: Rust, Verilog and an independent reference agree clock by clock.
+//! Runs `LockMemory` in Rust and in Verilog beside an independent reference: all three must agree in every clock.
 
 use crate::rig::memories::{both_forms, edge};
 use crate::rig::stepper::{named_ports, Delay, Stepper};
@@ -16,7 +16,7 @@ const LOCK_PORTS: [&str; 4] = ["test_address", "test_set", "clear_address", "cle
 fn lock_memory<const A: usize>(name: &str, address_bits: usize) {
     let mut numbers = SplitMix64::new(4);
     let last = (1u64 << address_bits) - 1;
-    // Few locks, so that they meet often.
+    // Few locks, so that visits meet often.
     let stimuli: Vec<_> = (0..CYCLES)
         .map(|_| {
             let test = numbers.bits(3) | numbers.bits(A as u32) & !last;

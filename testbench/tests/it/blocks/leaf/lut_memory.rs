@@ -1,4 +1,4 @@
-//! `LutMemory`: Rust, Verilog and an independent reference agree clock by clock.
+//! Runs `LutMemory` in Rust and in Verilog beside an independent reference: all three must agree in every clock.
 
 use crate::rig::memories::{memory_reference, memory_stimuli, MEMORY_PORTS};
 use crate::rig::stepper::{named_ports, Stepper};

@@ -1,4 +1,4 @@
-//! The blocks of `hdl/src/leaf`.
+//! Tests of the blocks in `hdl/src/leaf`.
 
 mod banked_memory;
 mod block_memory;

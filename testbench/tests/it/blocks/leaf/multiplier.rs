@@ -1,4 +1,4 @@
-//! `Multiplier`: Rust, Verilog and an independent reference agree clock by clock.
+//! Runs `Multiplier` in Rust and in Verilog beside an independent reference: all three must agree in every clock.
 
 use crate::rig::memories::both_forms;
 use crate::rig::stepper::{named_ports, Delay, Stepper};

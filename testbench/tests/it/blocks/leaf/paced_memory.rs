@@ -1,4 +1,4 @@
-//! `PacedMemory`: Rust, Verilog and an independent reference agree clock by clock.
+//! Runs `PacedMemory` in Rust and in Verilog beside an independent reference: all three must agree in every clock.
 
 use crate::rig::memories::{both_forms, edge, memory_reference, memory_stimuli};
 use crate::rig::stepper::{named_ports, Delay, NamedPorts, Stepper};
@@ -13,7 +13,7 @@ fn paced_memory<const A: usize, const D: usize>(name: &str, address_bits: usize,
     let mut numbers = SplitMix64::new(8);
     let mut stimuli = memory_stimuli(A, D, address_bits);
     for (cycle, values) in stimuli.iter_mut().enumerate() {
-        // Reads at every edge, at most edges, at few.
+        // Reads at every edge, then at most edges, then at few.
         let is_enabled = match (cycle / 100) % 3 {
             0 => true,
             1 => !numbers.once_in(3),

@@ -1,4 +1,4 @@
-//! `SharedMemory`: Rust, Verilog and plain arrays agree clock by clock.
+//! Runs `SharedMemory` in Rust and in Verilog beside plain arrays: all three must agree in every clock.
 
 use crate::rig::cells::cells;
 use crate::rig::stepper::{named_ports, Delay, Expected, NamedPorts, Stepper};
@@ -20,7 +20,7 @@ fn shared_memory<const A: usize, const D: usize>(name: &str, address_bits: usize
         })
         .collect();
     let last = (1 << address_bits) - 1;
-    // As neutral Verilog, and with the primitives of the ECP5.
+    // Both forms run: neutral Verilog, and Verilog with the primitives of the ECP5.
     for name in [name.to_string(), format!("{name}_ecp5")] {
         let mut words: Vec<Expected> = vec![None; last + 1];
         let mut delay = Delay::new(SharedMemory::<A, D>::LATENCY);

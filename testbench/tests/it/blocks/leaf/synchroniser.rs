@@ -1,5 +1,5 @@
-//! `Synchroniser`: Rust, Verilog and plain code agree at every edge of either clock, at ratios of 1:4 to 4:1 with
-//! phases that drift.
+//! Runs `Synchroniser` in Rust and in Verilog beside plain code: all three must agree at every edge of either clock, at
+//! ratios of 1:4 to 4:1 with phases that drift.
 
 use std::collections::VecDeque;
 

@@ -1,4 +1,4 @@
-//! `LockStore`: Rust, Verilog and plain arrays agree clock by clock.
+//! Runs `LockStore` in Rust and in Verilog beside plain arrays: all three must agree in every clock.
 
 use crate::rig::drawing::{draw, When};
 use crate::rig::ids::id;
@@ -7,27 +7,27 @@ use crate::rig::visit_model::Locks;
 use incircle_hdl::mesh::LockStore;
 use incircle_testkit::SplitMix64;
 
-named_ports!([] LockStore, [id, owner, takes, clear], [took, foreign, was_set], clock);
+named_ports!([] LockStore, [id, context_id, takes, clear], [took, foreign, was_set], clock);
 
 const CYCLES: usize = 6_000;
 
-/// What happened at the locks, so that a test can say that it all did.
+/// Counts of events at the locks, so that a test can check that each of them happened.
 #[derive(Debug, Default)]
 pub struct LockEvents {
     pub took: usize,
     pub foreign: usize,
     pub own: usize,
     pub met_clear: usize,
-    /// The holder took the lock one clock before the visit, two, or three.
+    /// Visits whose lock was taken by another visit one, two or three clocks before.
     pub before: [usize; 3],
 }
 
-/// Locks as a list of holders: what a visit finds, and then the clear of the same edge.
+/// Locks as a list of holders: the finding of a visit comes first, then the clear of the same edge.
 pub struct LockReference {
     pub locks: Locks,
     pub last: usize,
     pub last_context: u64,
-    /// The locks that the three visits before took, the latest first.
+    /// Locks that the three visits before took, the latest first.
     pub taken: [Option<usize>; 3],
     pub events: LockEvents,
 }
@@ -39,14 +39,14 @@ impl LockReference {
         Self { locks: Locks::new(last + 1), last, last_context, taken: [None; 3], events: LockEvents::default() }
     }
 
-    /// took, foreign, `was_set`.
-    pub fn edge(&mut self, id: u64, owner: u64, takes: bool, clear: Option<u64>) -> [Expected; 3] {
+    /// Passes an edge; returns `took`, `foreign` and `was_set`.
+    pub fn edge(&mut self, id: u64, context: u64, takes: bool, clear: Option<u64>) -> [Expected; 3] {
         let id = id as usize & self.last;
-        let owner = owner & self.last_context;
+        let context = context & self.last_context;
         let cleared = clear.map(|id| id as usize & self.last);
         let meets = cleared == Some(id);
         let was_set = self.locks.holder(id).is_some();
-        let (took, foreign) = if takes { self.locks.take(id, owner, meets) } else { (false, false) };
+        let (took, foreign) = if takes { self.locks.take(id, context, meets) } else { (false, false) };
         if let Some(cleared) = cleared {
             self.locks.clear(cleared);
         }
@@ -71,7 +71,7 @@ impl LockReference {
     }
 }
 
-/// What a visit finds: the lock as it was, and a clock later what became of it.
+/// Delays the finding of a visit: the lock as it was, and a clock later what became of it.
 pub struct LockDelay {
     pub was_set: Delay<Expected>,
     pub became: Delay<[Expected; 2]>,
@@ -84,7 +84,7 @@ impl Default for LockDelay {
 }
 
 impl LockDelay {
-    /// took, foreign, `was_set`.
+    /// Delays `took`, `foreign` and `was_set`.
     pub fn pass(&mut self, [took, foreign, was_set]: [Expected; 3]) -> [Expected; 3] {
         let [took, foreign] = self.became.pass([took, foreign]).unwrap_or([None; 2]);
         [took, foreign, self.was_set.pass(was_set).flatten()]
@@ -95,18 +95,18 @@ fn lock_store(name: &str, id_bits: u32, context_bits: u32) {
     let mut numbers = SplitMix64::new(26);
     let stimuli: Vec<Vec<u64>> = (0..CYCLES)
         .map(|cycle| {
-            // In turn: visits at every clock, with gaps, with clears at every clock.
+            // Visits at every clock, visits with gaps, and clears at every clock take turns.
             let (gaps, clears) = [(9, 3), (2, 3), (9, 1)][cycle / 100 % 3];
-            let owner = (2 * numbers.bits(1)) | (numbers.bits(5) >> context_bits << context_bits);
+            let context = (2 * numbers.bits(1)) | (numbers.bits(5) >> context_bits << context_bits);
             let takes = u64::from(!numbers.once_in(gaps));
             let clears = u64::from(numbers.once_in(clears));
-            vec![id(&mut numbers, id_bits), owner, takes, id(&mut numbers, id_bits), clears]
+            vec![id(&mut numbers, id_bits), context, takes, id(&mut numbers, id_bits), clears]
         })
         .collect();
     let mut reference = LockReference::new(id_bits, context_bits);
     let mut delay = LockDelay::default();
     Stepper::new(name, LockStore::new(id_bits as usize, context_bits as usize), 1).run(
-        &["id", "owner", "takes", "clear_id", "clear_valid"],
+        &["id", "context_id", "takes", "clear_id", "clear_valid"],
         &["took", "foreign", "was_set"],
         stimuli,
         |values| {
@@ -132,12 +132,12 @@ fn lock_store_shows_the_wave_of_its_header() {
     const VISITS: [usize; 5] = [0, 1, 2, 4, 5];
     const KNOWN: [usize; 8] = [1, 2, 3, 4, 5, 6, 7, 8];
     let mut stimuli = vec![(4, "clear_id", 5), (4, "clear_valid", 1)];
-    for (clock, owner) in VISITS.into_iter().zip([3, 4, 3, 4, 4]) {
-        stimuli.extend([(clock, "id", 5), (clock, "owner", owner), (clock, "takes", 1)]);
+    for (clock, context) in VISITS.into_iter().zip([3, 4, 3, 4, 4]) {
+        stimuli.extend([(clock, "id", 5), (clock, "context_id", context), (clock, "takes", 1)]);
     }
     let lanes = [
         ("id", "id", 0, 15, When::At(&VISITS)),
-        ("owner", "owner", 0, 5, When::At(&VISITS)),
+        ("context_id", "context_id", 0, 5, When::At(&VISITS)),
         ("takes", "takes", 0, 1, When::Always),
         ("clear_enable", "clear_valid", 0, 1, When::Always),
         ("took", "took", 0, 1, When::At(&KNOWN)),

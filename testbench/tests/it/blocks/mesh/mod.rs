@@ -1,4 +1,4 @@
-//! The blocks of `hdl/src/mesh`.
+//! Tests of the blocks in `hdl/src/mesh`.
 
 mod lock_store;
 mod triangle_store;

@@ -1,4 +1,4 @@
-//! `TriangleStore`: Rust, Verilog and plain arrays agree clock by clock.
+//! Runs `TriangleStore` in Rust and in Verilog beside plain arrays: all three must agree in every clock.
 
 use super::lock_store::{LockDelay, LockReference};
 use crate::rig::drawing::{draw, When};
@@ -8,7 +8,12 @@ use crate::rig::stepper::{named_ports, Delay, Expected, Stepper};
 use incircle_hdl::mesh::TriangleStore;
 use incircle_testkit::SplitMix64;
 
-named_ports!([] TriangleStore, [write, enables, read_id, vertices_id, links_id, read_locks, owner, clear], [record, took, foreign], clock);
+named_ports!(
+    [] TriangleStore,
+    [write, enables, read_id, vertices_id, links_id, read_locks, context_id, clear],
+    [record, took, foreign],
+    clock
+);
 
 const CYCLES: usize = 6_000;
 
@@ -20,7 +25,7 @@ fn triangle_stimuli(stored_bits: u32) -> Vec<Vec<u128>> {
             let mut write = random_fields(WRITE, &mut numbers);
             write[1] = id(&mut numbers, stored_bits);
             let (read, clear) = (id(&mut numbers, stored_bits), id(&mut numbers, stored_bits));
-            // Only the enables say what is written.
+            // Only the enables decide what is written.
             let enables = (numbers.bits(1) * numbers.bits(4)) | (write[1] << 4) | (write[1] << 19);
             let numbers =
                 [enables, read, read, read, numbers.bits(1), numbers.bits(5), clear, numbers.bits(1)].map(u128::from);
@@ -29,7 +34,7 @@ fn triangle_stimuli(stored_bits: u32) -> Vec<Vec<u128>> {
         .collect()
 }
 
-/// Columns and lock of the record read; nothing where the same edge changes it.
+/// Columns and lock of the record that is read; `None` where the same edge changes them.
 fn triangle_reference(
     id_bits: u32,
     vertex_bits: u32,
@@ -51,8 +56,8 @@ fn triangle_reference(
                 }
             }
         }
-        let [id, takes, owner, cleared, clears] = [2, 5, 6, 7, 8].map(|input| values[input] as u64);
-        let lock = locks.edge(id, owner, takes == 1, (clears == 1).then_some(cleared));
+        let [id, takes, context, cleared, clears] = [2, 5, 6, 7, 8].map(|input| values[input] as u64);
+        let lock = locks.edge(id, context, takes == 1, (clears == 1).then_some(cleared));
         let seen = column_delay.pass(seen).unwrap_or([None; 6]);
         [&seen[..], &lock_delay.pass(lock)].concat()
     }
@@ -62,7 +67,17 @@ fn triangle_store(name: &str, id_bits: u32, vertex_bits: u32, context_bits: u32)
     let locks = LockReference::new(id_bits, context_bits);
     let mut reference = triangle_reference(id_bits, vertex_bits, locks);
     Stepper::new(name, TriangleStore::new(id_bits as usize, vertex_bits as usize, context_bits as usize), 1).run(
-        &["write", "enables", "read_id", "vertices_id", "links_id", "read_locks", "owner", "clear_id", "clear_valid"],
+        &[
+            "write",
+            "enables",
+            "read_id",
+            "vertices_id",
+            "links_id",
+            "read_locks",
+            "context_id",
+            "clear_id",
+            "clear_valid",
+        ],
         &["record_v0", "record_v1", "record_v2", "record_n0", "record_n1", "record_n2", "took", "foreign", "was_set"],
         triangle_stimuli(id_bits),
         |values| reference(values),

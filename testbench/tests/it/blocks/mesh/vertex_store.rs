@@ -1,4 +1,4 @@
-//! `VertexStore`: Rust, Verilog and plain arrays agree clock by clock.
+//! Runs `VertexStore` in Rust and in Verilog beside plain arrays: all three must agree in every clock.
 
 use crate::rig::cells::cells;
 use crate::rig::drawing::{draw, When};
@@ -54,7 +54,7 @@ fn vertex_store_ignores_what_is_above_its_shape() {
 
 #[test]
 fn vertex_store_is_three_copies_in_block_ram() {
-    // 16384 words of 32 bits: 32 blocks of 16384 x 1 for each copy, with the fetch port as without.
+    // 16384 words of 32 bits take 32 blocks of 16384 x 1 for each copy, with the fetch port or without.
     assert_eq!(cells("vertex_store_14").block_ram, 3 * 32);
 }
 

@@ -1,4 +1,4 @@
-//! `DotProduct`: Rust, Verilog and plain integer arithmetic agree clock by clock.
+//! Runs `DotProduct` in Rust and in Verilog beside plain integer arithmetic: all three must agree in every clock.
 
 use crate::rig::stepper::{named_ports, Delay, Stepper};
 use crate::rig::visit_points::{bits_of, difference_stimuli, signed, DIFFERENCE_PORTS};

@@ -1,4 +1,4 @@
-//! The blocks of `hdl/src/predicate`.
+//! Tests of the blocks in `hdl/src/predicate`.
 
 mod cross_product;
 mod dot_product;

@@ -1,4 +1,4 @@
-//! `PointDifference`: Rust, Verilog and plain integer arithmetic agree clock by clock.
+//! Runs `PointDifference` in Rust and in Verilog beside plain integer arithmetic: all three must agree in every clock.
 
 use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::visit_points::{bits_of, point};

@@ -1,4 +1,5 @@
-//! `VertexOrder` and `SortKey`: Rust, Verilog and plain integer arithmetic agree clock by clock.
+//! Runs `VertexOrder` and `SortKey` in Rust and in Verilog beside plain integer arithmetic: all
+//! three must agree in every clock.
 
 use crate::rig::stepper::named_ports;
 use crate::rig::visit_points::{order_flags, run_visits, ORDER_FLAGS};

@@ -1,4 +1,4 @@
-//! `VisitPredicates`: Rust, Verilog and plain integer arithmetic agree clock by clock.
+//! Runs `VisitPredicates` in Rust and in Verilog beside plain integer arithmetic: all three must agree in every clock.
 
 use crate::rig::stepper::named_ports;
 use crate::rig::visit_points::{

@@ -1,4 +1,4 @@
-//! `AnswerPacker`: Rust, Verilog and plain code agree.
+//! Runs `AnswerPacker` in Rust and in Verilog beside plain code: all three must agree.
 
 use std::collections::VecDeque;
 
@@ -21,7 +21,7 @@ fn packer_cuts_answers_into_parts() {
     let lengths = [0, 1, 253, 254, 255, 256, 510, 511, 3, 1030];
     let mut pending: VecDeque<u32> = VecDeque::new();
     let (mut offered, mut number, mut clock) = (None, 0u64, 0);
-    // Inputs of one clock, before its edge.
+    // Sets the inputs of one clock, before its edge.
     let mut step =
         |block: &mut Stepper<AnswerPacker>, inputs: [bool; 4], random: &mut SplitMix64, more: Option<Vec<u32>>| {
             pending.extend(more.into_iter().flatten());
@@ -54,7 +54,7 @@ fn packer_cuts_answers_into_parts() {
         let mut sent: Vec<u8> = Vec::new();
         let mut part = 0u64;
         'answer: loop {
-            // Until a part is due.
+            // Waits until a part is due.
             loop {
                 step(&mut block, [false; 4], &mut random, more.take());
                 let is_due = block.is("is_due");

@@ -1,4 +1,4 @@
-//! `BitClock`: Rust, Verilog and plain code agree.
+//! Runs `BitClock` in Rust and in Verilog beside plain code: all three must agree.
 
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::serial::BitClock;
@@ -22,7 +22,7 @@ fn ticks(name: &'static str, block: BitClock, first: u64) {
         for clock in 0..1500 {
             block.set("starts", clock == 0);
             block.settle();
-            // The addition that showed last was the one of the clock before, and the first is that behind `starts`.
+            // The addition that shows is that of the clock before; the first one follows `starts`.
             if clock >= 1 {
                 let turns = |additions: u64| (first + additions * step) / TURN;
                 block.expect("ticks", clock >= 2 && turns(clock - 1) > turns(clock - 2));

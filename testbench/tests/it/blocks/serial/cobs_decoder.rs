@@ -1,4 +1,4 @@
-//! `CobsDecoder`: Rust, Verilog and plain code agree.
+//! Runs `CobsDecoder` in Rust and in Verilog beside plain code: all three must agree.
 
 use crate::rig::serial_host::cobs;
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
@@ -18,14 +18,14 @@ pub fn bytes(random: &mut SplitMix64) -> Vec<u8> {
     bytes
 }
 
-/// What a decoder gives.
+/// An output of a decoder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Decoded {
     Byte(u8),
     End { is_broken: bool },
 }
 
-/// A frame out of COBS, piece by piece; `lacks` if a byte of it was lost on the line.
+/// Decodes a frame from COBS, piece by piece; `lacks` says that a byte of it was lost on the line.
 fn decoded(mut encoded: &[u8], lacks: bool) -> Vec<Decoded> {
     let mut seen = Vec::new();
     let (mut owes_zero, mut is_broken) = (false, lacks);
@@ -44,7 +44,7 @@ fn decoded(mut encoded: &[u8], lacks: bool) -> Vec<Decoded> {
     seen
 }
 
-/// One clock of a decoder, and what it gives in it.
+/// Runs one clock of a decoder, and returns its output.
 fn decoder_clock(block: &mut Stepper<CobsDecoder>, byte: Option<u8>, noise: bool) -> Option<Decoded> {
     block.set("byte_valid", byte.is_some());
     block.set("byte_data", byte.unwrap_or(0x55));
@@ -84,7 +84,7 @@ fn decoder_takes_frames_out_of_cobs_and_tells_broken_ones() {
             _ => (0..random.below(60)).map(|_| 1 + random.below(255) as u8).chain([0]).collect(),
         };
         if line.len() == 1 {
-            // Nothing between two zeros: no frame.
+            // Two zeros with nothing in between hold no frame.
             line.push(0);
         }
         let noise_at = (run % 5 == 4).then(|| random.below(line.len() as u64) as usize);

@@ -1,4 +1,4 @@
-//! `CobsEncoder`: Rust, Verilog and plain code agree.
+//! Runs `CobsEncoder` in Rust and in Verilog beside plain code: all three must agree.
 
 use super::cobs_decoder::bytes;
 use crate::rig::serial_host::reverse_cobs;
@@ -13,7 +13,8 @@ named_ports!(
     clock
 );
 
-/// One clock of an encoder: the byte it gives, whether it takes the one it is offered, whether the frame is over.
+/// Runs one clock of an encoder. Returns the byte that it gives, whether it takes the byte on offer,
+/// and whether the frame is over.
 fn encoder_clock(
     block: &mut Stepper<CobsEncoder>,
     offered: Option<u8>,

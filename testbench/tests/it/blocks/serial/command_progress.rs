@@ -1,4 +1,4 @@
-//! `CommandProgress`: Rust, Verilog and plain code agree.
+//! Runs `CommandProgress` in Rust and in Verilog beside plain code: all three must agree.
 
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::serial::CommandProgress;
@@ -11,11 +11,11 @@ named_ports!(CommandProgress, [reset, takes, word, offers_last, takes_answer, an
 struct Traffic {
     /// Arguments that the command at work still awaits.
     arguments: Option<u64>,
-    /// Clocks until it is done.
+    /// Clocks until the command is done.
     working: Option<u64>,
-    /// The last word of an answer is offered; until it is taken.
+    /// The last word of an answer is on offer and not taken yet.
     offers: bool,
-    /// It was taken, and the frame is not over.
+    /// The last word was taken, and its frame is not over.
     is_sent: bool,
     begun: u64,
     ended: u64,
@@ -29,12 +29,12 @@ fn a_command_is_under_way_until_its_answer_has_ended() {
     let (mut rested, mut two_deep, mut paddings) = (0, 0, 0);
     for clock in 0..40_000 {
         let reset = clock == 0 || random.below(2000) == 0;
-        // The core takes words of the next command once the last answer is offered to its end.
+        // The core takes words of the next command once it has offered the last answer to its end.
         let awaits = core.working.is_none();
         let takes = awaits && random.below([2, 20][clock / 5000 % 2]) == 0;
         let is_command = takes && core.arguments.is_none();
         let word = if random.below(3) == 0 { 0 } else { 1 + random.below(1 << 31) as u32 };
-        // What is offered is taken by a link that has ended the answer before.
+        // A link takes the word on offer only after it has ended the answer before.
         let takes_answer = !core.is_sent && random.below(4) == 0;
         let ends = core.is_sent && random.below(6) == 0;
         for (port, bit) in [
@@ -75,7 +75,7 @@ fn a_command_is_under_way_until_its_answer_has_ended() {
         if core.arguments == Some(0) {
             (core.arguments, core.working) = (None, Some(random.below(8)));
         }
-        // Nothing is offered before what was offered is taken.
+        // The core offers nothing until its last offer is taken.
         match core.working {
             Some(0) if !core.offers => (core.working, core.offers) = (None, true),
             Some(left) => core.working = Some(left.saturating_sub(1)),

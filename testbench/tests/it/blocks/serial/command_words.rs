@@ -1,4 +1,4 @@
-//! `CommandWords`: Rust, Verilog and plain code agree.
+//! Runs `CommandWords` in Rust and in Verilog beside plain code: all three must agree.
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use incircle_hdl::serial::CommandWords;

@@ -1,4 +1,4 @@
-//! `Crc32`: Rust, Verilog and plain code agree.
+//! Runs `Crc32` in Rust and in Verilog beside plain code: all three must agree.
 
 use crate::rig::serial_host::crc32_state;
 use crate::rig::stepper::{named_ports, Stepper};
@@ -20,7 +20,7 @@ fn check_sums_run() {
         block.settle();
         block.edge();
         block.set("sets", false);
-        // A state that is not the first is one that some bytes lead to: go on from it a byte at a time.
+        // Any other state is one to which some bytes lead: go on from there a byte at a time.
         let mut expected = start;
         for byte in bytes {
             block.set("takes", true);
@@ -35,7 +35,8 @@ fn check_sums_run() {
                 block.expect("is_busy", true);
                 block.edge();
             }
-            // From a state s, a byte leads where the byte xor the low byte of s leads from 0, xor s without it.
+            // From a state s a byte leads to where the byte xor the low byte of s leads from 0,
+            // xor the upper bytes of s.
             let from_zero = crc32_state(&[byte ^ expected as u8 ^ 0xff]) ^ 0x00ff_ffff;
             expected = from_zero ^ expected >> 8;
             for _ in 0..random.below(3) {

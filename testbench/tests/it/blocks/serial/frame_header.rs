@@ -1,4 +1,4 @@
-//! `FrameHeader`: Rust, Verilog and plain code agree.
+//! Runs `FrameHeader` in Rust and in Verilog beside plain code: all three must agree.
 
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::serial::FrameHeader;

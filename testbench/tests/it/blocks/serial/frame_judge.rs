@@ -1,4 +1,4 @@
-//! `FrameJudge`: Rust, Verilog and plain code agree.
+//! Runs `FrameJudge` in Rust and in Verilog beside plain code: all three must agree.
 
 use crate::rig::asked::{CLOSES, DROPS, GAP, HEARS, HELLO, NO_SESSION, OPENS, POLLS, RATE, REPEATS, TAKES};
 use crate::rig::stepper::{named_ports, Stepper};

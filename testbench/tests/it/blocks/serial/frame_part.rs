@@ -1,4 +1,4 @@
-//! `FramePart`: Rust, Verilog and plain code agree.
+//! Runs `FramePart` in Rust and in Verilog beside plain code: all three must agree.
 
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::serial::FramePart;

@@ -1,4 +1,4 @@
-//! `FrameReader`: Rust, Verilog and plain code agree.
+//! Runs `FrameReader` in Rust and in Verilog beside plain code: all three must agree.
 
 use crate::rig::serial_host::{crc32, host_frame};
 use crate::rig::stepper::{named_ports, Stepper};
@@ -12,7 +12,7 @@ named_ports!(
     clock
 );
 
-/// One clock of a reader.
+/// Runs one clock of a reader.
 fn reader_clock(block: &mut Stepper<FrameReader>, byte: Option<u8>, end: Option<bool>) {
     block.set("data_valid", byte.is_some());
     block.set("data", byte.unwrap_or(0x33));
@@ -44,7 +44,7 @@ fn reader_gives_payload_as_it_comes_and_says_which_frames_are_sound() {
             }
             4 => is_broken = true,
             5 => {
-                // Too long, and with a good check sum.
+                // A frame that is too long has a good check sum here.
                 frame = host_frame(1, 5, 0, &vec![7; 1025 + random.below(200) as usize]);
             }
             _ => {}

@@ -1,4 +1,4 @@
-//! `FrameSender`: Rust, Verilog and plain code agree.
+//! Runs `FrameSender` in Rust and in Verilog beside plain code: all three must agree.
 
 use std::collections::VecDeque;
 
@@ -29,7 +29,7 @@ fn sender_asks_for_the_bytes_of_a_frame_in_order() {
     block.edge();
     block.set("reset", false);
     for run in 0..120 {
-        // Greeting, digest, answer, last of an answer, and none of them.
+        // Shapes of frames in turn: greeting, digest, answer, last part of an answer, and a frame without any of them.
         let shape = run % 5;
         let words = if shape == 2 || shape == 3 { 1 + random.below(30) as usize } else { 0 };
         let mut expected: Vec<(u64, u64)> = (0..7).map(|index| (0, index)).collect();
@@ -54,7 +54,7 @@ fn sender_asks_for_the_bytes_of_a_frame_in_order() {
             block.set(port, bit);
         }
         let (mut taken, mut words_left) = (0, words);
-        // The byte of a place comes two clocks later, as a number of the place.
+        // The byte of a place comes two clocks later, and is a number made from the place.
         let mut pipe: VecDeque<u64> = VecDeque::from([0, 0]);
         let mut busy = 0u64;
         let mut is_cut = false;
@@ -92,7 +92,7 @@ fn sender_asks_for_the_bytes_of_a_frame_in_order() {
                 block.expect("data", place & 0xff);
                 taken += 1;
             }
-            assert!(!is_cut || !block.is("data_valid"), "a frame that was cut offers a byte");
+            assert!(!is_cut || !block.is("data_valid"), "a frame offers a byte after it was cut");
             if block.is("ends") {
                 assert_eq!((taken == expected.len(), block.is("is_cut")), (!is_cut, is_cut));
                 break;

@@ -1,4 +1,4 @@
-//! `Greeting`: Rust, Verilog and plain code agree.
+//! Runs `Greeting` in Rust and in Verilog beside plain code: all three must agree.
 
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_blocks::QUICK_LINK;

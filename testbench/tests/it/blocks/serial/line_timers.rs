@@ -1,4 +1,4 @@
-//! `LineTimers`: Rust, Verilog and plain code agree.
+//! Runs `LineTimers` in Rust and in Verilog beside plain code: all three must agree.
 
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_blocks::HASTY_LINK;
@@ -35,7 +35,7 @@ fn timers_tell_silence_and_breaks() {
         block.settle();
         if clock > 0 {
             let (is_broken, is_silent) = (block.is("is_broken"), block.is("is_silent"));
-            // The earliest and the latest clock of each.
+            // Bounds of the clock in which each timer fires, from below and from above.
             assert!(low_for >= millisecond || !is_broken, "a break after {low_for} clocks");
             assert!(low_for < millisecond + eighth + 3 || is_broken, "no break after {low_for} clocks");
             assert!(silent_for >= silence || !is_silent, "silence after {silent_for} clocks");

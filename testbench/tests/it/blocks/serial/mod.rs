@@ -1,4 +1,4 @@
-//! The blocks of `hdl/src/serial`.
+//! Tests of the blocks in `hdl/src/serial`.
 
 mod answer_packer;
 mod bit_clock;

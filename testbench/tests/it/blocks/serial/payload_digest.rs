@@ -1,4 +1,4 @@
-//! `PayloadDigest`: Rust, Verilog and plain code agree.
+//! Runs `PayloadDigest` in Rust and in Verilog beside plain code: all three must agree.
 
 use crate::rig::serial_host::crc32_state;
 use crate::rig::stepper::{named_ports, Stepper};

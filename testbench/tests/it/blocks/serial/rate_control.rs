@@ -1,4 +1,4 @@
-//! `RateControl`: Rust, Verilog and plain code agree.
+//! Runs `RateControl` in Rust and in Verilog beside plain code: all three must agree.
 
 use crate::rig::asked::{CLOSES, OPENS, RATE};
 use crate::rig::stepper::{named_ports, Stepper};
@@ -14,7 +14,7 @@ named_ports!(
     clock
 );
 
-/// The rate as the page has it.
+/// The rate by the rules of the protocol's page.
 #[derive(Default)]
 struct Rates {
     present: u32,
@@ -33,7 +33,7 @@ fn the_rate_changes_behind_its_receipt_and_returns() {
     let mut value = 0u32;
     let (mut changes, mut refusals) = (0, 0);
     for clock in 0..30_000 {
-        // The value stands for two clocks at least before it counts.
+        // The value stands for at least two clocks before it counts.
         let asked =
             if clock % 4 == 3 { [0, 0, 0, RATE, RATE, RATE, OPENS, CLOSES][random.below(8) as usize] } else { 0 };
         if clock % 4 == 0 {

@@ -1,4 +1,4 @@
-//! `ReceiveFifo`: Rust, Verilog and plain code agree.
+//! Runs `ReceiveFifo` in Rust and in Verilog beside plain code: all three must agree.
 
 use std::collections::VecDeque;
 
@@ -16,11 +16,11 @@ fn fifo_gives_what_was_committed_and_nothing_else() {
     let mut block = Stepper::new("serial_receive_fifo", ReceiveFifo::new(QUICK_LINK), 1);
     let mut committed: VecDeque<u8> = VecDeque::new();
     let mut provisional: Vec<u8> = Vec::new();
-    // Clocks for which nothing has been pushed, and for which `free` can have followed.
+    // Clocks for which nothing was pushed, and for which `free` can have followed.
     let (mut rests_for, mut still_for) = (0, 0);
     let (mut commits, mut windings, mut fullest) = (0, 0, 0);
     for clock in 0..150_000 {
-        // Now it fills, now it empties.
+        // The FIFO fills and empties in turn.
         let (fills, empties) = if clock / 20_000 % 2 == 0 { (2, 40) } else { (12, 3) };
         let reset = clock == 0 || random.below(40_000) == 0;
         let has_room = committed.len() + provisional.len() < size;
@@ -40,7 +40,7 @@ fn fifo_gives_what_was_committed_and_nothing_else() {
                 block.expect("free", (size - committed.len()) as u64);
             }
             let is_there = block.is("byte_valid");
-            assert!(!is_there || !committed.is_empty(), "a byte that was not committed");
+            assert!(!is_there || !committed.is_empty(), "a byte came that was not committed");
             assert!(is_there || committed.is_empty() || still_for < 4, "no byte in clock {clock}");
             if let (true, Some(first)) = (is_there, committed.front()) {
                 block.expect("byte_data", *first);

@@ -1,4 +1,4 @@
-//! `Replies`: Rust, Verilog and plain code agree.
+//! Runs `Replies` in Rust and in Verilog beside plain code: all three must agree.
 
 use crate::rig::asked::{CLOSES, DROPS, GAP, HELLO, NO_SESSION, OPENS, POLLS, RATE, REPEATS, TAKES};
 use crate::rig::stepper::{named_ports, Stepper};
@@ -12,7 +12,7 @@ fn replies_go_in_order_and_each_once() {
     const KINDS: [u32; 5] = [0x81, 0x82, 0x88, 0x87, 0];
     let mut random = SplitMix64::new(6);
     let mut block = Stepper::new("serial_replies", Replies::default(), 1);
-    // Hello, Opened, Closed, NoSession in their order; then Ack and Nak.
+    // Hello, Opened, Closed, NoSession in their order; Ack and Nak follow.
     let mut due = [false; 4];
     let (mut ack, mut nak) = (false, false);
     let mut sent = [0; 6];

@@ -1,4 +1,5 @@
-//! The whole serial link, pins on one side and a stand-in for the core on the other: Rust, Verilog and the rules of the protocol's page.
+//! Runs the whole serial link, with pins on one side and a stand-in for the core on the other: Rust and Verilog must
+//! agree and keep the rules of the protocol's page.
 
 use crate::rig::serial_host::crc32;
 use crate::rig::serial_rig::{answer_of, opened, payload, Pins, Rig, Verilog, SESSION};
@@ -57,11 +58,11 @@ fn without_a_session_nothing_but_a_greeting_is_to_be_had() {
     rig.hear(DeviceFrame::NoSession);
     rig.data(0, &[1, 2, 3]);
     rig.hear(DeviceFrame::NoSession);
-    // Nothing of it has been there.
+    // None of these frames may have reached the core.
     rig.open();
     rig.wait(2000);
     assert!(rig.core.taken.is_empty(), "{:x?}", rig.core.taken);
-    // In a session, frames of another one are nothing.
+    // During a session, frames of another session are dropped.
     for kind in [HostFrame::Poll, HostFrame::Close] {
         rig.say(SESSION ^ 1, kind, 0, &[]);
     }
@@ -92,7 +93,7 @@ fn a_gap_gives_one_nak_and_repeats_give_acks() {
     rig.say(SESSION, HostFrame::Poll, 0, &[]);
     rig.hear(DeviceFrame::Ack);
     assert_eq!(rig.core.taken, [5 << 24]);
-    // All numbers of 256, and on.
+    // All 256 numbers of frames are used, and the numbers wrap.
     for number in 1..=300u32 {
         rig.data(number as u8, &[number << 24 >> 8]);
         let ack = rig.hear_within(40_000).expect("an Ack or the end of an answer");
@@ -105,7 +106,7 @@ fn a_gap_gives_one_nak_and_repeats_give_acks() {
 #[test]
 fn credit_is_what_the_fifo_has_and_no_more_is_taken() {
     let mut rig = opened(4);
-    // The core takes next to nothing.
+    // The core takes next to nothing, so the FIFO fills.
     rig.core.pace = 1 << 40;
     let words = [0x1100_0000u32; 256];
     let mut number = 0;
@@ -113,7 +114,7 @@ fn credit_is_what_the_fifo_has_and_no_more_is_taken() {
     loop {
         rig.data(number, &words);
         let frame = rig.hear_within(200_000).expect("a receipt");
-        // A word may stand outside the FIFO.
+        // One word may stand outside the FIFO.
         let free = u32::from(frame.free);
         assert!((left.saturating_sub(1024)..=left.saturating_sub(1024) + 4).contains(&free) || frame.kind == 0x84);
         if frame.kind == DeviceFrame::Nak as u8 {
@@ -124,7 +125,7 @@ fn credit_is_what_the_fifo_has_and_no_more_is_taken() {
         (number, left) = (number + 1, free);
     }
     assert_eq!(number, 2);
-    // As much as there is room for is taken; and the answers come when the core goes on.
+    // The link takes as much as there is room for, and the answers come when the core goes on.
     rig.data(number, &words[..left as usize / 4]);
     let ack = rig.hear(DeviceFrame::Ack);
     assert_eq!((ack.expected, ack.free), (number + 1, 0));
@@ -173,7 +174,7 @@ fn an_opening_cuts_an_answer_and_resets_the_core() {
         let resets = rig.core.resets;
         rig.talker.say(&[0]);
         rig.say(SESSION ^ 7, HostFrame::Open, 0, &[]);
-        // What was under way is cut, or it was whole before.
+        // A frame that was under way is cut, unless it was whole before.
         let mut frame = rig.hear_within(300_000).expect("a frame");
         while frame.kind != DeviceFrame::Opened as u8 {
             assert_eq!(frame.session, SESSION, "{frame:x?}");
@@ -198,7 +199,7 @@ fn replies_come_in_their_order_and_an_ack_stands_for_many() {
     rig.data(0, &[0x0100_0000 | 400]);
     rig.hear(DeviceFrame::Ack);
     rig.wait(600);
-    // While a part of the answer is sent, much is asked for.
+    // Several commands are sent while a part of the answer is on the line.
     for number in 1..5 {
         rig.data(number, &[0x0200_0000]);
     }
@@ -212,7 +213,7 @@ fn replies_come_in_their_order_and_an_ack_stands_for_many() {
         assert_eq!(rig.answer(answer), [0x0200_0000, 0]);
     }
     rig.nothing_comes(3000);
-    // A closing goes before what was due to the session, and that is forgotten.
+    // The reply to a close goes before everything that was due to the session, which is forgotten.
     rig.data(5, &[0x0300_0000 | 250]);
     rig.say(SESSION, HostFrame::Poll, 0, &[]);
     rig.say(SESSION, HostFrame::Close, 0, &[]);

@@ -1,4 +1,5 @@
-//! The whole serial link on lines that lose, change and break, and at other rates: what the protocol's page says happens.
+//! Runs the whole serial link on lines that lose, change and break bytes, and at other rates: it must
+//! do what the protocol's page says.
 
 use crate::rig::serial_host::{cobs, crc32, host_frame, Listener};
 use crate::rig::serial_rig::{answer_of, opened, payload, Pins, CLOCKS_PER_BIT, SESSION};
@@ -26,7 +27,7 @@ fn frames_that_are_not_sound_leave_no_trace() {
         }
         let mut line = cobs(&frame);
         if run % 6 == 1 && run > 10 {
-            // Its end is lost too, and a zero ends it.
+            // The end of the frame is lost too, and a zero ends it.
             line.truncate(line.len() - 1);
             line.push(0);
         }
@@ -62,7 +63,7 @@ fn the_rate_changes_and_falls_back() {
         let step = ((1 << 24) as f64 / clocks_per_bit).round() as u32;
         rig.say(SESSION, HostFrame::Rate, 0, &step.to_le_bytes());
         assert_eq!(rig.hear(DeviceFrame::Ack).status, STATUS_OPEN);
-        // The last stop bit is under way still.
+        // The last stop bit is still on the line.
         rig.wait(60);
         rig.talker.clocks_per_bit = clocks_per_bit * off;
         rig.listener = Listener::new(clocks_per_bit * off);
@@ -73,7 +74,7 @@ fn the_rate_changes_and_falls_back() {
     rig.data(0, &[0x7700_0064]);
     rig.hear(DeviceFrame::Ack);
     assert_eq!(rig.answer(0), answer_of(0x7700_0064));
-    // The end of the session returns to the first rate, behind its last frame.
+    // The end of the session brings back the first rate, behind the session's last frame.
     rig.say(SESSION, HostFrame::Close, 0, &[]);
     rig.hear(DeviceFrame::Closed);
     rig.wait(60);
@@ -93,7 +94,7 @@ fn silence_and_a_break_end_the_session_and_the_rate() {
         rig.hear(DeviceFrame::Ack);
         rig.wait(100);
         (rig.talker.clocks_per_bit, rig.listener) = (16.0, Listener::new(16.0));
-        // Polls keep it open, for longer than the silence.
+        // Polls keep the session open for longer than the silence.
         for _ in 0..4 {
             rig.wait(silence / 3);
             rig.say(SESSION, HostFrame::Poll, 0, &[]);
@@ -119,19 +120,20 @@ fn silence_and_a_break_end_the_session_and_the_rate() {
     }
 }
 
-/// A `Rate` whose end falls around the clock in which silence ends the session: it is heard in the session; or it finds none; or it is
-/// lost with the session, as on a bad line.
+/// Sends a `Rate` whose end falls around the clock in which silence ends the session. The frame is heard in the
+/// session, or finds no session, or is lost with the session as on a bad line.
 #[test]
 fn a_frame_at_the_very_end_of_a_session_is_taken_whole_or_not_at_all() {
     let step = ((1u32 << 24) / 16).to_le_bytes();
-    // What comes back, if the `Rate` begins so many clocks after the last frame, and then to a `Poll`.
+    // Returns the reply to a `Rate` that begins so many clocks after the last frame, and the
+    // reply to a `Poll` after it.
     let replies = |wait: usize| {
         let mut rig = opened(13);
         rig.wait(wait);
         rig.say(SESSION, HostFrame::Rate, 0, &step);
         let first = rig.hear_within(9000).map(|frame| frame.kind);
         rig.wait(60);
-        // At the first rate, or at the one that was asked for.
+        // The device is at the first rate, or at the one that was asked for.
         let clocks_per_bit = if first == Some(DeviceFrame::Ack as u8) { 16.0 } else { CLOCKS_PER_BIT };
         (rig.talker.clocks_per_bit, rig.listener) = (clocks_per_bit, Listener::new(clocks_per_bit));
         rig.say(SESSION, HostFrame::Poll, 0, &[]);
@@ -177,7 +179,7 @@ fn noise_costs_frames_and_changes_no_word() {
             }
         }
         rig.talker.say(&line);
-        // Whatever became of it: a zero and a poll bring the two sides together.
+        // A zero and a poll bring the two sides together, whatever has become of the frame.
         rig.talker.say(&[0]);
         rig.say(SESSION, HostFrame::Poll, 0, &[]);
         let mut state = None;

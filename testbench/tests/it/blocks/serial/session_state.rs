@@ -1,4 +1,4 @@
-//! `SessionState`: Rust, Verilog and plain code agree.
+//! Runs `SessionState` in Rust and in Verilog beside plain code: all three must agree.
 
 use crate::rig::asked::{CLOSES, GAP, HEARS, OPENS, POLLS, REPEATS, TAKES};
 use crate::rig::stepper::{named_ports, Stepper};
@@ -7,7 +7,7 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(SessionState, [reset, asked, session, fails], [open, saw_gap, forgets, settles], clock);
 
-/// The session as the page has it.
+/// The session by the rules of the protocol's page.
 #[derive(Default)]
 struct Session {
     number: u8,

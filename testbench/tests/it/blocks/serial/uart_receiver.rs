@@ -1,4 +1,4 @@
-//! `UartReceiver`: Rust, Verilog and plain code agree.
+//! Runs `UartReceiver` in Rust and in Verilog beside plain code: all three must agree.
 
 use crate::rig::serial_host::Talker;
 use crate::rig::stepper::{named_ports, Stepper};
@@ -10,7 +10,7 @@ named_ports!(UartReceiver, [reset, step, rx], [byte_valid, byte_data, noise, is_
 
 const TURN: u64 = 1 << 24;
 
-/// A receiver, and what it has given.
+/// A receiver, and the bytes and noise that it has reported.
 struct Receiving {
     block: Stepper<UartReceiver>,
     bytes: Vec<u8>,
@@ -93,7 +93,7 @@ fn receiver_outvotes_a_spike_in_every_bit() {
         let said: Vec<u8> = (0..12).map(|_| random.below(256) as u8).collect();
         let mut talker = Talker::new(nominal);
         talker.say(&said);
-        // One clock of each bit is wrong; that of a start bit does not move its beginning.
+        // One clock of each bit is wrong; the wrong clock of a start bit does not move its beginning.
         let mut place = 0u64;
         let mut spike = 0;
         while !talker.is_silent() {
@@ -118,7 +118,7 @@ fn receiver_ignores_glitches_and_tells_a_missing_stop_bit_once() {
     for run in 0..24 {
         let nominal = clocks_per_bit(run, &mut random);
         receiving.block.set("step", (TURN as f64 / nominal).round() as u32);
-        // A glitch of less than half a bit, as start bits go, is nothing.
+        // A glitch shorter than half a bit is no start bit.
         for clock in 0..4 * nominal as usize {
             receiving.clock(clock >= nominal as usize / 2 - 2);
         }

@@ -1,4 +1,4 @@
-//! `UartTransmitter`: Rust, Verilog and plain code agree.
+//! Runs `UartTransmitter` in Rust and in Verilog beside plain code: all three must agree.
 
 use super::uart_receiver::clocks_per_bit;
 use crate::rig::serial_host::Listener;

@@ -1,4 +1,4 @@
-//! `WordNarrower`: Rust, Verilog and plain code agree.
+//! Runs `WordNarrower` in Rust and in Verilog beside plain code: all three must agree.
 
 use std::collections::VecDeque;
 
@@ -35,7 +35,7 @@ fn narrower_gives_every_word_once() {
             if let Some(word) = words.front() {
                 block.expect("word", *word);
             }
-            // What is offered alone is taken with its word, of two the second.
+            // A word on offer by itself is taken with its beat; of two words, the second is.
             if pair.is_some() {
                 block.expect("pair_ready", ready && words.len() == 1);
             }

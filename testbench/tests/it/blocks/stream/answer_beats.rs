@@ -1,4 +1,4 @@
-//! `AnswerBeats`: Rust, Verilog and plain code agree clock by clock.
+//! Runs `AnswerBeats` in Rust and in Verilog beside plain code: all three must agree in every clock.
 
 use std::collections::VecDeque;
 

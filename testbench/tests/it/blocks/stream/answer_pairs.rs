@@ -1,4 +1,4 @@
-//! `AnswerPairs`: Rust, Verilog and plain code agree clock by clock.
+//! Runs `AnswerPairs` in Rust and in Verilog beside plain code: all three must agree in every clock.
 
 use std::collections::VecDeque;
 
@@ -8,12 +8,15 @@ use incircle_hdl::stream::AnswerPairs;
 use incircle_testkit::SplitMix64;
 
 named_ports!([] AnswerPairs,
-    [reset, response.valid, response.data, response.both, response.last, is_stalled], [response.ready, pair_valid, pair_data, pair_last, is_held], clock);
+    [reset, response.valid, response.data, response.both, response.last, is_stalled],
+    [response.ready, pair_valid, pair_data, pair_last, is_held],
+    clock
+);
 
-/// Words that are offered: one or two, and whether the answer ends with them.
+/// Words on offer: one or two, and whether the answer ends with them.
 type Offer = (u32, Option<u32>, bool);
 
-/// An answer of so many words, in pieces of one and two.
+/// Cuts an answer of so many words into pieces of one and two.
 fn pieces(length: u64, random: &mut SplitMix64, next: &mut u32) -> Vec<Offer> {
     let mut left = length;
     let mut offers = Vec::new();
@@ -61,9 +64,9 @@ fn answers_become_pairs() {
         let takes = clock > 0 && offered.is_some() && block.is("response_ready");
         if clock > 0 {
             let valid = block.is("pair_valid");
-            assert!(shown.is_none() || valid, "a pair went though it was stalled");
+            assert!(shown.is_none() || valid, "a pair left though it was stalled");
             if valid {
-                let (pair, is_last) = expected.front().copied().expect("a pair that nobody sent");
+                let (pair, is_last) = expected.front().copied().expect("a pair that was sent");
                 block.expect("pair_data", pair);
                 block.expect("pair_last", is_last);
                 assert!(block.is("is_held"));
@@ -106,7 +109,7 @@ fn two_words_at_every_clock_pass() {
     for clock in 0..300u32 {
         block.set("reset", clock == 0);
         block.set("is_stalled", false);
-        // Behind the single word, every pair is put together out of two offers.
+        // Behind the single word, every pair is put together from two offers.
         offer(&mut block, Some((clock, (clock != 5).then_some(clock), false)), 0);
         block.settle();
         if clock > 0 {

@@ -1,5 +1,5 @@
-//! `AsyncFifo`: Rust, Verilog and plain code agree at every edge of either clock, at ratios of 1:4 to 4:1 with phases
-//! that drift.
+//! Runs `AsyncFifo` in Rust and in Verilog beside plain code: all three must agree at every edge of either clock, at
+//! ratios of 1:4 to 4:1 with phases that drift.
 
 use std::collections::VecDeque;
 
@@ -14,7 +14,7 @@ named_ports!([const P: usize, const D: usize] AsyncFifo<P, D>,
 
 const WRITE_AND_READ: [&str; 2] = ["write_clock", "read_clock"];
 
-/// One side of the FIFO at random, as often as this and as seldom.
+/// Pace of one side of the FIFO, which goes on in one of so many clocks. The two numbers take turns.
 struct Pace([u64; 2]);
 
 impl Pace {
@@ -23,7 +23,7 @@ impl Pace {
     }
 }
 
-/// The FIFO between a writer and a reader who take turns at being the slower one.
+/// Runs the FIFO between a writer and a reader, which take turns at being the slower one.
 fn buffers<const P: usize, const D: usize>(name: &'static str) {
     let depth = AsyncFifo::<P, D>::DEPTH;
     let (mut passed, mut times_full, mut times_empty) = (0, 0, 0);
@@ -32,7 +32,7 @@ fn buffers<const P: usize, const D: usize>(name: &'static str) {
         let mut clocks = Clocks::new(periods, seed as u64);
         let mut block = Stepper::new(name, AsyncFifo::<P, D>::new(), seed as u32);
         let (writer, reader) = (Pace([1, 4]), Pace([4, 1]));
-        // Entries with the reader's edges since they were taken.
+        // Entries, each with the number of the reader's edges since it was taken.
         let mut entries: VecDeque<(u64, usize)> = VecDeque::new();
         let mut resets_left = 24;
         for time in 0..6000 {
@@ -55,7 +55,7 @@ fn buffers<const P: usize, const D: usize>(name: &'static str) {
             let valid = known && block.is("valid");
             if known && !resets {
                 assert!(entries.len() <= depth + 2);
-                assert!(!valid || !entries.is_empty(), "an entry that nobody pushed");
+                assert!(!valid || !entries.is_empty(), "an entry came that nobody pushed");
                 let is_late = entries.front().is_some_and(|(_, edges)| *edges > 6);
                 assert!(valid || !is_late, "{name} at {periods:?}: no entry after six edges");
                 if block.is("is_empty") {
@@ -72,7 +72,7 @@ fn buffers<const P: usize, const D: usize>(name: &'static str) {
             block.set("pop", pop);
             block.settle();
             if known {
-                // Nothing that a side shows follows its inputs within the clock.
+                // No output of a side follows the side's inputs within the clock.
                 block.expect("valid", valid);
                 block.expect("is_full", is_full);
             }
@@ -83,7 +83,7 @@ fn buffers<const P: usize, const D: usize>(name: &'static str) {
                 if pop {
                     entries.pop_front();
                     passed += 1;
-                    // The read port may have to fetch the next one.
+                    // The read port may have to fetch the next entry.
                     if let Some((_, edges)) = entries.front_mut() {
                         *edges = (*edges).min(3);
                     }

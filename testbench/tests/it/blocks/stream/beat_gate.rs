@@ -1,4 +1,4 @@
-//! `BeatGate`: Rust, Verilog and plain code agree clock by clock.
+//! Runs `BeatGate` in Rust and in Verilog beside plain code: all three must agree in every clock.
 
 use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::stream_bits::set_bits;

@@ -1,4 +1,4 @@
-//! The blocks of `hdl/src/stream`.
+//! Tests of the blocks in `hdl/src/stream`.
 
 mod answer_beats;
 mod answer_pairs;
@@ -6,7 +6,7 @@ mod answer_watch;
 mod async_fifo;
 mod beat_gate;
 mod beat_words;
-mod progress;
+mod command_under_way;
 mod register_block;
 mod register_port;
 mod reset_reply;

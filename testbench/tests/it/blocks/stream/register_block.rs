@@ -1,4 +1,4 @@
-//! `RegisterBlock`: Rust, Verilog and plain code agree clock by clock.
+//! Runs `RegisterBlock` in Rust and in Verilog beside plain code: all three must agree in every clock.
 
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::stream::RegisterBlock;
@@ -10,13 +10,22 @@ use incircle_protocol::{
 use incircle_testkit::SplitMix64;
 
 named_ports!([] RegisterBlock,
-    [reset, s_axi.awvalid, s_axi.awaddr, s_axi.wvalid, s_axi.wdata, s_axi.wstrb, s_axi.bready, s_axi.arvalid, s_axi.araddr, s_axi.rready, resets, core_runs, is_busy, commands, answers], [s_axi.awready, s_axi.wready, s_axi.bvalid, s_axi.bresp, s_axi.arready, s_axi.rvalid, s_axi.rdata, s_axi.rresp, asks_reset], clock);
+    [
+        reset, s_axi.awvalid, s_axi.awaddr, s_axi.wvalid, s_axi.wdata, s_axi.wstrb, s_axi.bready, s_axi.arvalid,
+        s_axi.araddr, s_axi.rready, resets, core_runs, is_busy, commands, answers
+    ],
+    [
+        s_axi.awready, s_axi.wready, s_axi.bvalid, s_axi.bresp, s_axi.arready, s_axi.rvalid, s_axi.rdata, s_axi.rresp,
+        asks_reset
+    ],
+    clock
+);
 
 /// Events of a clock, by port.
 const EVENTS: [&str; 7] =
     ["commands_took", "commands_waited", "dropped", "answers_took", "answers_waited", "answers_ended", "failed"];
 
-/// The register block with a master, and what its registers must hold.
+/// The register block with a master, and the expected content of its registers.
 struct Block {
     stepper: Stepper<RegisterBlock>,
     random: SplitMix64,
@@ -49,7 +58,7 @@ impl Block {
         }
     }
 
-    /// One clock with random events.
+    /// Runs one clock with random events.
     fn clock(&mut self) {
         let header = self.random.below(1 << 32) as u32;
         self.stepper.set("header", header);
@@ -78,7 +87,7 @@ impl Block {
         }
     }
 
-    /// Nothing happens for a clock, for registers that would move.
+    /// Runs a clock without events, for registers that would change.
     fn rest(&mut self) {
         EVENTS.into_iter().for_each(|event| self.stepper.set(event, false));
         self.show_status();
@@ -164,7 +173,7 @@ fn registers_hold_what_the_page_says() {
         (0..clocks).for_each(|_| block.clock());
         block.status = [1, 2, 4].map(|bit| round & bit != 0);
         for register in StreamRegister::ALL {
-            // Any address within a word is its register.
+            // Any address within a word reads its register.
             let offset = register.offset() + block.random.below(4) as u32;
             let (value, response) = block.read(offset);
             assert_eq!(response, 0, "{register:?}");

@@ -1,13 +1,22 @@
-//! `RegisterPort`: Rust, Verilog and plain code agree clock by clock.
+//! Runs `RegisterPort` in Rust and in Verilog beside plain code: all three must agree in every clock.
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use incircle_hdl::stream::RegisterPort;
 use incircle_testkit::SplitMix64;
 
 named_ports!([] RegisterPort,
-    [reset, s_axi.awvalid, s_axi.awaddr, s_axi.wvalid, s_axi.wdata, s_axi.wstrb, s_axi.bready, s_axi.arvalid, s_axi.araddr, s_axi.rready, write_is_known, read_data, read_is_known], [s_axi.awready, s_axi.wready, s_axi.bvalid, s_axi.bresp, s_axi.arready, s_axi.rvalid, s_axi.rdata, s_axi.rresp, write_enable, write_address, write_data, write_bytes, read_enable, read_address], clock);
+    [
+        reset, s_axi.awvalid, s_axi.awaddr, s_axi.wvalid, s_axi.wdata, s_axi.wstrb, s_axi.bready, s_axi.arvalid,
+        s_axi.araddr, s_axi.rready, write_is_known, read_data, read_is_known
+    ],
+    [
+        s_axi.awready, s_axi.wready, s_axi.bvalid, s_axi.bresp, s_axi.arready, s_axi.rvalid, s_axi.rdata, s_axi.rresp,
+        write_enable, write_address, write_data, write_bytes, read_enable, read_address
+    ],
+    clock
+);
 
-/// What a master has under way on one channel: an offer stays until it is taken.
+/// Drives the offer of a master on one channel; an offer stays until it is taken.
 fn channel<T: Copy>(offered: &mut Option<T>, ready: bool, one_in: u64, random: &mut SplitMix64, new: T) {
     if ready {
         *offered = None;
@@ -22,7 +31,7 @@ fn the_port_follows_the_rules_of_axi() {
     let mut random = SplitMix64::new(3);
     let mut block = Stepper::new("stream_register_port", RegisterPort::default(), 1);
     let (mut aw, mut w, mut ar): (Option<u64>, Option<(u64, u64)>, Option<u64>) = (None, None, None);
-    // Taken and not written; written and not answered; the same for reads.
+    // Words taken and not written, written and not answered; the same for reads.
     let (mut addresses, mut words, mut reads): (Vec<u64>, Vec<(u64, u64)>, Vec<u64>) = Default::default();
     let (mut b, mut r): (Option<u64>, Option<(u64, u64)>) = (None, None);
     let (mut writes_done, mut reads_done) = (0, 0);

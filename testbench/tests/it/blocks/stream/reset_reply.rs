@@ -1,4 +1,4 @@
-//! `ResetReply`: Rust, Verilog and plain code agree clock by clock.
+//! Runs `ResetReply` in Rust and in Verilog beside plain code: all three must agree in every clock.
 
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::stream::ResetReply;

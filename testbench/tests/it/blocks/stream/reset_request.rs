@@ -1,4 +1,4 @@
-//! `ResetRequest`: Rust, Verilog and plain code agree clock by clock.
+//! Runs `ResetRequest` in Rust and in Verilog beside plain code: all three must agree in every clock.
 
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::stream::ResetRequest;
@@ -10,14 +10,14 @@ named_ports!([] ResetRequest, [reset, asks, reply, core_beat], [request, resets,
 fn a_reset_is_asked_for_until_it_is_answered() {
     let mut random = SplitMix64::new(1);
     let mut block = Stepper::new("stream_reset_request", ResetRequest::default(), 1);
-    // What is requested, for how many clocks, and whether the end of the reply is awaited.
+    // Whether a reset is requested, for how many clocks, and whether the end of the reply is awaited.
     let (mut requested, mut resetting, mut for_clocks) = (true, true, 0);
     let (mut reply, mut beat, mut still, mut runs, mut seen) = (true, false, 0, false, false);
     let (mut resets, mut stops) = (0, 0);
     for clock in 0..60_000 {
         let reset = clock < 2 || random.below(4000) == 0;
         let asks = random.below(600) == 0;
-        // A reply that stood there from before, and one that follows late or soon.
+        // A reply may stand there from before, and may follow soon or late.
         if random.below([2, 30][clock / 3000 % 2]) == 0 {
             reply = requested;
         }

@@ -1,5 +1,5 @@
-//! The whole stream link, AXI on one side and a stand-in for the core on the other, at ratios of their clocks from 1:4 to 4:1: Rust, Verilog and
-//! the rules of the protocol's page.
+//! Runs the whole stream link, with AXI on one side and a stand-in for the core on the other, at ratios of their clocks
+//! from 1:4 to 4:1: Rust and Verilog must agree and keep the rules of the protocol's page.
 
 use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::stream_rig::{answer, command, Pins, Rig, StandIn, Verilog, PERIODS};
@@ -11,31 +11,41 @@ use incircle_protocol::{
 use incircle_testkit::SplitMix64;
 
 named_ports!([const W: usize, const K: usize, const E: usize] StreamLink<W, K, E>,
-    [bus_clock, bus_reset_n, s_axis.tvalid, s_axis.tdata, s_axis.tkeep, m_axis.tready, s_axi.awvalid, s_axi.awaddr, s_axi.wvalid, s_axi.wdata, s_axi.wstrb, s_axi.bready, s_axi.arvalid, s_axi.araddr, s_axi.rready, core_clock, command.ready, response.valid, response.data, response.both, response.last], [s_axis.tready, m_axis.tvalid, m_axis.tdata, m_axis.tkeep, m_axis.tlast, s_axi.awready, s_axi.wready, s_axi.bvalid, s_axi.bresp, s_axi.arready, s_axi.rvalid, s_axi.rdata, s_axi.rresp, core_reset, command.valid, command.data, response.ready]);
+    [
+        bus_clock, bus_reset_n, s_axis.tvalid, s_axis.tdata, s_axis.tkeep, m_axis.tready, s_axi.awvalid, s_axi.awaddr,
+        s_axi.wvalid, s_axi.wdata, s_axi.wstrb, s_axi.bready, s_axi.arvalid, s_axi.araddr, s_axi.rready, core_clock,
+        command.ready, response.valid, response.data, response.both, response.last
+    ],
+    [
+        s_axis.tready, m_axis.tvalid, m_axis.tdata, m_axis.tkeep, m_axis.tlast, s_axi.awready, s_axi.wready,
+        s_axi.bvalid, s_axi.bresp, s_axi.arready, s_axi.rvalid, s_axi.rdata, s_axi.rresp, core_reset, command.valid,
+        command.data, response.ready
+    ]
+);
 
 fn rig(beat_bits: usize, periods: [u64; 2], seed: u64) -> Rig<Verilog> {
     let name = if beat_bits == 64 { "stream_link_64" } else { "stream_link_128" };
     let (pins, core) = (Verilog::new(name, seed as u32), StandIn::new(seed));
-    // The shortest reset at power-up is enough.
+    // The shortest reset at power-up must be enough.
     let mut rig = Rig::after_reset(pins, beat_bits, Some(core), (periods, seed), 1 + seed % 3);
     rig.await_core();
     rig
 }
 
-/// Commands with their arguments; some with no payload, some that fail.
+/// Commands with their arguments; some answers have no payload, and some commands fail.
 fn commands(number: usize, longest: u64, random: &mut SplitMix64) -> Vec<Vec<u32>> {
     let mut one = || {
         let arguments = random.below(4) as u32;
         let status = if random.below(8) == 0 { 1 + random.below(6) as u32 } else { 0 };
         let first = command(1 + random.below(9) as u32, status, arguments, random.below(longest) as u32);
-        // Zeros among the arguments are no padding.
+        // Zeros among the arguments are not padding.
         let argument = |random: &mut SplitMix64| if random.below(2) == 0 { 0 } else { random.next_u64() as u32 };
         [first].into_iter().chain((0..arguments).map(|_| argument(random))).collect()
     };
     (0..number).map(|_| one()).collect()
 }
 
-/// Sends commands, some padded to a beat's end and some not, and compares the answers.
+/// Sends commands, some padded to the end of a beat and some not, and compares the answers.
 fn exchange<P: Pins>(rig: &mut Rig<P>, number: usize, longest: u64, random: &mut SplitMix64) {
     let commands = commands(number, longest, random);
     let mut words = Vec::new();
@@ -120,7 +130,7 @@ fn both_fifos_fill_and_nothing_is_lost() {
     for (beat_bits, periods) in [(64, PERIODS[0]), (128, PERIODS[6])] {
         let words_of_beat = beat_bits / 32;
         let mut rig = rig(beat_bits, periods, 3);
-        // The core takes nothing: the FIFO, its read port, and a beat that is being cut.
+        // The core takes nothing, so the link holds the FIFO, its read port, and a beat that is being cut.
         rig.core.as_mut().expect("a stand-in").sleeps = true;
         let all = 1000 * words_of_beat;
         let commands: Vec<u32> = (0..all).map(|place| command(1 + place as u32 % 200, 0, 0, 1)).collect();
@@ -129,14 +139,14 @@ fn both_fifos_fill_and_nothing_is_lost() {
         let held = 1000 - rig.bus.unsent() as u32;
         assert!((STREAM_FIFO_BEATS..=STREAM_FIFO_BEATS + 3).contains(&held), "{held} beats are held");
         assert_ne!(rig.read(StreamRegister::Status) & STREAM_STATUS_BUSY, 0);
-        // Nobody takes an answer: the other FIFO fills.
+        // Nobody takes an answer, so the other FIFO fills.
         rig.core.as_mut().expect("a stand-in").sleeps = false;
         rig.bus.is_deaf = true;
         rig.steps(20_000);
         let left = rig.bus.unsent();
         rig.steps(5000);
         assert!(left > 0 && rig.bus.unsent() == left && rig.bus.came.is_empty());
-        // An answer is offered though nobody was ever ready for one.
+        // An answer is on offer though nobody was ever ready for one.
         assert_eq!(rig.pins.get("m_axis_tvalid"), 1);
         rig.bus.is_deaf = false;
         for command in &commands {
@@ -163,7 +173,7 @@ fn a_beat_without_all_its_bytes_is_dropped_and_a_failed_answer_is_kept() {
     assert_eq!(rig.read(StreamRegister::CommandBeats), 4);
     rig.write(StreamRegister::Errors, ERROR_PARTIAL_BEAT);
     assert_eq!(rig.read(StreamRegister::Errors), ERROR_ANSWER_STATUS);
-    // A reset by the control register leaves what it says; one of the bus does not.
+    // A reset by the control register keeps the errors and the fault; a reset of the bus clears them.
     rig.write(StreamRegister::Control, CONTROL_RESET);
     rig.await_core();
     assert_eq!((rig.read(StreamRegister::Errors), rig.read(StreamRegister::Fault)), (ERROR_ANSWER_STATUS, 0x0405_0000));
@@ -178,7 +188,7 @@ fn busy_is_told_without_a_gap() {
         let mut random = SplitMix64::new(round as u64);
         let mut rig = rig(64, periods, round as u64);
         for _ in 0..60 {
-            // Padding alone, or an argument that is missing.
+            // Padding alone, or a command that lacks an argument.
             let first = command(2, 0, 1, random.below(12) as u32);
             rig.steps(60);
             assert_eq!(rig.read(StreamRegister::Status), STREAM_STATUS_RUNS, "idle at {periods:?}");
@@ -194,7 +204,7 @@ fn busy_is_told_without_a_gap() {
             rig.bus.send(&[9, 0]);
             let mut reads = 0;
             while !rig.bus.came.iter().any(|(_, is_last)| *is_last) {
-                // What is read when nothing has ended was so when it was asked.
+                // A status read before the answer ended must say busy.
                 let status = rig.read(StreamRegister::Status);
                 if !rig.bus.came.iter().any(|(_, is_last)| *is_last) {
                     assert_eq!(status, STREAM_STATUS_RUNS | STREAM_STATUS_BUSY, "{reads} at {periods:?}");

@@ -1,4 +1,5 @@
-//! The device, register by register: who it says it is, what its windows answer, and what it may not reach.
+//! Tests the device register by register: its identity, the answers of its windows, and the
+//! memory that it may not reach.
 
 use std::io::{Read, Write};
 
@@ -10,7 +11,7 @@ use incircle_testbench::link::{is_one_mesh, random_points};
 
 use super::rig::{card, model, opened, triangulate, until, within, LIMIT};
 
-/// Bytes of the answer to a `Hello`: nine words, in beats of 64 bits.
+/// Bytes of the answer to a `Hello`: nine words in beats of 64 bits.
 const IDENTITY: usize = 40;
 
 fn channels(driver: &VfioDriver) -> (Transfers, Transfers) {
@@ -22,7 +23,7 @@ fn hello() -> [u8; 8] {
     u64::from(command_word(Opcode::Hello)).to_le_bytes()
 }
 
-/// The device does what it should: asked who it is, and with a job.
+/// Checks that the device works: it answers a `Hello` and does a job.
 fn works(driver: &VfioDriver) {
     let (commands, answers) = channels(driver);
     assert_eq!(Commands(commands).write(&hello()).unwrap(), 8);
@@ -42,7 +43,7 @@ fn configuration_space_says_what_it_is() {
         assert_eq!(driver.config(0), 0x7024_10ee);
         assert_eq!(driver.config(8), 0x0700_0100);
         assert_eq!(driver.config(config::COMMAND as u64), 0x0010_0006);
-        // A window tells its size, and takes an address that is a multiple of it.
+        // A window tells its size, and takes an address that is a multiple of its size.
         for (at, size) in [(0x10, 0xffff_f000), (0x14, 0xffff_0000), (0x18, 0), (0x24, 0)] {
             driver.set_config(at, ALL_ONES);
             assert_eq!(driver.config(at), size, "{at:#x}");
@@ -53,7 +54,7 @@ fn configuration_space_says_what_it_is() {
         assert_eq!(driver.config(capability.into()), 0x801f_0011);
         assert_eq!(driver.config(u64::from(capability) + 4), 0x8001);
         assert_eq!(driver.config(u64::from(capability) + 8), 0x8fe1);
-        // Who it is cannot be written, and behind the end there is nothing.
+        // The identity cannot be written, and behind the end of the space there is nothing.
         driver.set_config(0, 0);
         assert_eq!((driver.config(0), driver.config(4096)), (0x7024_10ee, ALL_ONES));
         driver.reset().unwrap();
@@ -75,7 +76,8 @@ fn the_first_window_has_the_registers_of_the_card() {
             assert_eq!(driver.user(0x00), 0x696e_4369);
             assert_eq!(driver.user(0x04), STREAM_VERSION);
             assert_eq!((driver.user(0x14), driver.user(0x20)), (SMALL.points, bits));
-            // What the card answers with SLVERR is all ones on the bus; so is what is no register, and all while the window is closed.
+            // A read that the card answers with SLVERR is all ones on the bus. So is a read of no register, and any
+            // read while the window is closed.
             for offset in [0x28, 0x3c, 0x50, 0x9c, 0xffc, 0x1000, 0x02, 0x16] {
                 driver.set_user(offset, 1);
                 assert_eq!(driver.user(offset), ALL_ONES, "{offset:#x}");
@@ -119,12 +121,12 @@ fn the_second_window_has_the_registers_of_the_bridge() {
     });
 }
 
-/// A run that must end with this error; then a reset, and the device goes on.
+/// Runs a descriptor that must end with this error; then a reset, and the device works again.
 fn must_be_refused(way: Way, descriptor: Descriptor, first: Option<u64>, error: u32) {
     let card = card(64);
     let driver = VfioDriver::open(card.path()).unwrap();
     let (commands, answers) = channels(&driver);
-    // Something that an answer can be read of.
+    // Commands first, so that there is an answer to read.
     let mut commands = Commands(commands);
     if way == Way::ToHost {
         commands.write_all(&hello()).unwrap();
@@ -168,7 +170,7 @@ fn a_descriptor_without_its_letters_is_refused() {
         let card = card(64);
         let driver = VfioDriver::open(card.path()).unwrap();
         let (commands, _answers) = channels(&driver);
-        // A page of zeros.
+        // A page of zeros has no magic number.
         commands.begin(commands.memory().address());
         assert_eq!(commands.wait().unwrap(), status::MAGIC);
         driver.reset().unwrap();
@@ -176,14 +178,15 @@ fn a_descriptor_without_its_letters_is_refused() {
     });
 }
 
-/// A run towards the host that waits for an answer, or one to the card that waits for room, while the memory of its data is unmapped.
+/// Unmaps the memory of the data under a run: towards the host while it waits for an answer, towards the
+/// card while it waits for room.
 fn unmapped_meanwhile(way: Way) {
     let card = card(64);
     let driver = VfioDriver::open(card.path()).unwrap();
     let (commands, answers) = channels(&driver);
     let transfers = if way == Way::ToHost { &answers } else { &commands };
     let data = DmaMemory::new(driver.link().new_range(), 1 << 16).unwrap();
-    // So many commands whose answers nobody reads fill every FIFO.
+    // Commands in such number, whose answers nobody reads, fill every FIFO.
     data.write(0, &command_word(Opcode::Latencies).to_le_bytes().repeat(1 << 14)).unwrap();
     driver.link().map(&data).unwrap();
     let (source, destination) = match way {

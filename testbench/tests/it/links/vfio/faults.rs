@@ -1,4 +1,5 @@
-//! Whole jobs on a card that is reset, or falls off the bus: the right mesh or a typed error, and no hang.
+//! Resets the card, or lets it fall off the bus, in the middle of whole jobs: the mesh must be right or the error
+//! typed, and no call may hang.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -10,18 +11,18 @@ use incircle_testbench::link::{is_one_mesh, random_points};
 
 use super::rig::{card, opened, triangulate, within, Meddled, Meddling, LIMIT};
 
-/// Where a job is disturbed.
+/// The place at which a job is disturbed.
 #[derive(Clone, Copy, Debug)]
 struct Place {
-    /// In the answers, not in the commands.
+    /// True for a place in the answers, false for one in the commands.
     in_answers: bool,
-    /// After so many bytes.
+    /// Number of bytes before the place.
     after: usize,
-    /// While a transfer is under way.
+    /// True if a transfer is under way at that moment.
     is_during: bool,
 }
 
-/// Before each command of a job, and before each answer.
+/// Places before each command of a job and before each answer.
 fn places() -> impl Iterator<Item = Place> {
     let ways = [(false, [0, 8, 16, 2000]), (true, [0, 8, 40, 2000])];
     ways.into_iter().flat_map(|(in_answers, after)| {
@@ -30,7 +31,7 @@ fn places() -> impl Iterator<Item = Place> {
     })
 }
 
-/// A job that is disturbed once.
+/// Runs a job that is disturbed once.
 fn disturbed(driver: &VfioDriver, place: Place, points: &[Point], meddling: Meddling) -> Result<Mesh, Error> {
     let CardFiles { commands, answers, registers } = driver.files(LIMIT).unwrap();
     let files = if place.in_answers {
@@ -62,12 +63,12 @@ fn a_reset_of_the_device_in_mid_job_gives_the_right_mesh_or_says_so() {
                     assert!(kinds.contains(&error.kind()), "{place:?}: {error}");
                 }
             }
-            // And then it is as new.
+            // After that the card is as new.
             let points = random_points(300, seed);
             let mesh = triangulate(&mut opened(driver.files(LIMIT).unwrap()).unwrap(), &points).unwrap();
             assert!(is_one_mesh(&mesh, &incircle::triangulate(&points).unwrap()), "{place:?}, afterwards");
         }
-        assert!(right > 0, "no job was done once more");
+        assert!(right > 0, "no job was retried with success");
     });
 }
 
@@ -80,7 +81,7 @@ fn a_card_that_vanishes_in_mid_job_is_a_typed_error() {
             let vanishes = Arc::clone(&card);
             let error = disturbed(&driver, place, &random_points(600, 2), Box::new(move || vanishes.vanish()))
                 .map(drop)
-                .expect_err("it is gone");
+                .expect_err("the card should be gone");
             assert!(
                 error.kind() == ErrorKind::Link && error.to_string().contains("the card is gone"),
                 "{place:?}: {error}"
@@ -99,7 +100,7 @@ fn a_run_on_a_card_that_is_gone_fails_as_such() {
         transfers.describe(&[Descriptor { length: 64, destination, ..Descriptor::default() }]).unwrap();
         transfers.begin(transfers.memory().address());
         card.vanish();
-        // No such device.
+        // Error 19 is ENODEV, no such device.
         assert_eq!(transfers.wait().unwrap_err().raw_os_error(), Some(19));
     });
 }
@@ -125,7 +126,7 @@ fn a_card_that_takes_nothing_is_a_typed_error() {
         let card = card(64);
         let driver = VfioDriver::open(card.path()).unwrap();
         let mut device = opened(driver.files(Duration::from_millis(300)).unwrap()).unwrap();
-        // DMA is switched off, and on no more.
+        // DMA is switched off by this write, and nothing switches it on again.
         driver.set_config(4, 2);
         let error = triangulate(&mut device, &random_points(100, 1)).map(drop).expect_err("it stands");
         assert!(matches!(error.kind(), ErrorKind::Link | ErrorKind::Timeout), "{error}");

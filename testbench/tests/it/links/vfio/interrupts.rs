@@ -1,21 +1,21 @@
-//! The device's interrupts: none is lost, and none comes that is masked or not asked for.
+//! Tests the device's interrupts: none is lost, and none comes that is masked or not asked for.
 
 use incircle_testbench::card::vfio::numbers::{block, channel, config, interrupts, status, ENTRY_CONTROL};
 use incircle_testbench::card::vfio::{Descriptor, Transfers, VfioDriver, Way};
 
 use super::rig::{card, until, within, LIMIT};
 
-/// Runs whose ends are counted.
+/// Number of runs whose ends are counted.
 const RUNS: u32 = 300;
 
-/// Where things are in configuration space and in the second window.
+/// Offsets in the configuration space and in the second window.
 const MESSAGES: u64 = config::MESSAGES_AT as u64;
 const ENABLED: u32 = (config::MESSAGES_ENABLED as u32) << 16;
 const MASKED: u32 = (config::MESSAGES_MASKED as u32) << 16;
 const CHANNEL_MASK: u32 = block::INTERRUPTS + interrupts::CHANNEL_MASK;
 const MASK: u32 = block::CHANNEL[0] + channel::MASK;
 
-/// Lets a run begin, of descriptors with a beat of padding each.
+/// Starts a run of descriptors with a beat of padding each.
 fn begin(transfers: &Transfers, descriptors: usize, completes: bool) {
     let source = transfers.memory().address() + 4096;
     let all: Vec<_> = (1..=descriptors)
@@ -32,7 +32,7 @@ fn the_end_of_every_run_is_told() {
         let driver = VfioDriver::open(card.path()).unwrap();
         let transfers = Transfers::new(driver.link(), Way::ToCard, LIMIT).unwrap();
         for run in 0..RUNS {
-            // A message may come for each descriptor, and one must for the last.
+            // A message may come for each descriptor, and one must come for the last.
             let (descriptors, completes) = (1 + run as usize % 16, run % 2 == 0);
             begin(&transfers, descriptors, completes);
             let bits = status::STOPPED | if completes { status::COMPLETED } else { 0 };
@@ -42,11 +42,11 @@ fn the_end_of_every_run_is_told() {
             transfers.end();
         }
         assert_eq!(driver.untold(), 0);
-        assert!(!transfers.was_told(), "one more than runs");
+        assert!(!transfers.was_told(), "there are more messages than runs");
     });
 }
 
-/// A run is not told while `mask`, and is as soon as `unmask`; once.
+/// Checks that a run sends no message under `mask`, and exactly one as soon as `unmask` is called.
 fn is_held_back(what: &str, mask: impl Fn(&VfioDriver), unmask: impl Fn(&VfioDriver)) {
     let card = card(64);
     let driver = VfioDriver::open(card.path()).unwrap();
@@ -86,7 +86,7 @@ fn what_waits_for_its_mask_is_pending() {
         let driver = VfioDriver::open(card.path()).unwrap();
         let transfers = Transfers::new(driver.link(), Way::ToCard, LIMIT).unwrap();
         let link = driver.link();
-        // The message of this channel is another one, which nobody has unmasked, or given an event.
+        // The channel gets another message, which nobody has unmasked or given an event.
         link.set_dma(block::INTERRUPTS + interrupts::CHANNEL_VECTORS, 0x0105);
         begin(&transfers, 1, true);
         until("it is pending", || link.dma(block::PENDING) == 1 << 5);
@@ -110,7 +110,7 @@ fn what_the_control_does_not_ask_for_is_not_told() {
         until("the run ends", || link.dma(transfers.register(channel::COMPLETED)) == 4);
         assert_eq!(link.dma(transfers.register(channel::STATUS)), 0);
         assert!(!transfers.was_told());
-        // A reset forgets what was asked for, not who is told.
+        // A reset forgets the requests, not the events of the host.
         driver.reset().unwrap();
         assert!(!transfers.was_told());
         begin(&transfers, 1, true);

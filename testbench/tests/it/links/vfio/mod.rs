@@ -1,5 +1,6 @@
-//! The library's own driver before a card that is a device of vfio-user: jobs through its windows, DMA, interrupts and reset, what happens when it
-//! is reset or falls off the bus meanwhile, and the device itself, register by register.
+//! Runs the library's own driver in front of a card that is a vfio-user device: jobs through its
+//! windows, DMA, interrupts and reset, resets and losses of the card in the middle of a job, and
+//! the device itself, register by register.
 
 mod device;
 mod faults;
@@ -14,7 +15,7 @@ use incircle_testbench::link::{is_one_mesh, random_points};
 
 use rig::{card, opened, triangulate, within, LIMIT};
 
-/// Jobs one after the other in a session, on this card; no interrupt of theirs may be lost.
+/// Runs jobs one after another in a session on this card; none of their interrupts may be lost.
 fn jobs(card: &VfioCard, counts: &[usize]) {
     let driver = VfioDriver::open(card.path()).unwrap();
     let mut device = opened(driver.files(LIMIT).unwrap()).unwrap();
@@ -62,7 +63,8 @@ fn jobs_at_the_pins() {
             let pins = move || -> Box<dyn Beats> { Box::new(PinCard::new(SMALL, bits).unwrap()) };
             let card = VfioCard::new(Box::new(pins)).unwrap();
             jobs(&card, &[3, 1000]);
-            // A reset of the device is one of the bus: its counters begin anew, where one by a register keeps them.
+            // A reset of the device is one of the bus: the counters begin anew, while a
+            // reset by the register keeps them.
             let driver = VfioDriver::open(card.path()).unwrap();
             let beats = || driver.user(StreamRegister::CommandBeats.offset());
             for seed in 1..=2 {

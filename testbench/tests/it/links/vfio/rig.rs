@@ -1,4 +1,4 @@
-//! What the tests of the vfio-user device share.
+//! Helpers that the tests of the vfio-user device share.
 
 use std::io::{self, Read, Write};
 use std::sync::mpsc::{channel, RecvTimeoutError};
@@ -12,10 +12,10 @@ use incircle_protocol::SMALL;
 use incircle_sim::pcie::Beats;
 use incircle_testbench::card::vfio::VfioCard;
 
-/// Deadline of whatever is waited for.
+/// Deadline of every wait.
 pub const LIMIT: Duration = Duration::from_secs(60);
 
-/// The model of a card as the device makes it, at the start and after each reset.
+/// The model of a card, as the device makes it at the start and after each reset.
 pub fn model(beat_bits: u32) -> StreamModel<ModelCore> {
     StreamModel::new(ModelCore::of(SMALL).unwrap(), beat_bits)
 }
@@ -31,13 +31,13 @@ pub fn opened(files: CardFiles) -> Result<Device, Error> {
     Ok(Device::from_transport(Box::new(transport)))
 }
 
-/// A job.
+/// Runs a job on the device.
 pub fn triangulate(device: &mut Device, points: &[Point]) -> Result<Mesh, Error> {
     let options = Options::default().timeout(LIMIT);
     device.session_within(LIMIT)?.triangulate_with(points, &options).map(|solution| solution.mesh)
 }
 
-/// Does something that may hang, and fails if it does.
+/// Runs an action that may hang, and fails if it does.
 pub fn within<T: Send + 'static>(act: impl FnOnce() -> T + Send + 'static) -> T {
     let (sender, done) = channel();
     let thread = std::thread::spawn(move || {
@@ -47,13 +47,13 @@ pub fn within<T: Send + 'static>(act: impl FnOnce() -> T + Send + 'static) -> T 
         Ok(result) => result,
         Err(RecvTimeoutError::Timeout) => panic!("it hangs"),
         Err(RecvTimeoutError::Disconnected) => match thread.join() {
-            Ok(()) => panic!("it ended without a result"),
+            Ok(()) => panic!("the action ended without a result"),
             Err(reason) => std::panic::resume_unwind(reason),
         },
     }
 }
 
-/// Waits until this is so.
+/// Waits until the condition holds.
 pub fn until(what: &str, is_so: impl Fn() -> bool) {
     let deadline = Instant::now() + LIMIT;
     while !is_so() {
@@ -62,10 +62,10 @@ pub fn until(what: &str, is_so: impl Fn() -> bool) {
     }
 }
 
-/// What is done to a card while a stream of it is used.
+/// An action on the card while one of its streams is in use.
 pub type Meddling = Box<dyn FnOnce() + Send>;
 
-/// A stream that does something else after so many bytes: before its next call, or while that is under way.
+/// A stream that runs the action after a number of bytes: before its next call, or while that call is under way.
 pub struct Meddled<T> {
     stream: T,
     left: usize,

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::imports::Graph;
 
-/// All circles, each sorted. A node that leads to itself alone is none.
+/// Returns all circles, each sorted. A node with an edge to itself alone is no circle.
 pub fn circles(graph: &Graph) -> Vec<Vec<String>> {
     let reached: BTreeMap<&str, BTreeSet<&str>> =
         graph.keys().map(|node| (node.as_str(), reach(graph, node))).collect();
@@ -19,7 +19,7 @@ pub fn circles(graph: &Graph) -> Vec<Vec<String>> {
     found.into_iter().map(|circle| circle.into_iter().map(str::to_string).collect()).collect()
 }
 
-/// All nodes that paths from this one lead to.
+/// All nodes that can be reached from this one.
 fn reach<'a>(graph: &'a Graph, from: &str) -> BTreeSet<&'a str> {
     let next = |node: &str| graph.get(node).into_iter().flatten().map(String::as_str);
     let mut reached: BTreeSet<&str> = BTreeSet::new();

@@ -1,38 +1,38 @@
-//! Which module imports which: paths are followed to the modules that define what they name.
+//! Finds which module imports which: paths are followed to the modules that define what they name.
 //!
-//! A module that hands on items of others (`pub use`) is two nodes: its own code, and its face, which imports all that
-//! it hands on. Handing on is no import of the code.
+//! A module that hands on items of others (`pub use`) is two nodes: its own code, and its face, which imports
+//! everything that it hands on. Handing on is no import of the code.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::source::{Segments, Tree, Use};
 
-/// What each module imports.
+/// Imports of each module, as names of modules and faces.
 pub type Graph = BTreeMap<String, BTreeSet<String>>;
 
-/// `use` that leads to `use` that leads back would go on for ever.
+/// Longest chain of `use` that is followed; a chain that leads back to itself would never end.
 const HOPS: u32 = 16;
 
-/// What a path's first name, or a further one, stands for in a module.
+/// Meaning of a path's first or further name in a module.
 enum Meaning {
     /// A module of the crate.
     Module(Segments),
-    /// An item of the module asked.
+    /// An item of that module.
     Item,
-    /// Whatever this path, seen from the module asked, stands for; and whether the module hands it on.
+    /// An item that another path names, seen from that module; true if the module hands it on.
     Other(Segments, bool),
 }
 
-/// A crate, with what its modules bring in whole (`use a::*`) looked up once.
+/// A crate, with everything that its modules bring in whole (`use a::*`) looked up once.
 struct Crate<'a> {
     tree: &'a Tree,
-    /// The modules that each module brings in whole.
+    /// Modules that each module brings in whole.
     globs: BTreeMap<&'a Segments, Vec<Segments>>,
     /// All names that mean something in each module.
     names: BTreeMap<&'a Segments, BTreeSet<String>>,
 }
 
-/// The imports of all modules and of all faces.
+/// Returns the imports of all modules and of all faces.
 pub fn imports(tree: &Tree) -> Graph {
     let krate = Crate::of(tree);
     let both = |name: &Segments| {
@@ -41,7 +41,7 @@ pub fn imports(tree: &Tree) -> Graph {
     tree.modules.keys().flat_map(both).collect()
 }
 
-/// The node of what a module hands on.
+/// Name of the node for everything that a module hands on.
 fn face(module: &Segments) -> String {
     format!("{} (face)", module.join("::"))
 }
@@ -66,7 +66,7 @@ impl<'a> Crate<'a> {
         found
     }
 
-    /// Names go from a module to those that bring it in whole, until no module has a new one.
+    /// Names spread from a module to those that bring it in whole, until no module gets a new one.
     fn spread_names(&mut self) {
         loop {
             let mut grown = false;
@@ -92,7 +92,7 @@ impl<'a> Crate<'a> {
         for used in module.uses.iter().filter(|used| used.is_handed_on == of_face) {
             let end = self.follow(name, &used.path, HOPS, &mut imported);
             if let (None, Some(whole)) = (&used.name, end) {
-                // Which of the names are needed is not known: all count.
+                // Nobody knows which of the names are needed, so all count.
                 imported.extend([whole.join("::"), face(&whole)]);
             }
         }
@@ -103,8 +103,8 @@ impl<'a> Crate<'a> {
         imported
     }
 
-    /// Adds the modules that a path, written in this module, takes something from. Gives the module that the path ends
-    /// at, if at one.
+    /// Adds the modules from which a path, written in this module, takes something. Returns the module at which the
+    /// path ends, if it ends at one.
     fn follow(&self, from: &Segments, path: &[String], hops: u32, imported: &mut BTreeSet<String>) -> Option<Segments> {
         let mut here = from.clone();
         for word in path {
@@ -119,7 +119,7 @@ impl<'a> Crate<'a> {
                         return None;
                     }
                     Meaning::Other(target, is_handed_on) => {
-                        // A `use` of the module itself is only followed.
+                        // A `use` in the module itself is followed but does not count.
                         if here != *from {
                             imported.insert(if is_handed_on { face(&here) } else { here.join("::") });
                         }
@@ -131,12 +131,12 @@ impl<'a> Crate<'a> {
         Some(here)
     }
 
-    /// The module at which a path ends, if at one.
+    /// The module at which a path ends, if it ends at one.
     fn module_at(&self, from: &Segments, path: &[String]) -> Option<Segments> {
         self.follow(from, path, HOPS, &mut BTreeSet::new())
     }
 
-    /// What a word stands for in a module. `None`: nothing of this crate.
+    /// Meaning of a word in a module; `None` if it is nothing of this crate.
     fn meaning(&self, module: &Segments, word: &str) -> Option<Meaning> {
         let child: Segments = module.iter().cloned().chain([word.to_string()]).collect();
         if self.tree.modules.contains_key(&child) {
@@ -147,7 +147,7 @@ impl<'a> Crate<'a> {
             return Some(Meaning::Item);
         }
         if let Some(used) = content.uses.iter().find(|used| used.name.as_deref() == Some(word)) {
-            // `use name::...` leads into another crate where the module has nothing else of this name.
+            // `use name::...` leads into another crate if the module has nothing else of this name.
             let is_foreign = used.path.first().map(String::as_str) == Some(word);
             return (!is_foreign).then(|| Meaning::Other(used.path.clone(), used.is_handed_on));
         }
@@ -159,7 +159,7 @@ impl<'a> Crate<'a> {
     }
 }
 
-/// A circle in words: each of its modules with what it imports within the circle.
+/// A circle in words: each of its modules, with its imports within the circle.
 pub fn told(tree: &Tree, circle: &[String]) -> String {
     let shown = |module: &str| if module.is_empty() { "the root".to_string() } else { module.to_string() };
     let graph = imports(tree);

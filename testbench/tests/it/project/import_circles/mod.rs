@@ -1,13 +1,13 @@
-//! No two modules of a crate import each other, directly or around. A reader can then take the modules of each crate
-//! from the bottom up.
+//! Proves that no two modules of a crate import each other, directly or around. A reader can therefore take the modules
+//! of each crate from the bottom up.
 //!
-//! What counts as an import of module B by module A: a `use` or a path in the code of A names an item that B defines.
-//! Naming a module on the way to an item imports nothing, and neither does `mod b;`.
+//! A module A imports a module B if a `use` or a path in the code of A names an item that B defines. Naming a module on
+//! the way to an item imports nothing, and neither does `mod b;`.
 //!
-//! Items that B hands on (`pub use`) are its face, which counts as a module of its own. Who takes an item from there
-//! imports the face, and the face imports all that it hands on. So a parent may hand on the items of its children, and
-//! its children may use what the parent itself defines, but a child that imports a sibling through the parent's face
-//! stands in a circle. Parts that are compiled for tests only do not count.
+//! Items that B hands on (`pub use`) are its face, which counts as a module of its own. Taking an item from there
+//! imports the face, and the face imports everything that it hands on. A parent may thus hand on the items of its
+//! children, and its children may use what the parent itself defines; but a child that imports a sibling through the
+//! parent's face stands in a circle. Parts that are compiled for tests only do not count.
 
 mod circles;
 mod imports;
@@ -22,14 +22,14 @@ use circles::circles;
 use imports::imports;
 use source::Tree;
 
-/// A module that may stand in circles: the bus of the model by clock, which every block reads and whose wires every
-/// block names.
+/// The one module that may stand in circles: the bus of the model by clock, which every block reads
+/// and whose wires every block names.
 const BUS: (&str, &str) = ("incircle-model", "clock::wires");
 
-/// How many modules of each package still stand in circles. These numbers may only fall.
+/// Number of modules of each package that still stand in circles. These numbers may only fall.
 const KNOWN: [(&str, usize); 0] = [];
 
-/// The circles of a crate, each a sorted list of modules.
+/// Circles of a crate, each a sorted list of modules.
 fn circles_of(package: &str, tree: &Tree) -> Vec<Vec<String>> {
     let is_bus = |module: &str| (package, module) == BUS;
     let mut graph = imports(tree);
@@ -78,13 +78,13 @@ fn no_module_imports_what_imports_it() {
 fn the_bus_is_there_and_says_why() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../sim/model/src/lib.rs");
     let tree = Tree::read(&root, &read_file).unwrap();
-    assert!(imports(&tree).contains_key(BUS.1), "the exception is for a module that is gone");
+    assert!(imports(&tree).contains_key(BUS.1), "the exception names a module that no longer exists");
     let wires = std::fs::read_to_string(root.with_file_name("clock").join("wires.rs")).unwrap();
     let head: String = wires.lines().take_while(|line| line.starts_with("//!")).collect();
     assert!(head.contains("circle"), "{head}");
 }
 
-/// The circles of a crate of these files.
+/// Circles of a crate that consists of these files.
 fn made_up(package: &str, files: &[(&str, &str)]) -> Vec<Vec<String>> {
     let read = |path: &Path| {
         let text = files.iter().find(|(name, _)| Path::new(name) == path).map(|(_, text)| text.to_string());
@@ -149,7 +149,7 @@ fn a_child_that_imports_through_its_parent_is_found() {
     let none: [Vec<String>; 0] = [];
     assert_eq!(siblings("use super::a::A; pub struct B;"), none);
     assert_eq!(siblings("use crate::room::a::A; pub struct B;"), none);
-    // What the parent defines is no detour; if the parent's code needs the child, that is a circle all the same.
+    // Items that the parent defines are no detour. If the parent's code needs the child, though, there is a circle.
     let parent = |code: &'static str| {
         let files = [
             ("src/lib.rs", "mod room;"),

@@ -6,17 +6,17 @@ use std::path::{Path, PathBuf};
 use proc_macro2::{TokenStream, TokenTree};
 use syn::visit::Visit;
 
-/// The segments of a path as they are written: `crate`, `super` and `self` included.
+/// Segments of a path as written, with `crate`, `super` and `self`.
 pub type Segments = Vec<String>;
 
-/// What a module has.
+/// The parts of a module that matter for imports.
 #[derive(Debug, Default)]
 pub struct Module {
     /// Names of the items that the module defines.
     pub items: Vec<String>,
-    /// What `use` brings in.
+    /// Names that `use` brings in.
     pub uses: Vec<Use>,
-    /// Paths in the code.
+    /// Paths in the code of the module.
     pub paths: Vec<Segments>,
 }
 
@@ -26,21 +26,21 @@ pub struct Use {
     /// The name; `None` if the whole content comes in.
     pub name: Option<String>,
     pub path: Segments,
-    /// Whether the module hands it on (`pub use`).
+    /// True if the module hands it on (`pub use`).
     pub is_handed_on: bool,
 }
 
-/// The modules of a crate by their paths; the root's path is empty.
+/// The modules of a crate by their paths; the path of the root is empty.
 #[derive(Debug, Default)]
 pub struct Tree {
     pub modules: BTreeMap<Segments, Module>,
 }
 
-/// How a file is read: `None` if it is not there.
+/// Reads a file; `None` if there is no such file.
 pub type Read<'a> = &'a dyn Fn(&Path) -> Option<String>;
 
 impl Tree {
-    /// All modules below this root file.
+    /// Reads all modules below this root file.
     pub fn read(root: &Path, read: Read<'_>) -> Result<Self, String> {
         let mut tree = Self::default();
         let folder = root.parent().unwrap_or(Path::new("")).to_path_buf();
@@ -61,7 +61,7 @@ impl Tree {
         self.add(&parsed.items, &folder, name, read)
     }
 
-    /// Adds the module of these items; its children are files in this folder.
+    /// Adds the module with these items; its children are files in this folder.
     fn add(&mut self, items: &[syn::Item], folder: &Path, name: Segments, read: Read<'_>) -> Result<(), String> {
         let mut collector = Collector::default();
         for item in items {
@@ -98,7 +98,7 @@ impl Tree {
     }
 }
 
-/// Whether a part with these attributes is compiled for tests only.
+/// True if a part with these attributes is compiled for tests only.
 fn is_for_tests(attributes: &[syn::Attribute]) -> bool {
     attributes.iter().any(|attribute| {
         let syn::Meta::List(list) = &attribute.meta else {
@@ -110,7 +110,7 @@ fn is_for_tests(attributes: &[syn::Attribute]) -> bool {
     })
 }
 
-/// All paths in tokens that nobody parses, the arguments of a macro for one.
+/// All paths in tokens that nobody parses, such as the arguments of a macro.
 fn paths_of(tokens: TokenStream) -> Vec<Segments> {
     let mut paths = Vec::new();
     let mut path = Segments::new();
@@ -141,11 +141,11 @@ fn paths_of(tokens: TokenStream) -> Vec<Segments> {
     paths
 }
 
-/// Collects what a module has, item by item.
+/// Collects the parts of a module, item by item.
 #[derive(Default)]
 struct Collector {
     module: Module,
-    /// Inside of an item, whose inner items are nobody's import.
+    /// Depth within an item; modules and items inside it are not imports of anybody.
     depth: usize,
 }
 
@@ -171,7 +171,7 @@ impl Collector {
     }
 }
 
-/// The name of an item, and its attributes.
+/// Name of an item, and its attributes.
 fn head(item: &syn::Item) -> (Option<&syn::Ident>, &[syn::Attribute]) {
     match item {
         syn::Item::Const(item) => (Some(&item.ident), &item.attrs),
@@ -231,6 +231,6 @@ impl<'ast> Visit<'ast> for Collector {
     }
 
     fn visit_attribute(&mut self, _: &'ast syn::Attribute) {
-        // Attributes name derives and settings, which are no modules of the crate.
+        // Attributes name derives and settings, not modules of the crate.
     }
 }

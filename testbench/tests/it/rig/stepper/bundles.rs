@@ -1,33 +1,33 @@
-//! The packed structures of the engine as numbers: what stands where, lowest field first.
+//! The packed structures of the engine as numbers: the place of each field, lowest first.
 
 use incircle_testkit::SplitMix64;
 
-/// Bits of a triangle or vertex id.
+/// Bits of the id of a triangle or vertex.
 pub const ID_BITS: u32 = 15;
 
-/// Widths of the fields of a structure, the lowest first. The tests state them a second time, so that a field that
-/// moves is noticed.
+/// Widths of the fields of a structure, the lowest first. The tests state them a second time, so that
+/// a field that moves is noticed.
 pub type Layout<const N: usize> = [u32; N];
 
-/// owner, rotates, locks, x, after, `f_entry`, f, u.
-pub const TOKEN: Layout<8> = [5, 1, 1, 6, 6, 6, ID_BITS, ID_BITS];
-/// `is_pair`, `is_triple`, owner, rotates, locks, x, after, `f_entry`, f, u, after and u of the second visit, u of the
-/// third.
+/// Fields of a visit: `context`, `rotates`, `locks`, `entry`, `after`, `cavity_entry`, `cavity_record`, `record`.
+pub const VISIT: Layout<8> = [5, 1, 1, 6, 6, 6, ID_BITS, ID_BITS];
+/// Fields of a bundle: `is_pair`, `is_triple`, `context`, `rotates`, `locks`, `entry`, `after`, `cavity_entry`,
+/// `cavity_record`, `record`, then `after` and `record` of the second visit and `record` of the third.
 pub const BUNDLE: Layout<13> = [1, 1, 5, 1, 1, 6, 6, 6, ID_BITS, ID_BITS, 6, ID_BITS, ID_BITS];
-/// v0, v1, v2, n0, n1, n2, slot, took, foreign, again, and which vertex is infinite.
+/// Fields of a turned record: v0, v1, v2, n0, n1, n2, `slot`, `took`, `foreign`, `again`, and which vertex is infinite.
 pub const TURNED: Layout<13> = [ID_BITS, ID_BITS, ID_BITS, ID_BITS, ID_BITS, ID_BITS, 2, 1, 1, 1, 1, 1, 1];
-/// conflict, located, `falls_onto_corner`, `is_left`, `is_straight`, `walk_next`.
+/// Fields of a verdict: `conflict`, `located`, `falls_onto_corner`, `is_left`, `is_straight`, `walk_next`.
 pub const VERDICT: Layout<6> = [1, 1, 1, 1, 1, ID_BITS];
-/// valid, id, vertices, link0, link1, link2, v0, v1, v2, n0, n1, n2.
+/// Fields of a write: `valid`, `id`, `vertices`, `link0`, `link1`, `link2`, v0, v1, v2, n0, n1, n2.
 pub const WRITE: Layout<12> = [1, ID_BITS, 1, 1, 1, 1, ID_BITS, ID_BITS, ID_BITS, ID_BITS, ID_BITS, ID_BITS];
-/// a, u, slot, f, after.
+/// Fields of an entry: `first_vertex`, `outside_record`, `slot`, `cavity_record`, `after`.
 pub const ENTRY: Layout<5> = [ID_BITS, ID_BITS, 2, ID_BITS, 6];
-/// owner, p, inners, locks, since.
+/// Fields of a job for the commit: `context`, `vertex`, `inners`, `locks`, `since`.
 pub const COMMIT_JOB: Layout<5> = [5, ID_BITS, 7, 7, 22];
-/// owner, locks.
+/// Fields of a job for the release: `context`, `locks`.
 pub const RELEASE_JOB: Layout<2> = [5, 7];
 
-/// The fields side by side, the first in the lowest bits.
+/// Packs fields side by side, the first in the lowest bits.
 pub fn pack<const N: usize>(layout: Layout<N>, fields: [u64; N]) -> u128 {
     let mut packed = 0;
     let mut offset = 0;
@@ -39,7 +39,7 @@ pub fn pack<const N: usize>(layout: Layout<N>, fields: [u64; N]) -> u128 {
     packed
 }
 
-/// The fields of a packed structure.
+/// Takes the fields out of a packed structure.
 pub fn unpack<const N: usize>(layout: Layout<N>, packed: u128) -> [u64; N] {
     let mut offset = 0;
     layout.map(|width| {
@@ -49,102 +49,120 @@ pub fn unpack<const N: usize>(layout: Layout<N>, packed: u128) -> [u64; N] {
     })
 }
 
-/// Fields of random bits.
+/// Returns fields of random bits.
 pub fn random_fields<const N: usize>(layout: Layout<N>, random: &mut SplitMix64) -> [u64; N] {
     layout.map(|width| random.bits(width))
 }
 
-/// A random id.
+/// Returns a random id.
 pub fn id(random: &mut SplitMix64) -> u64 {
     random.below(1 << ID_BITS)
 }
 
-/// A random bit.
+/// Returns a random bit.
 pub fn flip(random: &mut SplitMix64) -> bool {
     random.below(2) == 1
 }
 
-/// A `Write` of a whole record.
+/// Packs a `Write` of a whole record.
 pub fn record_write(id: u64, [v0, v1, v2]: [u64; 3], [n0, n1, n2]: [u64; 3]) -> u128 {
     pack(WRITE, [1, id, 1, 1, 1, 1, v0, v1, v2, n0, n1, n2])
 }
 
-/// A `Write` of one link.
+/// Packs a `Write` of one link.
 pub fn link_write(id: u64, slot: u64, value: u64) -> u128 {
     let [link0, link1, link2] = [0, 1, 2].map(|column| u64::from(column == slot));
     pack(WRITE, [1, id, 0, link0, link1, link2, 0, 0, 0, value, value, value])
 }
 
-/// A `Write` of some columns of a record, all zero but `v0` and `n1`; `columns` has a bit for the vertices and one for
-/// each link.
+/// Packs a `Write` of some columns of a record, all zero but `v0` and `n1`. `columns` has a bit for the
+/// vertices and one for each link.
 pub fn column_write(id: u64, columns: u64, v0: u64, n1: u64) -> u128 {
     let [vertices, link0, link1, link2] = [0, 1, 2, 3].map(|bit| columns >> bit & 1);
     pack(WRITE, [1, id, vertices, link0, link1, link2, v0, 0, 0, 0, n1, 0])
 }
 
-/// A `Bundle` of context 1 from these ring entries.
+/// Packs a `Bundle` of context 1 from these ring entries.
 pub fn ring_bundle(entries: &[u64]) -> u128 {
     let [is_pair, is_triple] = [2, 3].map(|visits| u64::from(entries.len() >= visits));
-    let [x, x2, x3] = [0, 1, 2].map(|place| entries.get(place).copied().unwrap_or(0));
-    pack(BUNDLE, [is_pair, is_triple, 1, 1, 0, x, x2, 0, 0, 0, x3, 0, 0])
+    let [entry, entry2, entry3] = [0, 1, 2].map(|place| entries.get(place).copied().unwrap_or(0));
+    pack(BUNDLE, [is_pair, is_triple, 1, 1, 0, entry, entry2, 0, 0, 0, entry3, 0, 0])
 }
 
-/// A visit.
+/// The fields of a visit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Visit {
-    pub owner: u64,
+    pub context: u64,
     pub rotates: bool,
     pub locks: bool,
-    pub x: u64,
+    pub entry: u64,
     pub after: u64,
-    pub f_entry: u64,
-    pub f: u64,
-    pub u: u64,
+    pub cavity_entry: u64,
+    pub cavity_record: u64,
+    pub record: u64,
 }
 
 impl Visit {
-    /// A look at a record as it is stored.
-    pub fn look(u: u64) -> Self {
-        Self { u, ..Self::default() }
+    /// Makes the visit of a walk that looks at a record as it is stored.
+    pub fn look(record: u64) -> Self {
+        Self { record, ..Self::default() }
     }
 
-    /// Every field random.
+    /// Makes a visit with every field random.
     pub fn random(random: &mut SplitMix64) -> Self {
         Self {
-            owner: random.below(24),
+            context: random.below(24),
             rotates: flip(random),
             locks: flip(random),
-            x: random.below(64),
+            entry: random.below(64),
             after: random.below(64),
-            f_entry: random.below(64),
-            f: id(random),
-            u: id(random),
+            cavity_entry: random.below(64),
+            cavity_record: id(random),
+            record: id(random),
         }
     }
 
-    /// As a `Token`.
-    pub fn token(self) -> u128 {
-        let Self { owner, rotates, locks, x, after, f_entry, f, u } = self;
-        pack(TOKEN, [owner, rotates.into(), locks.into(), x, after, f_entry, f, u])
+    /// Packs the visit as a `Visit`.
+    pub fn packed(self) -> u128 {
+        let Self { context, rotates, locks, entry, after, cavity_entry, cavity_record, record } = self;
+        pack(VISIT, [context, rotates.into(), locks.into(), entry, after, cavity_entry, cavity_record, record])
     }
 
-    /// As a `Bundle` of `visits` visits: this one, the second with the entry after it and its record, and the third's record. What
-    /// stands there for visits that are not made does not matter.
-    pub fn bundle(self, visits: u64, second_after: u64, second_u: u64, third_u: u64) -> u128 {
+    /// Packs a `Bundle` of `visits` visits: this one, the second with the entry after it and its record, and the record
+    /// of the third. The values for visits that are not made do not matter.
+    pub fn bundle(self, visits: u64, second_after: u64, second_record: u64, third_record: u64) -> u128 {
         let [is_pair, is_triple] = [visits > 1, visits > 2].map(u64::from);
-        let [owner, rotates, locks, x, after, f_entry, f, u] = unpack(TOKEN, self.token());
-        let (after2, u2, u3) = (second_after, second_u, third_u);
-        pack(BUNDLE, [is_pair, is_triple, owner, rotates, locks, x, after, f_entry, f, u, after2, u2, u3])
+        let [context, rotates, locks, entry, after, cavity_entry, cavity_record, record] = unpack(VISIT, self.packed());
+        let (after2, record2, record3) = (second_after, second_record, third_record);
+        pack(
+            BUNDLE,
+            [
+                is_pair,
+                is_triple,
+                context,
+                rotates,
+                locks,
+                entry,
+                after,
+                cavity_entry,
+                cavity_record,
+                record,
+                after2,
+                record2,
+                record3,
+            ],
+        )
     }
 
-    /// The visit at the head of a `Bundle`.
+    /// Unpacks the visit at the head of a `Bundle`.
     pub fn of_bundle(bundle: u128) -> Self {
-        let [_, _, owner, rotates, locks, x, after, f_entry, f, u, ..] = unpack(BUNDLE, bundle);
-        Self { owner, rotates: rotates == 1, locks: locks == 1, x, after, f_entry, f, u }
+        let [_, _, context, rotates, locks, entry, after, cavity_entry, cavity_record, record, ..] =
+            unpack(BUNDLE, bundle);
+        Self { context, rotates: rotates == 1, locks: locks == 1, entry, after, cavity_entry, cavity_record, record }
     }
 }
 
-/// What a visit found at the lock of its record.
+/// The finding of a visit at the lock of its record.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LockFinding {
     pub took: bool,
@@ -152,24 +170,24 @@ pub struct LockFinding {
     pub again: bool,
 }
 
-/// A `Turned`: vertices, links, slot, what was found at the lock, which vertices are infinite.
+/// Packs a `Turned`: vertices, links, slot, the finding at the lock, and which vertices are infinite.
 pub fn turned(v: [u64; 3], n: [u64; 3], slot: u64, lock: LockFinding, infinite: [bool; 3]) -> u128 {
     let ([v0, v1, v2], [n0, n1, n2], [i0, i1, i2]) = (v, n, infinite.map(u64::from));
     let [took, foreign, again] = [lock.took, lock.foreign, lock.again].map(u64::from);
     pack(TURNED, [v0, v1, v2, n0, n1, n2, slot, took, foreign, again, i0, i1, i2])
 }
 
-/// A `CommitJob`.
-pub fn commit_job(owner: u64, p: u64, inners: u64, locks: u64, since: u64) -> u128 {
-    pack(COMMIT_JOB, [owner, p, inners, locks, since])
+/// Packs a `CommitJob` from its fields.
+pub fn commit_job(context: u64, vertex: u64, inners: u64, locks: u64, since: u64) -> u128 {
+    pack(COMMIT_JOB, [context, vertex, inners, locks, since])
 }
 
-/// A `ReleaseJob`.
-pub fn release_job(owner: u64, locks: u64) -> u128 {
-    pack(RELEASE_JOB, [owner, locks])
+/// Packs a `ReleaseJob` from its fields.
+pub fn release_job(context: u64, locks: u64) -> u128 {
+    pack(RELEASE_JOB, [context, locks])
 }
 
-/// What a visit found out.
+/// The result of a visit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Finding {
     pub conflict: bool,
@@ -181,7 +199,7 @@ pub struct Finding {
 }
 
 impl Finding {
-    /// As a `Verdict`.
+    /// Packs the result as a `Verdict`.
     pub fn verdict(self) -> u128 {
         let flags = [self.conflict, self.located, self.falls_onto_corner, self.is_left, self.is_straight];
         let [conflict, located, falls_onto_corner, is_left, is_straight] = flags.map(u64::from);
@@ -189,24 +207,24 @@ impl Finding {
     }
 }
 
-/// A boundary edge.
+/// The fields of an entry of the ring.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Edge {
-    pub a: u64,
-    pub u: u64,
+    pub first_vertex: u64,
+    pub outside_record: u64,
     pub slot: u64,
-    pub f: u64,
+    pub cavity_record: u64,
     pub after: u64,
 }
 
 impl Edge {
-    /// As an `Entry`.
+    /// Packs the edge as an `Entry`.
     pub fn entry(self) -> u128 {
-        pack(ENTRY, [self.a, self.u, self.slot, self.f, self.after])
+        pack(ENTRY, [self.first_vertex, self.outside_record, self.slot, self.cavity_record, self.after])
     }
 }
 
-/// How points are dealt to contexts.
+/// The way in which points are dealt to contexts.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Deal {
     pub contexts: u64,
@@ -220,7 +238,7 @@ impl Deal {
         [Self::one_mesh(contexts), Self::batch(contexts)]
     }
 
-    /// The vertices of a context in their order, without end.
+    /// Vertices of a context in their order, without end.
     pub fn dealt(self, context: u64) -> impl Iterator<Item = u64> {
         let Self { contexts, is_batch, dealt_from } = self;
         let alone = match context {
@@ -231,12 +249,12 @@ impl Deal {
         alone.chain((dealt_from + context..).step_by(contexts as usize))
     }
 
-    /// So many contexts that work on one mesh.
+    /// The deal for contexts that work on one mesh.
     pub fn one_mesh(contexts: u64) -> Self {
         Self { contexts, is_batch: false, dealt_from: incircle_protocol::FIRST_ROUND.into() }
     }
 
-    /// So many jobs side by side.
+    /// The deal for jobs side by side.
     pub fn batch(contexts: u64) -> Self {
         Self { contexts, is_batch: true, dealt_from: 3 * contexts }
     }

@@ -1,4 +1,4 @@
-//! A pipeline in a reference: what goes in comes out some clocks later.
+//! A pipeline for references: a value comes out some clocks after it went in.
 
 use std::collections::VecDeque;
 
@@ -6,12 +6,12 @@ use std::collections::VecDeque;
 pub struct Delay<T>(VecDeque<Option<T>>);
 
 impl<T> Delay<T> {
-    /// A pipeline of so many clock edges, empty at first.
+    /// Makes an empty pipeline of so many clock edges.
     pub fn new(edges: usize) -> Self {
         Self((0..edges).map(|_| None).collect())
     }
 
-    /// The value of that many calls ago; nothing at first.
+    /// Takes a value, and returns the value of that many calls ago; `None` at first.
     pub fn pass(&mut self, value: T) -> Option<T> {
         self.0.push_back(Some(value));
         self.0.pop_front().flatten()

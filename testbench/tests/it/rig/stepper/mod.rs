@@ -1,9 +1,9 @@
-//! One block in two forms, its Rust `update()` and its Verilated Verilog, stepped together and compared with what the
-//! test says of the block. A test either closes the loop itself (it looks at the outputs of a clock, says what they
-//! must be, and answers with inputs), or hands all inputs and a reference to [`Stepper::run`].
+//! Steps a block in two forms together, its Rust `update()` and its Verilated Verilog, and compares both with what the
+//! test expects. A test either closes the loop itself (it reads the outputs of a clock, states what they must be, and
+//! answers with inputs), or hands all inputs and a reference to [`Stepper::run`].
 //!
-//! A clock: inputs are set, [`Stepper::settle`], outputs are compared, [`Stepper::edge`]. Packed structures are numbers here, put
-//! together by `bundles`, which is a statement of their layout of its own.
+//! In a clock, inputs are set, [`Stepper::settle`] is called, outputs are compared, and [`Stepper::edge`] follows.
+//! Packed structures are numbers here, put together by `bundles`, which states their layout a second time.
 
 pub mod bundles;
 mod delay;
@@ -20,26 +20,26 @@ use crate::rig::block_ports::{number, plain, set_number, settle, Place, Places, 
 pub use delay::Delay;
 pub use wave::{Cell, Wave};
 
-/// What a reference says of an output: a value, or nothing where the contract leaves it open.
+/// Value that a reference gives for an output, or `None` where the contract leaves it open.
 pub type Expected = Option<u128>;
 
-/// Both forms of a block, and the clocks that have passed.
+/// Both forms of a block, and the number of clocks that have passed.
 pub struct Stepper<U> {
     name: String,
     rust: U,
     model: Model,
     ports: BTreeMap<String, PortId>,
     places: Places,
-    /// The inputs as they were set last.
+    /// Values of the inputs as they were set last.
     inputs: BTreeMap<String, Whole>,
-    /// Inputs that have been set since the block settled last.
+    /// Inputs that were set since the block settled last.
     changed: BTreeSet<String>,
     clocks: usize,
 }
 
 impl<U: NamedPorts> Stepper<U> {
-    /// The block of this name in `incircle_blocks::blocks`. Its Verilog starts with random registers and memories, which
-    /// shows where an output depends on what nobody wrote.
+    /// Makes the block of this name in `incircle_blocks::blocks`. Its Verilog starts with random registers and
+    /// memories, which shows where an output depends on a value that nobody wrote.
     pub fn new(name: impl Into<String>, mut rust: U, seed: u32) -> Self {
         let name = name.into();
         rust.connect_all();
@@ -50,12 +50,12 @@ impl<U: NamedPorts> Stepper<U> {
         Self { name, rust, model, ports, places, inputs: BTreeMap::new(), changed: BTreeSet::new(), clocks: 0 }
     }
 
-    /// Clocks that have passed.
+    /// Number of clocks that have passed.
     pub fn clocks(&self) -> usize {
         self.clocks
     }
 
-    /// Sets an input, or a field of one that carries a structure.
+    /// Sets an input, or a field of an input that carries a structure.
     pub fn set(&mut self, port: &str, number: impl Into<u128>) {
         self.set_place(&self.places.find(port), number.into());
     }
@@ -82,7 +82,7 @@ impl<U: NamedPorts> Stepper<U> {
         self.model.eval();
     }
 
-    /// An output, which must be the same in both forms.
+    /// Reads an output, which must be the same in both forms.
     pub fn get(&self, port: &str) -> u128 {
         let (rust, verilog) = self.both(port);
         assert_eq!(
@@ -97,7 +97,7 @@ impl<U: NamedPorts> Stepper<U> {
         self.get(port) == 1
     }
 
-    /// Compares an output of both forms with what it must be.
+    /// Compares an output of both forms with the expected value.
     pub fn expect(&self, port: &str, expected: impl Into<u128>) {
         let (expected, seen) = (expected.into(), self.both(port));
         assert_eq!(
@@ -111,7 +111,7 @@ impl<U: NamedPorts> Stepper<U> {
         );
     }
 
-    /// As [`Stepper::expect`], for some bits of the output.
+    /// Compares some bits of an output, as [`Stepper::expect`] does.
     pub fn expect_masked(&self, port: &str, mask: u128, expected: impl Into<u128>) {
         let (expected, seen) = (expected.into(), self.both(port));
         assert_eq!(
@@ -123,14 +123,14 @@ impl<U: NamedPorts> Stepper<U> {
         );
     }
 
-    /// As [`Stepper::get`], for some bits of the output.
+    /// Reads some bits of an output, as [`Stepper::get`] does.
     pub fn get_masked(&self, port: &str, mask: u128) -> u128 {
         let seen = self.both(port);
         self.expect_masked(port, mask, seen.0 & mask);
         seen.0 & mask
     }
 
-    /// A rising edge.
+    /// Passes a rising edge.
     pub fn edge(&mut self) {
         self.drive();
         self.rust.set_clock(true);
@@ -140,10 +140,10 @@ impl<U: NamedPorts> Stepper<U> {
     }
 
     /// Runs the block over `stimuli`, which hold a value for each of `inputs` in each clock, and compares every one of
-    /// `outputs` that `reference` fixes. `reference` is told the inputs of each clock in order and answers with the
+    /// `outputs` that `reference` fixes. `reference` is called with the inputs of each clock in order. It returns the
     /// outputs of that clock, which follow from those inputs and from the edges before.
     ///
-    /// Inputs and outputs are named as [`Places::find`] takes them.
+    /// Inputs and outputs are named as in [`Places::find`].
     pub fn run<V: Copy + Into<u128> + Debug>(
         mut self,
         inputs: &[&str],

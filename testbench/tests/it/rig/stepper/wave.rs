@@ -1,18 +1,18 @@
-//! Waves as block headers draw them.
+//! Waves as the heads of blocks draw them.
 
 use std::fs;
 use std::path::Path;
 
-/// Columns of a name, and of a clock.
+/// Least number of columns for a name, so that a space follows the longest name of a wave.
 const NAME: usize = 16;
 
-/// What a signal shows in a clock.
+/// The drawing of a signal in one clock.
 #[derive(Clone, Copy, Debug)]
 pub enum Cell {
     Bit(bool),
     /// A number below 100.
     Number(u128),
-    /// Nothing that counts.
+    /// A value that does not matter.
     Open,
 }
 
@@ -24,10 +24,12 @@ pub struct Wave {
 }
 
 impl Wave {
-    /// Draws one clock; the same signals in the same order at each.
+    /// Draws one clock. Every call must have the same signals in the same order.
     pub fn take(&mut self, signals: &[(&str, Cell)]) {
         if self.lines.is_empty() {
-            self.lines = signals.iter().map(|(name, _)| format!("{name:NAME$}")).collect();
+            let longest = signals.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
+            let width = NAME.max(longest + 1);
+            self.lines = signals.iter().map(|(name, _)| format!("{name:width$}")).collect();
             self.before = vec![false; signals.len()];
         }
         for (((_, cell), line), before) in signals.iter().zip(&mut self.lines).zip(&mut self.before) {
@@ -43,7 +45,8 @@ impl Wave {
         }
     }
 
-    /// The header of the block's source file, found by its name in any folder of `hdl/src`, must hold the wave, line by line.
+    /// Checks that the head of the block's source file holds the wave, line by line. The file is found by its
+    /// name in any folder of `hdl/src`.
     pub fn assert_drawn_in(self, block: &str) {
         let drawn: String = self.lines.iter().map(|line| format!("//! {line}\n")).collect();
         let sources = sources_of(block, &Path::new(env!("CARGO_MANIFEST_DIR")).join("../hdl/src"));
@@ -55,7 +58,7 @@ impl Wave {
     }
 }
 
-/// The text of each file of this name below the folder.
+/// Text of each file of this name below the folder.
 fn sources_of(block: &str, folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
     let mut sources = Vec::new();

@@ -1,4 +1,5 @@
-//! The AXI side of a stream link: a host that stalls at random on all channels, and holds the device to the rules of AXI.
+//! The AXI side of a stream link: a host that stalls at random on all channels, and checks that the
+//! device keeps the rules of AXI.
 
 use std::collections::VecDeque;
 
@@ -6,14 +7,14 @@ use incircle_testkit::SplitMix64;
 
 use super::Pins;
 
-/// Bus clocks that a register access may take.
+/// Clocks of the bus that a register access may take.
 const REGISTER_PATIENCE: usize = 2000;
 
 /// An access to a register.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Access {
     pub offset: u32,
-    /// What to write, and which bytes of it.
+    /// For a write, the value and a mask of its bytes.
     pub write: Option<(u32, u32)>,
     is_address_taken: bool,
     is_data_taken: bool,
@@ -22,7 +23,7 @@ pub struct Access {
     for_clocks: usize,
 }
 
-/// What a bus shows at an edge.
+/// Offers of the device at an edge.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Offers {
     answer: Option<(u128, bool)>,
@@ -34,9 +35,9 @@ struct Offers {
 pub struct Bus {
     /// Bytes of a beat.
     pub beat_bytes: usize,
-    /// Of so many clocks one goes on, on the streams and on the registers' channels.
+    /// The streams and the registers' channels go on in one of so many clocks.
     pub pace: u64,
-    /// No answer is taken.
+    /// The host takes no answer.
     pub is_deaf: bool,
     pub reset: bool,
     random: SplitMix64,
@@ -44,15 +45,16 @@ pub struct Bus {
     offered: Option<(u128, u128)>,
     is_ready: bool,
     takes_response: bool,
-    /// Beats of answers that came, and whether each was its answer's last.
+    /// Beats of answers that came, each with a mark on the last beat of its answer.
     pub came: Vec<(u128, bool)>,
     pub access: Option<Access>,
     /// Value and response of the last access.
     pub result: Option<(u32, u32)>,
     before: Option<(Offers, bool, bool)>,
-    /// When a reset by the control register was answered last.
+    /// Clock in which the last reset by the control register was answered.
     reset_at: Option<u64>,
-    /// Edges, command beats and answer beats taken, answers, clocks either waited: since the last `bus_reset_n`.
+    /// Counts since the last `bus_reset_n`: edges here; in `counted`, command beats and answer beats taken,
+    /// answers, and clocks that either waited.
     pub clocks: u64,
     pub counted: [u32; 5],
 }
@@ -79,7 +81,7 @@ impl Bus {
         }
     }
 
-    /// Words for the command stream, with padding up to whole beats.
+    /// Queues words for the command stream, padded up to whole beats.
     pub fn send(&mut self, words: &[u32]) {
         let all_bytes = (1 << self.beat_bytes) - 1;
         for beat in words.chunks(self.beat_bytes / 4) {
@@ -88,17 +90,17 @@ impl Bus {
         }
     }
 
-    /// A beat that lacks bytes.
+    /// Queues a beat that lacks bytes.
     pub fn send_partial(&mut self, keep: u128) {
         self.to_send.push_back((u128::MAX >> (128 - 8 * self.beat_bytes), keep));
     }
 
-    /// Beats that the device has not taken.
+    /// Number of beats that the device has not taken.
     pub fn unsent(&self) -> usize {
         self.to_send.len() + usize::from(self.offered.is_some())
     }
 
-    /// Nothing more of what was to be sent.
+    /// Drops everything that was still to be sent.
     pub fn drop_unsent(&mut self) {
         self.to_send.clear();
     }
@@ -109,7 +111,7 @@ impl Bus {
         self.access = Some(Access { offset, write, ..Access::default() });
     }
 
-    /// Looks at the outputs, and that none depends on a `ready` within the clock.
+    /// Reads the outputs, and checks that none of them depends on a `ready` within the clock.
     fn offers(&self, pins: &mut impl Pins) -> Offers {
         let look = |pins: &mut dyn FnMut(&'static str) -> u128| Offers {
             answer: (pins("m_axis_tvalid") == 1).then(|| (pins("m_axis_tdata"), pins("m_axis_tlast") == 1)),
@@ -122,12 +124,12 @@ impl Bus {
             pins.set("s_axi_bready", (self.takes_response ^ flip).into());
             pins.set("s_axi_rready", (self.takes_response ^ flip).into());
             pins.settle();
-            assert_eq!(look(&mut |port| pins.get(port)), offers, "an offer that follows a ready");
+            assert_eq!(look(&mut |port| pins.get(port)), offers, "an offer depends on a ready");
         }
         offers
     }
 
-    /// An edge of the bus's clock is about to come: what passes at it, and the rules.
+    /// Prepares for an edge of the bus's clock: notes what passes at it, and checks the rules.
     pub fn before_edge(&mut self, pins: &mut impl Pins) {
         if self.reset {
             // Nothing is defined before the first reset.
@@ -166,7 +168,7 @@ impl Bus {
         self.go_on_with_access(pins, offers);
     }
 
-    /// A reset by the control register was written lately.
+    /// True shortly after a reset was written to the control register.
     fn may_withdraw(&self) -> bool {
         let is_reset = |access: &Access| access.offset == 0x40 && access.write.is_some();
         self.access.as_ref().is_some_and(is_reset) || self.reset_at.is_some_and(|at| self.clocks - at < 3)
@@ -174,7 +176,7 @@ impl Bus {
 
     fn go_on_with_access(&mut self, pins: &mut impl Pins, offers: Offers) {
         let Some(access) = &mut self.access else {
-            assert!(offers.b.is_none() && offers.r.is_none(), "an answer to nothing");
+            assert!(offers.b.is_none() && offers.r.is_none(), "an answer without a request");
             return;
         };
         access.for_clocks += 1;
@@ -190,7 +192,10 @@ impl Bus {
             None => offers.r.map(|(value, response)| (value as u32, response as u32)),
         };
         if let Some(answer) = answer {
-            assert!(access.is_address_taken && (access.write.is_none() || access.is_data_taken), "an answer too early");
+            assert!(
+                access.is_address_taken && (access.write.is_none() || access.is_data_taken),
+                "the answer comes too early"
+            );
             if self.takes_response {
                 let is_reset = access.offset == 0x40 && access.write.is_some();
                 self.reset_at = is_reset.then_some(self.clocks).or(self.reset_at);
@@ -200,7 +205,7 @@ impl Bus {
         }
     }
 
-    /// An edge has come: new inputs.
+    /// Sets new inputs after an edge.
     pub fn after_edge(&mut self, pins: &mut impl Pins) {
         if self.reset {
             self.offered = None;

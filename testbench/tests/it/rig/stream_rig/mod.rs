@@ -1,4 +1,4 @@
-//! Two clocks that drift, and what has them: blocks in both forms, and devices between a bus and a core.
+//! Two clocks that drift, and the blocks and devices that run on them, between a bus and a core.
 
 mod bus;
 mod stand_in;
@@ -15,11 +15,11 @@ use crate::rig::stepper::{NamedPorts, Stepper};
 pub use bus::Bus;
 pub use stand_in::{answer, command, StandIn};
 
-/// Ratios of two clocks, as periods in picoseconds: up to 1 to 4 either way, near each other, and equal.
+/// Ratios of two clocks, as periods in picoseconds: up to 1 to 4 either way, nearly equal, and equal.
 pub const PERIODS: [[u64; 2]; 7] =
     [[8000, 8000], [8000, 8001], [8000, 32_000], [32_000, 8000], [8000, 7300], [4000, 9100], [10_000, 3300]];
 
-/// When two clocks rise.
+/// Times at which two clocks rise.
 pub struct Clocks {
     periods: [u64; 2],
     at: [u64; 2],
@@ -27,14 +27,14 @@ pub struct Clocks {
 }
 
 impl Clocks {
-    /// Clocks of these periods, of which either is up to a thirty-second of itself late, now and then.
+    /// Makes clocks of these periods; either is now and then late by up to a thirty-second of its period.
     pub fn new(periods: [u64; 2], seed: u64) -> Self {
         let mut random = SplitMix64::new(seed);
         let at = periods.map(|period| random.below(period));
         Self { periods, at, random }
     }
 
-    /// Which of them rise next.
+    /// Returns which of the clocks rise next.
     pub fn next(&mut self) -> [bool; 2] {
         let now = self.at[0].min(self.at[1]);
         let rises = self.at.map(|at| at == now);
@@ -42,7 +42,7 @@ impl Clocks {
             let late = if self.random.below(4) == 0 { self.random.below(period / 32 + 1) } else { 0 };
             *at += if rises { period + late } else { 0 };
         }
-        // Both at once: that is when most can go wrong.
+        // Now and then both rise at once, since most can go wrong then.
         if self.random.below(20) == 0 && self.at[0].abs_diff(self.at[1]) < self.periods[0].min(self.periods[1]) / 4 {
             self.at = [self.at[0].max(self.at[1]); 2];
         }
@@ -60,7 +60,7 @@ pub fn rise<U: NamedPorts>(block: &mut Stepper<U>, clocks: [(&'static str, bool)
     }
 }
 
-/// A device in one form or both, with `bus_clock` and `core_clock`.
+/// The pins of a device with `bus_clock` and `core_clock`, in one form or both.
 pub trait Pins {
     fn set(&mut self, port: &'static str, value: u128);
     fn get(&self, port: &'static str) -> u128;
@@ -79,14 +79,14 @@ impl<U: NamedPorts> Pins for Stepper<U> {
     }
 }
 
-/// The Verilog alone: fast.
+/// The device as Verilog alone, which runs fast.
 pub struct Verilog {
     model: Model,
     ports: BTreeMap<String, PortId>,
 }
 
 impl Verilog {
-    /// The model of this name, from random registers and memories.
+    /// Makes the model of this name, with random registers and memories.
     pub fn new(name: &str, seed: u32) -> Self {
         let model = blocks::randomized(name, seed);
         let ports = model.description().ports();
@@ -108,24 +108,24 @@ impl Pins for Verilog {
     }
 }
 
-/// A device between a bus and, if it has none of its own, a stand-in for a core.
+/// A device between a bus and, if it has no core of its own, a stand-in for a core.
 pub struct Rig<P> {
     pub pins: P,
     pub bus: Bus,
     pub core: Option<StandIn>,
     pub clocks: Clocks,
-    /// The core's clock does not run.
+    /// True while the core's clock does not run.
     pub core_stands: bool,
     pub edges: [u64; 2],
 }
 
 impl<P: Pins> Rig<P> {
-    /// A device after a reset that is long enough for both sides to come to rest.
+    /// Makes a device after a reset that is long enough for both sides to come to rest.
     pub fn new(pins: P, beat_bits: usize, core: Option<StandIn>, periods: [u64; 2], seed: u64) -> Self {
         Self::after_reset(pins, beat_bits, core, (periods, seed), 60)
     }
 
-    /// A device after a reset of so many edges of the bus.
+    /// Makes a device after a reset of so many edges of the bus.
     pub fn after_reset(
         pins: P,
         beat_bits: usize,
@@ -148,13 +148,13 @@ impl<P: Pins> Rig<P> {
         }
         self.bus.reset = false;
         self.bus.came.clear();
-        // It is read at the next edge.
+        // The device reads `bus_reset_n` at the next edge.
         while self.edges[0] < end + 1 {
             self.step();
         }
     }
 
-    /// The next edge of either clock, or of both.
+    /// Passes the next edge of either clock, or of both.
     pub fn step(&mut self) {
         let [bus, core] = self.clocks.next();
         let core = core && !self.core_stands;
@@ -201,7 +201,7 @@ impl<P: Pins> Rig<P> {
         }
     }
 
-    /// A register's value, which must be one.
+    /// Reads a register, which must exist.
     pub fn read(&mut self, register: StreamRegister) -> u32 {
         let (value, response) = self.access(register.offset(), None);
         assert_eq!(response, 0, "{register:?}");
@@ -223,7 +223,8 @@ impl<P: Pins> Rig<P> {
         panic!("the reset does not end");
     }
 
-    /// The next answer's words, as many as its length says, out of beats that are as the page says.
+    /// Returns the words of the next answer, as many as its length says, and checks
+    /// its beats against the protocol's page.
     pub fn answer(&mut self, patience: usize) -> Vec<u32> {
         let is_end = |(_, is_last): &(u128, bool)| *is_last;
         for _ in 0..patience {

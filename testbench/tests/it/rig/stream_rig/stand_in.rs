@@ -6,14 +6,14 @@ use incircle_testkit::SplitMix64;
 
 use super::Pins;
 
-/// A command: opcode in bits 31 to 24, status of the answer in bits 23 to 16, words of arguments in bits 15 to 12, words of the answer's
-/// payload in bits 11 to 0. The word 0 is padding.
+/// Makes a command of the stand-in: opcode in bits 31 to 24, status of the answer in bits 23 to 16, number of argument
+/// words in bits 15 to 12, words of the answer's payload in bits 11 to 0. The word 0 is padding.
 pub fn command(opcode: u32, status: u32, arguments: u32, length: u32) -> u32 {
     assert!(opcode > 0 && opcode < 256 && status < 256 && arguments < 16 && length < 4096);
     opcode << 24 | status << 16 | arguments << 12 | length
 }
 
-/// The answer to a command and its arguments.
+/// Answer of the stand-in to a command and its arguments.
 pub fn answer(words: &[u32]) -> Vec<u32> {
     let length = words[0] & 0xfff;
     let sum = words.iter().fold(0, |sum: u32, word| sum.rotate_left(5) ^ word);
@@ -21,10 +21,10 @@ pub fn answer(words: &[u32]) -> Vec<u32> {
     [words[0] >> 16 << 16, length].into_iter().chain(payload).collect()
 }
 
-/// The core's side, with a pace of its own.
+/// The core's side of the streams, with a pace of its own.
 pub struct StandIn {
     pub pace: u64,
-    /// Takes no command word.
+    /// True while the stand-in takes no command word.
     pub sleeps: bool,
     random: SplitMix64,
     taken: Vec<u32>,
@@ -50,7 +50,7 @@ impl StandIn {
         }
     }
 
-    /// Nothing at the ports counts: they may be in their first reset.
+    /// Forgets the last clock: the ports may be in their first reset, when their values do not count.
     pub fn lose_track(&mut self) {
         self.before = None;
     }
@@ -87,7 +87,7 @@ impl StandIn {
             let words = 1 + self.random.below(2) as usize;
             self.offered = self.answer.drain(..words.min(self.answer.len())).collect();
         }
-        // No word of the next command before the last one of this answer is offered.
+        // The stand-in takes no word of the next command before it has offered the last word of this answer.
         let is_complete = self.taken.first().is_some_and(|first| self.taken.len() > (first >> 12 & 15) as usize);
         let may_take = self.answer.is_empty() && !is_complete;
         self.is_ready = may_take && !self.sleeps && self.random.below(self.pace) == 0;

@@ -1,4 +1,5 @@
-//! `AttemptStep`: Rust, Verilog and a plain statement agree on random visits.
+//! Runs `AttemptStep` in Rust and in Verilog beside a plain statement of the rule: all
+//! three must agree on random visits.
 
 use crate::rig::attempt_state::State;
 use crate::rig::stepper::bundles::flip;
@@ -20,7 +21,7 @@ fn attempt_step_counts_visits_entries_triangles_and_locks() {
         let entries = [2, 64][random.below(2) as usize];
         let y = random.below(entries);
         let case = random.below(6);
-        let [no_test, splits, repeats, gives_up, overflows] = [0, 1, 2, 3, 4].map(|code| case == code);
+        let [no_test, splits, revisits, aborts, overflows] = [0, 1, 2, 3, 4].map(|code| case == code);
         let is_test = !no_test;
         let took = flip(&mut random);
         block.set("attempt", before.packed());
@@ -31,8 +32,8 @@ fn attempt_step_counts_visits_entries_triangles_and_locks() {
             ("took", took),
             ("is_test", is_test),
             ("splits", splits),
-            ("repeats", repeats),
-            ("gives_up", gives_up),
+            ("revisits", revisits),
+            ("aborts", aborts),
             ("overflows", overflows),
         ] {
             block.set(port, value);
@@ -40,10 +41,10 @@ fn attempt_step_counts_visits_entries_triangles_and_locks() {
         let mut after = before;
         let mut finds_inner = false;
         let passes_root = splits && y == 0 && before.half_open & 3 == 1;
-        after.drains |= gives_up || overflows;
+        after.drains |= aborts || overflows;
         after.logged += u64::from(took);
         after.outstanding -= 1;
-        after.outstanding += if splits { 2 } else { u64::from(repeats) };
+        after.outstanding += if splits { 2 } else { u64::from(revisits) };
         if splits {
             after.count += 1;
             finds_inner = after.passes(y);
@@ -55,7 +56,7 @@ fn attempt_step_counts_visits_entries_triangles_and_locks() {
         block.expect("succeeds", is_over && !after.drains);
         block.expect("finds_inner", finds_inner);
         block.expect("passes_root", passes_root);
-        // What is no test changes no state, or begins another.
+        // A visit that is no test changes no state, or begins another one.
         if is_test {
             block.expect("after", after.packed());
         }

@@ -1,5 +1,6 @@
-//! The completion of visits in a closed loop: several contexts grow cavities in one triangulation whose records, locks and predicates
-//! the test plays. Rust, Verilog and cavities as sets of triangles agree clock by clock, and every ring is that of its cavity.
+//! Completes visits in a closed loop: several contexts grow cavities in one triangulation, and the test plays its
+//! records, locks and predicates. Rust, Verilog and cavities as sets of triangles must agree in every clock, and every
+//! ring must be that of its cavity.
 
 use std::collections::BTreeMap;
 
@@ -13,35 +14,36 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     Attempts,
-    [ring, early, visit, seeded, contexts, start, now],
+    [ring_capacity, early, completion, seeded, contexts, start, now],
     [is_done, follow, outcome, looks, entry, inner, lock, commit, releases, events],
     clock
 );
 
 const CONTEXTS: u64 = SMALL.contexts as u64;
 
-/// What a context is at, as the blocks around see it.
+/// State of a context as the blocks around see it.
 #[derive(Clone, Debug, Default)]
 struct Life {
     context: Context,
     awake: bool,
-    keeps: bool,
+    will_retry: bool,
     has_overflowed: bool,
     root: u64,
-    /// Locks that it holds still although its attempt is over, and clocks until they are released.
+    /// Clocks until the locks of a finished attempt are released, if it still holds some.
     due: Option<u64>,
 }
 
-/// A visit that completes, its record as a number, and what was true around it a clock earlier.
+/// A visit that completes, its record as a number, and the state around it a clock earlier.
 struct Announced {
     done: Completion,
     turned: u128,
     around: Around,
 }
 
-/// How often each thing has happened.
+/// Number of times that each event has happened.
 type Tally = BTreeMap<&'static str, usize>;
 
+/// The block among contexts, records and locks that the test plays.
 struct Rig {
     block: Stepper<Attempts>,
     random: SplitMix64,
@@ -51,16 +53,16 @@ struct Rig {
     lives: Vec<Life>,
     /// The context that holds each lock.
     locks: BTreeMap<u64, u64>,
-    waiter: Option<u64>,
+    priority_context: Option<u64>,
     /// The visit that completes in this clock, as it was announced in the clock before.
     announced: Option<Announced>,
     now: u64,
-    /// Nothing unforeseen happens.
+    /// True if the mesh does not change by surprise.
     is_calm: bool,
     tally: Tally,
 }
 
-/// Points on a ring and some within, so that a point in the middle removes many triangles.
+/// Points on a ring and some inside, so that a point in the middle removes many triangles.
 fn ground_points(random: &mut SplitMix64, around: usize, within: usize) -> Vec<Point> {
     let mut points: Vec<Point> = (0..around)
         .map(|place| {
@@ -85,61 +87,75 @@ impl Rig {
         wanted.extend((0..24).map(|_| (random.below(1 << 16) as i64, random.below(1 << 16) as i64)));
         let targets = wanted.into_iter().filter_map(|point| ground.target(point)).collect();
         let lives =
-            (0..CONTEXTS).map(|owner| Life { context: Context { owner, ..Context::default() }, ..Life::default() });
+            (0..CONTEXTS).map(|index| Life { context: Context { index, ..Context::default() }, ..Life::default() });
         let now = (1 << 22) - 500;
         let block = Stepper::new("attempts_small", Attempts::new(SMALL), seed as u32);
         let lives = lives.collect();
-        let (locks, waiter, tally) = (BTreeMap::new(), None, Tally::new());
+        let (locks, priority_context, tally) = (BTreeMap::new(), None, Tally::new());
         let announced = None;
-        Self { block, random, ground, targets, ring, lives, locks, waiter, announced, now, is_calm: false, tally }
+        Self {
+            block,
+            random,
+            ground,
+            targets,
+            ring,
+            lives,
+            locks,
+            priority_context,
+            announced,
+            now,
+            is_calm: false,
+            tally,
+        }
     }
 
     fn one_in(&mut self, times: u64) -> bool {
         !self.is_calm && self.random.below(times) == 0
     }
 
-    /// A context that sleeps goes on with its point, or takes another.
+    /// Starts a context that sleeps, with its point or with another one.
     fn start(&mut self) {
-        let owner = self.random.below(CONTEXTS);
+        let context = self.random.below(CONTEXTS);
         let takes = {
             let (one_in_four, start) = (self.one_in(4), self.ground.somewhere(&mut self.random));
-            let life = &mut self.lives[owner as usize];
-            let may = !life.awake && one_in_four && !(life.keeps && life.due.is_some());
+            let life = &mut self.lives[context as usize];
+            let may = !life.awake && one_in_four && !(life.will_retry && life.due.is_some());
             if may && life.has_overflowed {
-                // It inserts its point alone.
-                (life.keeps, life.has_overflowed) = (false, false);
-                self.waiter = self.waiter.filter(|waiter| *waiter != owner);
+                // A context whose list overflowed inserts its point solo.
+                (life.will_retry, life.has_overflowed) = (false, false);
+                self.priority_context = self.priority_context.filter(|holder| *holder != context);
             }
             if may {
-                let u = if life.keeps { life.root } else { start };
-                life.context.out.push(Visit { owner, ..Visit::look(u) });
+                let record = if life.will_retry { life.root } else { start };
+                life.context.out.push(Visit { context, ..Visit::look(record) });
                 life.awake = true;
             }
-            may && !life.keeps
+            may && !life.will_retry
         };
         let id = self.random.below(1 << 15);
         self.block.set("takes", takes);
-        self.block.set("start_owner", owner);
+        self.block.set("start_context", context);
         self.block.set("start_id", id);
         self.block.set("now", self.now);
         if takes {
-            let life = &mut self.lives[owner as usize];
-            (life.context.p, life.context.since, life.keeps) = (id, self.now, false);
+            let life = &mut self.lives[context as usize];
+            (life.context.vertex, life.context.since, life.will_retry) = (id, self.now, false);
             life.context.target = self.random.below(self.targets.len() as u64) as usize;
         }
         self.now = (self.now + 1) % (1 << 22);
     }
 
-    /// Reads the record, takes the lock and asks the predicates. Now and then the mesh seems to have changed since the walk.
+    /// Reads the record, takes the lock and evaluates the predicates. Now and then the mesh seems
+    /// to have changed since the walk.
     fn read(&mut self, visit: Visit) -> Completion {
-        let life = &self.lives[visit.owner as usize];
+        let life = &self.lives[visit.context as usize];
         let target = &self.targets[life.context.target];
         let (record, slot) = self.ground.read(&visit);
         let mut finding = self.ground.find(&visit, target, &mut self.random);
         let mut lock = LockFinding::default();
         if visit.locks {
-            lock.took = !self.locks.contains_key(&visit.u);
-            lock.foreign = *self.locks.entry(visit.u).or_insert(visit.owner) != visit.owner;
+            lock.took = !self.locks.contains_key(&visit.record);
+            lock.foreign = *self.locks.entry(visit.record).or_insert(visit.context) != visit.context;
         } else {
             lock.again = self.one_in(8);
         }
@@ -148,30 +164,32 @@ impl Rig {
             finding.falls_onto_corner |= self.one_in(8);
         }
         if lock.foreign || lock.again {
-            // A record that somebody changes says anything.
+            // A record that is being changed gives arbitrary results.
             finding.conflict = self.one_in(2);
             finding.located = self.one_in(2);
         }
         Completion { visit, record, slot, lock, finding }
     }
 
-    /// Says which visit completes in the next clock; anything if none does.
+    /// Announces the visit that completes in the next clock, or random values if none does.
     fn announce(&mut self, visit: Option<Visit>) -> Option<Announced> {
         let seeded = !self.one_in(100);
         let busy = self.lives.iter().enumerate().filter(|(_, life)| life.due.is_some());
-        let busy = busy.fold(0u64, |set, (owner, _)| set | 1 << owner);
-        let (waiter, is_held) = (self.waiter.unwrap_or(self.random.below(CONTEXTS)), self.waiter.is_some());
-        for (port, value) in [("ring", self.ring), ("busy", busy), ("waiter", waiter)] {
+        let busy = busy.fold(0u64, |set, (context, _)| set | 1 << context);
+        let (priority_context, is_held) =
+            (self.priority_context.unwrap_or(self.random.below(CONTEXTS)), self.priority_context.is_some());
+        for (port, value) in [("ring_capacity", self.ring), ("busy", busy), ("priority_context", priority_context)] {
             self.block.set(port, value);
         }
         self.block.set("seeded", seeded);
-        self.block.set("waiter_valid", is_held);
+        self.block.set("priority_is_held", is_held);
         self.block.set("early_done", visit.is_some());
-        let anything = Visit { owner: self.random.below(CONTEXTS), f_entry: self.random.below(64), ..Visit::look(0) };
-        self.block.set("early_token", visit.unwrap_or(anything).token());
+        let anything =
+            Visit { context: self.random.below(CONTEXTS), cavity_entry: self.random.below(64), ..Visit::look(0) };
+        self.block.set("early_visit", visit.unwrap_or(anything).packed());
         let visit = visit?;
-        let is_waiter = self.waiter == Some(visit.owner);
-        let around = Around { seeded, ring: self.ring, is_waiter, is_busy: busy >> visit.owner & 1 == 1 };
+        let holds_priority = self.priority_context == Some(visit.context);
+        let around = Around { seeded, ring: self.ring, holds_priority, is_busy: busy >> visit.context & 1 == 1 };
         let done = self.read(visit);
         let infinite = [self.one_in(2); 3];
         let turned = turned(done.record.v.map(spread), done.record.n, done.slot, done.lock, infinite);
@@ -179,15 +197,15 @@ impl Rig {
         Some(Announced { done, turned, around })
     }
 
-    /// One clock: the visit that completes, and the one that does in the next clock.
+    /// Runs one clock: a visit completes, and the one of the next clock is announced.
     fn clock(&mut self, upcoming: Option<Visit>) -> Option<(Completion, Outcome)> {
         let next = self.announce(upcoming);
         let announced = std::mem::replace(&mut self.announced, next);
         let seen = announced.map(|Announced { done, turned, around }| {
-            self.block.set("visit_token", done.visit.token());
-            self.block.set("visit_turned", turned);
+            self.block.set("completion_visit", done.visit.packed());
+            self.block.set("completion_turned", turned);
             self.block.set("verdict", done.finding.verdict());
-            let outcome = self.lives[done.visit.owner as usize].context.complete(&done, &around);
+            let outcome = self.lives[done.visit.context as usize].context.complete(&done, &around);
             (done, outcome)
         });
         self.block.settle();
@@ -202,11 +220,11 @@ impl Rig {
         seen
     }
 
-    /// What blocks further on do: they release locks.
+    /// Lets time pass for the blocks further on, which release locks.
     fn pass_time(&mut self) {
-        for (owner, life) in (0..).zip(&mut self.lives) {
+        for (context, life) in (0..).zip(&mut self.lives) {
             if life.due == Some(0) {
-                self.locks.retain(|_, holder| *holder != owner);
+                self.locks.retain(|_, holder| *holder != context);
                 life.context.growth = Default::default();
             }
             life.due = life.due.and_then(|clocks| clocks.checked_sub(1));
@@ -214,11 +232,11 @@ impl Rig {
     }
 
     fn take(&mut self, done: &Completion, outcome: &Outcome) {
-        let owner = done.visit.owner;
+        let context = done.visit.context;
         let patience = self.random.below(30);
-        let life = &mut self.lives[owner as usize];
+        let life = &mut self.lives[context as usize];
         life.awake = !outcome.sleeps;
-        life.keeps |= outcome.keeps;
+        life.will_retry |= outcome.will_retry;
         life.root = outcome.root.unwrap_or(life.root);
         life.has_overflowed |= outcome.overflows;
         if outcome.commit.is_some() {
@@ -232,7 +250,7 @@ impl Rig {
             life.due = Some(patience);
         }
         if outcome.duplicate || outcome.commit.is_some() || outcome.looks {
-            life.keeps = false;
+            life.will_retry = false;
         }
         let is_root = done.visit.locks && !done.visit.rotates;
         for (event, happens) in [
@@ -241,38 +259,38 @@ impl Rig {
             ("waits at a root", outcome.revisit && is_root),
             ("waits at a test", outcome.revisit && done.visit.rotates),
             ("looks again while busy", outcome.revisit && !done.visit.locks && !done.lock.again),
-            ("gives up a root", outcome.gives_up && is_root),
-            ("gives up a test", outcome.gives_up && done.visit.rotates),
-            ("takes the token", outcome.asks_to_wait && self.waiter.is_none()),
+            ("aborts at a root", outcome.aborts && is_root),
+            ("aborts at a test", outcome.aborts && done.visit.rotates),
+            ("takes the priority", outcome.asks_for_priority && self.priority_context.is_none()),
             ("locks while it drains", done.lock.took && outcome.entry.is_none() && outcome.push.is_none() && !is_root),
             ("outcome_overflows", outcome.overflows),
             ("duplicates of walks", outcome.duplicate && !is_root),
             ("duplicates of roots", outcome.duplicate && is_root),
-            ("retries", outcome.retries),
+            ("root_changed", outcome.root_changed),
             ("looks", outcome.looks),
         ] {
             *self.tally.entry(event).or_default() += usize::from(happens);
         }
-        if outcome.stops_waiting && self.waiter == Some(owner) {
-            self.waiter = None;
-        } else if outcome.asks_to_wait && self.waiter.is_none() {
-            self.waiter = Some(owner);
+        if outcome.returns_priority && self.priority_context == Some(context) {
+            self.priority_context = None;
+        } else if outcome.asks_for_priority && self.priority_context.is_none() {
+            self.priority_context = Some(context);
         }
     }
 
-    /// Some visit that is out, of some context: it completes in the next clock.
+    /// Returns a visit that is out, of some context, which completes in the next clock.
     fn any_visit(&mut self) -> Option<Visit> {
         let life = self.random.below(CONTEXTS) as usize;
         let place = self.random.below(self.lives[life].context.out.len() as u64) as usize;
         self.lives[life].context.out.get(place).copied()
     }
 
-    /// The visit that was announced completes now.
+    /// Completes the visit that was announced.
     fn complete(&mut self) {
         let Some(Announced { done: Completion { visit, .. }, .. }) = self.announced else {
             return;
         };
-        let out = &mut self.lives[visit.owner as usize].context.out;
+        let out = &mut self.lives[visit.context as usize].context.out;
         let place = out.iter().position(|other| *other == visit).expect("the visit is out");
         out.swap_remove(place);
     }
@@ -287,29 +305,29 @@ impl Rig {
     }
 }
 
-/// Every output against what must come out.
+/// Compares every output with the expected one.
 fn compare(block: &Stepper<Attempts>, seen: Option<&(Completion, Outcome)>) {
     let nothing = Outcome::default();
     let outcome = seen.map_or(&nothing, |(_, outcome)| outcome);
     let visit = seen.map(|(done, _)| done.visit);
     let is = |rotates, locks| visit.is_some_and(|visit| visit.rotates == rotates && (visit.locks == locks || rotates));
-    // All may ask but tests that find their edge final, whatever has become of their attempt.
+    // Every visit may ask except a test that finds its edge final, whatever has become of its attempt.
     let may_ask = seen.is_some_and(|(done, _)| !is(true, true) || done.lock.foreign || done.finding.conflict);
     for (port, value) in [
         ("asks", outcome.push.is_some()),
         ("may_ask", may_ask),
         ("is_done", seen.is_some()),
         ("sleeps", outcome.sleeps),
-        ("keeps", outcome.keeps),
+        ("will_retry", outcome.will_retry),
         ("root_enable", outcome.root.is_some()),
         ("entry_valid", outcome.entry.is_some()),
         ("inner_valid", outcome.inner.is_some()),
         ("lock_valid", outcome.lock.is_some()),
         ("commit_valid", outcome.commit.is_some()),
         ("releases_valid", outcome.release.is_some()),
-        ("asks_to_wait", outcome.asks_to_wait),
+        ("asks_for_priority", outcome.asks_for_priority),
         ("waits", outcome.revisit && !is(false, false)),
-        ("stops_waiting", outcome.stops_waiting),
+        ("returns_priority", outcome.returns_priority),
         ("outcome_overflows", outcome.overflows),
         ("duplicate", outcome.duplicate),
         ("looks", outcome.looks),
@@ -317,13 +335,13 @@ fn compare(block: &Stepper<Attempts>, seen: Option<&(Completion, Outcome)>) {
         ("root_visit", is(false, true)),
         ("test", is(true, true)),
         ("revisit", outcome.revisit),
-        ("gives_up", outcome.gives_up),
-        ("retries", outcome.retries),
+        ("aborts", outcome.aborts),
+        ("root_changed", outcome.root_changed),
     ] {
         block.expect(port, value);
     }
     let expect = |port, value: Option<u128>| value.into_iter().for_each(|value| block.expect(port, value));
-    expect("outcome_owner", visit.map(|visit| visit.owner.into()));
+    expect("outcome_context", visit.map(|visit| visit.context.into()));
     expect("root", outcome.root.map(Into::into));
     expect("entry_place", outcome.entry.map(|(place, _)| place.into()));
     expect("entry_entry", outcome.entry.map(|(_, edge)| edge.entry()));
@@ -361,20 +379,20 @@ fn attempts_grow_the_rings_of_all_contexts_at_once() {
 fn attempts_show_the_wave_of_their_header() {
     let mut rig = Rig::new(65, 32, 8, 8);
     rig.is_calm = true;
-    // The first ones fall onto corners.
+    // The first targets fall onto corners.
     let is_small = |target: &usize| rig.targets[*target].cavity.len() == 2;
     let target = (4..rig.targets.len()).find(is_small).expect("a small cavity");
     let context = &mut rig.lives[1].context;
-    (context.target, context.p, context.since) = (target, 7, 3);
-    for (port, value) in [("takes", 1u64), ("start_owner", 1), ("start_id", 7), ("now", 3)] {
+    (context.target, context.vertex, context.since) = (target, 7, 3);
+    for (port, value) in [("takes", 1u64), ("start_context", 1), ("start_id", 7), ("now", 3)] {
         rig.block.set(port, value);
     }
     rig.clock(None);
     rig.block.set("takes", false);
     let root = rig.targets[target].places[0];
-    rig.lives[1].context.out.push(Visit { owner: 1, ..Visit::look(root) });
+    rig.lives[1].context.out.push(Visit { context: 1, ..Visit::look(root) });
     let mut wave = Wave::default();
-    // The visits in their order; the pipeline between is left out.
+    // The visits complete in their order; the pipeline between is left out.
     let completes = |clock: usize| clock % 2 == 1 || clock > 4;
     for clock in 0..12 {
         rig.complete();

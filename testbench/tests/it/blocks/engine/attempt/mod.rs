@@ -1,4 +1,4 @@
-//! The blocks of `hdl/src/engine/attempt`.
+//! Tests of the blocks in `hdl/src/engine/attempt`.
 
 mod attempt_lists;
 mod attempt_points;

@@ -1,31 +1,31 @@
-//! `VisitCase`: Rust, Verilog and a statement of each rule agree, over all inputs where these are single bits, and over
-//! random ones.
+//! Runs `VisitCase` in Rust and in Verilog beside a statement of each rule: all three must agree for every combination
+//! of single bits and for random values of the wider inputs.
 
 use crate::rig::stepper::bundles::{flip, id, turned, Finding, LockFinding, Visit};
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use incircle_hdl::engine::VisitCase;
 use incircle_testkit::SplitMix64;
 
-named_ports!(VisitCase, [early, seeded, is_busy, is_waiter, verdict, drains, is_full], [found], clock);
+named_ports!(VisitCase, [early, seeded, is_busy, holds_priority, verdict, drains, is_full], [found], clock);
 
-/// Outputs of `VisitCase` of which at most one is high.
+/// Outputs of `VisitCase`, of which at most one is high.
 const CASES: [&str; 13] = [
     "looks",
-    "repeats",
+    "revisits",
     "walks_on",
     "locates",
     "opens",
-    "retries",
+    "root_changed",
     "splits",
     "settles",
     "overflows",
-    "gives_up_root",
-    "gives_up",
+    "aborts_root",
+    "aborts",
     "walk_duplicate",
     "root_duplicate",
 ];
 
-/// The single bits that a case follows from.
+/// The single bits from which a case follows.
 struct Bits {
     done: bool,
     rotates: bool,
@@ -34,13 +34,13 @@ struct Bits {
     lock: LockFinding,
     finding: Finding,
     is_busy: bool,
-    is_waiter: bool,
+    holds_priority: bool,
     drains: bool,
     is_full: bool,
 }
 
 impl Bits {
-    /// The bits of a number.
+    /// Takes the bits from a number.
     fn of(number: u64) -> Self {
         let bit = |place: u32| number >> place & 1 == 1;
         let finding = Finding { conflict: bit(3), located: bit(4), falls_onto_corner: bit(5), ..Finding::default() };
@@ -52,13 +52,13 @@ impl Bits {
             lock: LockFinding { foreign: bit(7), again: bit(8), took: false },
             finding,
             is_busy: bit(9),
-            is_waiter: bit(10),
+            holds_priority: bit(10),
             drains: bit(11),
             is_full: bit(12),
         }
     }
 
-    /// What the visit means, as the rules have it.
+    /// The case of the visit, by the rules.
     fn case(&self) -> Option<&'static str> {
         let Finding { conflict, located, falls_onto_corner, .. } = self.finding;
         if !self.done {
@@ -67,8 +67,8 @@ impl Bits {
         if self.rotates {
             return match (self.drains, self.lock.foreign, conflict) {
                 (true, ..) => None,
-                (_, true, _) if self.is_waiter => Some("repeats"),
-                (_, true, _) => Some("gives_up"),
+                (_, true, _) if self.holds_priority => Some("revisits"),
+                (_, true, _) => Some("aborts"),
                 (.., false) => Some("settles"),
                 (.., true) if self.is_full => Some("overflows"),
                 (.., true) => Some("splits"),
@@ -76,37 +76,37 @@ impl Bits {
         }
         if self.locks {
             return Some(match (self.lock.foreign, located) {
-                (true, _) if self.is_waiter => "repeats",
-                (true, _) => "gives_up_root",
-                (_, false) => "retries",
+                (true, _) if self.holds_priority => "revisits",
+                (true, _) => "aborts_root",
+                (_, false) => "root_changed",
                 (_, true) if falls_onto_corner => "root_duplicate",
                 (_, true) => "opens",
             });
         }
         Some(match (self.lock.again, located) {
             _ if !self.seeded => "looks",
-            (true, _) => "repeats",
+            (true, _) => "revisits",
             (_, false) => "walks_on",
             (_, true) if falls_onto_corner => "walk_duplicate",
-            (_, true) if self.is_busy => "repeats",
+            (_, true) if self.is_busy => "revisits",
             (_, true) => "locates",
         })
     }
 }
 
-/// Drives what is looked at a clock ahead.
+/// Drives the inputs that the block reads a clock ahead.
 fn set_early(block: &mut Stepper<VisitCase>, bits: &Bits, random: &mut SplitMix64) {
-    let token = Visit { rotates: bits.rotates, locks: bits.locks, ..Visit::random(random) };
+    let visit = Visit { rotates: bits.rotates, locks: bits.locks, ..Visit::random(random) };
     let lock = LockFinding { took: flip(random), ..bits.lock };
     block.set("early_done", bits.done);
-    block.set("early_token", token.token());
+    block.set("early_visit", visit.packed());
     block.set("early_turned", turned([id(random); 3], [id(random); 3], 1, lock, [flip(random); 3]));
-    for (port, value) in [("seeded", bits.seeded), ("is_busy", bits.is_busy), ("is_waiter", bits.is_waiter)] {
+    for (port, value) in [("seeded", bits.seeded), ("is_busy", bits.is_busy), ("holds_priority", bits.holds_priority)] {
         block.set(port, value);
     }
 }
 
-/// One clock: what was looked at in the one before, with its verdict, and the next.
+/// Runs one clock: the verdict for the bits of the clock before, and the early inputs of the next.
 fn case_clock(block: &mut Stepper<VisitCase>, bits: &Bits, upcoming: &Bits, random: &mut SplitMix64) {
     set_early(block, upcoming, random);
     let finding = Finding { is_left: flip(random), is_straight: flip(random), walk_next: id(random), ..bits.finding };
@@ -120,11 +120,11 @@ fn case_clock(block: &mut Stepper<VisitCase>, bits: &Bits, upcoming: &Bits, rand
         block.expect("is_walk", bits.done && !bits.rotates && !bits.locks && bits.seeded);
         block.expect("is_root", bits.done && !bits.rotates && bits.locks);
         block.expect("is_test", bits.done && bits.rotates);
-        block.expect("waits", case == Some("repeats") && (bits.locks || bits.rotates));
+        block.expect("waits", case == Some("revisits") && (bits.locks || bits.rotates));
         for port in CASES {
             block.expect(port, case == Some(port));
         }
-        let asks = ["repeats", "walks_on", "locates", "opens", "splits"].map(Some).contains(&case);
+        let asks = ["revisits", "walks_on", "locates", "opens", "splits"].map(Some).contains(&case);
         let settles = bits.rotates && !bits.lock.foreign && !bits.finding.conflict;
         block.expect("asks", asks);
         block.expect("may_ask", bits.done && !settles);
@@ -182,7 +182,7 @@ fn visit_case_shows_the_wave_of_its_header() {
             ("is_walk", Cell::Bit(bits.done && !bits.locks)),
             ("locates", Cell::Bit(case == Some("locates"))),
             ("opens", Cell::Bit(case == Some("opens"))),
-            ("gives_up", Cell::Bit(case == Some("gives_up"))),
+            ("aborts", Cell::Bit(case == Some("aborts"))),
             ("asks", Cell::Bit(matches!(case, Some("locates" | "opens")))),
             ("may_ask", Cell::Bit(bits.done)),
         ]);

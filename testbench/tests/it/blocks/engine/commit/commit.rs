@@ -1,5 +1,5 @@
-//! The commit: Rust, Verilog and a list of all it must do agree clock by clock. The list is written down beforehand,
-//! from the whole ring; the block sees one entry at a time.
+//! Runs the commit in Rust and in Verilog beside a list of all its steps: all three must agree in every clock. The list
+//! is written down beforehand from the whole ring, while the block sees one entry at a time.
 
 use std::collections::{BTreeSet, VecDeque};
 
@@ -15,40 +15,41 @@ named_ports!(Commit, [reset, head, head_job, inner, fresh], [takes, takes_fresh,
 
 const LONGEST: Config = Config { ring: MAX_RING, contexts: MAX_CONTEXTS, ..TINY };
 
-/// A step of a commit. Each takes a clock, or waits.
+/// A step of a commit. Each step takes a clock, or waits.
 #[derive(Clone, Copy, Debug, Default)]
 struct Act {
-    /// It takes an entry, and waits for that.
+    /// The step takes an entry, and waits for it.
     takes: bool,
-    /// It gives an inner triangle back, and waits until that is read.
+    /// The step gives an inner record back, and waits until its id is read.
     gives_back: bool,
     takes_fresh: bool,
     ends: bool,
-    /// The write that is made at its edge, and seen in the next clock.
+    /// The write made at the edge of this step, which is seen in the next clock.
     makes: Option<u128>,
 }
 
-/// Ids of the records of a ring, in order, by their definition: the first edge behind which a triangle lies keeps its id, all
-/// others get those that no edge has, then new ones. And whether each was inner or new.
+/// Ids of the star's records in the order of the ring, by their definition: the first edge of a cavity record keeps
+/// that record's id, all other edges get the ids of inner records, and then new ones. The two flags say whether an id
+/// is that of an inner record, and whether it is new.
 fn ids(ring: &Ring, fresh: u64) -> Vec<(u64, bool, bool)> {
     let mut kept = BTreeSet::new();
     let mut spare = ring.inner.iter();
     let mut new = fresh..;
-    let mut id = |f| match (kept.insert(f), spare.as_slice().is_empty()) {
-        (true, _) => (f, false, false),
+    let mut id = |cavity_record| match (kept.insert(cavity_record), spare.as_slice().is_empty()) {
+        (true, _) => (cavity_record, false, false),
         (false, false) => (*spare.next().expect("it is not empty"), true, false),
         (false, true) => (new.next().expect("ids without end"), false, true),
     };
-    let ids: Vec<_> = ring.in_order().into_iter().map(|edge| id(edge.f)).collect();
-    // Every triangle of the cavity gives its id to one of the star, and two are new.
-    let mut old: BTreeSet<u64> = ring.entries.iter().map(|edge| edge.f).collect();
+    let ids: Vec<_> = ring.in_order().into_iter().map(|edge| id(edge.cavity_record)).collect();
+    // Every cavity record gives its id to one record of the star, and two ids are new.
+    let mut old: BTreeSet<u64> = ring.entries.iter().map(|edge| edge.cavity_record).collect();
     old.extend(&ring.inner);
     old.extend([fresh, fresh + 1]);
     assert_eq!((ids.len(), ids.iter().map(|(id, ..)| *id).collect()), (old.len(), old), "{ring:?}");
     ids
 }
 
-/// All that the commit of a ring does after it has taken the first entry.
+/// All steps of a ring's commit after its first entry was taken.
 fn acts(ring: &Ring, fresh: u64) -> VecDeque<Act> {
     let edges = ring.in_order();
     let ids = ids(ring, fresh);
@@ -57,14 +58,14 @@ fn acts(ring: &Ring, fresh: u64) -> VecDeque<Act> {
         let (after, before) = ((place + 1) % count, (place + count - 1) % count);
         record_write(
             ids[place].0,
-            [ring.p, edges[place].a, edges[after].a],
-            [edges[place].u, ids[after].0, ids[before].0],
+            [ring.vertex, edges[place].first_vertex, edges[after].first_vertex],
+            [edges[place].outside_record, ids[after].0, ids[before].0],
         )
     };
     let mut acts = VecDeque::new();
     for (place, edge) in edges.iter().enumerate() {
         let ahead = ids.get(place + 1);
-        // The first entry is passed over until the last one's id is known.
+        // The first entry is passed over until the id of the last one is known.
         acts.push_back(Act {
             takes: ahead.is_some(),
             gives_back: ahead.is_some_and(|(_, is_inner, _)| *is_inner),
@@ -72,20 +73,23 @@ fn acts(ring: &Ring, fresh: u64) -> VecDeque<Act> {
             ends: false,
             makes: (place > 0).then(|| record(place)),
         });
-        if ids[place].0 != edge.f {
-            acts.push_back(Act { makes: Some(link_write(edge.u, edge.slot, ids[place].0)), ..Act::default() });
+        if ids[place].0 != edge.cavity_record {
+            acts.push_back(Act {
+                makes: Some(link_write(edge.outside_record, edge.slot, ids[place].0)),
+                ..Act::default()
+            });
         }
     }
     acts.push_back(Act { ends: true, makes: Some(record(0)), ..Act::default() });
     acts
 }
 
-/// What the test does in a clock.
+/// Actions of the test in a clock.
 #[derive(Clone, Copy, Debug, Default)]
 struct Drive {
-    /// An entry that is offered already stays.
+    /// The next entry is offered; an entry on offer stays.
     offers: bool,
-    /// The next inner triangle is listed, if there is one.
+    /// The next inner record is listed, if there is one.
     lists: bool,
     solo_inserts: bool,
     seeds: bool,
@@ -93,7 +97,7 @@ struct Drive {
     reset: bool,
 }
 
-/// What a clock showed.
+/// Outputs of a clock.
 #[derive(Clone, Copy, Debug, Default)]
 struct Shown {
     head_valid: bool,
@@ -106,16 +110,16 @@ struct Shown {
 /// The commit, and the rings that come to it.
 struct CommitRig {
     block: Stepper<Commit>,
-    /// Rings to come; the entries of the first one come first. Their inner triangles are listed one ring ahead.
+    /// Rings to come; the entries of the first one come first. Their inner records are listed one ring ahead.
     rings: VecDeque<Ring>,
-    /// Inner triangles of the first ring, and of the second, that are listed.
+    /// Number of inner records that are listed, of the first ring and of the second.
     listed: [usize; 2],
-    /// Entries of the first ring that have been taken.
+    /// Number of entries of the first ring that were taken.
     taken: usize,
     is_offered: bool,
-    /// The ring at work and what is still to do for it.
+    /// The ring at work, and the steps that are left for it.
     work: Option<(Ring, VecDeque<Act>)>,
-    /// Clocks that the next inner triangle has been looked for.
+    /// Clocks for which the block has looked for the next inner record.
     age: u32,
     made: Option<u128>,
     count: Count,
@@ -140,7 +144,7 @@ impl CommitRig {
         rig
     }
 
-    /// Offers the next entry, and lists an inner triangle of the first ring, else of the second.
+    /// Offers the next entry, and lists an inner record of the first ring, or else of the second.
     fn set_inputs(&mut self, drive: Drive) {
         let block = &mut self.block;
         block.set("reset", drive.reset);
@@ -155,11 +159,11 @@ impl CommitRig {
         block.set("head_shares", shares);
         block.set("head_job", head.map_or(0, Ring::job));
         block.set("inner_valid", false);
-        let reader = self.work.as_ref().map(|(ring, _)| ring.owner);
+        let reader = self.work.as_ref().map(|(ring, _)| ring.context);
         for (ring, listed) in self.rings.iter().zip(&mut self.listed) {
-            if let Some(id) = ring.inner.get(*listed).filter(|_| drive.lists && reader != Some(ring.owner)) {
+            if let Some(id) = ring.inner.get(*listed).filter(|_| drive.lists && reader != Some(ring.context)) {
                 block.set("inner_valid", true);
-                block.set("inner_owner", ring.owner);
+                block.set("inner_context", ring.context);
                 block.set("inner_place", *listed as u64);
                 block.set("inner_id", *id);
                 *listed += 1;
@@ -168,7 +172,7 @@ impl CommitRig {
         }
     }
 
-    /// What is done in this clock, and whether an entry is taken by it.
+    /// The step of this clock, and whether it takes an entry.
     fn act(&self) -> (Option<Act>, bool) {
         let Some((_, acts)) = &self.work else {
             return (None, self.is_offered);
@@ -182,7 +186,7 @@ impl CommitRig {
         }
     }
 
-    /// One clock of both; nothing is compared in the first one.
+    /// Runs one clock of the block and the list; nothing is compared in the first one.
     fn clock(&mut self, drive: Drive) -> Shown {
         self.set_inputs(drive);
         let (act, takes) = self.act();
@@ -191,7 +195,7 @@ impl CommitRig {
         let block = &mut self.block;
         block.settle();
         if block.clocks() > 0 {
-            // It says so before there is an entry.
+            // The block is ready before there is an entry.
             if self.is_offered {
                 block.expect("takes", takes);
             }
@@ -205,7 +209,7 @@ impl CommitRig {
         }
         if let Some((ring, _)) = self.work.as_ref().filter(|_| ends) {
             block.expect("committed_job", ring.job());
-            block.expect("hint", ring.entries[0].f);
+            block.expect("hint", ring.entries[0].cavity_record);
         }
         block.edge();
         self.edge(drive, act, takes);
@@ -238,7 +242,7 @@ impl CommitRig {
         }
     }
 
-    /// The entry on the head is taken: the first one of a ring begins its commit.
+    /// Takes the entry at the head; the first entry of a ring begins its commit.
     fn take(&mut self) {
         if self.work.is_none() {
             let ring = self.rings[0].clone();
@@ -255,28 +259,28 @@ impl CommitRig {
         }
     }
 
-    /// Keeps two rings coming, never two of one context after each other: a list is written while the one before is read.
+    /// Keeps two rings coming, never two of one context in a row, since a list is written while the one before is read.
     fn add_rings(&mut self, config: Config, random: &mut SplitMix64) {
         while self.rings.len() < 2 {
-            let last = self.rings.back().or(self.work.as_ref().map(|(ring, _)| ring)).map(|ring| ring.owner);
-            let owner = random.below(config.contexts.into());
-            if last != Some(owner) {
-                self.rings.push_back(Ring::random(random_length(config.ring.into(), random), owner, random));
+            let last = self.rings.back().or(self.work.as_ref().map(|(ring, _)| ring)).map(|ring| ring.context);
+            let context = random.below(config.contexts.into());
+            if last != Some(context) {
+                self.rings.push_back(Ring::random(random_length(config.ring.into(), random), context, random));
             }
         }
     }
 }
 
-/// Runs a commit with rings that come one right after the other, and with gaps.
+/// Runs a commit with rings that follow each other at once, and with gaps.
 fn writes_stars(name: &'static str, config: Config) {
     let mut random = SplitMix64::new(9);
     let mut rig = CommitRig::new(name, config);
-    let (mut at_once, mut waits, mut alone, mut resets, mut most_inners) = (0, 0, 0, 0, 0);
+    let (mut at_once, mut waits, mut solo_insertions, mut resets, mut most_inners) = (0, 0, 0, 0, 0);
     for clock in 0..14_000 {
         rig.add_rings(config, &mut random);
         let (offers, lists) = [(8, 8), (8, 8), (5, 8), (2, 4)][clock / 500 % 4];
-        let is_alone = rig.work.is_none() && !rig.is_offered && rig.made.is_none() && rig.count.is_settled();
-        let event = if is_alone { random.below(16) } else { 16 };
+        let is_idle = rig.work.is_none() && !rig.is_offered && rig.made.is_none() && rig.count.is_settled();
+        let event = if is_idle { random.below(16) } else { 16 };
         let drive = Drive {
             offers: event > 2 && random.below(8) < offers,
             lists: random.below(8) < lists,
@@ -288,15 +292,16 @@ fn writes_stars(name: &'static str, config: Config) {
         let shown = rig.clock(drive);
         at_once += usize::from(shown.ends && shown.takes);
         waits += usize::from(shown.head_valid && !shown.takes);
-        alone += usize::from(drive.solo_inserts);
+        solo_insertions += usize::from(drive.solo_inserts);
         resets += usize::from(drive.reset);
         most_inners = most_inners.max(rig.work.as_ref().map_or(0, |(ring, _)| ring.inner.len()));
     }
-    let reached = [rig.committed, at_once, waits, alone, resets];
+    let reached = [rig.committed, at_once, waits, solo_insertions, resets];
     assert!(
         reached.iter().zip([400, 100, 1000, 10, 3]).all(|(seen, least)| *seen >= least)
             && most_inners * 6 >= config.ring as usize,
-        "rings, taken at once, clocks an entry waited, insertions alone, resets: {reached:?}; {most_inners} inner triangles"
+        "rings, taken at once, clocks an entry waited, solo insertions, resets: {reached:?}; \
+         {most_inners} inner records"
     );
 }
 
@@ -314,12 +319,18 @@ fn number(number: u64) -> Cell {
     Cell::Number(number.into())
 }
 
-/// The cavity of two triangles 0 and 1 becomes the star of four: two old ids, two new ones.
+/// Commits a cavity of two records, 0 and 1, as a star of four: two old ids, two new ones.
 #[test]
 fn commit_shows_the_wave_of_its_header() {
-    let edge = |a, u, f, after| Edge { a, u, slot: 1, f, after };
+    let edge = |first_vertex, outside_record, cavity_record, after| Edge {
+        first_vertex,
+        outside_record,
+        slot: 1,
+        cavity_record,
+        after,
+    };
     let ring = Ring {
-        p: 9,
+        vertex: 9,
         entries: vec![edge(1, 5, 0, 1), edge(2, 6, 1, 2), edge(3, 7, 1, 3), edge(4, 8, 0, 0)],
         ..Ring::default()
     };
@@ -328,7 +339,7 @@ fn commit_shows_the_wave_of_its_header() {
     for _ in 0..3 {
         rig.clock(Drive { solo_inserts: true, ..Drive::default() });
     }
-    rig.rings.extend([ring.clone(), Ring { owner: 1, ..ring }]);
+    rig.rings.extend([ring.clone(), Ring { context: 1, ..ring }]);
     let mut wave = Wave::default();
     for clock in 0..13 {
         let shown = rig.clock(Drive { offers: clock > 0, ..Drive::default() });

@@ -1,4 +1,4 @@
-//! `FreshIds`: Rust, Verilog and plain lists agree clock by clock.
+//! Runs `FreshIds` in Rust and in Verilog beside plain lists: all three must agree in every clock.
 
 use crate::rig::record_count::{Count, Event};
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
@@ -11,7 +11,7 @@ fn number(number: u64) -> Cell {
     Cell::Number(number.into())
 }
 
-/// One clock of the count; nothing is compared in the first one.
+/// Runs one clock of the count; nothing is compared in the first one.
 fn count_clock(block: &mut Stepper<FreshIds>, count: &mut Count, event: Event) {
     for (port, value) in [
         ("reset", event.reset),

@@ -1,4 +1,4 @@
-//! `InnerList`: Rust, Verilog and plain lists agree clock by clock.
+//! Runs `InnerList` in Rust and in Verilog beside plain lists: all three must agree in every clock.
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use incircle_hdl::engine::InnerList;
@@ -13,13 +13,13 @@ fn number(number: u64) -> Cell {
     Cell::Number(number.into())
 }
 
-/// The lists of inner triangles, and the one that is read.
+/// The lists of inner records, and the one that is read.
 struct ListRig {
     block: Stepper<InnerList>,
     lists: Vec<Vec<u64>>,
     reader: usize,
     index: usize,
-    /// Clocks that the next triangle has been looked for; none before the first list.
+    /// Clocks for which the block has looked for the next record; `None` before the first list.
     age: Option<u32>,
 }
 
@@ -41,14 +41,14 @@ impl ListRig {
         self.age.is_some() && !self.is_awaited() && !self.is_used_up()
     }
 
-    /// One clock, in which a triangle may join a list, and another list may be the next to be read.
+    /// Runs one clock, in which a record may join a list, and another list may be the next to be read.
     fn clock(&mut self, joins: Option<(usize, u64)>, restarts: Option<usize>, steps: bool) {
         let (is_awaited, can_step) = (self.is_awaited(), self.can_step());
         let block = &mut self.block;
-        let (owner, id) = joins.unwrap_or_default();
+        let (context, id) = joins.unwrap_or_default();
         block.set("inner_valid", joins.is_some());
-        block.set("owner", owner as u64);
-        block.set("place", self.lists[owner].len() as u64 % 64);
+        block.set("context", context as u64);
+        block.set("place", self.lists[context].len() as u64 % 64);
         block.set("id", id);
         block.set("restarts", restarts.is_some());
         block.set("reader", restarts.unwrap_or_default() as u64);
@@ -64,7 +64,7 @@ impl ListRig {
             }
         }
         block.edge();
-        self.lists[owner].extend(joins.map(|(_, id)| id));
+        self.lists[context].extend(joins.map(|(_, id)| id));
         self.age = self.age.map(|age| if steps { 0 } else { age + 1 });
         self.index += usize::from(steps);
         if let Some(reader) = restarts {

@@ -1,5 +1,5 @@
-//! `JobQueue`: Rust, Verilog and a list of all entries in their order agree clock by clock. The list is laid out when a
-//! ring is finished; it knows no pointers.
+//! Runs `JobQueue` in Rust and in Verilog beside a list of all jobs in their order: all three must agree in every
+//! clock. The list has no pointers.
 
 use std::collections::VecDeque;
 
@@ -9,7 +9,7 @@ use incircle_testkit::SplitMix64;
 
 named_ports!([] JobQueue<6>, [reset, enable, job, takes], [waits, head], clock);
 
-/// One clock of a queue of up to four jobs and of its list: a job is listed a clock after it came.
+/// Runs one clock of a queue of up to four jobs and of its list. A job is listed a clock after it came.
 fn queue_clock(block: &mut Stepper<JobQueue<6>>, list: &mut VecDeque<u64>, reset: bool, job: Option<u64>, takes: bool) {
     block.set("reset", reset);
     block.set("enable", job.is_some());

@@ -1,4 +1,5 @@
-//! The release of locks: Rust, Verilog and a list of what is still to be cleared agree clock by clock.
+//! Releases locks in Rust and in Verilog beside a list of the locks that are still to be cleared: all
+//! three must agree in every clock.
 
 use std::collections::VecDeque;
 
@@ -12,21 +13,21 @@ named_ports!(Release, [reset, last_id, lock, commit, failure], [sweeps, clear, r
 
 const LONGEST: Config = Config { ring: MAX_RING, contexts: MAX_CONTEXTS, ..TINY };
 
-/// A lock to clear; the last one of a context names it.
+/// A lock to clear; the last lock of a job names the job's context.
 #[derive(Clone, Copy, Debug)]
 struct Lock {
     id: u64,
     last_of: Option<u64>,
 }
 
-/// The locks of a context, all in the log.
+/// A context and its locks, all of them in the log.
 type Job = (u64, Vec<u64>);
 
-/// The release as lists of what it has to do.
+/// The release as lists of its tasks.
 #[derive(Default)]
 struct ReleaseReference {
     to_sweep: VecDeque<u64>,
-    /// Jobs of rings, and of failures.
+    /// Jobs of finished rings, and jobs of aborted attempts.
     due: [VecDeque<Job>; 2],
     /// Locks of the job at work that have not been fetched.
     at_work: VecDeque<Lock>,
@@ -44,9 +45,9 @@ impl ReleaseReference {
         self.ways = [self.at_work.pop_front(), self.ways[0], self.ways[1].or(swept)];
         if self.at_work.is_empty() {
             let [rings, failures] = &mut self.due;
-            if let Some((owner, ids)) = rings.pop_front().or_else(|| failures.pop_front()) {
+            if let Some((context, ids)) = rings.pop_front().or_else(|| failures.pop_front()) {
                 self.at_work = ids.into_iter().map(|id| Lock { id, last_of: None }).collect();
-                self.at_work.back_mut().expect("a lock").last_of = Some(owner);
+                self.at_work.back_mut().expect("a lock").last_of = Some(context);
             }
         }
         for (due, job) in self.due.iter_mut().zip([&drive.ring, &drive.failure]) {
@@ -66,26 +67,26 @@ impl ReleaseReference {
 #[derive(Clone, Debug, Default)]
 struct Drive {
     reset: bool,
-    /// A lock joins the log of this context at this place.
+    /// A lock that joins the log: context, place, id.
     lock: Option<(u64, u64, u64)>,
     ring: Option<Job>,
     failure: Option<Job>,
 }
 
-/// One clock of both; nothing is compared in the first one.
+/// Runs one clock of the block and the list; nothing is compared in the first one.
 fn release_clock(block: &mut Stepper<Release>, reference: &mut ReleaseReference, drive: &Drive, last_id: u64) {
-    let (owner, place, id) = drive.lock.unwrap_or((1, 2, 0x5a5a & last_id));
+    let (context, place, id) = drive.lock.unwrap_or((1, 2, 0x5a5a & last_id));
     block.set("reset", drive.reset);
     block.set("last_id", last_id);
     block.set("lock_valid", drive.lock.is_some());
-    block.set("lock_owner", owner);
+    block.set("lock_context", context);
     block.set("lock_place", place);
     block.set("lock_id", id);
     for (enable, port, job) in
         [("commit_valid", "commit_job", &drive.ring), ("failure_valid", "failure_job", &drive.failure)]
     {
         block.set(enable, job.is_some());
-        block.set(port, job.as_ref().map_or(0xfff, |(owner, ids)| release_job(*owner, ids.len() as u64)));
+        block.set(port, job.as_ref().map_or(0xfff, |(context, ids)| release_job(*context, ids.len() as u64)));
     }
     block.settle();
     let shown = reference.shown();
@@ -96,22 +97,22 @@ fn release_clock(block: &mut Stepper<Release>, reference: &mut ReleaseReference,
     }
     if let Some(lock) = shown {
         block.expect("clear_id", lock.id);
-        if let Some(owner) = lock.last_of {
-            block.expect("released_owner", owner);
+        if let Some(context) = lock.last_of {
+            block.expect("released_context", context);
         }
     }
     block.edge();
     reference.edge(drive, last_id);
 }
 
-/// What a context is at.
+/// State of a context.
 #[derive(Clone, Debug)]
 enum Attempt {
-    /// It logs so many locks more.
+    /// The context logs so many more locks; the list has those logged so far.
     Logs(u64, Vec<u64>),
-    /// Its ring is being written.
+    /// The ring of the context is being written.
     Commits(Vec<u64>),
-    /// Its locks are due.
+    /// The locks of the context are due.
     IsDue,
 }
 
@@ -138,21 +139,20 @@ impl Attempts {
         self.contexts[context] = Attempt::Logs(locks, Vec::new());
     }
 
-    /// Some context takes a lock, at which its attempt may fail; and the ring of some context may be finished.
+    /// Lets some context take a lock, at which its attempt may abort, and possibly finishes the ring of a context.
     fn drive(&mut self, random: &mut SplitMix64) -> Drive {
         let mut drive = Drive::default();
         let context = random.below(self.contexts.len() as u64) as usize;
-        let owner = context as u64;
         if let Attempt::Logs(left, ids) = &mut self.contexts[context] {
             let id = random.below(self.last_id + 1);
-            drive.lock = Some((owner, ids.len() as u64, id));
+            drive.lock = Some((context as u64, ids.len() as u64, id));
             ids.push(id);
             *left -= 1;
             if *left == 0 {
                 let ids = ids.clone();
                 let fails = random.below(2) == 0;
                 self.contexts[context] = if fails { Attempt::IsDue } else { Attempt::Commits(ids.clone()) };
-                drive.failure = fails.then_some((owner, ids));
+                drive.failure = fails.then_some((context as u64, ids));
             }
         }
         let context = random.below(self.contexts.len() as u64) as usize;
@@ -178,8 +178,8 @@ fn releases_locks(name: &'static str, config: Config, last_id: u64) {
         drive.reset = clock == 0 || random.below(1500) == 0;
         let released = reference.shown().and_then(|lock| lock.last_of);
         release_clock(&mut block, &mut reference, &drive, last_id);
-        if let Some(owner) = released {
-            attempts.begin(owner as usize, &mut random);
+        if let Some(context) = released {
+            attempts.begin(context as usize, &mut random);
         }
         if drive.reset {
             (0..config.contexts as usize).for_each(|context| attempts.begin(context, &mut random));
@@ -191,7 +191,7 @@ fn releases_locks(name: &'static str, config: Config, last_id: u64) {
     let [rings, failures] = attempts.jobs;
     assert!(
         resets > 3 && both_due > 4 * config.contexts as usize && idle > 300 && rings > 100 && failures > 100,
-        "{resets} resets, {both_due} clocks with rings and failures due, {idle} idle; {rings} rings, {failures} failures"
+        "{resets} resets, {both_due} clocks with rings and aborts due, {idle} idle; {rings} rings, {failures} aborts"
     );
 }
 
@@ -234,7 +234,7 @@ fn release_shows_the_wave_of_its_header() {
             ("clear_enable", Cell::Bit(shown.is_some())),
             ("clear_id", number(shown.map(|lock| lock.id))),
             ("released", Cell::Bit(shown.is_some_and(|lock| lock.last_of.is_some()))),
-            ("released_owner", number(shown.and_then(|lock| lock.last_of))),
+            ("released_context", number(shown.and_then(|lock| lock.last_of))),
         ]);
     }
     wave.assert_drawn_in("release");

@@ -1,5 +1,5 @@
-//! `RingReader`: Rust, Verilog and a list of all entries in their order agree clock by clock. The list is laid out when
-//! a ring is finished; it knows no pointers.
+//! Runs `RingReader` in Rust and in Verilog beside a list of all entries in their order: all three must agree in every
+//! clock. The list is laid out when a ring is finished, and has no pointers.
 
 use std::collections::VecDeque;
 
@@ -12,19 +12,19 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(RingReader, [reset, entry, commit, takes], [head, head_job], clock);
 
-/// An entry in its place in the order.
+/// An entry at its place in the order.
 #[derive(Clone, Copy, Debug, Default)]
 struct Item {
     entry: u128,
     is_first: bool,
     is_last: bool,
-    /// The triangle behind it lies behind the one before it or the first one too.
+    /// The cavity record of the entry is that of the entry before or of the first one too.
     shares: bool,
     job: u128,
-    owner: u64,
+    context: u64,
 }
 
-/// What the reader does, as a list: five stages that all move when the last is free or taken.
+/// The reader as a list: five stages that all move when the last one is empty or taken.
 #[derive(Default)]
 struct ReaderReference {
     coming: VecDeque<Item>,
@@ -44,20 +44,20 @@ impl ReaderReference {
             self.stages[0] = if is_past_a_ring { None } else { self.coming.pop_front() };
         }
         if let Some(ring) = finished {
-            let (order, job, owner) = (ring.in_order(), ring.job(), ring.owner);
+            let (order, job, context) = (ring.in_order(), ring.job(), ring.context);
             self.coming.extend(order.iter().enumerate().map(|(place, edge)| Item {
                 entry: Edge { after: 0, ..*edge }.entry(),
                 is_first: place == 0,
                 is_last: edge.after == 0,
                 shares: ring.shares(place),
                 job,
-                owner,
+                context,
             }));
         }
     }
 }
 
-/// A context: its ring, and the places that are not final yet, none once the ring is finished.
+/// A context: its ring, and the places that are not final yet, of which none is left once the ring is finished.
 #[derive(Clone, Default)]
 struct Filling {
     ring: Ring,
@@ -75,14 +75,14 @@ struct ReaderRig {
     shared: usize,
 }
 
-/// What happens at an edge.
+/// Events at an edge.
 #[derive(Default)]
 struct Drive {
     reset: bool,
     takes: bool,
-    /// An entry of a context becomes final.
+    /// The entry of a context that becomes final.
     entry: Option<(u64, u64, Edge)>,
-    /// And with it a ring.
+    /// The ring that the entry finishes, if any.
     finished: Option<Ring>,
 }
 
@@ -101,13 +101,14 @@ impl ReaderRig {
         rig
     }
 
-    /// One clock of both; nothing is compared in the first one.
+    /// Runs one clock of the block and the reference; nothing is compared in the first one.
     fn clock(&mut self, drive: &Drive) {
         let block = &mut self.block;
-        let (owner, place, edge) = drive.entry.unwrap_or((7, 5, Edge { a: 0x1234, after: 1, ..Edge::default() }));
+        let (context, place, edge) =
+            drive.entry.unwrap_or((7, 5, Edge { first_vertex: 0x1234, after: 1, ..Edge::default() }));
         block.set("reset", drive.reset);
         block.set("entry_valid", drive.entry.is_some());
-        block.set("entry_owner", owner);
+        block.set("entry_context", context);
         block.set("entry_place", place);
         block.set("entry_entry", edge.entry());
         block.set("commit_valid", drive.finished.is_some());
@@ -131,7 +132,7 @@ impl ReaderRig {
         block.edge();
         self.reference.edge(drive.takes, drive.finished.as_ref());
         if let Some(item) = head.filter(|item| drive.takes && item.is_last) {
-            self.contexts[item.owner as usize] = None;
+            self.contexts[item.context as usize] = None;
         }
         if drive.reset {
             self.reference = ReaderReference::default();
@@ -139,22 +140,22 @@ impl ReaderRig {
         }
     }
 
-    /// Entries of any context become final in any order, and the head is taken in so many of 8 clocks.
+    /// Makes entries of any context final in any order, and takes the head, each in so many of 8 clocks.
     fn random_drive(&mut self, fills: u64, takes: u64, random: &mut SplitMix64) -> Drive {
         let mut drive = Drive { reset: random.below(900) == 0, takes: random.below(8) < takes, ..Drive::default() };
-        let owner = random.below(self.contexts.len() as u64);
+        let context = random.below(self.contexts.len() as u64);
         let longest = self.longest;
         if random.below(8) >= fills {
             return drive;
         }
-        let filling = self.contexts[owner as usize].get_or_insert_with(|| {
-            let ring = Ring::random(random_length(longest, random), owner, random);
+        let filling = self.contexts[context as usize].get_or_insert_with(|| {
+            let ring = Ring::random(random_length(longest, random), context, random);
             let mut open_places: Vec<u64> = (0..ring.entries.len() as u64).collect();
             random.shuffle(&mut open_places);
             Filling { ring, open_places }
         });
         if let Some(place) = filling.open_places.pop() {
-            drive.entry = Some((owner, place, filling.ring.entries[place as usize]));
+            drive.entry = Some((context, place, filling.ring.entries[place as usize]));
             if filling.open_places.is_empty() {
                 drive.finished = Some(filling.ring.clone());
                 self.finished += 1;
@@ -164,7 +165,7 @@ impl ReaderRig {
     }
 }
 
-/// Runs a reader with rings faster than they are taken, and slower.
+/// Runs a reader with rings that come faster than they are taken, and slower.
 fn reads_rings(name: &'static str, config: Config) {
     let mut random = SplitMix64::new(7);
     let mut rig = ReaderRig::new(name, config);
@@ -202,14 +203,19 @@ fn ring_reader_of_the_longest_list() {
 #[test]
 fn ring_reader_shows_the_wave_of_its_header() {
     let mut rig = ReaderRig::new("ring_reader_6", TINY);
-    let ring = |owner: u64| {
-        let edge = |place: u64, after: u64, f: u64| Edge { a: 20 - 10 * owner + place, f, after, ..Edge::default() };
-        Ring { owner, entries: vec![edge(0, 2, 7), edge(1, 0, 8), edge(2, 1, 7)], ..Ring::default() }
+    let ring = |context: u64| {
+        let edge = |place: u64, after: u64, cavity_record: u64| Edge {
+            first_vertex: 20 - 10 * context + place,
+            cavity_record,
+            after,
+            ..Edge::default()
+        };
+        Ring { context, entries: vec![edge(0, 2, 7), edge(1, 0, 8), edge(2, 1, 7)], ..Ring::default() }
     };
     let (one, zero) = (ring(1), ring(0));
     let mut wave = Wave::default();
     for clock in 0..17 {
-        let of = |ring: &Ring, place: u64| Some((ring.owner, place, ring.entries[place as usize]));
+        let of = |ring: &Ring, place: u64| Some((ring.context, place, ring.entries[place as usize]));
         let head = rig.reference.head();
         let drive = Drive {
             reset: false,
@@ -228,10 +234,10 @@ fn ring_reader_shows_the_wave_of_its_header() {
             ("entry_place", number(drive.entry.map(|(_, place, _)| place))),
             ("job_enable", Cell::Bit(drive.finished.is_some())),
             ("head_valid", Cell::Bit(head.is_some())),
-            ("head.a", number(head.map(|item| item.entry as u64 & 0x7fff))),
+            ("head.first_vertex", number(head.map(|item| item.entry as u64 & 0x7fff))),
             ("head_is_last", Cell::Bit(head.is_some_and(|item| item.is_last))),
             ("head_shares", Cell::Bit(head.is_some_and(|item| item.shares))),
-            ("head_job.owner", number(head.filter(|item| item.is_first).map(|item| item.owner))),
+            ("head_job.context", number(head.filter(|item| item.is_first).map(|item| item.context))),
             ("takes", Cell::Bit(drive.takes)),
         ]);
     }

@@ -1,4 +1,4 @@
-//! `StarId`: Rust, Verilog and plain lists agree clock by clock.
+//! Runs `StarId` in Rust and in Verilog beside plain lists: all three must agree in every clock.
 
 use crate::rig::stepper::bundles::Edge;
 use crate::rig::stepper::{named_ports, Stepper};
@@ -17,10 +17,10 @@ fn star_id_takes_an_id_that_nobody_has() {
     let mut block = Stepper::new("star_id", StarId::default(), 1);
     for _ in 0..4_000 {
         let [head, first] = [(); 2].map(|()| Edge {
-            a: random.below(1 << 15),
-            u: random.below(1 << 15),
+            first_vertex: random.below(1 << 15),
+            outside_record: random.below(1 << 15),
             slot: random.below(3),
-            f: random.below(1 << 15),
+            cavity_record: random.below(1 << 15),
             after: random.below(64),
         });
         let [closes, has_gone, used_up] = [(); 3].map(|()| random.below(2) == 1);
@@ -34,8 +34,8 @@ fn star_id_takes_an_id_that_nobody_has() {
         block.set("inner_is_used_up", used_up);
         block.set("fresh", fresh);
         let (ahead, id) = match (closes, has_gone, used_up) {
-            (true, _, _) => (first, first.f),
-            (false, false, _) => (head, head.f),
+            (true, _, _) => (first, first.cavity_record),
+            (false, false, _) => (head, head.cavity_record),
             (false, true, false) => (head, inner),
             (false, true, true) => (head, fresh),
         };

@@ -1,4 +1,4 @@
-//! `Counters`: Rust, Verilog and a table of 64-bit sums agree clock by clock.
+//! Runs `Counters` in Rust and in Verilog beside a table of 64-bit sums: all three must agree in every clock.
 
 use super::latency_range::LatencyReference;
 use crate::rig::stepper::{named_ports, Stepper};
@@ -24,25 +24,26 @@ const EVENTS: [(&str, Counter); 18] = [
     ("walk_visit", Counter::WalkVisits),
     ("root_visit", Counter::RootVisits),
     ("revisit", Counter::Revisits),
-    ("gives_up", Counter::Aborts),
-    ("retries", Counter::RootRetries),
-    ("takes_token", Counter::WaitingTokens),
+    ("aborts", Counter::Aborts),
+    ("root_changed", Counter::RootRetries),
+    ("takes_priority", Counter::PrioritiesTaken),
     ("overflows", Counter::Overflows),
     ("flip", Counter::Flips),
-    // Of two ports that add to one counter, the later one is low where the earlier is high.
+    // Of two ports that add to one counter, the later one is low while the earlier one is high.
     ("test", Counter::Tests),
     ("duplicate", Counter::Duplicates),
     ("solo_duplicate", Counter::Duplicates),
     ("is_releasing", Counter::ReleaseCycles),
 ];
 
+/// The counters beside sums of 64 bits.
 struct Rig {
     block: Stepper<Counters>,
     random: SplitMix64,
     sums: [u64; COUNTER_WORDS],
-    /// The sums of a clock ago: what is counted.
+    /// Sums of a clock ago, which the block has counted.
     counted: [u64; COUNTER_WORDS],
-    /// The words that were selected in the last clock and in the one before.
+    /// Words selected in the last clock and in the one before.
     chosen: [u64; 2],
     latencies: LatencyReference,
     commit_ends: bool,
@@ -51,7 +52,7 @@ struct Rig {
 }
 
 impl Rig {
-    /// Random events; what they add to each counter.
+    /// Sets random events, and returns what they add to each counter.
     fn set_events(&mut self) -> [u64; COUNTER_WORDS] {
         let mut added = [0; COUNTER_WORDS];
         let mut inserting = false;
@@ -59,7 +60,7 @@ impl Rig {
             let happens = added[counter as usize] == 0 && self.random.below(2) == 1;
             self.block.set(port, happens);
             inserting |= port == "inserting" && happens;
-            // The sweep after reset does not count.
+            // A release during the sweep after reset does not count.
             added[counter as usize] += u64::from(happens && (port != "is_releasing" || inserting));
         }
         // At most one kind of insertion ends in a clock, and commits end some clocks apart.
@@ -83,7 +84,7 @@ impl Rig {
         added
     }
 
-    /// When the point was taken whose commit ends, if one does.
+    /// Returns the clock in which the point of an ending commit was taken, if a commit ends.
     fn set_since(&mut self) -> Option<u64> {
         let turn = 1 << LATENCY_BITS;
         let ago = 1 + [self.random.below(100), self.random.below(turn - 1)][self.random.below(2) as usize];
@@ -130,7 +131,7 @@ fn counters_count_their_events() {
     let mut rig = Rig { block, random, sums, counted: sums, chosen: [0; 2], latencies, commit_ends: false, pause: 0 };
     let (mut highest, mut commits, mut forgets) = (0, 0, false);
     for clock in 0..10_000 {
-        // Long enough between zeros that every counter leaves its lowest byte.
+        // Zeros come seldom enough that every counter leaves its lowest byte.
         let zeros = clock == 0 || rig.random.below(1500) == 0;
         let by_reset = clock == 0 || rig.random.below(2) == 0;
         if forgets {

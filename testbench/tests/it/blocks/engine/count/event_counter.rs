@@ -1,4 +1,5 @@
-//! `EventCounter` and `WideCounter`: Rust, Verilog and a table of 64-bit sums agree clock by clock.
+//! Runs `EventCounter` and `WideCounter` in Rust and in Verilog beside a table of 64-bit sums: all
+//! three must agree in every clock.
 
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::engine::WideCounter;
@@ -6,7 +7,7 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(WideCounter<4>, [zero, count], [low, high], clock);
 
-/// With words of four bits, so that both wrap.
+/// Words of four bits, so that both wrap within a test.
 #[test]
 fn the_high_word_follows_a_clock_after_the_low_one() {
     let mut random = SplitMix64::new(4);

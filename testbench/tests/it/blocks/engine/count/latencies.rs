@@ -1,4 +1,5 @@
-//! `Latencies`: Rust, Verilog and a table of counts agree clock by clock; the bucket of a latency is the protocol's.
+//! Runs `Latencies` in Rust and in Verilog beside a table of counts: all three must agree in every clock. The bucket
+//! of a latency is the protocol's.
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use incircle_hdl::engine::Latencies;
@@ -7,12 +8,12 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(Latencies, [reset, clears, comes, latency, select], [sweeps, value], clock);
 
-/// The histogram as a list of what has been counted, and of what is still to be.
+/// The histogram as a list of counts, and the latencies that are still to be counted.
 struct Reference {
     counts: Vec<u32>,
-    /// The bucket that is sought, for two clocks, that is read, and that is counted at the next edge.
+    /// The bucket that is sought (for two clocks), that is read, and that is counted at the next edge.
     due: [Option<usize>; 4],
-    /// Clocks of the sweep that are left.
+    /// Clocks that are left of the sweep.
     sweep: usize,
 }
 
@@ -42,7 +43,7 @@ fn latencies_are_counted_by_bucket() {
     for clock in 0..20_000 {
         let reset = clock == 0 || random.below(2000) == 0;
         let clears = random.below(1500) == 0;
-        // Bursts of a few latencies, so that the same bucket is counted again as soon as may be; none in a sweep.
+        // Bursts of a few latencies, so that the same bucket is counted again as soon as possible; none during a sweep.
         let comes = reference.sweep == 0 && !clears && pause == 0 && clock / 64 % 2 == 0 && random.below(3) != 0;
         pause = if comes { 2u64 } else { pause.saturating_sub(1) };
         let latency = [20, 21, 22, random.below(1 << LATENCY_BITS) as u32][random.below(4) as usize];
@@ -69,7 +70,7 @@ fn latencies_are_counted_by_bucket() {
     assert!(sweeps > 10 && highest > 100, "{sweeps} {highest}");
 }
 
-/// Every bucket is cleared by a sweep, whatever stood in it.
+/// A sweep must clear every bucket, whatever stood in it.
 #[test]
 fn latencies_are_all_swept() {
     let mut block = Stepper::new("latencies", Latencies::default(), 7);
@@ -90,7 +91,7 @@ fn latencies_are_all_swept() {
     }
 }
 
-/// The end of a sweep, and two insertions of 22 clocks.
+/// Draws the end of a sweep, and two insertions of 22 clocks.
 #[test]
 fn latencies_show_the_wave_of_their_header() {
     let mut block = Stepper::new("latencies", Latencies::default(), 1);
@@ -106,7 +107,7 @@ fn latencies_show_the_wave_of_their_header() {
         block.settle();
         if clock >= first {
             let sweeps = block.is("sweeps");
-            // The memory was swept or read for a count in the clock before.
+            // The value is open where the memory was swept or read for a count in the clock before.
             let is_open = clock <= first + 3 || [first + 8, first + 11].contains(&clock);
             let value = if is_open { Cell::Open } else { Cell::Number(block.get("value")) };
             wave.take(&[

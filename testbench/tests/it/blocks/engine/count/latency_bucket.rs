@@ -1,5 +1,5 @@
-//! `LatencyBucket`: Rust, Verilog and a table of counts agree clock by clock; the bucket of a latency is the
-//! protocol's.
+//! Runs `LatencyBucket` in Rust and in Verilog beside a table of counts: all three must agree in every clock. The
+//! bucket of a latency is the protocol's.
 
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::engine::LatencyBucket;

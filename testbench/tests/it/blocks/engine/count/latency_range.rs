@@ -1,4 +1,4 @@
-//! `LatencyRange`: Rust, Verilog and a table of 64-bit sums agree clock by clock.
+//! Runs `LatencyRange` in Rust and in Verilog beside a table of 64-bit sums: all three must agree in every clock.
 
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::engine::LatencyRange;
@@ -11,11 +11,11 @@ named_ports!(LatencyRange, [zero, commit_ends, now, since], [latency_comes, late
 #[derive(Clone, Copy, Default)]
 pub struct LatencyReference {
     pub now: u64,
-    /// The latency of the last edge's commit.
+    /// Latency of the commit at the last edge.
     pub came: Option<u64>,
-    /// The one before, which has been compared.
+    /// The latency before that one, which has been compared.
     pub compared: Option<u64>,
-    /// Least and most of those before.
+    /// Least and largest of the latencies before these.
     pub range: Option<(u64, u64)>,
 }
 
@@ -35,7 +35,7 @@ impl LatencyReference {
     }
 }
 
-/// At the ends of the clock count, which the event counters do not reach in a test.
+/// Runs the block near the end of its clock count, which the event counters do not reach in a test.
 #[test]
 fn latency_range_lives_with_a_clock_that_wraps() {
     let mut random = SplitMix64::new(6);

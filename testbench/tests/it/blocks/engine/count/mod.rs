@@ -1,4 +1,4 @@
-//! The blocks of `hdl/src/engine/count`.
+//! Tests of the blocks in `hdl/src/engine/count`.
 
 mod counters;
 mod event_counter;

@@ -1,8 +1,8 @@
-//! The blocks of `hdl/src/engine/dispatch`.
+//! Tests of the blocks in `hdl/src/engine/dispatch`.
 
 mod context_flags;
+mod finished_points;
 mod next_point;
 mod plan_table;
-mod progress;
 mod starter;
 mod watchdog;

@@ -1,4 +1,4 @@
-//! `PlanTable`: Rust, Verilog and the rule by which points are dealt agree.
+//! Runs `PlanTable` in Rust and in Verilog beside the rule by which points are dealt: all three must agree.
 
 use crate::rig::stepper::bundles::Deal;
 use crate::rig::stepper::{named_ports, Stepper};
@@ -8,7 +8,7 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(PlanTable, [deal, pointer, is_planned, passed, write], [due, first_dealt, following], clock);
 
-/// One job after the other in one table, of which nothing is cleared.
+/// Runs one job after another in one table, which is never cleared.
 #[test]
 fn plan_table_knows_what_each_context_takes_next() {
     let mut random = SplitMix64::new(82);
@@ -26,14 +26,15 @@ fn plan_table_knows_what_each_context_takes_next() {
             block.set("write_valid", false);
             block.settle();
             block.expect("due", next | u64::from(is_seed) << 15);
-            // Some context takes its vertex while the pointer stands at another one, or at itself.
-            let owner = random.below(deal.contexts);
+            // A context takes its vertex while the pointer stands at another context, or at this one.
+            let context = random.below(deal.contexts);
             let takes = step >= deal.contexts && random.below(2) == 0;
             if takes {
-                let (taken, first_dealt) = (rests[owner as usize].next().expect("one"), 3 * deal.contexts + owner);
-                let is_seed = deal.is_batch && taken == 3 * owner + 2;
-                let after = *rests[owner as usize].peek().expect("points have no end");
-                for (port, value) in [("passed_owner", owner), ("passed_id", taken), ("passed_dealt", first_dealt)] {
+                let (taken, first_dealt) = (rests[context as usize].next().expect("one"), 3 * deal.contexts + context);
+                let is_seed = deal.is_batch && taken == 3 * context + 2;
+                let after = *rests[context as usize].peek().expect("points have no end");
+                for (port, value) in [("passed_context", context), ("passed_id", taken), ("passed_dealt", first_dealt)]
+                {
                     block.set(port, value);
                 }
                 block.set("passed_is_seed", is_seed);
@@ -42,7 +43,7 @@ fn plan_table_knows_what_each_context_takes_next() {
                 block.expect("following_id", after);
                 block.set("write_id", after);
             }
-            block.set("write_owner", owner);
+            block.set("write_context", context);
             block.set("write_valid", takes);
             block.settle();
             block.edge();

@@ -1,4 +1,5 @@
-//! The waking of contexts in a closed loop: Rust, Verilog and a list of what each context has taken agree clock by clock.
+//! Starts contexts in a closed loop, in Rust and in Verilog beside a list of the vertices that each context has taken:
+//! all three must agree in every clock.
 
 use std::collections::VecDeque;
 
@@ -19,46 +20,46 @@ named_ports!(
 #[derive(Clone, Copy, Debug, Default)]
 struct Life {
     awake: bool,
-    keeps: bool,
+    will_retry: bool,
     busy: bool,
     began: bool,
     hint: Option<u64>,
     root: u64,
-    /// The vertex that it has taken last.
+    /// The vertex that the context took last.
     last: Option<u64>,
 }
 
-/// What the pointer has seen of the context it stood at.
+/// State of the context at which the pointer stood, as the pointer saw it.
 #[derive(Clone, Copy, Debug)]
 struct Sight {
     context: u64,
-    /// The vertex that it has taken last.
+    /// The vertex that the context took last.
     last: Option<u64>,
     vertex: u64,
 }
 
-/// A context that the pointer stood at two steps ago, and what has been decided about it.
+/// The context at which the pointer stood two steps ago, and the decision about it.
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
     sight: Sight,
     is_due: bool,
-    /// It tries its point again.
-    keeps: bool,
-    /// Where it would start.
-    u: u64,
-    is_alone: bool,
+    /// The context tries its point again.
+    will_retry: bool,
+    /// The record at which the context would start.
+    record: u64,
+    is_solo: bool,
 }
 
-/// What comes out in a clock.
+/// Outputs of a clock.
 #[derive(Clone, Copy, Debug, Default)]
 struct Seen {
     starts: bool,
     takes: Option<u64>,
-    owner: u64,
+    context: u64,
     waits: bool,
 }
 
-/// Inputs of a clock that no context decides.
+/// Inputs of a clock that do not come from a context.
 #[derive(Clone, Copy, Debug, Default)]
 struct Inputs {
     reset: bool,
@@ -66,17 +67,18 @@ struct Inputs {
     came: bool,
     seeded: bool,
     solo: bool,
-    /// Who wants to be alone, and who waits.
+    /// Value of `solo_context` and of `priority_context`.
     special: u64,
     solo_is_at_work: bool,
     all_rest: bool,
     is_urgent: bool,
-    /// A visit completes, and it may ask for others.
+    /// A visit completes, and may ask for others.
     is_done: bool,
     is_blocked: bool,
     deed: Option<(u64, Deed)>,
 }
 
+/// The starter among contexts that the test plays.
 struct Rig {
     block: Stepper<Starter>,
     contexts: u64,
@@ -110,7 +112,7 @@ impl Rig {
         rig
     }
 
-    /// After a clock with reset or clear: nothing has come, everyone sleeps.
+    /// Forgets everything after a clock with reset or clear: no point has come, and all contexts sleep.
     fn forget(&mut self) {
         self.arrived = 0;
         self.lives = vec![Life::default(); self.contexts as usize];
@@ -127,45 +129,45 @@ impl Rig {
         (0..).zip(&self.lives).fold(0, |set, (place, life)| set | u64::from(flag(life)) << place)
     }
 
-    /// Whether a context that the pointer has seen is due, and where it would start.
+    /// Decides whether a context that the pointer has seen is due, and where it would start.
     fn decide(&self, inputs: &Inputs, sight: Sight) -> Option<Candidate> {
         let life = self.lives.get(sight.context as usize)?;
         let works = if sight.context == 0 { inputs.seeded || !life.began } else { self.all_work };
-        let is_due = match life.keeps {
-            // Rounds of the pointer in which nobody tries again: three of four.
+        let is_due = match life.will_retry {
+            // In three of four rounds of the pointer no context tries again.
             true => {
                 let has_rested = (self.steps / self.contexts).is_multiple_of(4);
                 let may_try = !inputs.is_urgent || inputs.special == sight.context;
                 has_rested && may_try && !life.busy
             }
-            // In the first round of the pointer nobody starts.
+            // In the first round of the pointer no context starts.
             false => self.steps >= self.contexts && sight.vertex < self.arrived && works,
         };
-        // One that works alone may start just now.
+        // With one context only, that context may be starting in this clock.
         let starts_now = self.contexts == 1 && self.candidate.is_some_and(|candidate| candidate.is_due);
         Some(Candidate {
             sight,
             is_due: is_due && !life.awake && !starts_now && !inputs.solo,
-            keeps: life.keeps,
-            u: if life.keeps {
+            will_retry: life.will_retry,
+            record: if life.will_retry {
                 life.root
             } else {
                 life.hint.unwrap_or(if self.is_batch { 4 * sight.context } else { 0 })
             },
-            is_alone: inputs.special == sight.context,
+            is_solo: inputs.special == sight.context,
         })
     }
 
-    /// What must come out: the vertex that the candidate takes, if it takes a new one, and where it starts.
+    /// Expected start: the vertex that the candidate takes, if it takes a new one, and the record at which it starts.
     fn wants(&self, inputs: &Inputs) -> Option<(Option<u64>, u64)> {
         let candidate = self.candidate.filter(|candidate| candidate.is_due && !inputs.solo)?;
-        Some(((!candidate.keeps).then_some(candidate.sight.vertex), candidate.u))
+        Some(((!candidate.will_retry).then_some(candidate.sight.vertex), candidate.record))
     }
 
     fn drive(&mut self, inputs: &Inputs) {
         let (root, hint) = match inputs.deed {
-            Some((owner, Deed::Sleeps { root, .. })) => (Some((owner, root)), None),
-            Some((owner, Deed::IsFreed { hint })) => (None, Some((owner, hint))),
+            Some((context, Deed::Sleeps { root, .. })) => (Some((context, root)), None),
+            Some((context, Deed::IsFreed { hint })) => (None, Some((context, hint))),
             None => (None, None),
         };
         for (port, value) in [
@@ -187,28 +189,28 @@ impl Rig {
         self.block.set("deal", self.deal().bits());
         let (root, hint) = (root.unwrap_or((1, 0x7fff)), hint.unwrap_or((0, 0x7fff)));
         for (port, value) in [
-            ("solo_owner", inputs.special),
-            ("waiter", inputs.special),
+            ("solo_context", inputs.special),
+            ("priority_context", inputs.special),
             ("arrived", self.arrived),
             ("asleep", self.set(|life| !life.awake)),
-            ("keeping", self.set(|life| life.keeps)),
+            ("retrying", self.set(|life| life.will_retry)),
             ("busy", self.set(|life| life.busy)),
             ("began", self.set(|life| life.began)),
             ("hinted", self.set(|life| life.hint.is_some())),
-            ("outcome_owner", root.0),
+            ("outcome_context", root.0),
             ("root", root.1),
-            ("committed_job_owner", hint.0),
+            ("committed_job_context", hint.0),
             ("hint", hint.1),
         ] {
             self.block.set(port, value);
         }
     }
 
-    /// One clock.
+    /// Runs one clock of the block and of the lists.
     fn clock(&mut self, inputs: &Inputs) -> Seen {
         self.drive(inputs);
         let wanted = self.wants(inputs);
-        // A point that is stored takes the port that a new point needs.
+        // A point that is being stored takes the port that a new point needs.
         let lacks_port = wanted.is_some_and(|start| start.0.is_some() && inputs.came);
         let start = wanted.filter(|_| !inputs.is_blocked && !lacks_port);
         let mut seen = Seen { waits: wanted.is_some() && (inputs.is_done || lacks_port), ..Seen::default() };
@@ -217,30 +219,31 @@ impl Rig {
             self.block.expect("start_valid", start.is_some());
             self.block.expect("takes", start.is_some_and(|(vertex, _)| vertex.is_some()));
             if let Some(candidate) = self.candidate {
-                self.block.expect("start_owner", candidate.sight.context);
-                self.expect_alone(inputs, candidate);
+                self.block.expect("start_context", candidate.sight.context);
+                self.expect_solo(inputs, candidate);
             }
-            if let Some((vertex, u)) = start {
-                self.block.expect("start_u", u);
+            if let Some((vertex, record)) = start {
+                self.block.expect("start_record", record);
                 vertex.into_iter().for_each(|vertex| self.block.expect("start_id", vertex));
             }
             seen.starts = start.is_some();
             seen.takes = start.and_then(|(vertex, _)| vertex);
-            seen.owner = self.candidate.map_or(0, |candidate| candidate.sight.context);
+            seen.context = self.candidate.map_or(0, |candidate| candidate.sight.context);
         }
         self.block.edge();
         self.advance(inputs, seen);
         seen
     }
 
-    /// Who wants to be alone starts when the pointer has seen it, with the point that it has, where its attempt was.
-    fn expect_alone(&self, inputs: &Inputs, candidate: Candidate) {
+    /// Checks the start of a solo insertion: the context starts once the pointer has seen it, with the point that it
+    /// has, at the record of its attempt.
+    fn expect_solo(&self, inputs: &Inputs, candidate: Candidate) {
         let may_start = inputs.solo && inputs.all_rest && !inputs.solo_is_at_work;
-        let starts = may_start && candidate.is_alone;
+        let starts = may_start && candidate.is_solo;
         self.block.expect("solo_start_valid", starts);
-        if let Some(last) = candidate.sight.last.filter(|_| starts && candidate.keeps) {
-            self.block.expect("solo_start_p", last);
-            self.block.expect("start_u", candidate.u);
+        if let Some(last) = candidate.sight.last.filter(|_| starts && candidate.will_retry) {
+            self.block.expect("solo_start_vertex", last);
+            self.block.expect("start_record", candidate.record);
         }
     }
 
@@ -262,16 +265,16 @@ impl Rig {
             self.steps += 1;
         }
         if seen.starts {
-            let life = &mut self.lives[seen.owner as usize];
+            let life = &mut self.lives[seen.context as usize];
             life.last = seen.takes.or(life.last);
-            (life.awake, life.keeps, life.began) = (true, false, true);
-            self.all_work |= seen.takes.is_some_and(|vertex| seen.owner == 0 && vertex >= u64::from(FIRST_ROUND));
+            (life.awake, life.will_retry, life.began) = (true, false, true);
+            self.all_work |= seen.takes.is_some_and(|vertex| seen.context == 0 && vertex >= u64::from(FIRST_ROUND));
         }
-        if let Some((owner, deed)) = inputs.deed {
-            let life = &mut self.lives[owner as usize];
+        if let Some((context, deed)) = inputs.deed {
+            let life = &mut self.lives[context as usize];
             match deed {
-                Deed::Sleeps { root, keeps, busy } => {
-                    (life.awake, life.root, life.keeps) = (false, root, keeps);
+                Deed::Sleeps { root, will_retry, busy } => {
+                    (life.awake, life.root, life.will_retry) = (false, root, will_retry);
                     life.busy |= busy;
                 }
                 Deed::IsFreed { hint } => (life.hint, life.busy) = (Some(hint), false),
@@ -284,7 +287,7 @@ impl Rig {
     }
 }
 
-/// What a job has seen.
+/// Events of a job.
 #[derive(Default)]
 struct Tally {
     taken: Vec<(u64, u64)>,
@@ -293,14 +296,14 @@ struct Tally {
     stops: VecDeque<u64>,
 }
 
-/// Lets points come and contexts live until all points are taken and everyone sleeps.
+/// Lets points come and contexts work until all points are taken and all contexts sleep.
 fn job(rig: &mut Rig, random: &mut SplitMix64, points: u64, tally: &mut Tally) {
     let (mut came, mut solo, mut is_urgent, mut special) = (false, false, false, 0);
     for _ in 0..200_000 {
         // Two points of each triple are taken with the third.
         let triples = if rig.is_batch { rig.contexts } else { 1 };
         let all_are_taken = tally.taken.len() as u64 + 2 * triples == points;
-        if all_are_taken && rig.lives.iter().all(|life| !life.awake && !life.keeps && !life.busy) {
+        if all_are_taken && rig.lives.iter().all(|life| !life.awake && !life.will_retry && !life.busy) {
             return;
         }
         let mut one_in = |times: u64| random.below(times) == 0;
@@ -324,11 +327,11 @@ fn job(rig: &mut Rig, random: &mut SplitMix64, points: u64, tally: &mut Tally) {
             deed,
             ..Inputs::default()
         });
-        tally.taken.extend(seen.takes.map(|vertex| (seen.owner, vertex)));
+        tally.taken.extend(seen.takes.map(|vertex| (seen.context, vertex)));
         tally.again += usize::from(seen.starts && seen.takes.is_none());
         tally.waits += usize::from(seen.waits);
         if !seen.waits {
-            tally.stops.push_back(seen.owner);
+            tally.stops.push_back(seen.context);
         }
         came = comes;
         rig.arrived += u64::from(comes);
@@ -336,33 +339,33 @@ fn job(rig: &mut Rig, random: &mut SplitMix64, points: u64, tally: &mut Tally) {
     panic!("of {points} points {} are taken: {:?}", tally.taken.len(), rig.lives);
 }
 
-/// What becomes of a context at an edge.
+/// Fate of a context at an edge.
 #[derive(Clone, Copy, Debug)]
 enum Deed {
-    /// It falls asleep: to try again from this root or not, with a commit or release due or not.
-    Sleeps { root: u64, keeps: bool, busy: bool },
-    /// Its commit ends and leaves this hint, and its locks are released.
+    /// The context falls asleep, to try again from this root or not, with a commit or release due or not.
+    Sleeps { root: u64, will_retry: bool, busy: bool },
+    /// The commit of the context ends and leaves this hint, and its locks are released.
     IsFreed { hint: u64 },
 }
 
-/// Some context falls asleep, or is freed.
+/// Lets some context fall asleep, or frees it.
 fn deed(rig: &Rig, random: &mut SplitMix64) -> Option<(u64, Deed)> {
-    let owner = random.below(rig.contexts);
+    let context = random.below(rig.contexts);
     let [root, hint] = [(); 2].map(|()| random.below(1 << 15));
-    let [ends, keeps, busy, is_freed] = [4, 3, 3, 6].map(|times| random.below(times) == 0);
-    let life = &rig.lives[owner as usize];
-    let sleeps = (life.awake && ends).then_some(Deed::Sleeps { root, keeps, busy });
+    let [ends, will_retry, busy, is_freed] = [4, 3, 3, 6].map(|times| random.below(times) == 0);
+    let life = &rig.lives[context as usize];
+    let sleeps = (life.awake && ends).then_some(Deed::Sleeps { root, will_retry, busy });
     let frees = (!life.awake && life.busy && is_freed).then_some(Deed::IsFreed { hint });
-    sleeps.or(frees).map(|deed| (owner, deed))
+    sleeps.or(frees).map(|deed| (context, deed))
 }
 
-/// Jobs of so many contexts and points each, one after the other; batches or not.
+/// Runs jobs one after another, each with so many contexts and points, as batches or not.
 fn jobs(name: &'static str, config: Config, jobs: &[(u64, u64)], is_batch: bool) {
     let mut random = SplitMix64::new(80);
     let (mut again, mut waits) = (0, 0);
     let mut rig = Rig::new(name, config);
     for (contexts, points) in jobs.iter().copied() {
-        // All contexts sleep when the mesh is forgotten.
+        // All contexts sleep when the mesh is cleared.
         (rig.contexts, rig.is_batch) = (contexts, is_batch);
         rig.lives = vec![Life::default(); contexts as usize];
         rig.clock(&Inputs { clears: true, came: true, ..Inputs::default() });
@@ -370,17 +373,17 @@ fn jobs(name: &'static str, config: Config, jobs: &[(u64, u64)], is_batch: bool)
         job(&mut rig, &mut random, points, &mut tally);
         let mut vertices: Vec<u64> = tally.taken.iter().map(|(_, vertex)| *vertex).collect();
         for context in 0..contexts {
-            let own = tally.taken.iter().filter(|(owner, _)| *owner == context).map(|(_, vertex)| *vertex);
+            let own = tally.taken.iter().filter(|(taker, _)| *taker == context).map(|(_, vertex)| *vertex);
             let expected = rig.deal().dealt(context).take_while(|vertex| *vertex < points);
             assert!(own.eq(expected), "{contexts} contexts, context {context}");
         }
-        // Until vertex 16 is taken, context 0 is the only one.
+        // Until vertex 16 is taken, context 0 is the only one that works.
         let first = tally.taken.len().min(FIRST_ROUND as usize - 1);
-        assert!(is_batch || tally.taken[..first].iter().all(|(owner, _)| *owner == 0));
+        assert!(is_batch || tally.taken[..first].iter().all(|(context, _)| *context == 0));
         vertices.sort_unstable();
         let triples = if is_batch { contexts } else { 1 };
         assert!(vertices.into_iter().eq((0..points).filter(|id| *id >= 3 * triples || id % 3 == 2)));
-        // The pointer leaves nobody out; it is two contexts ahead.
+        // The pointer skips no context; it is two contexts ahead.
         let stops: Vec<u64> = tally.stops.into_iter().skip(2).collect();
         assert!(stops.windows(2).all(|two| two[1] == (two[0] + 1) % contexts));
         (again, waits) = (again + tally.again, waits + tally.waits);
@@ -428,14 +431,14 @@ fn starter_shows_the_wave_of_its_header() {
             came: clock == 1,
             is_done: matches!(clock, 4 | 5),
             is_blocked: clock == 4,
-            deed: (clock == 7).then_some((0, Deed::Sleeps { root: 9, keeps: true, busy: false })),
+            deed: (clock == 7).then_some((0, Deed::Sleeps { root: 9, will_retry: true, busy: false })),
             ..Inputs::default()
         };
         if clock == 1 {
             rig.arrived = 3;
         }
         let asleep = rig.set(|life| !life.awake);
-        let keeping = rig.set(|life| life.keeps);
+        let retrying = rig.set(|life| life.will_retry);
         let arrived = rig.arrived;
         let candidate = rig.candidate;
         let wanted = rig.wants(&inputs);
@@ -447,12 +450,12 @@ fn starter_shows_the_wave_of_its_header() {
             ("is_done", Cell::Bit(inputs.is_done)),
             ("is_blocked", Cell::Bit(inputs.is_blocked)),
             ("asleep", number(Some(asleep))),
-            ("keeping", number(Some(keeping))),
-            ("owner", number(candidate.map(|candidate| candidate.sight.context))),
+            ("retrying", number(Some(retrying))),
+            ("context", number(candidate.map(|candidate| candidate.sight.context))),
             ("starts", Cell::Bit(seen.starts)),
             ("takes", Cell::Bit(seen.takes.is_some())),
             ("taken_id", number(seen.takes)),
-            ("u", number(wanted.filter(|_| seen.starts).map(|(_, u)| u))),
+            ("record", number(wanted.filter(|_| seen.starts).map(|(_, record)| record))),
         ]);
     }
     wave.assert_drawn_in("starter");

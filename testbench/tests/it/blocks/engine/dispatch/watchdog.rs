@@ -1,4 +1,4 @@
-//! `Watchdog`: Rust, Verilog and lists of what must happen agree clock by clock.
+//! Runs `Watchdog` in Rust and in Verilog beside lists of what must happen: all three must agree in every clock.
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use incircle_hdl::engine::Watchdog;
@@ -25,7 +25,7 @@ fn watchdog_loses_its_patience_and_not_before() {
                 block.expect("stuck", stuck);
             }
             block.edge();
-            // Each is known a clock later: that the core rests, that it has been too long, that it is stuck.
+            // Three facts are known a clock later each: the core rests, it has taken too long, it is stuck.
             times += usize::from(!stuck && is_over);
             stuck = !reset && (stuck || is_over);
             is_over = !reset && clock - idle_since == given;

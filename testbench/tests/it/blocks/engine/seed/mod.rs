@@ -1,4 +1,4 @@
-//! The blocks of `hdl/src/engine/seed`.
+//! Tests of the blocks in `hdl/src/engine/seed`.
 
 mod seed_writes;
 mod seeder;

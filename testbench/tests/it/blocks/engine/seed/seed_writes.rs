@@ -1,4 +1,4 @@
-//! `SeedWrites`: Rust, Verilog and plain arrays agree clock by clock.
+//! Runs `SeedWrites` in Rust and in Verilog beside plain arrays: all three must agree in every clock.
 
 use crate::rig::ids::LAST_ID;
 use crate::rig::stepper::bundles::record_write;

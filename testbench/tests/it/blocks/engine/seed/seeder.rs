@@ -1,4 +1,4 @@
-//! `Seeder`: Rust, Verilog and lists of what must happen agree clock by clock.
+//! Runs `Seeder` in Rust and in Verilog beside lists of what must happen: all three must agree in every clock.
 
 use std::collections::VecDeque;
 
@@ -21,13 +21,13 @@ const INFINITE: u64 = 0x7fff;
 /// The first triangles as writes that are still to be made.
 #[derive(Default)]
 struct SeedReference {
-    /// Jobs of a batch; 0: there is none.
+    /// Number of jobs of a batch, or 0 without a batch.
     jobs: u64,
     /// The job whose triangle is due.
     job: u64,
-    /// Its three points had come a clock ago.
+    /// The three points of that job had come a clock ago.
     had_triple: bool,
-    /// Writes to come.
+    /// Writes that are still to come.
     due: VecDeque<u128>,
     /// The write that the clock shows.
     made: Option<u128>,
@@ -35,7 +35,7 @@ struct SeedReference {
     collinear: bool,
 }
 
-/// Inputs of a clock of the seeder.
+/// Inputs of the seeder in a clock.
 #[derive(Clone, Copy, Default)]
 struct SeedInputs {
     reset: bool,
@@ -90,7 +90,7 @@ impl SeedReference {
     }
 }
 
-/// The first triangle of a job and its ghosts.
+/// Writes of the first triangle of a job and of its ghost triangles.
 fn first_records(job: u64, turns_left: bool) -> VecDeque<u128> {
     let a = 3 * job;
     let (b, c) = if turns_left { (a + 1, a + 2) } else { (a + 2, a + 1) };
@@ -135,7 +135,7 @@ fn set_seed_inputs(block: &mut Stepper<Seeder>, reference: &SeedReference, input
     block.set("reset", inputs.reset);
     block.set("clears", inputs.clears);
     block.set("came", inputs.came.is_some());
-    // Without `came` it is anything.
+    // Without `came` the input is arbitrary.
     block.set("arrival_id", inputs.came.unwrap_or(3 * reference.job));
     block.set("arrived", inputs.arrived);
     block.set("looks", inputs.looks);

@@ -1,4 +1,4 @@
-//! The blocks of `hdl/src/engine/solo`.
+//! Tests of the blocks in `hdl/src/engine/solo`.
 
 #[expect(clippy::module_inception, reason = "the room carries the name of its main block")]
 mod solo;

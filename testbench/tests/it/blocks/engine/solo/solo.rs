@@ -1,5 +1,6 @@
-//! Insertion alone: Rust, Verilog and recursive flips in a mesh of the test's own agree in every write, its order and its clock.
-//! The visits are answered from that mesh after a random delay; what comes out is checked to be Delaunay by exact arithmetic.
+//! Inserts points solo in Rust and in Verilog beside recursive flips in a mesh of the test: all three must agree in
+//! every write, its order and its clock. That mesh answers the visits after a random delay, and exact arithmetic
+//! checks that the result is Delaunay.
 
 use crate::rig::flip_mesh::{Mesh, Point, Record, Written, INFINITE};
 use crate::rig::stepper::bundles::{link_write, record_write, turned, Finding, LockFinding, Visit};
@@ -7,9 +8,9 @@ use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use incircle_hdl::engine::Solo;
 use incircle_testkit::SplitMix64;
 
-named_ports!(Solo, [reset, start, records, visit], [push, write, progress], clock);
+named_ports!(Solo, [reset, start, records, completion], [push, write, progress], clock);
 
-/// A write as it stands on the port.
+/// A write as the port carries it.
 fn packed(written: Written) -> u128 {
     match written {
         Written::Record(id, Record { v, n }) => record_write(id, v, n),
@@ -23,35 +24,36 @@ fn packed_record(record: &Record, slot: usize) -> u128 {
 
 /// An insertion to be made.
 struct Job {
-    owner: u64,
+    context: u64,
     point: Point,
-    /// The triangles that the walk visits; the last one holds the point.
+    /// Triangles that the walk visits; the last one holds the point.
     path: Vec<u64>,
     is_duplicate: bool,
     /// Writes that must be seen.
     expected: Vec<u128>,
 }
 
+/// The block, and the visit that it waits for.
 struct Rig {
     block: Stepper<Solo>,
     random: SplitMix64,
     /// The visit that is out, and the clocks until it completes.
     visit: Option<(Visit, usize)>,
-    /// Clocks of the next visits: the shortest, and how much longer at most.
+    /// Latency of the next visits in clocks: the least, and how much more there may be.
     delay: (usize, u64),
 }
 
-/// What a run showed.
+/// Events of a run.
 #[derive(Debug, Default)]
 struct Seen {
     writes: Vec<u128>,
     tests: usize,
     flips: usize,
     visits: usize,
-    /// Those that have completed.
+    /// Number of visits that have completed.
     completed: usize,
     clocks: usize,
-    /// It was told to start a clock ago.
+    /// The block was told to start a clock ago.
     has_started: bool,
     is_at_work: bool,
     has_ended: bool,
@@ -88,16 +90,16 @@ impl Rig {
     /// Answers the visit that is due, from the mesh as the writes have left it.
     fn set_completion(&mut self, mesh: &Mesh, job: &Job, seen: &mut Seen) {
         let due = self.visit.filter(|(_, clocks)| *clocks == 0);
-        self.block.set("visit_done", due.is_some());
+        self.block.set("completion_done", due.is_some());
         let mut finding = self.noise();
         let Some((visit, _)) = due else {
             self.block.set("verdict", finding.verdict());
-            self.block.set("token", Visit::look(self.random.below(1 << 15)).token());
+            self.block.set("visit", Visit::look(self.random.below(1 << 15)).packed());
             self.block.set("turned", u128::from(self.random.next_u64()));
             return;
         };
-        let stored = mesh.records[visit.u as usize];
-        let slot = if visit.rotates { stored.slot_to(visit.f) } else { 0 };
+        let stored = mesh.records[visit.record as usize];
+        let slot = if visit.rotates { stored.slot_to(visit.cavity_record) } else { 0 };
         let record = stored.turned(slot);
         finding.conflict = mesh.conflicts(record.v, job.point);
         let rest = job.path.get(seen.completed..).unwrap_or_default();
@@ -107,25 +109,25 @@ impl Rig {
             [] => {}
         }
         self.block.set("verdict", finding.verdict());
-        self.block.set("token", visit.token());
+        self.block.set("visit", visit.packed());
         self.block.set("turned", packed_record(&record, slot));
         self.visit = None;
         seen.completed += 1;
     }
 
-    /// The rest of the inputs: what is taken at `starts` is noise at all other times.
+    /// Sets the other inputs: those that are taken at `starts` are noise at all other times.
     fn set_job(&mut self, starts: bool, job: &Job, mesh: &Mesh) {
         self.block.set("start_valid", starts);
-        let [owner, p, start] = match starts {
-            true => [job.owner, mesh.points.len() as u64 - 1, job.path[0]],
+        let [context, vertex, start] = match starts {
+            true => [job.context, mesh.points.len() as u64 - 1, job.path[0]],
             false => [self.random.below(32), self.random.below(1 << 15), self.random.below(1 << 15)],
         };
-        self.block.set("start_owner", owner);
-        self.block.set("start_p", p);
-        self.block.set("start_u", start);
+        self.block.set("start_context", context);
+        self.block.set("start_vertex", vertex);
+        self.block.set("start_record", start);
     }
 
-    /// One clock; `mesh` takes the write that is seen.
+    /// Runs one clock; `mesh` takes the write that is seen.
     fn clock(&mut self, starts: bool, mesh: &mut Mesh, job: &Job, seen: &mut Seen) {
         self.set_job(starts, job, mesh);
         self.set_completion(mesh, job, seen);
@@ -163,13 +165,13 @@ impl Rig {
         let bundle = self.block.get("bundle");
         let visit = Visit::of_bundle(bundle);
         self.block.expect("bundle", visit.bundle(1, 0, 0, 0));
-        assert_eq!((visit.owner, visit.locks), (job.owner, false));
+        assert_eq!((visit.context, visit.locks), (job.context, false));
         if let Some(place) = job.path.get(seen.visits) {
-            assert_eq!(visit, Visit { owner: job.owner, ..Visit::look(*place) });
+            assert_eq!(visit, Visit { context: job.context, ..Visit::look(*place) });
         }
     }
 
-    /// Inserts the last point of the mesh, which its records do not know yet. Stops after that many clocks.
+    /// Inserts the last point of the mesh, which the records do not know yet. Stops after `most` clocks.
     fn insert(&mut self, mesh: &mut Mesh, job: &Job, most: usize) -> Seen {
         self.block.set("records", mesh.records.len() as u64);
         let mut seen = Seen::default();
@@ -177,7 +179,7 @@ impl Rig {
             self.clock(seen.clocks == 0, mesh, job, &mut seen);
         }
         if seen.has_ended {
-            // The last write is seen a clock later, and nothing after it.
+            // The last write is seen a clock later, and nothing comes after it.
             self.block.set("records", self.random.below(1 << 15));
             let clocks = seen.clocks;
             for _ in 0..2 {
@@ -190,7 +192,7 @@ impl Rig {
     }
 }
 
-/// The write that these bits stand for.
+/// The write that these bits carry.
 fn unpacked(write: u128) -> Written {
     let field = |place: u32| (write >> place) as u64 & 0x7fff;
     let id = field(1);
@@ -202,7 +204,7 @@ fn unpacked(write: u128) -> Written {
     Written::Link { id, slot, value: field(65) }
 }
 
-/// Points of a box of this side, the first three a triangle that turns left.
+/// Points of a box of this side; the first three form a triangle that turns left.
 fn points(random: &mut SplitMix64, side: u64, count: usize) -> Vec<Point> {
     let side = side as i64;
     let mut points = vec![(0, 0), (side - 1, 0), (side / 2, side - 1)];
@@ -216,7 +218,7 @@ fn points(random: &mut SplitMix64, side: u64, count: usize) -> Vec<Point> {
     points
 }
 
-/// What the insertions of a run came to.
+/// Sums over the insertions of a run.
 #[derive(Debug, Default)]
 struct Sums {
     insertions: usize,
@@ -234,11 +236,11 @@ fn path(random: &mut SplitMix64, mesh: &Mesh, point: Point) -> Vec<u64> {
     path
 }
 
-/// Finds a point to be a duplicate.
+/// Lets the block find a point to be a duplicate.
 fn find_duplicate(rig: &mut Rig, mesh: &Mesh, sums: &mut Sums) {
     let point = mesh.points[rig.random.below(mesh.points.len() as u64) as usize];
     let path = path(&mut rig.random, mesh, point);
-    let job = Job { owner: rig.random.below(24), point, path, is_duplicate: true, expected: vec![] };
+    let job = Job { context: rig.random.below(24), point, path, is_duplicate: true, expected: vec![] };
     let seen = rig.insert(&mut mesh.clone(), &job, 10_000);
     assert_eq!((seen.visits, seen.tests, seen.flips), (job.path.len(), 0, 0));
     sums.duplicates += 1;
@@ -246,7 +248,7 @@ fn find_duplicate(rig: &mut Rig, mesh: &Mesh, sums: &mut Sums) {
     sums.clocks += seen.clocks;
 }
 
-/// Inserts points one by one, with duplicates and cut-off attempts between them.
+/// Inserts points one by one, with duplicates and attempts that a reset cuts off between them.
 fn grow(rig: &mut Rig, points: &[Point], resets: bool) -> Sums {
     let mut mesh = Mesh::of([points[0], points[1], points[2]]);
     let mut sums = Sums::default();
@@ -258,7 +260,7 @@ fn grow(rig: &mut Rig, points: &[Point], resets: bool) -> Sums {
         let mut reference = mesh.clone();
         let deeds = reference.insert(*point, path[path.len() - 1]);
         let expected = deeds.writes.iter().map(|write| packed(*write)).collect();
-        let job = Job { owner: rig.random.below(24), point: *point, path, is_duplicate: false, expected };
+        let job = Job { context: rig.random.below(24), point: *point, path, is_duplicate: false, expected };
         mesh.points.push(*point);
         if resets && rig.random.below(4) == 0 {
             let most = rig.random.below(80) as usize;
@@ -306,7 +308,7 @@ fn solo_takes_the_clocks_its_header_names() {
     assert_eq!(sums.clocks, visits * (delay + 2) + own, "{sums:?}");
 }
 
-/// Visits of two clocks: a walk of two triangles, the split, and the first mend.
+/// Visits take two clocks here: a walk of two triangles, the split, and the first test of an outer edge.
 #[test]
 fn solo_shows_the_wave_of_its_header() {
     let mut rig = Rig::new((2, 0));
@@ -314,7 +316,7 @@ fn solo_shows_the_wave_of_its_header() {
     let point = (1, 1);
     let deeds = mesh.clone().insert(point, 0);
     let expected = deeds.writes.iter().map(|write| packed(*write)).collect();
-    let job = Job { owner: 3, point, path: vec![2, 0], is_duplicate: false, expected };
+    let job = Job { context: 3, point, path: vec![2, 0], is_duplicate: false, expected };
     mesh.points.push(point);
     rig.block.set("records", mesh.records.len() as u64);
     let (mut seen, mut wave) = (Seen::default(), Wave::default());
@@ -322,7 +324,7 @@ fn solo_shows_the_wave_of_its_header() {
         let (visits, completed, writes) = (seen.visits, seen.completed, seen.writes.len());
         let is_at_work = seen.is_at_work;
         rig.clock(clock == 1, &mut mesh, &job, &mut seen);
-        let visit = rig.visit.filter(|_| seen.visits > visits).map(|(visit, _)| visit.u);
+        let visit = rig.visit.filter(|_| seen.visits > visits).map(|(visit, _)| visit.record);
         let number = |number: Option<u64>| number.map_or(Cell::Open, |number| Cell::Number(number.into()));
         let done = seen.completed > completed;
         let written = seen.writes.get(writes).map(|write| (write >> 1) as u64 & 0x7fff);
@@ -330,7 +332,7 @@ fn solo_shows_the_wave_of_its_header() {
             ("starts", Cell::Bit(clock == 1)),
             ("is_at_work", Cell::Bit(is_at_work)),
             ("push", Cell::Bit(visit.is_some())),
-            ("bundle.u", number(visit)),
+            ("bundle.record", number(visit)),
             ("done", Cell::Bit(done)),
             ("located", if done && completed < 2 { Cell::Bit(completed == 1) } else { Cell::Open }),
             ("write.valid", Cell::Bit(written.is_some())),

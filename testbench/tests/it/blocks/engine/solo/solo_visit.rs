@@ -1,11 +1,11 @@
-//! `SoloVisit`: Rust, Verilog and a statement of the rule agree over random inputs.
+//! Runs `SoloVisit` in Rust and in Verilog beside a statement of the rule: all three must agree over random inputs.
 
 use crate::rig::stepper::bundles::{flip, id, turned, LockFinding, Visit};
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::engine::SoloVisit;
 use incircle_testkit::SplitMix64;
 
-named_ports!(SoloVisit, [owner, phase, is_second, root_id, root, triangle], [bundle]);
+named_ports!(SoloVisit, [context_id, phase, is_second, root_id, root, triangle], [bundle]);
 
 const ROUNDS: usize = 4000;
 
@@ -16,8 +16,8 @@ fn solo_visit_looks_where_each_state_must() {
     for _ in 0..ROUNDS {
         let [root_id, star, outer, back, v, n0, n1, n2] = [(); 8].map(|()| id(&mut random));
         let act = random.below(4);
-        let (owner, is_second) = (random.below(24), flip(&mut random));
-        block.set("owner", owner);
+        let (context, is_second) = (random.below(24), flip(&mut random));
+        block.set("context_id", context);
         block.set("is_locate", act == 3);
         block.set("is_mend", act == 0);
         block.set("is_fetch", act == 1);
@@ -27,7 +27,7 @@ fn solo_visit_looks_where_each_state_must() {
         for (port, value) in [("root_id", root_id), ("id", star), ("outer", outer), ("back", back)] {
             block.set(port, value);
         }
-        let from = |f, u| Visit { rotates: true, f, ..Visit::look(u) };
+        let from = |cavity_record, record| Visit { rotates: true, cavity_record, ..Visit::look(record) };
         let visit = match act {
             0 => from(root_id, if is_second { n2 } else { n1 }),
             1 => Visit::look(star),
@@ -35,6 +35,6 @@ fn solo_visit_looks_where_each_state_must() {
             _ => Visit::look(root_id),
         };
         block.settle();
-        block.expect("bundle", Visit { owner, ..visit }.bundle(1, 0, 0, 0));
+        block.expect("bundle", Visit { context, ..visit }.bundle(1, 0, 0, 0));
     }
 }

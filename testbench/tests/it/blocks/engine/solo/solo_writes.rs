@@ -1,18 +1,22 @@
-//! `SoloWrites`: Rust, Verilog and a statement of what each state writes agree.
+//! Runs `SoloWrites` in Rust and in Verilog beside a statement of what each state writes: all three must agree.
 
 use crate::rig::stepper::bundles::{link_write, record_write, turned, LockFinding};
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::engine::SoloWrites;
 use incircle_testkit::SplitMix64;
 
-named_ports!(SoloWrites, [turn, is_test, p, second, third, root_id, root, triangle, beyond, visited, slot], [write]);
+named_ports!(
+    SoloWrites,
+    [turn, is_test, vertex, second, third, root_id, root, triangle, beyond, visited, slot],
+    [write]
+);
 
-/// A finding that no write may depend on.
+/// A finding at a lock on which no write may depend.
 const LOCKED: LockFinding = LockFinding { took: true, foreign: true, again: true };
 
 /// Inputs of `SoloWrites` that are ids.
 const IDS: [&str; 13] = [
-    "p",
+    "vertex",
     "second",
     "third",
     "root_id",
@@ -33,7 +37,8 @@ fn solo_writes_what_each_state_asks_for() {
     let mut block = Stepper::new("solo_writes", SoloWrites::default(), 1);
     for _ in 0..4000 {
         let ids = IDS.map(|_| random.below((1 << 15) - 1));
-        let [p, second, third, root_id, id, a, b, outer, after, preceding, apex, apex_after_a, apex_before_b] = ids;
+        let [vertex, second, third, root_id, id, a, b, outer, after, preceding, apex, apex_after_a, apex_before_b] =
+            ids;
         for (port, value) in IDS.into_iter().zip(ids) {
             block.set(port, value);
         }
@@ -60,13 +65,13 @@ fn solo_writes_what_each_state_asks_for() {
         block.expect(
             "write",
             match (act, step) {
-                (0, 0) => record_write(root_id, [p, v1, v2], [n0, second, third]),
-                (0, 1) => record_write(second, [p, v2, v0], [n1, third, root_id]),
-                (0, _) => record_write(third, [p, v0, v1], [n2, root_id, second]),
+                (0, 0) => record_write(root_id, [vertex, v1, v2], [n0, second, third]),
+                (0, 1) => record_write(second, [vertex, v2, v0], [n1, third, root_id]),
+                (0, _) => record_write(third, [vertex, v0, v1], [n2, root_id, second]),
                 (1, _) => link_write(visited, slot, if step == 0 { second } else { third }),
                 (2, _) => link_write(visited, slot, id),
-                (_, 0) => record_write(id, [p, a, apex], [apex_after_a, outer, preceding]),
-                (_, 1) => record_write(outer, [p, apex, b], [apex_before_b, after, id]),
+                (_, 0) => record_write(id, [vertex, a, apex], [apex_after_a, outer, preceding]),
+                (_, 1) => record_write(outer, [vertex, apex, b], [apex_before_b, after, id]),
                 _ => link_write(after, 2, outer),
             },
         );

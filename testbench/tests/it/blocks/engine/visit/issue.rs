@@ -1,19 +1,19 @@
-//! `Issue`: Rust, Verilog and plain arithmetic agree, clock by clock.
+//! Runs `Issue` in Rust and in Verilog beside plain arithmetic: all three must agree in every clock.
 
 use std::cell::RefCell;
 use std::collections::VecDeque;
 
 use crate::rig::drawing::{draw, When};
-use crate::rig::stepper::bundles::{pack, random_fields, ring_bundle, unpack, BUNDLE, TOKEN};
+use crate::rig::stepper::bundles::{pack, random_fields, ring_bundle, unpack, BUNDLE, VISIT};
 use crate::rig::stepper::{named_ports, Expected, Stepper};
 use incircle_hdl::engine::Issue;
 use incircle_testkit::SplitMix64;
 
-named_ports!([] Issue, [reset, push, read], [token_valid, token, vertices_id, links_id, read_valid], clock);
+named_ports!([] Issue, [reset, push, read], [visit_valid, visit, vertices_id, links_id, read_valid], clock);
 
 const CYCLES: usize = 6_000;
 
-/// Visits waiting, each with a mark on the last of its bundle, and the issue register.
+/// Visits that wait, each with a mark on the last of its bundle, and the issue register.
 #[derive(Default)]
 struct Queue {
     waiting: VecDeque<(u128, bool)>,
@@ -28,13 +28,13 @@ impl Queue {
     }
 
     fn push(&mut self, bundle: u128) {
-        let [is_pair, is_triple, owner, rotates, locks, x, after, f_entry, f, u, after2, u2, u3] =
-            unpack(BUNDLE, bundle);
-        let visits = [(x, after, u), (after, after2, u2), (after2, 0, u3)];
+        let [is_pair, is_triple, context, rotates, locks, entry, after, ..] = unpack(BUNDLE, bundle);
+        let [.., cavity_entry, cavity_record, record, after2, record2, record3] = unpack(BUNDLE, bundle);
+        let visits = [(entry, after, record), (after, after2, record2), (after2, 0, record3)];
         let last = (is_pair + is_triple) as usize;
-        for (place, (x, after, u)) in visits.into_iter().enumerate().take(last + 1) {
-            let token = pack(TOKEN, [owner, rotates, locks, x, after, f_entry, f, u]);
-            self.waiting.push_back((token, place == last));
+        for (place, (entry, after, record)) in visits.into_iter().enumerate().take(last + 1) {
+            let visit = pack(VISIT, [context, rotates, locks, entry, after, cavity_entry, cavity_record, record]);
+            self.waiting.push_back((visit, place == last));
         }
         self.fullest = self.fullest.max(self.bundles());
     }
@@ -46,7 +46,7 @@ fn issue_makes_one_visit_a_clock_in_order() {
     let queue = RefCell::new((Queue::default(), SplitMix64::new(31)));
     let stimuli = (0..CYCLES).map(|cycle| {
         let (queue, numbers) = &mut *queue.borrow_mut();
-        // In turn: floods, drops, droughts.
+        // Floods, drops and droughts take turns.
         let rate = [1, 2, 9, 40][cycle / 128 % 4];
         let has_place = queue.bundles() < PLACES;
         let push = has_place && numbers.once_in(rate);
@@ -64,19 +64,19 @@ fn issue_makes_one_visit_a_clock_in_order() {
     let mut is_known = false;
     Stepper::new("issue_5", Issue::new(5), 1).run(
         &["reset", "push_valid", "push_bundle", "read.valid", "read_id"],
-        &["token_valid", "token", "read_valid", "token[40+:15]", "vertices_id", "links_id"],
+        &["visit_valid", "visit", "read_valid", "visit[40+:15]", "vertices_id", "links_id"],
         stimuli,
         |values| {
             let queue = &mut queue.borrow_mut().0;
-            let token_valid = Some(queue.issued.is_some().into());
+            let visit_valid = Some(queue.issued.is_some().into());
             let read_valid = Some(queue.read_id.is_some().into());
             let read_id = queue.read_id.map(u128::from);
-            let record = queue.issued.map(|token| unpack(TOKEN, token)[7].into()).or(read_id);
-            let outputs = vec![token_valid, queue.issued, read_valid, read_id, record, record];
+            let record = queue.issued.map(|visit| unpack(VISIT, visit)[7].into()).or(read_id);
+            let outputs = vec![visit_valid, queue.issued, read_valid, read_id, record, record];
             if values[1] == 1 {
                 queue.push(values[2]);
             }
-            queue.issued = queue.waiting.pop_front().map(|(token, _)| token);
+            queue.issued = queue.waiting.pop_front().map(|(visit, _)| visit);
             queue.read_id = (values[3] == 1).then_some(values[4] as u64);
             if values[0] == 1 {
                 let fullest = queue.fullest;
@@ -102,12 +102,12 @@ fn issue_shows_the_wave_of_its_header() {
     ];
     let lanes = [
         ("push", "push_valid", 0, 1, When::Always),
-        ("bundle.x", "push_bundle", 9, 6, When::If("push_valid")),
-        ("token_valid", "token_valid", 0, 1, When::Always),
-        ("token.x", "token", 7, 6, When::If("token_valid")),
+        ("bundle.entry", "push_bundle", 9, 6, When::If("push_valid")),
+        ("visit_valid", "visit_valid", 0, 1, When::Always),
+        ("visit.entry", "visit", 7, 6, When::If("visit_valid")),
         ("read", "read.valid", 0, 1, When::Always),
         ("read_valid", "read_valid", 0, 1, When::Always),
-        ("token.u", "token", 40, 15, When::If("read_valid")),
+        ("visit.record", "visit", 40, 15, When::If("read_valid")),
     ];
     draw("issue_5", Issue::new(5), &stimuli, 9, &lanes).assert_drawn_in("issue");
 }

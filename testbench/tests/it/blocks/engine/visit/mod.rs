@@ -1,4 +1,4 @@
-//! The blocks of `hdl/src/engine/visit`.
+//! Tests of the blocks in `hdl/src/engine/visit`.
 
 mod issue;
 mod push_port;

@@ -1,4 +1,4 @@
-//! `VerdictLogic`: Rust, Verilog and plain arithmetic agree, clock by clock.
+//! Runs `VerdictLogic` in Rust and in Verilog beside plain arithmetic: all three must agree in every clock.
 
 use super::visit_reader::record;
 use crate::rig::stepper::{named_ports, Stepper};
@@ -12,7 +12,7 @@ const CYCLES: usize = 6_000;
 
 const INFINITE: u64 = 0x7fff;
 
-/// Four points: few places, so that lines, circles and equal points are common; or the whole range.
+/// Four points, either of few places, so that lines, circles and equal points are common, or of the whole range.
 pub fn points(numbers: &mut SplitMix64) -> [Point; 4] {
     let bits = [1, 2, 2, 3, 4, 16][numbers.below(6) as usize];
     let shift = if bits < 16 { [0, 12][numbers.bits(1) as usize] } else { 0 };

@@ -1,4 +1,4 @@
-//! `VisitJudge`: Rust, Verilog and plain arithmetic agree, clock by clock.
+//! Runs `VisitJudge` in Rust and in Verilog beside plain arithmetic: all three must agree in every clock.
 
 use super::verdict_logic::points;
 use super::visit_reader::record;

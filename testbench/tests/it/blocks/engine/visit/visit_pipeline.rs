@@ -1,22 +1,27 @@
-//! A whole visit: queue, memories, locks, reader, predicates and verdict together agree in Rust, in Verilog and in plain arithmetic,
-//! and answer after the clocks they promise.
+//! Runs whole visits: queue, memories, locks, reader, predicates and verdict together must agree in Rust, in Verilog
+//! and in plain arithmetic, and must answer after the promised number of clocks.
 //!
-//! The records are not those of a mesh but random ones, three links that differ and any corners, so that every turn, tie and ghost
-//! comes up; the pipeline does not know the difference. Visits of all contexts come at every clock and meet at few records, while
-//! records are written, points change and locks are cleared.
+//! The records are not those of a mesh but random ones, with three links that differ and any corners, so that every
+//! turn, tie and ghost triangle comes up. The pipeline does not know the difference. Visits of all contexts come at
+//! every clock and meet at few records, while records are written, points change and locks are cleared.
 
 use std::cell::RefCell;
 use std::collections::VecDeque;
 
 use crate::rig::drawing::{draw, When};
-use crate::rig::stepper::bundles::{pack, random_fields, ring_bundle, unpack, BUNDLE, TOKEN, WRITE};
+use crate::rig::stepper::bundles::{pack, random_fields, ring_bundle, unpack, BUNDLE, VISIT, WRITE};
 use crate::rig::stepper::{named_ports, Delay, Expected, Stepper};
 use crate::rig::visit_model::{point, verdict_parts, word, Locks, Point, Record, VERDICT_PARTS};
 use incircle_hdl::engine::VisitPipeline;
 use incircle_protocol::{infinite_vertex, Config, SMALL, TINY};
 use incircle_testkit::SplitMix64;
 
-named_ports!([] VisitPipeline, [reset, infinite, records, push, position, read, write, enables, arrival, fetch_id, clear], [is_issuing, visit, early, read_out, fetched], clock);
+named_ports!(
+    [] VisitPipeline,
+    [reset, infinite, records, push, position, read, write, enables, arrival, fetch_id, clear],
+    [is_issuing, completion, early, read_out, fetched],
+    clock
+);
 
 const INPUTS: [&str; 18] = [
     "reset",
@@ -24,7 +29,7 @@ const INPUTS: [&str; 18] = [
     "records",
     "push_valid",
     "push_bundle",
-    "position_owner",
+    "position_context",
     "position_point",
     "position_valid",
     "read_valid",
@@ -39,15 +44,15 @@ const INPUTS: [&str; 18] = [
     "enables",
 ];
 
-/// Of `turned` first what is arbitrary in a torn record, then took, foreign and again, then which vertex is infinite. Of `verdict` the
-/// parts of `VERDICT_PARTS`.
+/// Outputs that are compared. `turned` comes in parts: first the bits that are arbitrary in a torn record, then took,
+/// foreign and again, then which vertex is infinite. `verdict` comes in the parts of `VERDICT_PARTS`.
 const OUTPUTS: [&str; 18] = [
     "is_issuing",
-    "visit_done",
-    "visit_token",
-    "visit_turned[0+:92]",
-    "visit_turned[92+:3]",
-    "visit_turned[95+:3]",
+    "completion_done",
+    "completion_visit",
+    "completion_turned[0+:92]",
+    "completion_turned[92+:3]",
+    "completion_turned[95+:3]",
     "read_out_valid",
     "read_out_record_v0",
     "read_out_record_v1",
@@ -65,35 +70,35 @@ const OUTPUTS: [&str; 18] = [
 /// Clocks from the issue register to `done`.
 const STAGES: usize = 16;
 
-/// Clocks from the issue register in which vertices are read, and the point.
+/// Clocks from the issue register to the read of the vertices and of the point.
 const VERTEX_CLOCK: usize = 2;
 
 const POINT_CLOCK: usize = 4;
 
-/// Records and vertices that a test uses.
+/// Number of records and of vertices that a test uses.
 const POOL: u64 = 16;
 
-/// Clocks of a round: writes, visits, rest, read-outs.
+/// Clocks of a round, which writes, visits, rests and reads out.
 const ROUND: usize = 104;
 
 const ROUNDS: usize = 45;
 
-/// A visit under way: what is known of it so far, and nothing where it is arbitrary.
+/// A visit under way, with everything that is known of it so far; `None` where a value is arbitrary.
 #[derive(Clone, Copy)]
 struct Flight {
-    token: u128,
-    owner: usize,
-    /// took, foreign, again.
+    visit: u128,
+    context: usize,
+    /// Bits found at the lock: took, foreign, again.
     lock: [bool; 3],
     slot: usize,
-    /// As stored, like its corners.
+    /// The record as stored; its corners are in the same order.
     record: Option<Record>,
     corners: Option<[Point; 3]>,
     verdict: Expected,
     parts: [Expected; 3],
 }
 
-/// What happened, so that a test can say that it all did.
+/// Counts of events, so that a test can check that each of them happened.
 #[derive(Debug, Default)]
 struct Seen {
     visits: usize,
@@ -117,7 +122,7 @@ impl Seen {
     }
 }
 
-/// The memories as arrays, the visits waiting, and what comes out when.
+/// The memories as arrays, the visits that wait, and the visits under way.
 struct Visits {
     vertices: u64,
     contexts: u64,
@@ -130,14 +135,14 @@ struct Visits {
     waiting: VecDeque<u128>,
     issued: Option<u128>,
     reads: Option<u64>,
-    /// Place 0 is what comes out in this clock.
+    /// Visits under way; the one at place 0 comes out in this clock.
     flights: VecDeque<Option<Flight>>,
     read_outs: VecDeque<Option<(Record, bool)>>,
     fetched: Delay<Expected>,
     seen: Seen,
 }
 
-/// Inputs of a clock that are not the same all the time.
+/// Inputs of a clock that change.
 #[derive(Default)]
 struct Writes {
     write: u128,
@@ -167,18 +172,18 @@ impl Visits {
         }
     }
 
-    /// A record of the pool, spread over the memory.
+    /// Returns the id of a record of the pool, spread over the memory.
     fn record_id(&mut self) -> u64 {
         self.numbers.below(POOL) * (self.records.len() as u64 / POOL)
     }
 
-    /// A record of the pool; every second time the one that a visit reads in this clock.
+    /// Returns the id of a record of the pool; every second time that of the record that a visit reads in this clock.
     fn visited_id(&mut self) -> u64 {
         let any = self.record_id();
-        self.issued.filter(|_| self.numbers.bits(1) == 1).map_or(any, |token| unpack(TOKEN, token)[7])
+        self.issued.filter(|_| self.numbers.bits(1) == 1).map_or(any, |visit| unpack(VISIT, visit)[7])
     }
 
-    /// A vertex of the pool; the last one stands where the infinite vertex reads.
+    /// Returns a vertex of the pool; the last one stands where the infinite vertex reads.
     fn vertex_id(&mut self, place: u64) -> u64 {
         let pool = POOL.min(self.vertices);
         (place % pool + 1) * (self.vertices / pool) - 1
@@ -200,7 +205,7 @@ impl Visits {
             corners[place] = self.infinite;
         }
         let last = self.records.len() as u64 - 1;
-        // Links of different columns differ, also when they are written one by one.
+        // Links of different columns differ, even if they are written one by one.
         let n = [0, 1, 2].map(|column| self.numbers.next_u64() & last & !3 | column);
         let columns = if whole { 0b1111 } else { self.numbers.bits(4) };
         let [vertices, link0, link1, link2] = [0, 1, 2, 3].map(|bit| columns >> bit & 1);
@@ -221,11 +226,12 @@ impl Visits {
         pack(BUNDLE, bundle)
     }
 
-    /// First everything is written; then each round writes at every second clock before its visits and at every sixth during them.
+    /// Writes everything at first. After that, each round writes at every second clock before its visits
+    /// and at every sixth during them.
     fn writes(&mut self, round: usize, clock: usize) -> Writes {
         let mut writes = Writes::default();
         let place = self.numbers.next_u64();
-        let owner = self.numbers.below(self.contexts);
+        let context = self.numbers.below(self.contexts);
         if round == 0 && clock < POOL as usize {
             let id = clock as u64 * (self.records.len() as u64 / POOL);
             writes.write = self.write(id, true);
@@ -238,7 +244,7 @@ impl Visits {
                 writes.write = self.write(id, false);
             }
             writes.vertex = (self.vertex_id(place), self.position(), self.numbers.once_in(pace));
-            writes.position = (owner, self.position(), self.numbers.once_in(3 * pace));
+            writes.position = (context, self.position(), self.numbers.once_in(3 * pace));
             writes.clear = (self.visited_id(), self.numbers.once_in(3));
         }
         writes
@@ -279,7 +285,7 @@ impl Visits {
         ]
     }
 
-    /// Outputs of a clock, then its edge.
+    /// Returns the outputs of a clock, then passes its edge.
     fn cycle(&mut self, values: &[u128]) -> Vec<Expected> {
         let mut shown = self.outputs();
         let fetched = (values[13] == 0).then(|| self.positions[values[14] as usize].into());
@@ -290,8 +296,8 @@ impl Visits {
         self.flights.push_back(None);
         self.read_outs.pop_front();
         self.read_outs.push_back(None);
-        if let Some(token) = self.issued {
-            self.visit(token, values);
+        if let Some(visit) = self.issued {
+            self.visit(visit, values);
         }
         self.edge(values);
         shown
@@ -306,7 +312,7 @@ impl Visits {
             let turned =
                 |record: Record| record.turned(flight.slot).pack_turned(flight.slot, flight.lock, self.infinite);
             let lock = Record::default().pack_turned(0, flight.lock, self.infinite) >> 92 & 7;
-            shown[2] = Some(flight.token);
+            shown[2] = Some(flight.visit);
             shown[3] = flight.record.map(|record| turned(record) & ((1 << 92) - 1));
             shown[4] = Some(lock);
             shown[5] = flight.record.map(|record| turned(record) >> 95);
@@ -327,16 +333,17 @@ impl Visits {
         shown
     }
 
-    /// The visit in the issue register reads its record at this edge and comes out `STAGES` clocks later.
-    fn visit(&mut self, token: u128, values: &[u128]) {
-        let [owner, rotates, locks, .., f, u] = unpack(TOKEN, token);
+    /// The visit in the issue register reads its record at this edge, and comes out `STAGES` clocks later.
+    fn visit(&mut self, visit: u128, values: &[u128]) {
+        let [context, rotates, locks, .., cavity_record, record] = unpack(VISIT, visit);
         let write = unpack(WRITE, values[10]);
-        let is_torn = write[0] == 1 && write[1] == u;
-        let is_written = u128::from(u) < values[2];
-        let is_cleared = values[16] == 1 && values[15] == u.into();
-        let (took, foreign) = if locks == 1 { self.locks.take(u as usize, owner, is_cleared) } else { (false, false) };
-        let stored = self.records[u as usize];
-        let slot = stored.slot(rotates == 1, f);
+        let is_torn = write[0] == 1 && write[1] == record;
+        let is_written = u128::from(record) < values[2];
+        let is_cleared = values[16] == 1 && values[15] == record.into();
+        let (took, foreign) =
+            if locks == 1 { self.locks.take(record as usize, context, is_cleared) } else { (false, false) };
+        let stored = self.records[record as usize];
+        let slot = stored.slot(rotates == 1, cavity_record);
         self.seen.took += usize::from(took);
         self.seen.foreign += usize::from(foreign && !is_cleared);
         self.seen.own += usize::from(locks == 1 && !took && !foreign);
@@ -344,8 +351,8 @@ impl Visits {
         self.seen.unwritten += usize::from(!is_written);
         self.seen.torn += usize::from(is_torn);
         self.flights[STAGES - 1] = Some(Flight {
-            token,
-            owner: owner as usize,
+            visit,
+            context: context as usize,
             lock: [took, foreign, is_torn || !is_written],
             slot,
             record: (!is_torn).then_some(stored),
@@ -355,9 +362,9 @@ impl Visits {
         });
     }
 
-    /// The visit whose record is there reads its corners; a corner that is written at this edge is arbitrary.
+    /// The visit that has its record reads the corners; a corner that is written at this edge is arbitrary.
     fn read_vertices(&mut self, values: &[u128]) {
-        // The memory has no word for the infinite vertex: its id wraps.
+        // The memory has no word for the infinite vertex, so its id wraps.
         let place = |vertex: u64| (vertex % self.vertices) as usize;
         let written = (values[13] == 1).then_some(values[11] as usize);
         if let Some(flight) = &mut self.flights[STAGES - VERTEX_CLOCK] {
@@ -367,10 +374,10 @@ impl Visits {
         }
     }
 
-    /// The visit whose corners are there gets its context's point.
+    /// The visit that has its corners gets the point of its context.
     fn judge(&mut self) {
         if let Some(flight) = &mut self.flights[STAGES - POINT_CLOCK] {
-            let p = point(self.points[flight.owner]);
+            let p = point(self.points[flight.context]);
             if let (Some(record), Some(corners)) = (flight.record, flight.corners) {
                 let verdict = record.verdict(flight.slot, corners, p, self.infinite);
                 flight.verdict = Some(verdict);
@@ -380,11 +387,12 @@ impl Visits {
     }
 
     fn push(&mut self, bundle: u128) {
-        let [is_pair, is_triple, owner, rotates, locks, x, after, f_entry, f, u, after2, u2, u3] =
-            unpack(BUNDLE, bundle);
-        let visits = [(x, after, u), (after, after2, u2), (after2, 0, u3)];
-        for (x, after, u) in visits.into_iter().take(1 + (is_pair + is_triple) as usize) {
-            self.waiting.push_back(pack(TOKEN, [owner, rotates, locks, x, after, f_entry, f, u]));
+        let [is_pair, is_triple, context, rotates, locks, entry, after, ..] = unpack(BUNDLE, bundle);
+        let [.., cavity_entry, cavity_record, record, after2, record2, record3] = unpack(BUNDLE, bundle);
+        let visits = [(entry, after, record), (after, after2, record2), (after2, 0, record3)];
+        for (entry, after, record) in visits.into_iter().take(1 + (is_pair + is_triple) as usize) {
+            self.waiting
+                .push_back(pack(VISIT, [context, rotates, locks, entry, after, cavity_entry, cavity_record, record]));
         }
         self.seen.triples += is_triple as usize;
     }
@@ -433,8 +441,8 @@ impl Visits {
 fn visits(name: &str, config: Config) {
     assert_eq!(VisitPipeline::STAGES, STAGES);
     let visits = RefCell::new(Visits::new(config));
-    // Before its reset a block that starts with anything may have taken a lock: all are cleared, and nothing is compared until then, nor
-    // in the two clocks in which a vertex comes that nobody wrote.
+    // Before its reset the block starts with random values and may have taken a lock. So all locks are cleared first,
+    // and nothing is compared until then, nor in the two clocks in which a vertex comes that nobody wrote.
     let clears = 2 * config.points as usize;
     let clearing = (0..=clears + STAGES).map(|clock| {
         let mut inputs = vec![0; INPUTS.len()];
@@ -472,12 +480,12 @@ fn visit_pipeline_shows_the_wave_of_its_header() {
     let stimuli = [(0, "push_valid", 1), (0, "push_bundle", ring_bundle(&[1, 2])), (19, "read_valid", 1)];
     let lanes = [
         ("push", "push_valid", 0, 1, When::Always),
-        ("bundle.owner", "push_bundle", 2, 5, When::If("push_valid")),
-        ("bundle.x", "push_bundle", 9, 6, When::If("push_valid")),
+        ("bundle.context", "push_bundle", 2, 5, When::If("push_valid")),
+        ("bundle.entry", "push_bundle", 9, 6, When::If("push_valid")),
         ("is_issuing", "is_issuing", 0, 1, When::Always),
-        ("done", "visit_done", 0, 1, When::Always),
-        ("token.owner", "visit_token", 0, 5, When::If("visit_done")),
-        ("token.x", "visit_token", 7, 6, When::If("visit_done")),
+        ("done", "completion_done", 0, 1, When::Always),
+        ("visit.context", "completion_visit", 0, 5, When::If("completion_done")),
+        ("visit.entry", "completion_visit", 7, 6, When::If("completion_done")),
         ("read", "read_valid", 0, 1, When::Always),
         ("read_done", "read_out_valid", 0, 1, When::Always),
     ];

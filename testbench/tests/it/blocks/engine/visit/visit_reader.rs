@@ -1,19 +1,24 @@
-//! `VisitReader`: Rust, Verilog and plain arithmetic agree, clock by clock.
+//! Runs `VisitReader` in Rust and in Verilog beside plain arithmetic: all three must agree in every clock.
 
 use crate::rig::drawing::{draw, When};
-use crate::rig::stepper::bundles::{pack, random_fields, unpack, TOKEN};
+use crate::rig::stepper::bundles::{pack, random_fields, unpack, VISIT};
 use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::visit_model::Record;
 use incircle_hdl::engine::VisitReader;
 use incircle_testkit::SplitMix64;
 
-named_ports!([] VisitReader, [infinite, token, record, again, took, foreign, stored_corners], [turned, token_at_record, corners], clock);
+named_ports!(
+    [] VisitReader,
+    [infinite, visit, record, again, took, foreign, stored_corners],
+    [turned, visit_at_record, corners],
+    clock
+);
 
 const CYCLES: usize = 6_000;
 
 const INFINITE: u64 = 0x7fff;
 
-/// A record with three links that differ, and the infinite vertex on one corner or none.
+/// A record with three links that differ, and the infinite vertex on one corner or on none.
 pub fn record(numbers: &mut SplitMix64) -> Record {
     let mut v = [(); 3].map(|()| numbers.bits(15) % INFINITE);
     let place = numbers.bits(3) as usize;
@@ -32,15 +37,16 @@ fn visit_reader_turns_record_and_corners() {
     records.push(Record::default());
     let stimuli: Vec<Vec<u128>> = (0..CYCLES)
         .map(|cycle| {
-            // The visit's record is there two clocks later; it came through one of its links, or through none.
-            let mut token = random_fields(TOKEN, &mut numbers);
+            // The record of the visit is there two clocks later; the visit came through one
+            // of its links, or through none.
+            let mut visit = random_fields(VISIT, &mut numbers);
             let link = numbers.bits(2) as usize;
             if link < 3 {
-                token[6] = records[cycle + 2].n[link];
+                visit[6] = records[cycle + 2].n[link];
             }
             let Record { v, n } = records[cycle];
             let columns = [v, n].concat();
-            let mut values = vec![INFINITE.into(), pack(TOKEN, token)];
+            let mut values = vec![INFINITE.into(), pack(VISIT, visit)];
             values.extend(columns.into_iter().map(u128::from));
             values.extend([(); 3].map(|()| u128::from(numbers.bits(1))));
             values.extend([(); 3].map(|()| u128::from(numbers.bits(32))));
@@ -52,7 +58,7 @@ fn visit_reader_turns_record_and_corners() {
     Stepper::new("visit_reader", VisitReader::default(), 1).run(
         &[
             "infinite",
-            "token",
+            "visit",
             "record_v0",
             "record_v1",
             "record_v2",
@@ -66,19 +72,19 @@ fn visit_reader_turns_record_and_corners() {
             "stored_corners_r1",
             "stored_corners_r2",
         ],
-        &["token_at_record", "turned", "corners_r0", "corners_r1", "corners_r2"],
+        &["visit_at_record", "turned", "corners_r0", "corners_r1", "corners_r2"],
         stimuli,
         |values| {
             past.push(values.to_vec());
             let ago = |clocks: usize| past.len().checked_sub(1 + clocks).map(|at| &past[at]);
-            // The record that stood on the columns three clocks ago, the slot that its visit puts first, and its lock a
-            // clock later.
+            // The record that stood on the columns three clocks ago, the slot that its visit puts first,
+            // and its lock a clock later.
             let visit = || {
-                let (columns, lock, token) = (ago(3)?, ago(2)?, unpack(TOKEN, ago(5)?[1]));
+                let (columns, lock, visit) = (ago(3)?, ago(2)?, unpack(VISIT, ago(5)?[1]));
                 let column = |port: usize| columns[port] as u64;
                 let record = Record { v: [2, 3, 4].map(column), n: [5, 6, 7].map(column) };
                 let found = [lock[8], lock[9], columns[10]].map(|flag| flag == 1);
-                Some((record, record.slot(token[1] == 1, token[6]), found))
+                Some((record, record.slot(visit[1] == 1, visit[6]), found))
             };
             let turned = visit().map(|(record, slot, found)| {
                 turns[slot] += 1;
@@ -93,9 +99,9 @@ fn visit_reader_turns_record_and_corners() {
 
 #[test]
 fn visit_reader_shows_the_wave_of_its_header() {
-    // Through link 1, so that vertex 1 comes first.
+    // The visit comes through link 1, so vertex 1 comes first.
     let stimuli = [
-        (0, "token", pack(TOKEN, [0, 1, 0, 0, 0, 0, 30, 5])),
+        (0, "visit", pack(VISIT, [0, 1, 0, 0, 0, 0, 30, 5])),
         (2, "record_v0", 11),
         (2, "record_v1", 12),
         (2, "record_n1", 30),
@@ -104,7 +110,7 @@ fn visit_reader_shows_the_wave_of_its_header() {
         (4, "stored_corners_r0", 51),
     ];
     let lanes = [
-        ("token.f", "token", 25, 15, When::At(&[0])),
+        ("visit.cavity_record", "visit", 25, 15, When::At(&[0])),
         ("n1", "record_n1", 0, 15, When::At(&[2])),
         ("v0", "record_v0", 0, 15, When::At(&[2])),
         ("v1", "record_v1", 0, 15, When::At(&[2])),

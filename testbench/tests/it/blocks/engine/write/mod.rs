@@ -1,4 +1,4 @@
-//! The blocks of `hdl/src/engine/write`.
+//! Tests of the blocks in `hdl/src/engine/write`.
 
 mod write_port;
 mod write_request;

@@ -1,4 +1,4 @@
-//! `WritePort`: Rust, Verilog and plain arrays agree clock by clock.
+//! Runs `WritePort` in Rust and in Verilog beside plain arrays: all three must agree in every clock.
 
 use crate::rig::drawing::{draw, When};
 use crate::rig::stepper::bundles::{column_write, pack, random_fields, WRITE};
@@ -38,10 +38,10 @@ fn write_port_takes_the_request_there_is() {
                 Some(0)
             } else {
                 copies = request.map(|write| (write >> 1 & 0x7fff) << 4 | (write >> 1 & 0x7fff) << 19).or(copies);
-                // Without a request the data stay and the write is over.
+                // Without a request the data stay, and the write is over.
                 request.copied().or(port.map(|write| write & !1))
             };
-            // What is written of the write there is.
+            // The columns of the write that are written.
             let enables = seen.map(|write| if write & 1 == 1 { write >> 16 & 0b1111 } else { 0 });
             vec![seen, enables.zip(seen_copies).map(|(enables, copies)| enables | copies)]
         },

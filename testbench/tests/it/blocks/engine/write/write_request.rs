@@ -1,4 +1,4 @@
-//! `RecordWrite` and `LinkWrite`: Rust, Verilog and plain arrays agree clock by clock.
+//! Runs `RecordWrite` and `LinkWrite` in Rust and in Verilog beside plain arrays: all three must agree in every clock.
 
 use crate::rig::ids::ID;
 use crate::rig::stepper::bundles::{pack, WRITE};

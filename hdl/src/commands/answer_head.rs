@@ -1,0 +1,187 @@
+//! Computes the first two words of an answer, status and length, in three ranks of registers.
+//!
+//! 1. A read-out is in range if its last record exists. The first rank adds up the end of the range and the words of
+//!    its records, the second compares the end, and the third chooses. A `Read` has as many words as the first rank
+//!    says; a `Triangles` has half as many, rounded up.
+//! 2. `request.opcode` and `is_refused` do not change between the command and the end of its answer, so they enter
+//!    at the last rank.
+//!
+//! Latency: 3 clocks from `request.first` and `request.count` to `head`.
+
+use super::types::{Head, RecordCount, Request, Word};
+use crate::prelude::*;
+use incircle_protocol::{Opcode, Status, COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS, LATENCY_BUCKETS};
+
+/// Status and length of an answer; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct AnswerHead {
+    pub clock: Signal<In, Clock>,
+    pub request: Signal<In, Request>,
+    /// The command is a `Clear` that asks for more contexts than the core has.
+    pub is_refused: Signal<In, Bit>,
+    /// Number of records of the mesh.
+    pub records: Signal<In, RecordCount>,
+    /// States of the insertion engine in which no further point is inserted: the first three points are collinear, or
+    /// the watchdog has reported.
+    pub collinear: Signal<In, Bit>,
+    pub stuck: Signal<In, Bit>,
+    /// The core has refused points since the last `Clear`.
+    pub some_refused: Signal<In, Bit>,
+    pub head: Signal<Out, Head>,
+    /// Registers of the first rank.
+    range_end: DFF<Bits<33>>,
+    range_bound: DFF<RecordCount>,
+    triple: DFF<Word>,
+    counts_none: DFF<Bit>,
+    insert_status: DFF<Bits<3>>,
+    /// Registers of the second rank.
+    is_outside: DFF<Bit>,
+    read_length: DFF<Word>,
+    packed_length: DFF<Word>,
+    reads_none: DFF<Bit>,
+    report_status: DFF<Bits<3>>,
+    /// Registers of the third rank.
+    answer_status: DFF<Bits<3>>,
+    answer_length: DFF<Word>,
+    has_none: DFF<Bit>,
+    wide_first: Signal<Local, Bits<33>>,
+    wide_count: Signal<Local, Bits<33>>,
+    wide_bound: Signal<Local, Bits<33>>,
+    double_count: Signal<Local, Word>,
+    status: Signal<Local, Word>,
+    shifted_status: Signal<Local, Word>,
+    wide_opcode: Signal<Local, Word>,
+    shifted_opcode: Signal<Local, Word>,
+    none: Signal<Local, Word>,
+    one: Signal<Local, Word>,
+    status_shift: Signal<Local, Word>,
+    opcode_shift: Signal<Local, Word>,
+    read_code: Signal<Local, Bits<8>>,
+    packed_code: Signal<Local, Bits<8>>,
+    packs: Signal<Local, Bit>,
+    rounded: Signal<Local, Word>,
+}
+
+// The kernel holds the numbers as literals, because rust-hdl allows no constants there. A changed protocol fails here.
+const _: () = assert!(
+    Opcode::Hello as u8 == 1
+        && Opcode::Clear as u8 == 2
+        && Opcode::Insert as u8 == 3
+        && Opcode::Read as u8 == 4
+        && Opcode::Counters as u8 == 5
+        && Opcode::Latencies as u8 == 6
+        && Opcode::Triangles as u8 == 7
+        && Status::UnknownOpcode as u8 == 1
+        && Status::BadRange as u8 == 2
+        && Status::Collinear as u8 == 3
+        && Status::Full as u8 == 4
+        && Status::BadContexts as u8 == 5
+        && Status::Stuck as u8 == 6
+        && IDENTITY_WORDS == 7
+        && INSERT_REPORT_WORDS == 5
+        && COUNTER_WORDS == 25
+        && LATENCY_BUCKETS == 128,
+    "the words of this block follow the protocol"
+);
+
+impl Logic for AnswerHead {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, range_end, range_bound, triple, counts_none, insert_status);
+        dff_setup!(self, clock, is_outside, read_length, packed_length, reads_none, report_status);
+        dff_setup!(self, clock, answer_status, answer_length, has_none);
+        self.none.next = 0.into();
+        self.one.next = 1.into();
+        self.status_shift.next = 16.into();
+        self.opcode_shift.next = 24.into();
+        self.read_code.next = 4.into();
+        self.packed_code.next = 7.into();
+
+        // The first rank has the additions alone, because a sum and its comparison in one clock would be too slow.
+        self.wide_first.next = bit_cast::<33, 32>(self.request.val().first);
+        self.wide_count.next = bit_cast::<33, 32>(self.request.val().count);
+        self.range_end.d.next = self.wide_first.val() + self.wide_count.val();
+        self.range_bound.d.next = self.records.val();
+        self.double_count.next = self.request.val().count << self.one.val();
+        self.triple.d.next = self.double_count.val() + self.request.val().count;
+        self.counts_none.d.next = self.request.val().count == self.none.val();
+        self.insert_status.d.next = 0.into();
+        if self.some_refused.val() {
+            self.insert_status.d.next = 4.into();
+        }
+        if self.collinear.val() {
+            self.insert_status.d.next = 3.into();
+        }
+        if self.stuck.val() {
+            self.insert_status.d.next = 6.into();
+        }
+
+        // The second rank has the comparison. `Triangles` packs two ids into a word, so its length is halved
+        // and rounded up here.
+        self.wide_bound.next = bit_cast::<33, 15>(self.range_bound.q.val());
+        self.is_outside.d.next = self.range_end.q.val() > self.wide_bound.val();
+        self.read_length.d.next = self.triple.q.val();
+        self.rounded.next = self.triple.q.val() + self.one.val();
+        self.packed_length.d.next = self.rounded.val() >> self.one.val();
+        self.reads_none.d.next = self.counts_none.q.val();
+        self.report_status.d.next = self.insert_status.q.val();
+
+        // The third rank needs the opcode only to choose.
+        self.answer_status.d.next = 0.into();
+        self.answer_length.d.next = 0.into();
+        self.has_none.d.next = false;
+        match self.request.val().opcode.index() {
+            1 => {
+                self.answer_length.d.next = 7.into();
+            }
+            2 => {
+                self.has_none.d.next = true;
+                if self.is_refused.val() {
+                    self.answer_status.d.next = 5.into();
+                }
+            }
+            3 => {
+                self.answer_length.d.next = 5.into();
+                self.answer_status.d.next = self.report_status.q.val();
+            }
+            4 => {
+                self.answer_length.d.next = self.read_length.q.val();
+                self.has_none.d.next = self.reads_none.q.val();
+                if self.is_outside.q.val() {
+                    self.answer_status.d.next = 2.into();
+                    self.answer_length.d.next = 0.into();
+                    self.has_none.d.next = true;
+                }
+            }
+            5 => {
+                self.answer_length.d.next = 25.into();
+            }
+            6 => {
+                self.answer_length.d.next = 128.into();
+            }
+            7 => {
+                self.answer_length.d.next = self.packed_length.q.val();
+                self.has_none.d.next = self.reads_none.q.val();
+                if self.is_outside.q.val() {
+                    self.answer_status.d.next = 2.into();
+                    self.answer_length.d.next = 0.into();
+                    self.has_none.d.next = true;
+                }
+            }
+            _ => {
+                self.answer_status.d.next = 1.into();
+                self.has_none.d.next = true;
+            }
+        }
+        self.packs.next = self.request.val().opcode == self.packed_code.val();
+        self.head.next.is_packed = self.packs.val();
+        self.head.next.is_read = self.packs.val() | (self.request.val().opcode == self.read_code.val());
+        self.head.next.length = self.answer_length.q.val();
+        self.head.next.is_empty = self.has_none.q.val();
+        self.status.next = bit_cast::<32, 3>(self.answer_status.q.val());
+        self.shifted_status.next = self.status.val() << self.status_shift.val();
+        self.wide_opcode.next = bit_cast::<32, 8>(self.request.val().opcode);
+        self.shifted_opcode.next = self.wide_opcode.val() << self.opcode_shift.val();
+        self.head.next.header = self.shifted_opcode.val() | self.shifted_status.val();
+    }
+}

@@ -1,0 +1,108 @@
+//! The ends of the help texts: examples to copy.
+//!
+//! The short help of a command ends in one example, the long help in several.
+
+/// End of `incircle -h`.
+pub const ALL: &str = "\
+Exit codes: 0 ok, 1 verification failed, 2 usage, 3 bad input, 4 device not found or no permission,
+5 link error, 6 device error or timeout, 7 capacity, 130 interrupted.
+
+Example:
+  incircle triangulate points.csv -o mesh.obj";
+
+/// End of `incircle --help`.
+pub const ALL_LONG: &str = "\
+Exit codes:
+  0    ok
+  1    verification failed
+  2    usage: the arguments are wrong
+  3    bad input: a file cannot be read or written, or its content is wrong
+  4    device not found, or no permission to use it
+  5    link error
+  6    device error or timeout
+  7    capacity: the device cannot hold the job
+  130  interrupted
+
+Examples:
+  incircle generate uniform -n 1000 -o points.csv        make a set of points
+  incircle triangulate points.csv -o mesh.obj            triangulate it
+  incircle triangulate points.csv -o picture.svg         look at it
+  incircle verify points.csv mesh.obj                    prove that the mesh is right
+  incircle bench --backend clock                         count the cycles of the core";
+
+/// End of `incircle triangulate -h`.
+pub const TRIANGULATE: &str = "\
+Example:
+  incircle triangulate points.csv -o mesh.obj";
+
+/// End of `incircle triangulate --help`.
+pub const TRIANGULATE_LONG: &str = "\
+Examples:
+  incircle triangulate points.csv -o mesh.obj
+  incircle triangulate cities.geojson -o picture.svg --coord-bits 24
+  incircle triangulate - -o - --format csv < points.csv
+  incircle triangulate points.csv -o mesh.ply --backend clock --config full --json
+  incircle triangulate points.csv -o mesh.ply --backend serial:/dev/ttyUSB0";
+
+/// End of `incircle verify -h`.
+pub const VERIFY: &str = "\
+Example:
+  incircle verify points.csv mesh.obj";
+
+/// End of `incircle verify --help`.
+pub const VERIFY_LONG: &str = "\
+Examples:
+  incircle verify points.csv mesh.obj
+  incircle verify points.csv mesh.ele --coord-bits 20 --json";
+
+/// End of `incircle generate -h`.
+pub const GENERATE: &str = "\
+Example:
+  incircle generate kuzmin -n 1000 -o points.csv";
+
+/// End of `incircle generate --help`.
+pub const GENERATE_LONG: &str = "\
+Examples:
+  incircle generate kuzmin -n 1000 -o points.csv
+  incircle generate uniform -n 1000000 --bits 20 --seed 7 -o points.node
+  incircle generate lattice -n 256 --order hilbert -o order.svg";
+
+/// End of `incircle bench -h`.
+pub const BENCH: &str = "\
+Example:
+  incircle bench uniform lattice -n 1000 --backend clock";
+
+/// End of `incircle bench --help`.
+pub const BENCH_LONG: &str = "\
+Examples:
+  incircle bench uniform lattice -n 1000 --backend clock
+  incircle bench --backend cpu --threads 1 -n 1000000 --coord-bits 20
+  incircle bench uniform --batch 1000 -n 200 --backend clock --json";
+
+/// End of `incircle info -h`.
+pub const INFO: &str = "\
+Example:
+  incircle info --port /dev/ttyUSB0";
+
+/// End of `incircle info --help`.
+pub const INFO_LONG: &str = "\
+Examples:
+  incircle info --port /dev/ttyUSB0
+  incircle info --backend clock --config large
+  incircle info --backend pcie:0";
+
+/// End of both help texts of `incircle devices`.
+pub const DEVICES: &str = "\
+Example:
+  incircle devices --greet";
+
+/// End of `incircle completions -h`.
+pub const COMPLETIONS: &str = "\
+Example:
+  incircle completions bash > incircle.bash";
+
+/// End of `incircle completions --help`.
+pub const COMPLETIONS_LONG: &str = "\
+Examples:
+  incircle completions bash > incircle.bash
+  incircle completions zsh > _incircle";

@@ -1,0 +1,14 @@
+//! Tests of the blocks in `hdl/src/commands`.
+
+mod answer_head;
+mod answer_words;
+mod clear_command;
+mod command_gate;
+mod command_port;
+mod point_slot;
+mod record_buffer;
+mod record_reads;
+mod record_words;
+mod responder;
+mod vertex_packer;
+mod vertex_stream;

@@ -1,0 +1,100 @@
+//! Runs `RecordReads` in Rust and in Verilog beside the layout that the protocol states: all three must agree, while
+//! idle clocks, back-pressure and resets come in between.
+
+use std::collections::VecDeque;
+
+use crate::rig::stepper::{named_ports, Stepper};
+use crate::rig::vertex_beats::{beats_of, columns, Beat, LAYOUT};
+use incircle_hdl::commands::RecordReads;
+use incircle_testkit::SplitMix64;
+
+named_ports!(
+    RecordReads,
+    [reset, starts, first, count, is_packed, runs, read_done, record, takes],
+    [read, read_id, valid, beat],
+    clock
+);
+
+#[test]
+fn reads_give_the_words_of_records_or_their_vertices() {
+    for (seed, ready) in [(45, 100), (46, 40), (47, 5)] {
+        let mut random = SplitMix64::new(seed);
+        let mut block = Stepper::new("record_reads", RecordReads::default(), 1);
+        for run in 0..80 {
+            let is_packed = random.below(2) == 0;
+            let count = 1 + random.below(if is_packed { 60 } else { 8 }) as u32;
+            let first = random.below(u64::from((1u32 << 15) - count)) as u32;
+            let ids = first..first + count;
+            let mut expected = if is_packed {
+                beats_of(&ids.map(|id| columns(id).0).collect::<Vec<_>>())
+            } else {
+                let words = |id| {
+                    let (v, n, lock) = columns(id);
+                    LAYOUT.record_to_words(v, n, lock)[..3].to_vec()
+                };
+                let words: Vec<u32> = ids.flat_map(words).collect();
+                let beat = |(place, &low)| Beat { low, high: 0, both: false, last: place + 1 == words.len() };
+                words.iter().enumerate().map(beat).collect()
+            };
+            for reset in [run == 0 || random.below(9) == 0, false] {
+                block.set("reset", reset);
+                block.set("starts", !reset);
+                block.set("is_packed", is_packed);
+                block.set("first", first);
+                block.set("count", count);
+                block.set("runs", false);
+                block.set("read_done", false);
+                block.set("takes", false);
+                block.settle();
+                block.edge();
+            }
+            block.set("starts", false);
+            block.set("runs", true);
+            let mut reads: VecDeque<Option<u32>> = vec![None; 3].into();
+            let (mut asked, mut clock) = (first, 0);
+            let cut = if run % 10 == 9 { random.below(30) } else { 40_000 };
+            while !expected.is_empty() && clock < cut {
+                block.set("takes", false);
+                let done = reads.pop_front().flatten();
+                block.set("read_done", done.is_some());
+                let (v, n, lock) = columns(done.unwrap_or_else(|| random.below(1 << 15) as u32));
+                for (port, value) in ["v0", "v1", "v2", "n0", "n1", "n2"].into_iter().zip([v, n].concat()) {
+                    block.set(port, value);
+                }
+                block.set("was_set", lock);
+                block.settle();
+                let reads_now = block.is("read");
+                if reads_now {
+                    block.expect("read_id", asked);
+                    asked += 1;
+                }
+                reads.push_back(reads_now.then(|| asked - 1));
+                let valid = block.is("valid");
+                if valid {
+                    assert_eq!(Beat::of(block.get("beat")), expected[0], "run {run}");
+                }
+                let takes = valid && random.below(100) < ready;
+                block.set("takes", takes);
+                block.settle();
+                block.edge();
+                if takes {
+                    expected.pop_front();
+                }
+                clock += 1;
+                assert!(clock < 40_000, "no end");
+            }
+            if cut < 40_000 {
+                // Drops reads that were under way, in the block and on the way from the memory.
+                block.set("runs", false);
+                block.set("read_done", false);
+                block.set("takes", false);
+                block.set("reset", true);
+                block.settle();
+                block.edge();
+                block.set("reset", false);
+            } else {
+                assert_eq!(asked, first + count, "every record is read once");
+            }
+        }
+    }
+}
