@@ -77,8 +77,10 @@ pub mod transports;
 
 pub use device::{Device, DeviceAddress, Session};
 pub use error::{DeviceFault, Error, ErrorKind, Shown, TransportError};
+pub use incircle_geometry::lattice::{Lattice, Step};
 pub use incircle_geometry::verify::{self, verify, VerifyError, VerifySummary};
-pub use incircle_geometry::{orient2d, predicate, Duplicate, Mesh, Order, Point, UnknownOrder, EMPTY, MAX_POINTS};
+pub use incircle_geometry::{double, orient2d, predicate, Duplicate, Mesh, Order, PlanePoint, Point};
+pub use incircle_geometry::{UnknownOrder, EMPTY, MAX_POINTS};
 pub use incircle_protocol::{Config, Identity};
 pub use job::{Counters, Latencies, Options, Progress, ProgressListener, Report, Solution, Stage};
 pub use quantize::{quantize, Quantization, Quantize};
@@ -107,6 +109,6 @@ pub mod order {
 /// # Errors
 /// [`Error::CoordinateOutOfRange`] for a coordinate of more than 31 bits, [`Error::TooManyPoints`] beyond
 /// [`MAX_POINTS`], and [`Error::Timeout`] for a job that takes longer than [`Options::default_timeout`].
-pub fn triangulate<P: Into<Point> + Copy>(points: &(impl AsRef<[P]> + ?Sized)) -> Result<Mesh, Error> {
+pub fn triangulate<P: PlanePoint>(points: &(impl AsRef<[P]> + ?Sized)) -> Result<Mesh<P>, Error> {
     Device::cpu(None).session()?.triangulate(points).map(|solution| solution.mesh)
 }

@@ -150,7 +150,7 @@ fn check_count(points: &[[f64; 2]]) -> Result<(), Error> {
     Ok(())
 }
 
-fn check_finite(points: &[[f64; 2]]) -> Result<(), Error> {
+pub(crate) fn check_finite(points: &[[f64; 2]]) -> Result<(), Error> {
     match values(points).find(|(.., value)| !value.is_finite()) {
         Some((index, axis, value)) => Err(Error::NotFinite { index, axis, value }),
         None => Ok(()),

@@ -7,9 +7,10 @@ use crate::error::Error;
 use crate::job::watch::{tell, PartListener};
 use crate::job::{Options, Solution, Stage};
 use crate::limit::Limit;
+use crate::quantize::check_finite;
+use incircle_geometry::lattice::{Lattice, Numbers};
 use incircle_geometry::pages;
-use incircle_geometry::Point;
-use incircle_geometry::MAX_POINTS;
+use incircle_geometry::{PlanePoint, Point, MAX_POINTS};
 
 /// Exclusive use of a device that has been greeted and checked.
 ///
@@ -50,10 +51,7 @@ impl<'d> Session<'d> {
     ///
     /// # Errors
     /// The errors of [`Session::triangulate_with`].
-    pub fn triangulate<P: Into<Point> + Copy>(
-        &mut self,
-        points: &(impl AsRef<[P]> + ?Sized),
-    ) -> Result<Solution, Error> {
+    pub fn triangulate<P: PlanePoint>(&mut self, points: &(impl AsRef<[P]> + ?Sized)) -> Result<Solution<P>, Error> {
         self.triangulate_with(points, &Options::default())
     }
 
@@ -74,11 +72,11 @@ impl<'d> Session<'d> {
     /// - [`Error::Link`] and [`Error::Device`] for a link that fails and an answer that no sound device gives;
     ///   [`Error::Timeout`] if the deadline passes while the device works. The session is then out of step and refuses
     ///   further work: open the device again.
-    pub fn triangulate_with<P: Into<Point> + Copy>(
+    pub fn triangulate_with<P: PlanePoint>(
         &mut self,
         points: &(impl AsRef<[P]> + ?Sized),
         options: &Options<'_>,
-    ) -> Result<Solution, Error> {
+    ) -> Result<Solution<P>, Error> {
         self.triangulate_owned(own(points.as_ref()), options)
     }
 
@@ -86,10 +84,23 @@ impl<'d> Session<'d> {
     ///
     /// # Errors
     /// The errors of [`Session::triangulate_with`].
-    pub fn triangulate_owned(&mut self, points: Vec<Point>, options: &Options<'_>) -> Result<Solution, Error> {
+    pub fn triangulate_owned<P: PlanePoint>(
+        &mut self,
+        points: Vec<P>,
+        options: &Options<'_>,
+    ) -> Result<Solution<P>, Error> {
         let terms = self.terms(points.len(), options);
-        self.check_input(&points, terms.contexts)?;
-        self.backend.triangulate(points, terms)
+        match self.on_grid(&points, terms)? {
+            Some((grid, lattice)) => {
+                let mut solution = self.backend.triangulate(grid, terms)?;
+                solution.report.lattice = Some(lattice);
+                Ok(solution.with_points(points))
+            }
+            None => {
+                let answer = self.backend.triangulate_off_lattice(&P::numbers(&points), terms)?;
+                Ok(answer.with(points))
+            }
+        }
     }
 
     /// Triangulates many sets of points in one call, as a batch. Each mesh is byte for byte
@@ -128,29 +139,62 @@ impl<'d> Session<'d> {
     /// # Errors
     /// The errors of [`Session::triangulate_with`], inside [`Error::InJob`] if one job is at fault. After an error
     /// there are no solutions, not even of the jobs that were done.
-    pub fn triangulate_batch<P: Into<Point> + Copy>(
+    pub fn triangulate_batch<P: PlanePoint>(
         &mut self,
         jobs: &[impl AsRef<[P]>],
         options: &Options<'_>,
-    ) -> Result<Vec<Solution>, Error> {
-        let jobs: Vec<Vec<Point>> = jobs.iter().map(|points| own(points.as_ref())).collect();
-        let total = jobs.iter().map(Vec::len).sum();
+    ) -> Result<Vec<Solution<P>>, Error> {
+        let total = jobs.iter().map(|points| points.as_ref().len()).sum();
         let terms = self.terms(total, options);
-        let in_job = |job: usize| move |source| Error::InJob { job, source: Box::new(source) };
-        self.check_input(&[], terms.contexts)?;
+        self.check_job(0, terms.contexts)?;
+        let mut solutions: Vec<Option<Solution<P>>> = jobs.iter().map(|_| None).collect();
+        let (mut on_lattices, mut grids) = (Vec::new(), Vec::new());
+        let mut off_lattices = Vec::new();
         for (job, points) in jobs.iter().enumerate() {
-            self.check_input(points, terms.contexts).map_err(in_job(job))?;
+            match self.on_grid(points.as_ref(), terms).map_err(in_job(job))? {
+                Some((grid, lattice)) => {
+                    on_lattices.push((job, lattice));
+                    grids.push(grid);
+                }
+                None => off_lattices.push(job),
+            }
         }
-        let Together { mut solutions, left } = self.backend.triangulate_together(jobs, terms)?;
-        let mut passed = total - left.iter().map(|left| left.points.len()).sum::<usize>();
-        for JobLeft { job, points, contexts } in left {
+        let mut passed = grids.iter().map(Vec::len).sum();
+        let found = self.triangulate_grids(grids, |grid| on_lattices[grid].0, terms, total)?;
+        for ((job, lattice), mut solution) in on_lattices.into_iter().zip(found) {
+            solution.report.lattice = Some(lattice);
+            solutions[job] = Some(solution.with_points(own(jobs[job].as_ref())));
+        }
+        for job in off_lattices {
+            let points = own(jobs[job].as_ref());
             let part = PartListener::new(options, passed, total);
             let listener = |progress| part.hear(progress);
             passed += points.len();
-            let options = Options { progress: Some(&listener), contexts: Some(contexts), ..*options };
+            let options = Options { progress: Some(&listener), ..*options };
             solutions[job] = Some(self.triangulate_owned(points, &options).map_err(in_job(job))?);
         }
         tell(options, Stage::Insert, total, total)?;
+        Ok(solutions.into_iter().flatten().collect())
+    }
+
+    /// Triangulates jobs of grid points, which count among `total` points; `job` gives the number of each among all jobs.
+    fn triangulate_grids(
+        &mut self,
+        grids: Vec<Vec<Point>>,
+        job: impl Fn(usize) -> usize,
+        terms: Terms<'_>,
+        total: usize,
+    ) -> Result<Vec<Solution>, Error> {
+        let own_total: usize = grids.iter().map(Vec::len).sum();
+        let Together { mut solutions, left } = self.backend.triangulate_together(grids, terms)?;
+        let mut passed = own_total - left.iter().map(|left| left.points.len()).sum::<usize>();
+        for JobLeft { job: grid, points, contexts } in left {
+            let part = PartListener::new(terms.options, passed, total);
+            let listener = |progress| part.hear(progress);
+            passed += points.len();
+            let options = Options { progress: Some(&listener), contexts: Some(contexts), ..*terms.options };
+            solutions[grid] = Some(self.triangulate_owned(points, &options).map_err(in_job(job(grid)))?);
+        }
         Ok(solutions.into_iter().flatten().collect())
     }
 
@@ -172,28 +216,58 @@ impl<'d> Session<'d> {
         }
     }
 
-    /// Refuses more contexts than the device has, more points than a job may have, and coordinates beyond its bits.
-    fn check_input(&self, points: &[Point], asked: u32) -> Result<(), Error> {
-        let Identity { contexts, coord_bits, .. } = self.identity;
+    /// Refuses more contexts than the device has, and more points than a job may have.
+    fn check_job(&self, points: usize, asked: u32) -> Result<(), Error> {
+        let contexts = self.identity.contexts;
         if !(1..=contexts).contains(&asked) {
             return Err(Error::Contexts { asked, contexts, device: self.backend.name() });
         }
-        if points.len() > MAX_POINTS {
-            return Err(Error::TooManyPoints { points: points.len(), max: MAX_POINTS });
+        if points > MAX_POINTS {
+            return Err(Error::TooManyPoints { points, max: MAX_POINTS });
         }
-        let outside = |point: &Point| (point.x | point.y) >> coord_bits != 0;
-        match points.iter().position(outside) {
-            Some(index) => {
-                Err(Error::CoordinateOutOfRange { index, x: points[index].x, y: points[index].y, coord_bits })
+        Ok(())
+    }
+
+    /// Lays the points of a job onto their lattice. `None` if they have none, and the back end can do without.
+    fn on_grid<P: PlanePoint>(&self, points: &[P], terms: Terms<'_>) -> Result<Option<(Vec<Point>, Lattice)>, Error> {
+        self.check_job(points.len(), terms.contexts)?;
+        let numbers = P::numbers(points);
+        if let Numbers::Doubles(doubles) = &numbers {
+            check_finite(doubles)?;
+        }
+        let Identity { coord_bits, .. } = self.identity;
+        match numbers.on_lattice() {
+            (Numbers::Grid(grid), Some(lattice)) if lattice.bits <= coord_bits => {
+                Ok(Some((grid.into_owned(), lattice)))
             }
-            None => Ok(()),
+            (Numbers::Grid(grid), Some(lattice)) => match first_outside(&grid, lattice, coord_bits) {
+                Some(error) => Err(error),
+                None => Err(Error::LatticeTooWide { lattice, coord_bits, device: self.backend.name() }),
+            },
+            _ if self.backend.takes_all_numbers() => Ok(None),
+            _ => Err(Error::NoLattice { coord_bits, device: self.backend.name() }),
         }
     }
 }
 
-/// Copies the points of the caller, converted.
-fn own<P: Into<Point> + Copy>(points: &[P]) -> Vec<Point> {
+/// The error of the first grid point outside a device's grid; `None` if the points were laid onto the grid here, where they have
+/// other coordinates than the caller knows.
+fn first_outside(grid: &[Point], lattice: Lattice, coord_bits: u32) -> Option<Error> {
+    if lattice != Lattice::of_grid(grid) {
+        return None;
+    }
+    let index = grid.iter().position(|point| (point.x | point.y) >> coord_bits != 0)?;
+    Some(Error::CoordinateOutOfRange { index, x: grid[index].x, y: grid[index].y, coord_bits })
+}
+
+/// Puts an error into its job of a batch.
+fn in_job(job: usize) -> impl Fn(Error) -> Error {
+    move |source| Error::InJob { job, source: Box::new(source) }
+}
+
+/// Copies the points of the caller.
+fn own<P: PlanePoint>(points: &[P]) -> Vec<P> {
     let mut own = pages::with_room(points.len());
-    own.extend(points.iter().map(|&point| -> Point { point.into() }));
+    own.extend_from_slice(points);
     own
 }

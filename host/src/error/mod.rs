@@ -15,6 +15,8 @@ pub use kind::ErrorKind;
 pub use shown::Shown;
 pub use transport_error::TransportError;
 
+use incircle_geometry::lattice::Lattice;
+
 /// An error of the library.
 ///
 /// Print it: the text is one sentence with the numbers and what to do. Match on it where a program can do something
@@ -45,6 +47,30 @@ pub enum Error {
         y: u32,
         /// Bits of a coordinate of the device.
         coord_bits: u32,
+    },
+    /// The lattice of the points has more bits than a coordinate of the device.
+    #[error(
+        "the points lie on a lattice with steps of {} and {} bits, but {device} has coordinates of {coord_bits} bits: \
+         use the back end cpu or quantise the points", .lattice.step, .lattice.bits
+    )]
+    LatticeTooWide {
+        /// The lattice of the points.
+        lattice: Lattice,
+        /// Bits of a coordinate of the device.
+        coord_bits: u32,
+        /// Name of the device.
+        device: String,
+    },
+    /// The points lie on no lattice of up to 32 bits, and the device cannot do without.
+    #[error(
+        "the points lie on no lattice of up to 32 bits, and {device} has coordinates of {coord_bits} bits: \
+         use the back end cpu, which takes all doubles, or quantise the points"
+    )]
+    NoLattice {
+        /// Bits of a coordinate of the device.
+        coord_bits: u32,
+        /// Name of the device.
+        device: String,
     },
     /// A value is NaN or infinite.
     #[error("the {axis} of point {index} is {value}, which is not a finite number: remove or correct the point")]
@@ -229,6 +255,8 @@ impl Error {
     pub fn kind(&self) -> ErrorKind {
         match self {
             Self::CoordinateOutOfRange { .. }
+            | Self::LatticeTooWide { .. }
+            | Self::NoLattice { .. }
             | Self::NotFinite { .. }
             | Self::NotInteger { .. }
             | Self::OutOfGrid { .. }
