@@ -23,12 +23,14 @@ use incircle_geometry::lattice::Lattice;
 /// about one case, or ask [`kind`](Self::kind) whose fault it is.
 ///
 /// ```
-/// use incircle::{Error, ErrorKind};
+/// use incircle::{Device, Error, ErrorKind};
 ///
-/// let error = incircle::triangulate(&[(0, 0), (1 << 31, 5)]).expect_err("31 bits are the limit");
-/// assert!(matches!(error, Error::CoordinateOutOfRange { index: 1, coord_bits: 31, .. }));
+/// let mut device = Device::open("clock?config=tiny")?;
+/// let error = device.session()?.triangulate(&[(0, 0), (65536, 5)]).expect_err("16 bits are the limit");
+/// assert!(matches!(error, Error::CoordinateOutOfRange { index: 1, coord_bits: 16, .. }));
 /// assert_eq!(error.kind(), ErrorKind::BadInput);
-/// assert!(error.to_string().starts_with("point 1 is (2147483648, 5), but coordinates of 31 bits end at 2147483647"));
+/// assert!(error.to_string().starts_with("point 1 is (65536, 5), but coordinates of 16 bits end at 65535"));
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]

@@ -167,7 +167,12 @@ fn hull_and_duplicates_are_compared_place_by_place() {
 }
 
 /// Types of the rest of the library that the validator may use, because they carry numbers and decide nothing.
-const TYPES: [&str; 2] = ["use crate::point::Duplicate;", "use crate::point::Point;"];
+const TYPES: [&str; 4] = [
+    "use crate::lattice::Numbers;",
+    "use crate::plane_point::PlanePoint;",
+    "use crate::point::Duplicate;",
+    "use crate::point::Point;",
+];
 
 /// Whether a line of the validator uses code from outside the validator and the standard library.
 fn shares_code(line: &str, modules: &[String]) -> bool {
