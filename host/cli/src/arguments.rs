@@ -36,6 +36,7 @@ pub enum Command {
     ///
     /// Only the triangles are checked, as indices into POINTS. Everything else in the mesh file is
     /// ignored: the vertices of OBJ and PLY; the points, hull and duplicates of JSON.
+    /// Give the same --coord-bits and --quantize as for 'triangulate'.
     #[command(verbatim_doc_comment, after_help = help::VERIFY, after_long_help = help::VERIFY_LONG)]
     Verify(VerifyArguments),
     /// Make a set of points
@@ -72,14 +73,16 @@ pub enum Command {
 #[derive(Debug, Args)]
 pub struct GridArguments {
     /// Bits of a coordinate; the grid is 0 to 2^BITS - 1 (default: 16)
+    ///
+    /// More bits round points with fractions less. The back ends 'cpu' and 'model' take up to 31, a core 16.
     #[arg(long, value_name = "BITS", value_parser = clap::value_parser!(u32).range(8..=31))]
     pub coord_bits: Option<u32>,
     /// Lay the points onto the grid: 'fit', 'SCALE' or 'SCALE,X0,Y0'
     ///
     /// 'fit' scales the bounding box to fill the grid, both axes alike. 'SCALE,X0,Y0' computes
     /// (x - X0) * SCALE and (y - Y0) * SCALE; 'SCALE' alone takes 0 for X0 and Y0.
-    /// Without this option integers on the grid are left as they are, and the bounding box of
-    /// points with fractions is fitted.
+    /// Without this option, integers on the grid stay as they are, and a set with a fraction is
+    /// laid onto the grid by 'fit'.
     #[arg(
         long,
         value_name = "HOW",
@@ -142,7 +145,9 @@ pub struct JobArguments {
     /// The order changes the time, never the mesh. Default: brio-hilbert.
     #[arg(long, value_parser = order_parser())]
     pub order: Option<Order>,
-    /// Seconds that the device may take
+    /// Seconds that a job may take (default: 60, and 0.002 for each point)
+    ///
+    /// A slow simulated device has more by default.
     #[arg(long, value_name = "SECONDS", value_parser = seconds_from)]
     pub timeout: Option<Duration>,
 }
@@ -174,14 +179,14 @@ pub struct TriangulateArguments {
     /// '-' is standard output and needs --format.
     #[arg(short, long, value_name = "MESH")]
     pub output: PathBuf,
-    /// Mesh file
+    /// Mesh format
     ///
-    /// Without this option the extension of the file names the format.
+    /// Without this option the extension of the file chooses the format.
     #[arg(long, value_enum)]
     pub format: Option<MeshFormat>,
-    /// Point file
+    /// Point format
     ///
-    /// Without this option the extension of the file names the format.
+    /// Without this option the extension of the file chooses the format.
     #[arg(long, value_enum)]
     pub from: Option<PointFormat>,
     #[command(flatten)]
@@ -213,14 +218,14 @@ pub struct VerifyArguments {
     pub points: PathBuf,
     /// File of the mesh; '-' is standard input and needs --format
     pub mesh: PathBuf,
-    /// Point file
+    /// Point format
     ///
-    /// Without this option the extension of the file names the format.
+    /// Without this option the extension of the file chooses the format.
     #[arg(long, value_enum)]
     pub from: Option<PointFormat>,
-    /// Mesh file
+    /// Mesh format
     ///
-    /// Without this option the extension of the file names the format.
+    /// Without this option the extension of the file chooses the format.
     #[arg(long, value_parser = readable_format_parser())]
     pub format: Option<MeshFormat>,
     #[command(flatten)]
