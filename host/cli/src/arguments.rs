@@ -54,8 +54,8 @@ pub enum Command {
     ///   upper bounds, at most an eighth above the true value.
     ///
     /// For a board there is also the time of a job of n points as a line t = c + m n, fitted to four
-    /// sizes of each set. The back ends 'cpu' and 'model' have the time on this machine: the best
-    /// time of three runs.
+    /// sizes of each set. For the back ends 'cpu' and 'model' the table has times on this machine,
+    /// the best of three runs.
     #[command(verbatim_doc_comment, after_help = help::BENCH, after_long_help = help::BENCH_LONG)]
     Bench(BenchArguments),
     /// Describe a back end: version, coordinates, capacity, contexts
@@ -255,7 +255,7 @@ pub struct GenerateArguments {
     pub seed: u64,
     /// Insertion order
     ///
-    /// Puts the points in this order. Default: as generated.
+    /// The file has the points in this order. Default: as generated.
     #[arg(long, value_parser = order_parser())]
     pub order: Option<Order>,
     /// File for the points: .csv, .xyz or .node; '-' is CSV on standard output
@@ -276,8 +276,8 @@ pub struct BenchArguments {
     pub n: u32,
     /// Triangulate JOBS generated sets, each with its own seed, as one batch
     ///
-    /// Reports the time from the first word sent to the last triangle received. Takes the core
-    /// `--config full` by default. All sets together have at most 67,108,864 points.
+    /// The time runs from the first word sent to the last triangle received. The default core is
+    /// `--config full`. All sets together have at most 67,108,864 points.
     #[arg(
         long,
         value_name = "JOBS",
