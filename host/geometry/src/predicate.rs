@@ -18,7 +18,7 @@ const fn vector(from: Point, to: Point) -> [i64; 2] {
 /// polygons are sums of it. Two multiplications; usable in constants.
 ///
 /// Exact for coordinates below 2^31: differences stay below 2^31 in magnitude, each product below 2^62, their
-/// difference below 2^63. Wider coordinates may overflow.
+/// difference below 2^63. Wider coordinates may overflow, which panics in a debug build.
 ///
 /// ```
 /// use incircle_geometry::{orient2d, Point};
@@ -40,7 +40,7 @@ pub const fn orient2d(a: Point, b: Point, c: Point) -> i64 {
 /// The determinant is evaluated as `dot(c) cross(d) - dot(d) cross(c)`, where `dot` and `cross` are the products of the
 /// vectors from a point to `a` and `b` (Cline and Renka 1984). Exact for coordinates below 2^31: `cross`, which is an
 /// `orient2d`, stays below 2^63 in magnitude, `dot` is at most 2^63, and all vectors lie in one square of the grid, so
-/// the determinant is at most 2^123 (`cpu/view.rs`). Wider coordinates may overflow.
+/// the determinant is at most 2^123 (`cpu/view.rs`). Wider coordinates may overflow, which panics in a debug build.
 ///
 /// ```
 /// use incircle_geometry::{incircle, Point};

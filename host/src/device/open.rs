@@ -24,7 +24,7 @@ const _: () =
 /// Most threads of the CPU triangulator.
 const MAX_THREADS: u32 = 256;
 
-/// Something that triangulates: the CPU triangulator, a model of the hardware, a board or a card.
+/// A carrier of jobs: the CPU triangulator, a model of the core, a board or a card.
 ///
 /// Reach for a device when [`triangulate`](crate::triangulate) is not enough: for hardware, for several jobs, for
 /// options, or for a report. Opening a device does not talk to it, except that a card is locked and reset;
@@ -111,7 +111,7 @@ impl Device {
     /// Makes a device of the core's model, clock by clock.
     ///
     /// Use it to learn what a core of this configuration would do: answers, records and cycle counts are the core's.
-    /// The model is some thousand times slower than [`Device::model`].
+    /// The model is 20 to 50 times slower than [`Device::model`].
     ///
     /// # Errors
     /// [`Error::Model`] for a configuration that no core can be built with.

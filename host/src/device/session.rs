@@ -63,9 +63,9 @@ impl<'d> Session<'d> {
     /// [`Mesh::duplicates`](crate::Mesh::duplicates). With fewer than three distinct points, or with all points on one
     /// line, there are no triangles, and the host answers alone.
     ///
-    /// Cost: O(n log n) on the device in the mean, O(n) on the host. At a million points of 16 bits the peak is
-    /// below 200 bytes per point. That includes the mesh and the CPU triangulator or the software model, but not
-    /// the points of the caller.
+    /// Cost: O(n log n) on the device in the mean, O(n) on the host. At a million points of 16 bits the peak of memory
+    /// is below 200 bytes per point, with the mesh and the CPU triangulator or the software model, but without the
+    /// points of the caller.
     ///
     /// # Errors
     /// - [`Error::CoordinateOutOfRange`], [`Error::TooManyPoints`], [`Error::Capacity`] and [`Error::Contexts`]
@@ -82,7 +82,7 @@ impl<'d> Session<'d> {
         self.triangulate_owned(own(points.as_ref()), options)
     }
 
-    /// Triangulates points that the caller hands over. The mesh takes them as its own, so that they are not copied.
+    /// Triangulates points that the caller hands over, without a copy: the list becomes that of the mesh.
     ///
     /// # Errors
     /// The errors of [`Session::triangulate_with`].
@@ -98,10 +98,9 @@ impl<'d> Session<'d> {
     /// Reach for a batch when there are many small jobs: a single small mesh has no room for many insertions at once,
     /// so a device works on several jobs side by side, one in each context. [`Options::contexts`] bounds their
     /// number. Jobs that are too large to share the memory are *exclusive*: each has the memory to itself, with as
-    /// many contexts as pay. The host chooses the division that is expected to take the device the fewest clocks.
-    /// If the transport takes commands ahead, the next job is sent, and the one behind it is put in order, while
-    /// the device works on the current one; three jobs are held in order at once. The CPU triangulator works on one
-    /// small job in each thread.
+    /// many contexts as pay. The host decides which jobs share the memory, so as to need the fewest clocks. While the
+    /// device works on one job, the host sends the next and orders the points of the one after it, if the transport
+    /// takes commands ahead. The CPU triangulator works on one small job in each thread.
     ///
     /// - **Reports.** Jobs that shared the device, or were sent ahead, have no times; they have counters only if
     ///   they had the whole memory.

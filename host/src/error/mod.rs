@@ -17,8 +17,8 @@ pub use transport_error::TransportError;
 
 /// An error of the library.
 ///
-/// Print it: the text is one sentence with the numbers and what to do. Match on it where a program can do something
-/// about one case, or ask [`kind`](Self::kind) whose fault it is.
+/// Print the error: its text is one sentence with the numbers and what to do. Match on the variant where a program can
+/// do something about that case, or ask [`kind`](Self::kind) whose fault the error is.
 ///
 /// ```
 /// use incircle::{Error, ErrorKind};

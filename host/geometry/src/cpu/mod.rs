@@ -1,8 +1,7 @@
 //! The CPU triangulator: divide and conquer with exact integers, on any number of threads.
 //!
-//! [`triangulate`] does it all: points in, the canonical mesh out. The mesh is the one that every device gives, byte
-//! for byte, because there is only one. Use the CPU triangulator whenever you want the mesh and not the hardware; it is
-//! the fastest back end of a usual computer.
+//! [`triangulate`] takes points and gives the canonical mesh, the same as every device, byte for byte. Use the CPU
+//! triangulator whenever you want the mesh and not the hardware: no other back end in software is faster.
 //!
 //! The algorithm is that of Guibas and Stolfi, *Primitives for the manipulation of general subdivisions and the
 //! computation of Voronoi diagrams*, 1985, with alternating cuts (Dwyer, *A faster divide-and-conquer algorithm for

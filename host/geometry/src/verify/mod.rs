@@ -1,9 +1,9 @@
 //! The validator, which proves that a mesh is the canonical one.
 //!
-//! Use the validator in tests of code that makes or changes meshes, and on answers of hardware that you do not
-//! trust. It shares no predicate, no sort and no step of an algorithm with the devices, the model or the rest of the
-//! host, only the types of points and meshes. The validator has exact 128-bit integers, the lifted 3x3 determinant,
-//! and a hull by monotone chain (Andrew 1979) instead.
+//! Use the validator in tests of code that makes or changes meshes, and on answers of hardware that you do not trust.
+//! The validator shares no predicate, no sort and no step of an algorithm with the devices, the model or the rest of
+//! the host, only the types of points and meshes. Instead, it has exact 128-bit integers, the lifted 3x3 determinant,
+//! and a hull by monotone chain (Andrew 1979).
 //!
 //! An accepted list of triangles is the canonical mesh, because
 //! - all triangles are counter-clockwise and their areas sum to the area of the hull, each edge has its two sides or is
