@@ -6,7 +6,7 @@ use incircle_hdl::top::CORE_NAME;
 use incircle_protocol::{Config, NAMED, SMALL};
 use incircle_testbench::gate::{self, Cells};
 
-/// The small core by Yosys 0.23, as the README has it.
+/// The small core by Yosys 0.23, as `docs/core.md` has it.
 const MEASURED: Cells = Cells {
     lut4: 5020,
     carry: 1238,
