@@ -58,10 +58,11 @@
 //!
 //! # Cost and limits
 //!
-//! The CPU triangulator takes O(n log n) time and, at a million points of 16 bits, at most 200 bytes a point beyond the
-//! points themselves. Coordinates are whole numbers from 0 to 2^31 - 1 on the CPU; a device has its own number of bits,
-//! 16 for the standard cores. A job may have up to [`MAX_POINTS`] points; a device holds as many distinct ones as its
-//! [`Identity`] says. There are no constraint edges, no deletion and no insertion into a finished mesh.
+//! The CPU triangulator takes O(n) time on even sets and O(n w) at worst, with coordinates of `w` bits. At a million
+//! points of 16 bits it takes at most 200 bytes a point beyond the points themselves. Coordinates are whole numbers
+//! from 0 to 2^31 - 1 on the CPU; a device has its own number of bits, 16 for the standard cores. A job may have up to
+//! [`MAX_POINTS`] points; a device holds as many distinct ones as its [`Identity`] says. There are no constraint edges,
+//! no deletion and no insertion into a finished mesh.
 //!
 //! Nothing panics on bad input or on a faulty device: every failure is an [`Error`], whose [`ErrorKind`]
 //! says whose fault it is.
@@ -96,7 +97,8 @@ pub mod order {
 /// Triangulates a set of points with the CPU triangulator, on all processors if the set is large.
 ///
 /// Points may be [`Point`]s, pairs `(u32, u32)`, or anything else that converts into a [`Point`]; coordinates have up
-/// to 31 bits. For another number of threads, a time limit or progress, open a [`Device`] instead. O(n log n).
+/// to 31 bits. For another number of threads, a time limit or progress, open a [`Device`] instead. O(n) on even sets,
+/// O(n w) at worst with coordinates of `w` bits.
 ///
 /// ```
 /// let mesh = incircle::triangulate(&[(0, 0), (9, 0), (3, 5), (9, 9)])?;
