@@ -63,9 +63,9 @@ impl<'d> Session<'d> {
     /// [`Mesh::duplicates`](crate::Mesh::duplicates). With fewer than three distinct points, or with all points on one
     /// line, there are no triangles, and the host answers alone.
     ///
-    /// Cost: O(n log n) on the device in the mean, O(n) on the host. At a million points of 16 bits the peak is
-    /// below 200 bytes per point. That includes the mesh and the CPU triangulator or the software model, but not
-    /// the points of the caller.
+    /// Cost: O(n) on even sets, on the device and on the host. At a million points of 16 bits the peak is below 200
+    /// bytes per point. That includes the mesh and the CPU triangulator or the software model, but not the points of
+    /// the caller.
     ///
     /// # Errors
     /// - [`Error::CoordinateOutOfRange`], [`Error::TooManyPoints`], [`Error::Capacity`] and [`Error::Contexts`]
