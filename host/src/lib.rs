@@ -76,11 +76,12 @@
 //!
 //! # Cost and limits
 //!
-//! The CPU triangulator takes O(n log n) time and, at a million points of 16 bits, at most 200 bytes a point beyond the
-//! points themselves. Coordinates are whole numbers from 0 to 2^31 - 1 on the CPU; a device has its own number of bits,
-//! 16 for the standard cores. A job may have up to [`MAX_POINTS`] points; a device holds as many distinct ones as its
-//! [`Identity`] says. There are no constrained edges, no Voronoi cells, no search for the triangle that holds a place,
-//! and no insertion into or deletion from a finished mesh.
+//! The CPU triangulator takes O(n) time on even sets and O(n w) at worst, with coordinates of `w` bits. At a million
+//! points of 16 bits it takes at most 200 bytes a point beyond the points themselves. Coordinates are whole numbers
+//! from 0 to 2^31 - 1 on the CPU; a device has its own number of bits, 16 for the standard cores. A job may have up to
+//! [`MAX_POINTS`] points; a device holds as many distinct ones as its [`Identity`] says. There are no constrained
+//! edges, no Voronoi cells, no search for the triangle that holds a place, and no insertion into or deletion from a
+//! finished mesh.
 //!
 //! No set of points and no faulty device makes a call panic: every failure is an [`Error`], whose [`ErrorKind`] says
 //! whose fault it is. Only the predicates, called by themselves, need coordinates below 2^31.
@@ -115,7 +116,8 @@ pub mod order {
 /// Triangulates a set of points with the CPU triangulator, on all processors if the set is large.
 ///
 /// Points may be [`Point`]s, pairs `(u32, u32)`, or anything else that converts into a [`Point`]; coordinates have up
-/// to 31 bits. For another number of threads, a time limit or progress, open a [`Device`] instead. O(n log n).
+/// to 31 bits. For another number of threads, a time limit or progress, open a [`Device`] instead. O(n) on even sets,
+/// O(n w) at worst with coordinates of `w` bits.
 ///
 /// ```
 /// let mesh = incircle::triangulate(&[(0, 0), (9, 0), (3, 5), (9, 9)])?;

@@ -6,10 +6,15 @@
 //! and a hull by monotone chain (Andrew 1979).
 //!
 //! An accepted list of triangles is the canonical mesh, because
-//! - all triangles are counter-clockwise and their areas sum to the area of the hull, each edge has its two sides or is
-//!   a hull edge, and the number of triangles is the one of Euler's formula: so the triangles fill the hull;
-//! - each inner edge is locally Delaunay: so all triangles are Delaunay (Delaunay 1934);
-//! - each tie follows the tie rule, and the list is sorted: so there is no other such list.
+//! - all triangles are counter-clockwise, and each edge has one triangle on either side, or is a hull edge with one
+//!   triangle, and no hull edge is missing: so the number of triangles above a place changes from 0 to 1 at the hull
+//!   and nowhere else, and the triangles fill the hull without overlap;
+//! - each distinct point is a corner: so no triangle holds another point, because two triangles would overlap there;
+//! - each inner edge is locally Delaunay, ties by the tie rule: so all triangles are Delaunay (Delaunay 1934), and as
+//!   the tie rule is a lifting (see [`cpu`](crate::cpu)), no other set of triangles passes;
+//! - each triangle begins with its smallest index, and the list is sorted: so there is no other such list.
+//!
+//! Euler's formula and the sum of the areas follow from the first two points. The validator checks both all the same.
 
 mod edges;
 mod error;
