@@ -3,8 +3,8 @@
 //! Use this library when a triangulation must be *right* and *reproducible*: coordinates are integers, every predicate
 //! is exact, and a set of points has one answer. Every back end gives that answer byte for byte: the CPU triangulator,
 //! the software model, the simulated core, a board at a serial port, a card in a PCIe slot. Duplicates, collinear
-//! points and fewer than three points are no errors. Where four or more points lie on one empty circle, the diagonal
-//! ends at the lexicographically smallest of them.
+//! points and fewer than three points are no errors. Where four or more points lie on one empty circle, all diagonals
+//! start at the lexicographically smallest of them.
 //!
 //! # In one call
 //!
@@ -23,11 +23,29 @@
 //! [`Mesh::neighbors`] and [`Mesh::halfedges`] give the adjacency; [`Mesh::verify`] proves the mesh with a validator
 //! that shares no code with any back end.
 //!
+//! # Floating-point values
+//!
+//! [`quantize()`] lays values onto the integer grid and reports what rounding did. The mesh has the indices of the
+//! values, so a program can draw it with the values themselves.
+//!
+//! ```
+//! use incircle::{quantize, triangulate, Quantize};
+//!
+//! let places = [[-0.1, 51.5], [2.4, 48.9], [13.4, 52.5], [4.9, 52.4]];
+//! let (points, report) = quantize(&places, 31, Quantize::Fit)?;
+//! let mesh = triangulate(&points)?;
+//! assert_eq!(mesh.triangles.len(), 2);
+//! assert!(report.largest_error < 1e-8 && report.merged == 0);
+//! let [x, y] = report.restore(points[0]);
+//! assert!((x - places[0][0]).abs() <= report.largest_error && (y - places[0][1]).abs() <= report.largest_error);
+//! # Ok::<(), incircle::Error>(())
+//! ```
+//!
 //! # With a device
 //!
 //! Open a [`Device`] when you want hardware, a model of it, another number of threads, or figures about the job. A
-//! [`Session`] on it takes any number of jobs, each with [`Options`], and answers each with a [`Solution`]: the mesh
-//! and a [`Report`] of times and counters.
+//! [`Session`] of the device takes any number of jobs, each with [`Options`]. The answer to a job is a [`Solution`]:
+//! the mesh, and a [`Report`] of times and counters. A device stays on the thread that made it.
 //!
 //! ```
 //! use incircle::{Device, Options, Order, Point, Solution};
@@ -52,19 +70,21 @@
 //! | a board, a card or a model | [`Device::open`] with an address from [`DeviceAddress`], then [`Device::session`] |
 //! | a time limit, a progress bar, a cancel button | [`Options`] with [`Session::triangulate_with`] |
 //! | many small sets | [`Session::triangulate_batch`]: a device works on them side by side |
-//! | points that need not be copied | [`Session::triangulate_owned`] |
-//! | a mesh from elsewhere | [`verify()`] |
+//! | a `Vec` of points that you can hand over | [`Session::triangulate_owned`], which does not copy it |
+//! | a mesh from elsewhere, to check | [`verify()`] |
 //! | a simulator or a link of your own | [`Transport`] with [`Device::from_transport`] |
 //!
 //! # Cost and limits
 //!
-//! The CPU triangulator takes O(n log n) time and, at a million points of 16 bits, at most 200 bytes a point beyond the
-//! points themselves. Coordinates are whole numbers from 0 to 2^31 - 1 on the CPU; a device has its own number of bits,
-//! 16 for the standard cores. A job may have up to [`MAX_POINTS`] points; a device holds as many distinct ones as its
-//! [`Identity`] says. There are no constraint edges, no deletion and no insertion into a finished mesh.
+//! The CPU triangulator takes O(n) time on even sets and O(n w) at worst, with coordinates of `w` bits. At a million
+//! points of 16 bits it takes at most 200 bytes a point beyond the points themselves. Coordinates are whole numbers
+//! from 0 to 2^31 - 1 on the CPU; a device has its own number of bits, 16 for the standard cores. A job may have up to
+//! [`MAX_POINTS`] points; a device holds as many distinct ones as its [`Identity`] says. There are no constrained
+//! edges, no Voronoi cells, no search for the triangle that holds a place, and no insertion into or deletion
+//! from a finished mesh.
 //!
-//! Nothing panics on bad input or on a faulty device: every failure is an [`Error`], whose [`ErrorKind`]
-//! says whose fault it is.
+//! No set of points and no faulty device makes a call panic: every failure is an [`Error`], whose [`ErrorKind`] says
+//! whose fault it is. Only the predicates, called by themselves, need coordinates below 2^31.
 #![warn(missing_docs)]
 
 mod commands;
@@ -98,7 +118,8 @@ pub mod order {
 /// Triangulates a set of points with the CPU triangulator, on all processors if the set is large.
 ///
 /// Points may be [`Point`]s, pairs `(u32, u32)`, or anything else that converts into a [`Point`]; coordinates have up
-/// to 31 bits. For another number of threads, a time limit or progress, open a [`Device`] instead. O(n log n).
+/// to 31 bits. For another number of threads, a time limit or progress, open a [`Device`] instead. O(n) on even sets,
+/// O(n w) at worst with coordinates of `w` bits.
 ///
 /// ```
 /// let mesh = incircle::triangulate(&[(0, 0), (9, 0), (3, 5), (9, 9)])?;

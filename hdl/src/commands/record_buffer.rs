@@ -17,7 +17,7 @@ pub struct RecordBuffer {
     pub clock: Signal<In, Clock>,
     /// A reset drops the record.
     pub reset: Signal<In, Bit>,
-    /// A record comes; allowed only while none is held or the one held is taken whole.
+    /// A record comes; allowed only while none is held (`holds`) or the one held is taken whole.
     pub read_done: Signal<In, Bit>,
     pub record: Signal<In, Record>,
     pub holds: Signal<Out, Bit>,

@@ -36,6 +36,7 @@ pub struct RecordReads {
     /// A record has come; records come in the order in which they were asked for.
     pub read_done: Signal<In, Bit>,
     pub record: Signal<In, Record>,
+    /// The next beat of the payload.
     pub valid: Signal<Out, Bit>,
     pub beat: Signal<Out, AnswerBeat>,
     /// The beat is taken at this edge; allowed only while `valid` is high.

@@ -4,9 +4,7 @@ use rust_hdl_core::prelude::*;
 
 /// A word of a command or an answer.
 pub type Word = Bits<32>;
-/// A count of vertices.
 pub type VertexCount = Bits<15>;
-/// A count of records.
 pub type RecordCount = Bits<15>;
 /// Index of a word in a payload.
 pub type WordIndex = Bits<7>;

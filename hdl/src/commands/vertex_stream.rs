@@ -1,7 +1,7 @@
 //! Sends the payload of a `Triangles` answer: packs the vertices of the records that come, and keeps the beats
 //! until they are taken.
 //!
-//! 1. `has_room` is low while more than `ROOM` beats wait, two clocks later. The queue holds 16 beats, so there is room
+//! 1. `has_room` says, two clocks late, whether at most `ROOM` beats wait. The queue holds 16 beats, so there is room
 //!    for every record under way if each comes within `PATIENCE` clocks.
 //!
 //! Latency: 1 clock from a record to the beat that it fills, if no other beat waits.

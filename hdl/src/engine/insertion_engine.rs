@@ -103,7 +103,7 @@ impl Logic for InsertionEngine {
         self.pipeline.fetch_id.next = self.insertions.start.val().id;
         self.pipeline.clear.next = self.insertions.clear.val();
 
-        // A solo insertion starts and ends only while no visit is out. So its progress may hide visits a clock ahead.
+        // The progress of a solo insertion may mask `early`, a clock ahead: it changes only while no visit is out.
         self.insertions.limits.next = self.limits.val();
         self.insertions.deal.next = self.deal.val();
         self.insertions.arrived.next = self.arrived.val();

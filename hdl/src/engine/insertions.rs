@@ -37,6 +37,7 @@ pub struct Insertions {
     pub start: Signal<Out, Start>,
     /// The completed visit is the look at the first three points.
     pub looks: Signal<Out, Bit>,
+    /// The context whose point the vertex memory gives in this clock; and a solo insertion that starts.
     pub fetched: Signal<Out, Fetched>,
     pub solo_start: Signal<Out, SoloStart>,
     /// A record or a link that a commit writes.
@@ -60,7 +61,6 @@ pub struct Insertions {
 }
 
 impl Insertions {
-    /// Builds the insertions of a configuration.
     pub fn new(config: Config) -> Self {
         Self {
             dispatcher: Dispatcher::new(config),

@@ -16,7 +16,7 @@
 //!                v                   v                   v
 //!      first     [ window, up to 16  |      spilled      )-------
 //! ```
-//! A fetch takes three clocks. It begins only with 15 entries in the window before it, and the window never holds fewer
+//! A fetch takes three clocks, and begins only with 15 entries before it in the window. The window never holds fewer
 //! while anything is spilled, because a clock that removes one entry fetches another; so a fetched entry is there long
 //! before it is the oldest. A fetched entry and a new one may enter the window at one edge. The window has two banks
 //! for that, and a bit per place tells which bank counts.

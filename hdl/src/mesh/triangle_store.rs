@@ -1,7 +1,7 @@
 //! The triangle records, with a memory for each column, so that one neighbour can be written alone, and with a
 //! lock for each record.
 //!
-//! 1. Every read from the next edge on sees a write. A record that is read and written at the same edge comes out torn:
+//! 1. A read sees every write of an earlier edge. A record that is read and written at the same edge comes out torn:
 //!    every column that is written is arbitrary. A walk may do that, and must visit the record again. A visit that
 //!    takes or holds the lock cannot, because only the holder writes.
 //! 2. A lock is taken whether or not the record is torn. A clear may meet any visit at a lock.

@@ -1,4 +1,4 @@
-//! Times the line: a silent host, a break, and the beat of a lamp.
+//! Times the line: a silent host, a break, and the blinking of a lamp.
 //!
 //! 1. The unit of time is an eighth of a millisecond. The first unit of a silence or a break may be short, so both last
 //!    up to one unit longer than their limit.

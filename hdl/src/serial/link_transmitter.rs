@@ -36,7 +36,7 @@ pub struct LinkTransmitter {
     /// The request of the host's last frame; `saw_gap` says that a gap came before it.
     pub asked: Signal<In, Asked>,
     pub saw_gap: Signal<In, Bit>,
-    /// The session and the receipt for the headers of frames to the host.
+    /// For the headers of frames to the host: the session, the receipt, and two bits of the status.
     pub open: Signal<In, Session>,
     pub receipt: Signal<In, Receipt>,
     pub is_refused: Signal<In, Bit>,

@@ -2,7 +2,7 @@
 //!
 //! 1. A pair on offer stays while `is_stalled` is high.
 //! 2. An answer with an odd number of words ends with a pair whose bits 63 to 32 are 0.
-//! 3. `response_ready` depends on registers and `is_stalled`, and not on `response_valid`. It is low for one clock when
+//! 3. `response_ready` depends on registers and `is_stalled`, not on `response_valid`, and is low for one clock when
 //!    the end of an answer fills two pairs at once.
 //!
 //! Latency: 1 clock from the last word of a pair; 2 for the second of two pairs that are filled at once.

@@ -1,5 +1,4 @@
-//! The core's side of a reset: holds the core in reset while the bus wants it, and replies when it
-//! has been long enough.
+//! The core's side of a reset: holds the core in reset while the bus wants a reset, and replies after eight clocks.
 //!
 //! 1. `resets` is 1 from the clock after `request` until both `request` and `reply` are 0 again.
 //! 2. The block has no reset of its own: it comes to rest by itself.

@@ -5,7 +5,7 @@
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | one clock; synchronous reset, active high |
+//! | `clock`, `reset` | in | 1 | one clock; synchronous reset, active high, of four clocks at power-up |
 //! | `command_valid`, `command_ready`, `command_data` | in, out, in | 1, 1, 32 | the command stream |
 //! | `response_valid`, `response_ready`, `response_data` | out, in, out | 1, 1, 64 | the answer stream |
 //! | `response_both` | out | 1 | bits 63 to 32 hold a second word, which follows the first |
@@ -15,7 +15,7 @@
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | one clock; synchronous reset, active high, needed once |
+//! | `clock`, `reset` | in | 1 | one clock; synchronous reset, active high, needed once for two clocks |
 //! | `rx`, `tx` | in, out | 1 | the line from and to the host |
 //! | `leds` | out | 3 | alive, busy, error, from bit 0 up |
 //!

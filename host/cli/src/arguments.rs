@@ -36,6 +36,7 @@ pub enum Command {
     ///
     /// Only the triangles are checked, as indices into POINTS. Everything else in the mesh file is
     /// ignored: the vertices of OBJ and PLY; the points, hull and duplicates of JSON.
+    /// Give the same --coord-bits and --quantize as for 'triangulate'.
     #[command(verbatim_doc_comment, after_help = help::VERIFY, after_long_help = help::VERIFY_LONG)]
     Verify(VerifyArguments),
     /// Make a set of points
@@ -53,8 +54,8 @@ pub enum Command {
     ///   upper bounds, at most an eighth above the true value.
     ///
     /// For a board there is also the time of a job of n points as a line t = c + m n, fitted to four
-    /// sizes of each set. The back ends 'cpu' and 'model' have the time on this machine: the best
-    /// time of three runs.
+    /// sizes of each set. For the back ends 'cpu' and 'model' the table has times on this machine,
+    /// the best of three runs.
     #[command(verbatim_doc_comment, after_help = help::BENCH, after_long_help = help::BENCH_LONG)]
     Bench(BenchArguments),
     /// Describe a back end: version, coordinates, capacity, contexts
@@ -72,14 +73,16 @@ pub enum Command {
 #[derive(Debug, Args)]
 pub struct GridArguments {
     /// Bits of a coordinate; the grid is 0 to 2^BITS - 1 (default: 16)
+    ///
+    /// More bits round points with fractions less. The back ends 'cpu' and 'model' take up to 31, a core 16.
     #[arg(long, value_name = "BITS", value_parser = clap::value_parser!(u32).range(8..=31))]
     pub coord_bits: Option<u32>,
     /// Lay the points onto the grid: 'fit', 'SCALE' or 'SCALE,X0,Y0'
     ///
     /// 'fit' scales the bounding box to fill the grid, both axes alike. 'SCALE,X0,Y0' computes
     /// (x - X0) * SCALE and (y - Y0) * SCALE; 'SCALE' alone takes 0 for X0 and Y0.
-    /// Without this option integers on the grid are left as they are, and the bounding box of
-    /// points with fractions is fitted.
+    /// Without this option, integers on the grid stay as they are, and a set with a fraction is
+    /// laid onto the grid by 'fit'.
     #[arg(
         long,
         value_name = "HOW",
@@ -142,7 +145,9 @@ pub struct JobArguments {
     /// The order changes the time, never the mesh. Default: brio-hilbert.
     #[arg(long, value_parser = order_parser())]
     pub order: Option<Order>,
-    /// Seconds that the device may take
+    /// Seconds that a job may take (default: 60, and 0.002 for each point)
+    ///
+    /// A slow simulated device has more by default.
     #[arg(long, value_name = "SECONDS", value_parser = seconds_from)]
     pub timeout: Option<Duration>,
 }
@@ -174,14 +179,14 @@ pub struct TriangulateArguments {
     /// '-' is standard output and needs --format.
     #[arg(short, long, value_name = "MESH")]
     pub output: PathBuf,
-    /// Mesh file
+    /// Mesh format
     ///
-    /// Without this option the extension of the file names the format.
+    /// Without this option the extension of the file chooses the format.
     #[arg(long, value_enum)]
     pub format: Option<MeshFormat>,
-    /// Point file
+    /// Point format
     ///
-    /// Without this option the extension of the file names the format.
+    /// Without this option the extension of the file chooses the format.
     #[arg(long, value_enum)]
     pub from: Option<PointFormat>,
     #[command(flatten)]
@@ -213,14 +218,14 @@ pub struct VerifyArguments {
     pub points: PathBuf,
     /// File of the mesh; '-' is standard input and needs --format
     pub mesh: PathBuf,
-    /// Point file
+    /// Point format
     ///
-    /// Without this option the extension of the file names the format.
+    /// Without this option the extension of the file chooses the format.
     #[arg(long, value_enum)]
     pub from: Option<PointFormat>,
-    /// Mesh file
+    /// Mesh format
     ///
-    /// Without this option the extension of the file names the format.
+    /// Without this option the extension of the file chooses the format.
     #[arg(long, value_parser = readable_format_parser())]
     pub format: Option<MeshFormat>,
     #[command(flatten)]
@@ -250,7 +255,7 @@ pub struct GenerateArguments {
     pub seed: u64,
     /// Insertion order
     ///
-    /// Puts the points in this order. Default: as generated.
+    /// The file has the points in this order. Default: as generated.
     #[arg(long, value_parser = order_parser())]
     pub order: Option<Order>,
     /// File for the points: .csv, .xyz or .node; '-' is CSV on standard output
@@ -271,8 +276,8 @@ pub struct BenchArguments {
     pub n: u32,
     /// Triangulate JOBS generated sets, each with its own seed, as one batch
     ///
-    /// Reports the time from the first word sent to the last triangle received. Takes the core
-    /// `--config full` by default. All sets together have at most 67,108,864 points.
+    /// The time runs from the first word sent to the last triangle received. The default core is
+    /// `--config full`. All sets together have at most 67,108,864 points.
     #[arg(
         long,
         value_name = "JOBS",

@@ -132,8 +132,8 @@ fn power_of_ten(digits: i32) -> f64 {
     (0..digits).fold(1.0, |power, _| power * 10.0)
 }
 
-/// The exponent of the lowest bit that is set in a double; `None` for infinities and what is not a number, the largest exponent
-/// for zero.
+/// The exponent of the lowest bit that is set in a double; `None` for infinities and what is not a number, the
+/// largest exponent for zero.
 fn trailing_exponent(value: f64) -> Option<i32> {
     let bits = value.to_bits();
     let (fraction, biased) = (bits & ((1 << 52) - 1), (bits >> 52 & 0x7ff) as i32);

@@ -13,13 +13,13 @@ pub const EMPTY: u32 = u32::MAX;
 
 /// The Delaunay triangulation of the distinct points of a set, in canonical form.
 ///
-/// There is exactly one answer for a set of points: every back end and every order of insertion gives the same
-/// `triangles` and the same `hull`. Two meshes are equal if all four lists are, so `==` on two meshes of the same
-/// points shows any difference between two back ends.
+/// A set of points has exactly one mesh: every back end and every order of insertion gives the same lists. Two meshes
+/// are equal if all four lists are, so `==` on two meshes of the same points shows any difference
+/// between two back ends.
 ///
-/// A mesh comes from [`cpu::triangulate`](crate::cpu::triangulate) or from the library `incircle`. The
-/// points keep the type in which they were given. All indices are positions in [`points`](Self::points). `n` distinct points with `h` of them on the hull have
-/// `2 n - 2 - h` triangles.
+/// A mesh comes from [`cpu::triangulate`](crate::cpu::triangulate) or from the library `incircle`. The points keep the
+/// type in which they were given. All indices are positions in [`points`](Self::points). `n` distinct points with `h`
+/// of them on the hull have `2 n - 2 - h` triangles.
 ///
 /// ```
 /// use core::num::NonZeroUsize;
@@ -38,7 +38,8 @@ pub const EMPTY: u32 = u32::MAX;
 pub struct Mesh<P = Point> {
     /// The input points, in input order, duplicates included.
     pub points: Vec<P>,
-    /// Triples of indices into `points`, counter-clockwise, each with its smallest index first, sorted.
+    /// Triples of indices into `points`, counter-clockwise if y grows upwards, each with its
+    /// smallest index first, sorted.
     pub triangles: Vec<[u32; 3]>,
     /// Indices of the points on the hull, counter-clockwise, lowest index first; points in the middle of a hull edge
     /// are included. A mesh without triangles lists all distinct points in lexicographic order here.

@@ -15,10 +15,10 @@ const fn vector(from: Point, to: Point) -> [i64; 2] {
 ///
 /// The result is positive if `a`, `b`, `c` turn counter-clockwise (`c` lies to the left), zero if they lie on one line,
 /// and negative otherwise. The value is twice the signed area of the triangle in squares of the grid, so areas of
-/// polygons are sums of it. Two multiplications; usable in constants.
+/// polygons are sums of such values. Two multiplications; usable in constants.
 ///
 /// Exact for coordinates below 2^31: differences stay below 2^31 in magnitude, each product below 2^62, their
-/// difference below 2^63. Wider coordinates may overflow.
+/// difference below 2^63. Wider coordinates may overflow, which panics in a debug build.
 ///
 /// ```
 /// use incircle_geometry::{orient2d, Point};
@@ -32,15 +32,15 @@ pub const fn orient2d(a: Point, b: Point, c: Point) -> i64 {
 
 /// Tells whether `d` lies inside the circle through `a`, `b` and `c`.
 ///
-/// For a counter-clockwise triangle the result is positive if `d` is inside, zero if `d` is on the circle, and
-/// negative if `d` is outside. A clockwise triangle has the opposite sign. The function is the plain determinant: the
-/// tie rule, by which the canonical mesh decides a zero, is not part of it. Ten multiplications, two of them to 128
+/// For a counter-clockwise triangle the result is positive if `d` is inside, zero if `d` is on the circle, and negative
+/// if `d` is outside. A clockwise triangle has the opposite sign. The function is the plain determinant: the tie rule,
+/// by which the canonical mesh decides a zero, is not part of it. Ten multiplications, two of them to 128
 /// bits; usable in constants.
 ///
 /// The determinant is evaluated as `dot(c) cross(d) - dot(d) cross(c)`, where `dot` and `cross` are the products of the
-/// vectors from a point to `a` and `b` (Cline and Renka 1984). Exact for coordinates below 2^31: `cross`, which is an
-/// `orient2d`, stays below 2^63 in magnitude, `dot` is at most 2^63, and all vectors lie in one square of the grid, so
-/// the determinant is at most 2^123 (`cpu/view.rs`). Wider coordinates may overflow.
+/// vectors from a point to `a` and `b` (Cline and Renka 1984). Exact for coordinates below 2^31: in magnitude `cross`,
+/// which is an `orient2d`, stays below 2^62, `dot` below 2^63, and each product below 2^125. The determinant is at most
+/// 2^123, because all four points lie in one square of the grid (`cpu/view.rs`). Wider coordinates may overflow.
 ///
 /// ```
 /// use incircle_geometry::{incircle, Point};

@@ -2,8 +2,8 @@
 //!
 //! Each level has a mesh of its own, and about one in 32 of its points are in the level above. A point is located in
 //! the highest level first. The nearest corner of the triangle found there is the start of the walk in the level below.
-//! So a walk takes a constant number of steps in each of O(log n) levels, wherever the previous point lay. Source:
-//! Devillers, *The Delaunay hierarchy*, 2002.
+//! So a walk takes a constant number of steps on average in each of O(log n) levels, wherever the previous point lay.
+//! Source: Devillers, *The Delaunay hierarchy*, 2002.
 
 mod level;
 
@@ -15,8 +15,8 @@ use incircle_model::Counts;
 use self::level::Level;
 use crate::assembly::canonical;
 
-/// The share of a level's points that are in the level above is one in 2 to this power: about one in 30, which the
-/// author of the hierarchy found to be good.
+/// Coins that a point throws for each level. All must fall right, so about one point of a level in 2^5 is in the level
+/// above; the author of the hierarchy found one in 30 to be good.
 const SHIFT: u32 = 5;
 /// A Delaunay triangulation of points that arrive one at a time.
 ///

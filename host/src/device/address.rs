@@ -31,10 +31,10 @@ use crate::transports::serial;
 /// | `pcie:N` | the card `N` in a PCIe slot, behind the driver XDMA | |
 /// | `pcie:DIR` | the card whose files `xdma0_h2c_0`, `xdma0_c2h_0` and `xdma0_user` are in a directory | |
 ///
-/// `clock` is some thousand times slower than `model`. The library itself cannot open `sim`; the command `incircle`
-/// can, if it was built with it. Opening a serial port sends nothing; opening a card locks and resets it. `baud` is
-/// 3,000,000 unless given, and less where the port cannot reach it. `slow` suits a simulated board: all times of the
-/// link, and those that the library chooses, become `S` times as long.
+/// `clock` is 20 to 50 times slower than `model`. The library itself cannot open `sim`; the command `incircle` can, if
+/// the command was built with the feature `sim`. Opening a serial port sends nothing; opening a card locks and resets
+/// it. `baud` is 3,000,000 unless given, and less where the port cannot reach it. `slow` suits a simulated board: all
+/// times of the link, and those that the library chooses, become `S` times as long.
 ///
 /// ```
 /// use incircle::DeviceAddress;

@@ -24,7 +24,7 @@ const _: () =
 /// Most threads of the CPU triangulator.
 const MAX_THREADS: u32 = 256;
 
-/// Something that triangulates: the CPU triangulator, a model of the hardware, a board or a card.
+/// A carrier of jobs: the CPU triangulator, a model of the core, a board or a card.
 ///
 /// Reach for a device when [`triangulate`](crate::triangulate) is not enough: for hardware, for several jobs, for
 /// options, or for a report. Opening a device does not talk to it, except that a card is locked and reset;
@@ -59,9 +59,9 @@ impl Device {
     /// and a core has the configuration `large`.
     ///
     /// # Errors
-    /// [`Error::Open`] for a port or a card that cannot be opened, [`Error::Link`] for a card whose
-    /// registers are not those of a sound one, [`Error::Address`] for `sim`, which is not part of the
-    /// library, and the errors of [`Device::model`].
+    /// [`Error::Open`] for a port or a card that cannot be opened, [`Error::Link`] for a card whose registers are not
+    /// those of a sound one, [`Error::Address`] for `sim`, which is not part of the library, and
+    /// the errors of [`Device::model`].
     pub fn at(address: &DeviceAddress) -> Result<Self, Error> {
         match address {
             &DeviceAddress::Cpu { threads } => Ok(Self::cpu(threads)),
@@ -100,8 +100,8 @@ impl Device {
     /// insertion after the other. Memory grows as points arrive.
     ///
     /// # Errors
-    /// [`Error::CoordBits`] outside 1 to 31, [`Error::Model`] for a capacity below 4 or above 2^30 - 1, the most
-    /// that record ids have room for.
+    /// [`Error::CoordBits`] outside 1 to 31, [`Error::Model`] for a capacity below 4 or above 2^30 - 1, the most that
+    /// record ids have room for.
     pub fn model(coord_bits: u32, capacity: u32) -> Result<Self, Error> {
         check_coord_bits(coord_bits)?;
         let transport = ModelTransport::new(coord_bits, capacity)?;
@@ -111,7 +111,7 @@ impl Device {
     /// Makes a device of the core's model, clock by clock.
     ///
     /// Use it to learn what a core of this configuration would do: answers, records and cycle counts are the core's.
-    /// The model is some thousand times slower than [`Device::model`].
+    /// The model is 20 to 50 times slower than [`Device::model`].
     ///
     /// # Errors
     /// [`Error::Model`] for a configuration that no core can be built with.
@@ -119,8 +119,8 @@ impl Device {
         Ok(Self::from_transport(Box::new(ClockTransport::new(config)?)))
     }
 
-    /// Makes a device of a transport, such as a simulation, a board with a link of its own, or a test
-    /// double. Nothing is sent yet.
+    /// Makes a device of a transport, such as a simulation, a board with a link of its own, or a test double.
+    /// Nothing is sent yet.
     pub fn from_transport(transport: Box<dyn Transport>) -> Self {
         Self { backend: Box::new(DeviceBackend::new(transport)) }
     }

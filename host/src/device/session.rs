@@ -17,8 +17,8 @@ use incircle_geometry::{PlanePoint, Point, MAX_POINTS};
 /// A session comes from [`Device::session`](crate::Device::session) and takes any number of jobs:
 ///
 /// - [`triangulate`](Self::triangulate) for one job with the default [`Options`];
-/// - [`triangulate_with`](Self::triangulate_with) for a time limit, progress, cancellation,
-///   an order, or fewer contexts;
+/// - [`triangulate_with`](Self::triangulate_with) for a time limit, progress, cancellation, an
+///   order, or fewer contexts;
 /// - [`triangulate_owned`](Self::triangulate_owned) for points that the caller can part with;
 /// - [`triangulate_batch`](Self::triangulate_batch) for many jobs, which a device works on side by side.
 ///
@@ -61,14 +61,14 @@ impl<'d> Session<'d> {
     /// [`Mesh::duplicates`](crate::Mesh::duplicates). With fewer than three distinct points, or with all points on one
     /// line, there are no triangles, and the host answers alone.
     ///
-    /// Cost: O(n log n) on the device in the mean, O(n) on the host. At a million points of 16 bits the peak is
-    /// below 200 bytes per point. That includes the mesh and the CPU triangulator or the software model, but not
-    /// the points of the caller.
+    /// Cost: O(n log n) on the device in the mean, O(n) on the host. At a million points of 16 bits the peak of memory
+    /// is below 200 bytes per point, with the mesh and the CPU triangulator or the software model, but without the
+    /// points of the caller.
     ///
     /// # Errors
-    /// - [`Error::CoordinateOutOfRange`], [`Error::TooManyPoints`], [`Error::Capacity`] and [`Error::Contexts`]
-    ///   for input and options that the device cannot take; [`Error::Cancelled`] if the listener says so. The
-    ///   session can be used again.
+    /// - [`Error::CoordinateOutOfRange`], [`Error::TooManyPoints`], [`Error::Capacity`] and [`Error::Contexts`] for
+    ///   input and options that the device cannot take; [`Error::Cancelled`] if the listener says so. The session
+    ///   can be used again.
     /// - [`Error::Link`] and [`Error::Device`] for a link that fails and an answer that no sound device gives;
     ///   [`Error::Timeout`] if the deadline passes while the device works. The session is then out of step and refuses
     ///   further work: open the device again.
@@ -80,7 +80,7 @@ impl<'d> Session<'d> {
         self.triangulate_owned(own(points.as_ref()), options)
     }
 
-    /// Triangulates points that the caller hands over. The mesh takes them as its own, so that they are not copied.
+    /// Triangulates points that the caller hands over, without a copy: the list becomes that of the mesh.
     ///
     /// # Errors
     /// The errors of [`Session::triangulate_with`].
@@ -103,26 +103,25 @@ impl<'d> Session<'d> {
         }
     }
 
-    /// Triangulates many sets of points in one call, as a batch. Each mesh is byte for byte
-    /// the one that [`Session::triangulate_with`] gives.
+    /// Triangulates many sets of points in one call, as a batch. Each mesh is byte for byte the
+    /// one that [`Session::triangulate_with`] gives.
     ///
     /// Reach for a batch when there are many small jobs: a single small mesh has no room for many insertions at once,
-    /// so a device works on several jobs side by side, one in each context. [`Options::contexts`] bounds their
-    /// number. Jobs that are too large to share the memory are *exclusive*: each has the memory to itself, with as
-    /// many contexts as pay. The host chooses the division that is expected to take the device the fewest clocks.
-    /// If the transport takes commands ahead, the next job is sent, and the one behind it is put in order, while
-    /// the device works on the current one; three jobs are held in order at once. The CPU triangulator works on one
-    /// small job in each thread.
+    /// so a device works on several jobs side by side, one in each context. [`Options::contexts`] bounds their number.
+    /// Jobs that are too large to share the memory are *exclusive*: each has the memory to itself, with as many
+    /// contexts as pay. The host decides which jobs share the memory, so as to need the fewest clocks. While the device
+    /// works on one job, the host sends the next and orders the points of the one after it, if the transport takes
+    /// commands ahead. The CPU triangulator works on one small job in each thread.
     ///
-    /// - **Reports.** Jobs that shared the device, or were sent ahead, have no times; they have counters only if
-    ///   they had the whole memory.
+    /// - **Reports.** Jobs that shared the device, or were sent ahead, have no times; they have counters only if they
+    ///   had the whole memory.
     /// - **Time.** [`Options::timeout`] is one limit for all jobs that share the memory, and one for each of the
     ///   others. While a job is sent ahead, its time is added to that of the job before it.
     /// - **Progress** counts the points of all jobs, duplicates included, and never goes back: first [`Stage::Order`]
     ///   for the jobs that share the memory, then [`Stage::Insert`]. If the listener cancels, the answers to what was
     ///   sent are still received, so the session stays in step.
-    /// - [`Options::insert_chunk`] matters only for a job of more than 65,536 points, and where
-    ///   the transport takes nothing ahead.
+    /// - [`Options::insert_chunk`] matters only for a job of more than 65,536 points, and where the
+    ///   transport takes nothing ahead.
     ///
     /// ```
     /// use incircle::{Device, Options, Point};
@@ -198,8 +197,8 @@ impl<'d> Session<'d> {
         Ok(solutions.into_iter().flatten().collect())
     }
 
-    /// Clocks of the device since it was opened; `None` unless the device is a simulated
-    /// core, whose clocks are counted.
+    /// Clocks of the device since it was opened; `None` unless the device is a simulated core,
+    /// whose clocks are counted.
     #[must_use]
     pub fn clocks(&self) -> Option<u64> {
         self.backend.clocks()
@@ -250,8 +249,8 @@ impl<'d> Session<'d> {
     }
 }
 
-/// The error of the first grid point outside a device's grid; `None` if the points were laid onto the grid here, where they have
-/// other coordinates than the caller knows.
+/// The error of the first grid point outside a device's grid; `None` if the points were laid onto the grid here, where
+/// they have other coordinates than the caller knows.
 fn first_outside(grid: &[Point], lattice: Lattice, coord_bits: u32) -> Option<Error> {
     if lattice != Lattice::of_grid(grid) {
         return None;

@@ -2,7 +2,7 @@
 
 /// The kind of an error: whose fault it is, and so who can do something about it.
 ///
-/// Use it for exit codes, and wherever a program only decides between "ask the user" and "try another device".
+/// Use the kind for exit codes, and wherever a program only decides between "ask the user" and "try another device".
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ErrorKind {

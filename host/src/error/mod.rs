@@ -1,5 +1,5 @@
-//! Everything that can go wrong, as typed errors. Each says in one sentence what happened, with the numbers, and
-//! what to do about it.
+//! Everything that can go wrong, as typed errors. Each says in one sentence what happened, with the numbers, and what
+//! to do about it.
 
 mod device_fault;
 mod kind;
@@ -19,8 +19,8 @@ use incircle_geometry::lattice::Lattice;
 
 /// An error of the library.
 ///
-/// Print it: the text is one sentence with the numbers and what to do. Match on it where a program can do something
-/// about one case, or ask [`kind`](Self::kind) whose fault it is.
+/// Print the error: its text is one sentence with the numbers and what to do. Match on the variant where a program can
+/// do something about that case, or ask [`kind`](Self::kind) whose fault the error is.
 ///
 /// ```
 /// use incircle::{Device, Error, ErrorKind};

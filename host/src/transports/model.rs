@@ -21,7 +21,7 @@ pub struct ModelTransport {
 }
 
 impl ModelTransport {
-    /// Makes a model for `capacity` points of `coord_bits` bits. It takes about 60 bytes per point.
+    /// Makes a model for `capacity` points of `coord_bits` bits, which takes about 60 bytes per point.
     ///
     /// # Errors
     /// [`Error::Model`] if the model refuses these parameters.

@@ -11,13 +11,14 @@ pub type AnswerHead = [u32; ANSWER_HEAD_WORDS];
 
 /// Carries commands to a device and brings the answers.
 ///
-/// Implement this trait to connect a device in a way of your own, as a simulator or another bus, and hand it to
-/// [`Device::from_transport`](crate::Device::from_transport). Two methods are enough for a plain transport beside its
-/// name: [`submit`](Self::submit) and [`receive`](Self::receive), the latter with the help of [`receive_in_pieces`].
+/// Implement this trait to connect a simulator or another bus, and hand your type to
+/// [`Device::from_transport`](crate::Device::from_transport). A plain transport needs a [`name`](Self::name) and two
+/// more methods, [`submit`](Self::submit) and [`receive`](Self::receive); [`receive_in_pieces`] does
+/// most of the latter.
 ///
-/// A transport carries whole commands and whole answers, in their order. It does not judge answers: the session
-/// checks what a device says. After an error commands and answers are out of step, and the session refuses
-/// further work, unless [`recover`](Self::recover) helps.
+/// A transport carries whole commands and whole answers, in their order, and leaves it to the session to check them.
+/// After an error commands and answers are out of step, and the session refuses further
+/// work, unless [`recover`](Self::recover) helps.
 pub trait Transport {
     /// Short name for reports and errors, such as `model` or `sim:full`.
     fn name(&self) -> String;
@@ -97,8 +98,8 @@ impl Default for Capabilities {
 pub struct DeviceClocks {
     /// Clocks up to now.
     pub now: u64,
-    /// Clocks up to the word that was received last; `None` before the first. The device may be far
-    /// ahead of the words received.
+    /// Clocks up to the word that was received last; `None` before the first. The device may be far ahead
+    /// of the words received.
     pub answer: Option<u64>,
 }
 

@@ -5,8 +5,8 @@
 //! with the Verilog. Both hold the same records under the same ids, written in the same order.
 //!
 //! The algorithm is incremental insertion: a visibility walk, a Bowyer-Watson cavity whose boundary is a ring
-//! that is split in place, and a commit that reuses the ids of the removed triangles. Ties follow the
-//! canonical rule (see [`predicate`]).
+//! that is split in place, and a commit that reuses the ids of the removed triangles. Ties follow the tie rule (see
+//! [`predicate`]).
 
 mod clock;
 mod command;

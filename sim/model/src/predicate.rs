@@ -18,7 +18,7 @@ fn difference(q: Point, p: Point) -> (i64, i64) {
     (i64::from(q.x) - i64::from(p.x), i64::from(q.y) - i64::from(p.y))
 }
 
-/// The z component of `a x b`. With coordinates of 31 bits its magnitude is below `2 * (2^31 - 1)^2 < 2^63`.
+/// The z component of `a x b`. With coordinates of 31 bits its magnitude is at most `2 * (2^31 - 1)^2 < 2^63`.
 #[inline]
 fn cross(a: (i64, i64), b: (i64, i64)) -> i64 {
     a.0 * b.1 - a.1 * b.0
@@ -41,7 +41,7 @@ pub fn orient2d(a: Point, b: Point, c: Point) -> i64 {
 ///
 /// The form is that of Cline and Renka: with `d = r[0]`, the value is `E_0 * D_d - A * D_p`, where `E_0 =
 /// orient2d(r[1], r[2], p)`, `A = orient2d(r[1], r[2], d)`, and `D_q` is the dot product of `r[1] - q` and `r[2] - q`.
-/// The sign is that of the lifted determinant if `p` and `d` lie on opposite sides of the edge `r[1] r[2]`.
+/// The value equals the lifted determinant of the four points for every `p`, wherever `p` lies.
 #[inline]
 pub fn incircle(r: [Point; 3], p: Point) -> i128 {
     let (a, b) = (difference(r[1], r[0]), difference(r[2], r[0]));
@@ -51,8 +51,9 @@ pub fn incircle(r: [Point; 3], p: Point) -> i128 {
 
 /// Whether `p` conflicts with the finite triangle `r`, whose edge `r[1] r[2]` faces `p`.
 ///
-/// A point inside the circumcircle conflicts. On the circle the canonical tie rule decides: the diagonal ends in the
-/// lexicographically smallest of the four points, so `r` conflicts if and only if that is `p` or the apex `r[0]`.
+/// A point inside the circumcircle conflicts. On the circle the tie rule decides: the diagonal ends in the
+/// lexicographically smallest of the four points, so `r` conflicts iff the smallest is `p` or `r[0]`, the vertex
+/// opposite the edge.
 #[inline]
 pub fn finite_conflict(r: [Point; 3], p: Point) -> bool {
     match incircle(r, p) {

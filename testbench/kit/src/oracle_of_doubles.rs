@@ -1,5 +1,5 @@
-//! The canonical Delaunay triangulation of points of doubles by its definition, in integers of any size: for small sets, and
-//! for nothing but comparison.
+//! The canonical Delaunay triangulation of points of doubles by its definition, in integers of any size: for small
+//! sets, and for nothing but comparison.
 
 use std::cmp::Ordering;
 
@@ -61,8 +61,8 @@ fn conflicts(a: &Exact, b: &Exact, c: &Exact, d: &Exact) -> bool {
     }
     let smallest = [a, b, c, d].into_iter().min().expect("four points");
     let is_negative = |value: BigInt| value < zero();
-    // Lowering a corner changes the determinant by minus the factor of the corner's lift. Lowering `d` moves `d`
-    // inside.
+    // Lowering a corner changes the determinant by minus the factor of the corner's lift. Lowering
+    // `d` moves `d` inside.
     if smallest == a {
         is_negative(cross(d, b, c))
     } else if smallest == b {

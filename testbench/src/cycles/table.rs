@@ -113,8 +113,8 @@ const INTRODUCTION: &str = "\
 
 For engineers who want to know how fast the core inserts points, and how close that is to what its memories allow.
 
-All figures are counted on the model clock by clock. They are exact: the same on every machine. One command renews this
-page, and the test `tests/it/cores/cycles.rs` counts everything again and compares:
+All figures are counted on the model clock by clock, so they are exact and the same on every machine. One command renews
+this page, and the test `tests/it/cores/cycles.rs` counts everything again and compares:
 
     cargo run --release -p incircle-testbench --bin cycles
 
@@ -125,7 +125,8 @@ page, and the test `tests/it/cores/cycles.rs` counts everything again and compar
 - A cell is the counter `InsertCycles` divided by the points inserted. The counter runs from the first point accepted to
   the last lock released, and leaves out the read-out.
 - The limit is the time of the memory accesses alone, at one visit and one write a clock: the larger of `IssueCycles`
-  and `WriteCycles`, divided by the points inserted.
+  and `WriteCycles`, divided by the points inserted. Visits of aborted attempts count as well, so the limit belongs
+  to the run and not to the algorithm.
 ";
 
 /// The heading and the text before the last table.

@@ -3,7 +3,8 @@
 //!
 //! 1. A context falls asleep when its last visit completes. The context keeps its point, unless its ring is complete or
 //!    the point equals a vertex (L1).
-//! 2. A context asks for the priority when it aborts, and returns the priority when its point is settled (L2).
+//! 2. A context asks for the priority when it aborts, and returns it when its ring is complete or its point equals a
+//!    vertex (L2).
 //!
 //! Latency: none, the block is combinational.
 

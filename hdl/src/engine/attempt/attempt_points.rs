@@ -29,7 +29,7 @@ pub struct AttemptPoints {
     /// A context that starts and may take a point at this edge; the clock count.
     pub start: Signal<In, Start>,
     pub now: Signal<In, Clocks>,
-    /// The context that is asked about; its point, and the clock count when it took the point.
+    /// A context; its point, and the clock count when the context took the point.
     pub context_id: Signal<In, ContextId>,
     pub vertex: Signal<Out, VertexId>,
     pub since: Signal<Out, Clocks>,
@@ -42,7 +42,6 @@ pub struct AttemptPoints {
 }
 
 impl AttemptPoints {
-    /// Builds the table of a configuration.
     pub fn new(config: Config) -> Self {
         let bits = context_bits(config);
         Self { points: LutMemory::new(bits, VERTEX_BITS), times: LutMemory::new(bits, LATENCY_BITS), ..Self::default() }

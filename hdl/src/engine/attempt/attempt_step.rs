@@ -4,8 +4,8 @@
 //!    one new entry come.
 //! 2. An aborted attempt drains: it is over when its last visit completes and not before, because a visit in flight may
 //!    still take a lock (L1).
-//! 3. A record that joins the cavity brings two open edges, the root brings three. When the last of them is passed, the
-//!    record is an inner one.
+//! 3. A record that joins the cavity brings two open edges, the root brings three. When the records behind all of them
+//!    have joined the cavity too, the record is an inner one.
 //!
 //! Latency: none, the block is combinational.
 

@@ -5,9 +5,9 @@
 //! 2. A visit sees the effects of all visits before it, also of a test in the clock before. The visit that opens a
 //!    cavity is the only one of its context, so the next one comes later.
 //! 3. A cavity opens with three tests, of the neighbours of the root, and with one lock.
-//! 4. `is_last`, `is_full` and `edge_was_passed` repeat what `attempt` says. They are ready sooner.
+//! 4. `is_last`, `is_full` and `edge_was_passed` repeat what `attempt` says, but are ready sooner.
 //!
-//! Latency: 1 clock from `early_visit` to `held`. The next clock sees what is written in a clock.
+//! Latency: 1 clock from `early_visit` to `held`. A state that is written in one clock can be read in the next.
 //!
 //! Source: a memory in LUTs that is read a clock ahead, with a bypass around it.
 

@@ -1,11 +1,11 @@
 //! Takes each completed visit to the next step of its context: the heart of the engine.
 //!
 //! 1. A visit changes the state of its own context only. The state is read a clock ahead, and is changed and written
-//!    back in one clock. So the visits of all contexts may complete in any order, one a clock.
+//!    back in one clock. So visits of different contexts may complete in any mixture, one a clock.
 //! 2. An aborted attempt drains: its visits in flight complete, the locks that they take are logged, and then all its
 //!    locks are released (L1).
-//! 3. All outputs belong to the visit of this clock. `seeded`, the busy contexts and the priority are looked
-//!    at a clock ahead.
+//! 3. All outputs belong to the visit of this clock. `seeded`, the busy contexts and the priority are read a clock
+//!    ahead.
 //!
 //! Latency: 1 clock from `early` to the outputs; the state is there for the visit of the next clock.
 //!
@@ -96,7 +96,6 @@ pub struct Attempts {
 }
 
 impl Attempts {
-    /// Builds the attempts of a configuration.
     pub fn new(config: Config) -> Self {
         Self { store: AttemptStore::new(config), points: AttemptPoints::new(config), ..Self::default() }
     }

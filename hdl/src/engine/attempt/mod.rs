@@ -10,8 +10,8 @@
 //! ```
 //! An insertion walks to the record of its point, locks this root, and digs the cavity by tests, many of which are in
 //! flight at once. The whole state of an attempt is one word of [`AttemptStore`]. The word is read a clock before one
-//! of the visits completes, and is changed and written back in the clock in which the visit completes. So the visits of
-//! all contexts may complete in any order, one in each clock.
+//! of the visits completes, and is changed and written back in the clock in which the visit completes. So visits of
+//! different contexts may complete in any mixture, one in each clock.
 //!
 //! Lock rules (see `docs/engine.md`): L1, an attempt that meets a foreign lock drains and releases ([`VisitCase`],
 //! [`AttemptStep`], [`Aftermath`]); L2, the context with the priority visits the record again instead ([`VisitCase`]);

@@ -2,7 +2,7 @@
 //!
 //! 1. A root visit or a test that meets a foreign lock aborts its attempt (L1). If its context holds the priority, the
 //!    record is visited again instead (L2).
-//! 2. A walk holds no locks. It makes its visit again if the record is not written yet or is being written (L7), and if
+//! 2. A walk holds no locks, and makes its visit again if the record is not written yet or is being written (L7), or if
 //!    the record holds the point while the context still has locks of its last point (L6).
 //! 3. The root is visited again under its lock, because the findings of the walk need not be true any more (L5).
 //! 4. At most one of `looks` to `root_duplicate` in the case is high, except that `waits` comes with `revisits`. None

@@ -4,8 +4,8 @@
 //!    neighbours of this record are the outside record and the records of entries `i + 1` and `i - 1`. Then the entry
 //!    writes the link of the outside record back to the star, unless that link is right already.
 //! 2. The record takes the id of the cavity record behind its entry, unless the entry before or the first entry has
-//!    taken that id. Then it takes the id of an inner record, or a new one: two new ids for each ring. An id given in
-//!    this way is never that of the cavity record behind the entry.
+//!    taken that id. Otherwise the record takes the id of an inner record, or a new one: two new ids for each ring. An
+//!    id given in this way is never that of the cavity record behind the entry.
 //! 3. The record of the first entry is written last, because it needs the id of the last one.
 //! 4. A ring has three entries or more. Its inner records are listed before its first entry is offered.
 //!
@@ -73,7 +73,6 @@ pub struct Commit {
 }
 
 impl Commit {
-    /// Builds the commit of a configuration.
     pub fn new(config: Config) -> Self {
         Self { inner_list: InnerList::new(config), ..Self::default() }
     }

@@ -32,7 +32,7 @@ pub struct CommitPath {
     /// A ring is complete; or the locks of an attempt that ended without a commit are due.
     pub commit: Signal<In, CommitRequest>,
     pub releases: Signal<In, ReleaseRequest>,
-    /// Others write new records: four of a first triangle, or two of a solo insertion; only while no commit is at work.
+    /// The seeder has written four new records, or a solo insertion two; only while no commit is at work.
     pub seeds: Signal<In, Bit>,
     pub solo_inserts: Signal<In, Bit>,
     /// A record or a link.
@@ -59,7 +59,6 @@ pub struct CommitPath {
 }
 
 impl CommitPath {
-    /// Builds the path of a configuration.
     pub fn new(config: Config) -> Self {
         Self {
             rings: RingReader::new(config),

@@ -5,7 +5,7 @@
 //!    in the memory (L7).
 //! 2. At most one of `takes`, `ends`, `solo_inserts`, `seeds`, `clears` is high at a time. The last three come only
 //!    while all new ids are written, when `fresh` and `records` are equal.
-//! 3. A ring ends at the earliest three clocks after the one before it.
+//! 3. The ends of two rings are three clocks apart or more.
 //!
 //! Latency: 1 clock to `fresh`; 3 clocks from `ends` to `records`.
 //!

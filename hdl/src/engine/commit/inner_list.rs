@@ -64,7 +64,6 @@ pub struct InnerList {
 }
 
 impl InnerList {
-    /// Builds the lists of a configuration.
     pub fn new(config: Config) -> Self {
         let bits = ring_bits(config);
         Self {

@@ -1,11 +1,10 @@
-//! A queue of jobs of contexts, first come, first served. A commit or a release takes many clocks, and
-//! others become due meanwhile.
+//! Queues commit jobs or release jobs, first come, first served. A commit or a release takes many clocks, and others
+//! become due meanwhile.
 //!
 //! 1. Every context has at most one job in a queue, so there is a place for each.
 //!
-//! Latency: 1 clock. A job first goes into a register, because those who find out that there is one need all of their
-//! clock. `takes` may come as late: a job is stored even if it is taken at once, so only the pointer to the oldest
-//! job waits for `takes`.
+//! Latency: 1 clock. A job first goes into a register, because `enable` comes late in its clock. `takes` may come as
+//! late: a job is stored even if it is taken at once, so only the pointer to the oldest job waits for `takes`.
 //! ```text
 //! enable          ___/^^\__/^^^^^\______________
 //! job               .  5  .  6  7  .  .  .  .  .

@@ -2,8 +2,8 @@
 //! clears one lock in each clock, so the locks of each attempt are logged and wait here.
 //!
 //! 1. Locks of rings go before locks of aborted attempts. Among equals, those that came first go first.
-//! 2. A context has one job at a time, of at least one lock. Its log is not written from the job on until `released`,
-//!    and is complete when the job comes or at the same edge.
+//! 2. A context has one job at a time, of at least one lock. Its log is complete when the job comes or at the same
+//!    edge, and is not written again before `released`.
 //! 3. While a job is due, a lock is cleared in every clock: there is no pause between jobs.
 //! 4. No job is due while the memory is swept, because no visit is made then.
 //!

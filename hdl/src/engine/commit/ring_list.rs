@@ -1,7 +1,7 @@
 //! The rings of all contexts: entries come as they become final, and are read in the order of their ring.
 //!
-//! 1. An entry is read two clocks after it becomes final or later, and is not written again before it
-//!    has left the output.
+//! 1. An entry is read at the earliest two clocks after it becomes final, and is not written again before it has left
+//!    the output.
 //! 2. `read` comes from far away and goes into a register before any logic uses it.
 //!
 //! Latency: none from `read_place` to `after`, so that one entry a clock can be followed; two moves to `read`.
@@ -56,7 +56,6 @@ pub struct RingList {
 }
 
 impl RingList {
-    /// Builds the rings of a configuration.
     pub fn new(config: Config) -> Self {
         let bits = ring_bits(config);
         let address_bits = context_bits(config) + bits;

@@ -1,7 +1,7 @@
 //! Reads complete rings in the order of their entries, an entry a clock, one ring after another. A list in memory takes
 //! several clocks to follow, so the reader works ahead of the commit.
 //!
-//! 1. A ring starts at entry 0 and follows `after` until that is 0. It has three entries or more.
+//! 1. A ring starts at entry 0, follows `after` until that is 0, and has three entries or more.
 //! 2. All entries of a ring are final when `commit` comes, or become so at the same edge. None is written again until
 //!    the last one has been taken.
 //! 3. The head is held until `takes`.
@@ -97,7 +97,6 @@ pub struct RingReader {
 }
 
 impl RingReader {
-    /// The reader of a configuration.
     pub fn new(config: Config) -> Self {
         Self { rings: JobQueue::new(context_bits(config)), list: RingList::new(config), ..Self::default() }
     }

@@ -5,8 +5,7 @@
 //!    the waiting one could keep its locks taken for ever. So when the waiting context has met 8 foreign locks, no
 //!    other context retries until its point is finished (L3). New points may start: they are finished, or abort and
 //!    then rest, so some point is always finished in the end.
-//! 2. The first context whose list overflows gets its solo insertion first. Another one that
-//!    overflows meanwhile retries later.
+//! 2. One context at a time asks for a solo insertion. Another one whose list overflows meanwhile retries later.
 //! 3. All flags of `outcome` come from one visit. A visit that asks for the priority neither waits nor returns it, and
 //!    one that hands over also falls asleep. `outcome` never comes with `solo_ends`, because all visits then belong to
 //!    the solo insertion. All other events may come together.

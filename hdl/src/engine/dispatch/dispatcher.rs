@@ -32,8 +32,8 @@ pub struct Dispatcher {
     pub came: Signal<In, Bit>,
     /// The progress of the first triangles.
     pub seed: Signal<In, SeedProgress>,
-    /// A visit completes, with these consequences for its context. While it may ask for visits, the queue is not
-    /// free for a start.
+    /// A visit completes, with these consequences for its context; while it may ask for visits (`may_ask`), no context
+    /// starts.
     pub is_done: Signal<In, Bit>,
     pub outcome: Signal<In, Outcome>,
     pub may_ask: Signal<In, Bit>,
@@ -66,7 +66,6 @@ pub struct Dispatcher {
 }
 
 impl Dispatcher {
-    /// Builds the dispatcher of a configuration.
     pub fn new(config: Config) -> Self {
         Self { starter: Starter::new(config), ..Self::default() }
     }

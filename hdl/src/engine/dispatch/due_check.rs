@@ -1,4 +1,4 @@
-//! Whether the context that the pointer has just left is due: for a retry, with a new point, or not yet.
+//! Says whether the context that the pointer has just left is due for a retry, due with a new point, or not due yet.
 //!
 //! 1. A context that is asleep and keeps its point is due when it has rested, no commit or release of it is due, and no
 //!    other context is urgent.

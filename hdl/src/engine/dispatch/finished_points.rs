@@ -4,8 +4,7 @@
 //! 2. Fewer than three points, or three collinear ones, are never finished. Then nothing is left to do as soon as
 //!    no visit is out.
 //! 3. A finished point is noted at its edge, counted at the next and compared at the third, but `arrived` is compared
-//!    at once. In the clock after a point has come `is_quiet` may still say what held before, but no command relies on
-//!    it in that clock.
+//!    at once. In the clock after a point has come `is_quiet` may be out of date, but no command reads `is_quiet` then.
 //!
 //! Latency: 3 clocks from a finished point to `is_quiet`, 1 from `arrived`, none from the other inputs.
 //!

@@ -52,7 +52,7 @@ pub struct NextPoint {
     /// The vertex that the context under the pointer takes first; in a batch, the one after that (`first_dealt`).
     pub first: Signal<Out, Plan>,
     pub first_dealt: Signal<Out, Bits<7>>,
-    /// Another context, with the vertex that it takes, and the vertex that follows.
+    /// The context that the pointer has left, with the vertex that it takes; and the plan that follows.
     pub passed: Signal<In, Passed>,
     pub following: Signal<Out, Following>,
     taken: Signal<Local, VertexId>,

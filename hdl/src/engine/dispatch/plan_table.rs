@@ -39,7 +39,7 @@ pub struct PlanTable {
     /// its first vertex (`first_dealt`).
     pub due: Signal<Out, Plan>,
     pub first_dealt: Signal<Out, Bits<7>>,
-    /// Another context, with `due` and `first_dealt` as they stood for it; and the plan that follows its vertex.
+    /// The context that the pointer has left, with its `due` and `first_dealt`; and the plan that follows its vertex.
     pub passed: Signal<In, Passed>,
     pub following: Signal<Out, Following>,
     /// The new plan of a context that takes a vertex.
@@ -52,7 +52,6 @@ pub struct PlanTable {
 }
 
 impl PlanTable {
-    /// Builds the table of a configuration.
     pub fn new(config: Config) -> Self {
         Self { plans: LutMemory::new(context_bits(config), PLAN_BITS), ..Self::default() }
     }

@@ -5,9 +5,8 @@
 //!    waited for long (L3).
 //! 2. A context starts with a new point if it is asleep, has none, and its next point has come. Until context 0 has
 //!    taken vertex 16, no other context works, except in a batch (L8).
-//! 3. A start that may find the queue or the port of the vertex memory taken is made in the next clock instead. While a
-//!    start is due, the pointer waits in every clock in which a visit completes, because the visits that
-//!    follow are known late.
+//! 3. A start waits while the queue or the port of the vertex memory may be taken. While a start is due, the pointer
+//!    waits in every clock in which a visit completes, because the visits that follow are known late.
 //! 4. The walk of a new point starts at the star of the context's last commit, or at the first record of its mesh if
 //!    there was no commit.
 //! 5. A context that asks for a solo insertion starts it when all contexts rest and the pointer has passed it.
@@ -19,7 +18,7 @@
 //! Latency: 2 clocks from the pointer to `starts`.
 //!
 //! There are two contexts. Context 0 takes vertex 2 when that has come, the first round is over and the queue is
-//! free. It falls asleep, keeps its point, and retries from record 9 in the next round that is a fourth one:
+//! free. Then context 0 falls asleep, keeps its point, and retries from record 9 in the next fourth round:
 //! ```text
 //! arrived           2  3  3  3  3  3  3  3  3  3  3  3  3  3  3  3
 //! came            ___/^^\_________________________________________
@@ -83,7 +82,7 @@ pub struct Starter {
     pub contexts: Signal<In, ContextState>,
     /// A solo insertion is at work.
     pub solo_is_at_work: Signal<In, Bit>,
-    /// A visit completes; the queue may take the visits that follow it at this edge (`is_blocked`).
+    /// A visit completes; the queue may be taken at this edge by the visits that follow (`is_blocked`).
     pub is_done: Signal<In, Bit>,
     pub is_blocked: Signal<In, Bit>,
     /// The consequences of a visit, among them the record at which a retry starts.
@@ -120,7 +119,6 @@ pub struct Starter {
 }
 
 impl Starter {
-    /// Builds the starter of a configuration.
     pub fn new(config: Config) -> Self {
         let bits = context_bits(config);
         let table = || LutMemory::new(bits, VERTEX_BITS);
@@ -157,7 +155,7 @@ impl Logic for Starter {
         self.hints.read_address.next = self.passed.q.val().context;
 
         // The pointer moves on `is_done` and not on `is_blocked`, which comes too late in the clock to steer it. A
-        // start that is made while the pointer waits must not be made twice, so it clears its own wish below.
+        // start that is made while the pointer waits must not be made twice, so each start clears its own wish below.
         self.wants.next = (self.wants_again.q.val() | self.wants_new.q.val()) & (!self.contexts.val().solo_valid);
         self.lacks_port.next = self.wants_new.q.val() & self.came.val();
         self.moves.next = !(self.wants.val() & (self.is_done.val() | self.lacks_port.val()));

@@ -1,8 +1,8 @@
 //! Makes the first triangle and its ghost triangles from the first three points; in a batch, for one job after another.
 //!
 //! 1. The orientation of the three points is found by a *look*, a visit of a provisional record with their vertices.
-//!    The seeder writes that record when the first of the points comes. The look says on which side of the first two
-//!    points the third lies. If the points are collinear, no other record is written.
+//!    The seeder writes that record when the first of the points comes. The look says on which side of the line through
+//!    the first two points the third lies. If the points are collinear, no other record is written.
 //! 2. Job `c` of a batch has the vertices `3c` to `3c + 2` and the records `4c` to `4c + 3`. No point of the next job
 //!    comes before the first triangle of this one is in the mesh, because `start_is_open` holds it back.
 //!

@@ -11,8 +11,8 @@ use rust_hdl_core::prelude::*;
 pub struct SoloVisit {
     /// The context of the insertion.
     pub context_id: Signal<In, ContextId>,
-    /// The phase; in no other phase, the visit is that of a test. A mend visits the first outer neighbour of the split
-    /// root, or the second.
+    /// The phase. Unless the phase is to locate, mend or fetch, the visit is that of a test. A mend visits neighbour 1
+    /// of the located record, or neighbour 2 (`is_second`).
     pub phase: Signal<In, SoloPhase>,
     pub is_second: Signal<In, Bit>,
     /// The located record, or the one that the walk has come to.

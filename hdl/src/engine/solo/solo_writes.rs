@@ -10,8 +10,8 @@ use rust_hdl_core::prelude::*;
 /// Writes of a solo insertion; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct SoloWrites {
-    /// The write that is due; without one, the link that a test leaves to be mended (`is_test`), or else the link from
-    /// the next star record.
+    /// The write that is due. If none is, `write` is a link: from the visited record to the star record at work
+    /// (`is_test`), or else from the following star record to the outside record.
     pub turn: Signal<In, SoloTurn>,
     pub is_test: Signal<In, Bit>,
     /// The new vertex, which is in every record of the star.

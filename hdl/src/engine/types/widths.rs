@@ -24,17 +24,13 @@ pub const RING_ADDRESS_BITS: usize = CONTEXT_BITS + ENTRY_BITS;
 /// Width of the address of a memory with a word for each lock of each context.
 pub const LOG_ADDRESS_BITS: usize = CONTEXT_BITS + LOG_BITS;
 
-/// The id of a triangle record.
 pub type TriangleId = Bits<TRIANGLE_BITS>;
-/// The number of a vertex.
 pub type VertexId = Bits<VERTEX_BITS>;
-/// The number of a context.
 pub type ContextId = Bits<CONTEXT_BITS>;
 /// One bit for each context.
 pub type ContextSet = Bits<24>;
 /// The number of an entry in the ring of a context.
 pub type RingEntry = Bits<ENTRY_BITS>;
-/// A count of ring entries.
 pub type RingCount = Bits<COUNT_BITS>;
 /// A count of locks, or a place in a log of locks.
 pub type LockCount = Bits<LOG_BITS>;

@@ -1,13 +1,13 @@
 //! The queue of visits: bundles come in, and their visits are issued, one in each clock, first in, first out. A cavity
 //! asks for up to three visits at once, but the read port of the triangle memory serves one a clock.
 //!
-//! 1. A bundle takes a clock for each of its one to three visits, the first visit first. `Bundle` says in
-//!    which fields they differ.
+//! 1. The one to three visits of a bundle are issued in their order, one a clock. `Bundle` says in which fields they
+//!    differ.
 //! 2. The queue has a place for every ring entry of every context. A context never has more visits out than its ring
 //!    has entries, so the queue never overflows.
 //! 3. The id of the record goes to all block RAMs of the triangle memory. Three registers hold the id, so that each can
-//!    stand near the RAMs that it drives. Reset gives each register another value, because synthesis would
-//!    otherwise merge the three.
+//!    stand near the RAMs that it drives. Reset clears one, sets all bits of another and does not act on
+//!    the third, because synthesis would merge equal registers.
 //!
 //! Latency: 1 clock from `push` to `visit` if the queue is empty.
 //!
@@ -136,7 +136,6 @@ impl Logic for Issue {
         self.issued.d.next.record = self.record.val();
         self.vertices_copy.d.next = self.record.val();
         self.links_copy.d.next = self.record.val();
-        // The copies reset to different values, or synthesis would make one register of all three.
         self.no_record.next = 0.into();
         if self.reset.val() {
             self.vertices_copy.d.next = self.no_record.val();

@@ -2,16 +2,16 @@
 //!
 //! 1. Every visit takes the same time. So visits complete in the order of their issue, at most one a clock.
 //! 2. A visit whose record is written in the clock in which it is issued, or is not written yet, completes with
-//!    `turned.again` (L7). Vertices, neighbours and slot of `turned` and the whole `verdict` are arbitrary then; `took`
-//!    and `foreign` hold all the same.
+//!    `turned.again` (L7). Vertices, neighbours and slot of `turned` and the whole `verdict` are arbitrary then, but
+//!    `took` and `foreign` are valid.
 //! 3. A visit is judged by the point that its context has 4 clocks after the issue. The user changes that point only
 //!    while none of the context's visits is out.
 //! 4. A read-out never meets a write of its record at one edge, because the user reads only while no
 //!    insertion is at work.
 //!
-//! Latency: `STAGES` = 16 clocks from the issue register to `visit`, 17 from `push`, and 18 round the loop with the
-//! register that drives `push`. The record is there after 2 clocks, the corners after 5, the signs after 15. A read-out
-//! takes 3 clocks from `read` to `read_out`.
+//! Latency: `STAGES` = 16 clocks from the issue register to `completion`, 17 from `push`, and 18 round the loop, with
+//! the register that drives `push`. The record is there after 2 clocks, the corners after 5, the signs after 15. A
+//! read-out takes 3 clocks from `read` to `read_out`.
 //!
 //! A bundle of two visits of context 1, then a read-out:
 //! ```text
@@ -66,9 +66,10 @@ pub struct VisitPipeline {
     pub enables: Signal<In, WriteEnables>,
     /// A point to store in the vertex memory.
     pub arrival: Signal<In, Arrival>,
-    /// A vertex to read, only at an edge without such a write; its coordinates come 2 clocks later.
+    /// A vertex to read, only at an edge without an `arrival`; its coordinates come 2 clocks later.
     pub fetch_id: Signal<In, VertexId>,
     pub fetched: Signal<Out, Point>,
+    /// A lock to clear at this edge.
     pub clear: Signal<In, LockClear>,
     issue: Issue,
     triangles: TriangleStore,
@@ -103,11 +104,9 @@ pub struct VisitPipeline {
 }
 
 impl VisitPipeline {
-    /// The number of clocks from the issue register to `visit`: corners, signs, verdict.
+    /// The number of clocks from the issue register to `completion`: corners, signs, verdict.
     pub const STAGES: usize = VisitReader::LATENCY + VisitJudge::LATENCY + 1;
 
-    /// Builds the pipeline of a configuration.
-    ///
     /// # Panics
     ///
     /// If the stages do not add up to the width of the valid register, which is a fault in this source.

@@ -3,7 +3,7 @@
 //! 1. Without a request the data are held, and `write.valid` and all `enables` are low.
 //! 2. The enables are registers of their own, so that no logic stands between this port and the many block RAMs that it
 //!    drives. For the same reason the record's id has two copies, each of which may stand near its RAMs. Reset gives
-//!    each copy another value, because synthesis would otherwise merge them.
+//!    the copies different values, because synthesis would merge equal registers.
 //!
 //! Latency: 1 clock; the memory shows the write from the clock after.
 //! ```text

@@ -1,8 +1,9 @@
 //! From the subdivision to the canonical mesh.
 //!
 //! The list of triangles is sorted by the smallest corner, then by the second one. Each edge names at most one
-//! triangle: the one to the left of the edge, seen from the end with the smaller id, if that end is the smallest
-//! corner. So a pass over the edges finds every triangle once, in the order of the curve. The triangles are distributed
+//! triangle: seen along the edge from the end with the smaller id, the triangle to the left is named if that end is its
+//! smallest corner. The edge from the smallest corner of a triangle to the next corner names it, and no other edge
+//! does. So a pass over the edges finds every triangle once, in the order of the curve. The triangles are distributed
 //! to buckets of neighbouring ids, and each bucket is sorted while it is in the cache. No list is read in an order far
 //! from that of the curve or of the ids.
 
@@ -201,7 +202,7 @@ impl Buckets {
         for block in own.chunks(2 * BLOCK) {
             let count = look_at(block, ids, &mut edges);
             let edges = &mut edges[..count];
-            // This loop is short so that the processor has many of its scattered reads under way at a time.
+            // The loop is short so that the processor has many of its scattered reads under way at a time.
             for edge in &mut *edges {
                 edge.next = halves[edge.next as usize].end & !GAP;
             }

@@ -55,8 +55,7 @@ impl Waiting {
 }
 
 /// Triangulates the distinct sites of a subtree, which stand along the curve, on this thread, given the place of each
-/// in the tree of cuts. Returns `None` if there
-/// are no sites, or if `go_on` ends the work.
+/// in the tree of cuts. Returns `None` if there are no sites, or if `go_on` ends the work.
 pub(super) fn conquer<K: Kernel>(
     sites: &[K::Site],
     places: &[K::Place],
@@ -66,8 +65,8 @@ pub(super) fn conquer<K: Kernel>(
     let mut edges = Edges::<K> { sites, halves };
     let mut waiting = Waiting::new();
     let (mut v, mut asked) = (0, 0);
-    // `before` is the level of the cut before vertex `v`; `after` has the levels of the cuts after `v`,
-    // `v + 1` and `v + 2`.
+    // `before` is the level of the cut before vertex `v`; `after` has the levels of the cuts after `v`, `v + 1`
+    // and `v + 2`.
     let mut before = TOP;
     let mut after = [0, 1, 2].map(|ahead| level_after::<K>(places, ahead));
     while v < sites.len() {

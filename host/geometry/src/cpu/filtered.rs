@@ -1,5 +1,5 @@
-//! The kernel of points whose predicates a floating-point filter decides before exact integers do: doubles, and integers of
-//! more than 32 bits.
+//! The kernel of points whose predicates a floating-point filter decides before exact integers do: doubles, and
+//! integers of more than 32 bits.
 
 use core::cmp::Ordering;
 use core::marker::PhantomData;
@@ -43,8 +43,8 @@ impl<C: Coordinate> Ord for FilteredSite<C> {
     }
 }
 
-/// The place of a site in the tree of cuts: a cell of a grid over all points, and the rank among the points of that cell in lexicographic
-/// order.
+/// The place of a site in the tree of cuts: a cell of a grid over all points, and the rank among the points of that
+/// cell in lexicographic order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Zeroable)]
 pub(super) struct Place {
     pub(super) cell: [u32; 2],

@@ -1,8 +1,8 @@
 //! The distinct points of doubles or long integers along a Z-curve.
 //!
-//! A grid of up to 2^31 cells a side lies over all points, and the points stand along the Z-curve through its cells. Points of one
-//! cell stand in lexicographic order. Rounding decides in which cell a point is, and never more than that: a cell's number rises with
-//! the coordinate, so that cuts between cells separate points.
+//! A grid of up to 2^31 cells a side lies over all points, and the points stand along the Z-curve through its cells.
+//! Points of one cell stand in lexicographic order. Rounding decides in which cell a point is, and never more than
+//! that: a cell's number rises with the coordinate, so that cuts between cells separate points.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -45,8 +45,8 @@ impl Grid {
         Self { corner, scale: CELLS / extent }
     }
 
-    /// The cell of a point. The conversion of a double to an integer saturates, and makes 0 of what is not a number: so an extent of zero,
-    /// or one so small that the scale is infinite, is right too.
+    /// The cell of a point. The conversion of a double to an integer saturates, and makes 0 of what is not a number: so
+    /// an extent of zero, or one so small that the scale is infinite, is right too.
     #[inline(always)]
     fn cell<C: Coordinate>(&self, point: [C; 2]) -> Point {
         let [x, y] = [0, 1].map(|axis| ((point[axis].half() - self.corner[axis]) * self.scale) as u32);

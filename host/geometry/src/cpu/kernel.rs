@@ -6,8 +6,8 @@ use bytemuck::Zeroable;
 
 /// Exact arithmetic for one kind of coordinates.
 ///
-/// Divide and conquer knows points only through these functions: [`Integers`](super::view::Integers) of up to 32 bits, and
-/// [`Filtered`](super::filtered::Filtered) numbers, which a floating-point filter decides before exact integers do.
+/// Divide and conquer knows points only through these functions: [`Integers`](super::view::Integers) of up to 32 bits,
+/// and [`Filtered`](super::filtered::Filtered) numbers, which a floating-point filter decides before exact integers do.
 pub(super) trait Kernel: Copy + Sync + 'static {
     /// A point. The order is lexicographic, x before y, as the tie rule wants.
     type Site: Copy + Ord + Send + Sync + Zeroable;
@@ -31,13 +31,13 @@ pub(super) trait Kernel: Copy + Sync + 'static {
     /// Whether the point lies strictly to the left of the base edge.
     fn is_left(seen: Self::Seen) -> bool;
 
-    /// The sign of the determinant of incircle of the base edge `a`, `b` and the points of two views, of which that of `c` lies to
-    /// the left: `Greater` if `q` lies inside the circle through `a`, `b` and `c`.
+    /// The sign of the determinant of incircle of the base edge `a`, `b` and the points of two views, of which that of
+    /// `c` lies to the left: `Greater` if `q` lies inside the circle through `a`, `b` and `c`.
     fn incircle(a: Self::Site, b: Self::Site, c: Self::Seen, q: Self::Seen) -> Ordering;
 
-    /// The level of the cut that separates two places: odd if all x of the first are at most those of the second and equal only with
-    /// smaller y, even if the same holds with the axes swapped. Of three places in a row, the outer two are separated at the higher of
-    /// the two levels.
+    /// The level of the cut that separates two places: odd if all x of the first are at most those of the second and
+    /// equal only with smaller y, even if the same holds with the axes swapped. Of three places in a row, the outer two
+    /// are separated at the higher of the two levels.
     fn level(one: Self::Place, other: Self::Place) -> u32;
 }
 

@@ -1,12 +1,12 @@
 //! The CPU triangulator: divide and conquer with exact integers, on any number of threads.
 //!
-//! [`triangulate`] does it all: points in, the canonical mesh out. The mesh is the one that every device gives, byte
-//! for byte, because there is only one. Use the CPU triangulator whenever you want the mesh and not the hardware; it is
-//! the fastest back end of a usual computer.
+//! [`triangulate`] takes points and gives the canonical mesh, the same as every device, byte for byte. Use the CPU
+//! triangulator whenever you want the mesh and not the hardware: no other back end in software is faster.
 //!
 //! The algorithm is that of Guibas and Stolfi, *Primitives for the manipulation of general subdivisions and the
 //! computation of Voronoi diagrams*, 1985, with alternating cuts (Dwyer, *A faster divide-and-conquer algorithm for
-//! constructing Delaunay triangulations*, 1987). File by file:
+//! constructing Delaunay triangulations*, 1987). The cuts lie at the bits of the coordinates and not at medians. So a
+//! radix sort is enough, and the tree of cuts has at most `2 w` levels for coordinates of `w` bits. File by file:
 //!
 //! 1. `sites` sorts the points along a Z-curve, whose quadrants form the tree of cuts.
 //! 2. `conquer` triangulates the parts of that tree from the leaves up, and `segments` does so on several threads.
@@ -17,11 +17,13 @@
 //! Before points and triangles are sorted, `buckets` distributes them to buckets that are small enough to be
 //! sorted in the cache.
 //!
-//! **Why the tie rule needs no step of its own.** Lawson's and Delaunay's theorems make the joined parts right
-//! for any lifting of the points onto a strictly convex surface, and the tie rule is such a lifting: the
-//! paraboloid, with each point lowered by an amount that is infinitely small, and infinitely smaller than the
-//! amounts of all lexicographically smaller points. So the tie rule need not be restored at the end: every part,
-//! at every moment, is canonical.
+//! **Why the tie rule needs no step of its own.** The tie rule is a lifting: each point goes onto the paraboloid and is
+//! then lowered by an infinitely small amount, which is infinitely smaller than the amounts of all lexicographically
+//! smaller points (a symbolic perturbation: Edelsbrunner and Mücke, *Simulation of simplicity*, 1990). The canonical
+//! mesh is the lower hull of the lifted points: every point is a vertex of that hull, and every face is a triangle. The
+//! merge rests on two facts. An edge of the whole mesh between two points of one part is an edge of that part; and a
+//! mesh that is convex at each of its edges is the lower hull. Both facts hold for the perturbed lifting as for the
+//! plain one. So every part is canonical when its merge ends, and no later step restores the ties.
 
 mod buckets;
 mod collect;

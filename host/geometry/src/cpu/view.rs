@@ -1,34 +1,40 @@
 //! The exact predicates of the CPU triangulator: how an edge is seen from a point.
 //!
-//! From a point `p`, the edge from `a` to `b` has the vectors `a - p` and `b - p`. The cross product of both is
-//! `orient2d(a, b, p)`. Cross product and dot product together give the angle at which the edge is seen, and that angle
-//! says everything about circles: `q` lies inside the circle through `a`, `b` and `c` iff the edge is seen from `q` at
-//! a larger angle than from `c`. In integers, with `(cross, dot)` of `c` and of `q`,
+//! From a point `p`, the edge from `a` to `b` has the vectors `a - p` and `b - p`. Their cross product is `orient2d(a,
+//! b, p)`. Cross product and dot product together give the angle at which the edge is seen from `p`. Let `c` and `q`
+//! lie to the left of the edge. Then `q` lies inside the circle through `a`, `b` and `c` iff the edge is seen from `q`
+//! at a larger angle than from `c`. In integers, with `(cross, dot)` of `c` and of `q`,
 //!
 //! ```text
 //! incircle(a, b, c, q) = dot(c) cross(q) - dot(q) cross(c)
 //! ```
 //!
-//! which is an identity of polynomials (Cline and Renka 1984). A point is viewed once, with four multiplications, and
-//! compared with several others, with two each.
+//! which is an identity of polynomials, so `c` and `q` may lie anywhere (Cline and Renka 1984). The view from a point
+//! takes four multiplications, once, and each comparison of two views takes two more.
 //!
 //! **Widths.** Let coordinates have `w` bits and `S = 2^w - 1`. `|cross|` is at most `S²`, `|dot|` at most `2 S²`: both
-//! fit 64 bits for `w` up to 31. The determinant is at most `S⁴ / 2` in magnitude, so it has `4 w` bits with its sign,
-//! and **for `w` up to 16 64-bit arithmetic gives it exactly, however its two products overflow**, because their
-//! difference is right modulo 2^64. For the same reason 128 bits are enough for `w` up to 32, whose cross and dot
-//! products take 128 bits too.
+//! fit 64 bits for `w` up to 31. The determinant is at most `S⁴ / 2` in magnitude, so `4 w` bits hold it with its
+//! sign. **For `w` up to 16, 64-bit arithmetic gives the determinant exactly**: its two products may overflow, but
+//! their difference is right modulo 2^64. For the same reason 128 bits are enough for `w` up to 32, whose cross and dot
+//! products take 128 bits, too.
 //!
-//! Why `S⁴ / 2`: the determinant is `Σ λ_v |v|²` over the four points, where `λ_v` does not depend on `v` and
-//! `Σ λ_v = 0`, `Σ λ_v v = 0`. Take a place of its maximum over the square with as many points in corners as possible.
-//! As a function of `v` alone it is convex where `λ_v >= 0`, so such a point can be moved to a corner: all points
-//! outside corners have `λ_v < 0`.
-//! - One point is outside: three corners make a right triangle whose `orient2d` is `S²` and whose circle has the
-//!   squared radius `S² / 2`, and the determinant, that `orient2d` times the power of the point, is at most `S⁴ / 2`.
-//! - Two points `u`, `v` are outside: the segment between the two corners crosses theirs (the signs of `λ` say so), so
-//!   the corners are opposite ones, and `u`, `v` lie on both sides of that diagonal, at distances `h` and `g` from it.
-//!   With `S = 1` the determinant is at most `√2 (h + g) (1/2 - h g)`. For a given sum that is largest where one of
-//!   both is 0, or one is `√½`, its largest value, and then at most `1/2`.
-//! - Three points are outside: a corner would lie inside their triangle, which cannot be.
+//! Why `S⁴ / 2`: two points that change places change the sign, so a bound from above is enough. The determinant is `Σ
+//! λ_v |v|²` over the four points `v`, where `λ_v` is `orient2d` of the other three up to its sign, and `Σ λ_v = 0`, `Σ
+//! λ_v v = 0`. Of all places in the square where the determinant is largest, take one with as many points in corners of
+//! the square as possible, and call the other points *free*. As a function of `v` alone the determinant is convex where
+//! `λ_v >= 0`, and a free point of that kind could move to a corner at no loss. So every free point has `λ_v < 0`. A
+//! corner of the square is never a weighted mean of points elsewhere in the square.
+//! - No point is free: the corners lie on one circle, and the determinant is 0.
+//! - One point is free: the three corners differ, else the determinant is 0. Their `orient2d` is `S²`, and their circle
+//!   has the squared radius `S² / 2`. The determinant is that `orient2d` times `S² / 2` less the squared distance of
+//!   the free point from the centre, so at most `S⁴ / 2`.
+//! - Two points `u`, `v` are free: both corners have `λ > 0`, else one corner would be a mean of the other points. So
+//!   the segment between the corners crosses that between `u` and `v`. The corners are opposite ones, and `u`, `v` lie
+//!   on both sides of that diagonal, at distances `h` and `g` from it. With `S = 1` the determinant is at most `√2 (h +
+//!   g) (1/2 - h g)`. For a given sum `h + g` this bound is largest where one of both distances is 0, or is `√½`, which
+//!   no distance exceeds. Then the bound is at most `1/2`.
+//! - Three points are free: the corner would be a mean of them. Four points are free: all `λ_v` would be
+//!   negative. Neither is possible.
 
 use core::cmp::Ordering;
 use core::marker::PhantomData;
@@ -198,8 +204,8 @@ impl<W: Width> Kernel for Integers<W> {
     }
 }
 
-/// The level in the quadtree of the cut between two cells whose coordinates differ in these bits: each bit of x, then of y, from the
-/// lowest on; odd for x.
+/// The level in the quadtree of the cut between two cells whose coordinates differ in these bits: each bit of x, then
+/// of y, from the lowest on; odd for x.
 #[inline(always)]
 pub(super) fn level(x: u32, y: u32) -> u32 {
     let bits = |difference: u32| u32::BITS - difference.leading_zeros();

@@ -1,10 +1,10 @@
-//! The last stage of the predicates: doubles as whole multiples of one power of two, and integers that hold all that is
-//! made of them.
+//! The last stage of the predicates: doubles as whole multiples of one power of two, and integers that hold all that
+//! is made of them.
 //!
-//! A double is `m * 2^e` with an integer `m` of 53 bits. The smallest `e` of the points at hand makes all coordinates whole.
-//! Where these have at most 61 bits, which is so unless the exponents of neighbours differ much, differences have 62
-//! bits, cross and dot products fit 126 bits, and the determinant of incircle is compared as two products of 256
-//! bits. All others take [`Big`] integers: at most 2098 bits for a coordinate, and thousands of times as long.
+//! A double is `m * 2^e` with an integer `m` of 53 bits. The smallest `e` of the points at hand makes all coordinates
+//! whole. Where these have at most 61 bits, which is so unless the exponents of neighbours differ much, differences
+//! have 62 bits, cross and dot products fit 126 bits, and the determinant of incircle is compared as two products of
+//! 256 bits. All others take [`Big`] integers: at most 2098 bits for a coordinate, and thousands of times as long.
 
 use core::cmp::Ordering;
 

@@ -9,9 +9,9 @@
 //! is at most `9 u + O(u²)` times the product of the two sizes, and the last subtraction adds `u` times the result. The
 //! bounds below are 6 u and 16 u, which leaves room for the rounding of the sizes themselves.
 //!
-//! **Overflow** makes a size infinite or not a number, and no comparison with such a bound is true: the exact stage decides. **Underflow** adds at most
-//! `2^-1075` to each product: where a size is at least `2^-960` that is less than `2^-115` of it, and hidden in the room above; below it the
-//! exact stage decides.
+//! **Overflow** makes a size infinite or not a number, and no comparison with such a bound is true: the exact stage
+//! decides. **Underflow** adds at most `2^-1075` to each product: where a size is at least `2^-960` that is less than
+//! `2^-115` of it, and hidden in the room above; below it the exact stage decides.
 
 mod big;
 mod coordinate;
@@ -105,8 +105,8 @@ pub(crate) fn incircle_of_views<C: Coordinate>(
     exact::incircle(a, b, c, d)
 }
 
-/// Where `c` lies, seen along the line from `a` to `b`: `Greater` to the left, so that `a`, `b`, `c` turn counter-clockwise; `Less` to the right;
-/// `Equal` on the line. Exact for all finite coordinates.
+/// Where `c` lies, seen along the line from `a` to `b`: `Greater` to the left, so that `a`, `b`, `c` turn
+/// counter-clockwise; `Less` to the right; `Equal` on the line. Exact for all finite coordinates.
 ///
 /// Some 5 ns where the filter decides, 50 to 100 ns near a line, microseconds where in addition the exponents differ much.
 ///
@@ -124,9 +124,9 @@ pub fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Ordering {
     side(View::of(a, b, c), a, b, c)
 }
 
-/// Where `d` lies, seen from the circle through the counter-clockwise triangle `a`, `b`, `c`: `Greater` inside, `Equal` on the circle, `Less` outside. The
-/// answer is the other way round for a clockwise triangle. Exact for all finite coordinates; the time is that of
-/// [`orient2d`], twice.
+/// Where `d` lies, seen from the circle through the counter-clockwise triangle `a`, `b`, `c`: `Greater` inside, `Equal`
+/// on the circle, `Less` outside. The answer is the other way round for a clockwise triangle. Exact for all finite
+/// coordinates; the time is that of [`orient2d`], twice.
 ///
 /// ```
 /// use core::cmp::Ordering;

@@ -11,8 +11,8 @@ use crate::point::Point;
 
 /// The order in which points are inserted. The mesh does not depend on the order, but the time does.
 ///
-/// Keep the default for points that come in no useful order. Choose [`Order::Input`] if neighbours in the input
-/// are neighbours in the plane already, as in a scan; sorting is then saved. The CPU triangulator inserts nothing
+/// Keep the default for points that come in no useful order. Choose [`Order::Input`] if neighbours in the input are
+/// neighbours in the plane already, as in a scan; sorting is then saved. The CPU triangulator inserts nothing
 /// and needs no order.
 ///
 /// ```
@@ -25,13 +25,13 @@ use crate::point::Point;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Order {
-    /// Rounds of growing random samples (a quarter of the points in all rounds but the last), each along a Hilbert
-    /// curve. Good for every distribution, and the default. See [`brio_hilbert`].
+    /// Rounds of growing random samples, each along a Hilbert curve; all rounds but the last have a quarter of the
+    /// points together. The default. The expected sum of all cavities is O(n) for every set. See [`brio_hilbert`].
     #[default]
     BrioHilbert,
     /// One pass along a Hilbert curve: fast on even distributions, without a guarantee on others. See [`hilbert()`].
     Hilbert,
-    /// The order of the input.
+    /// The order of the input, without a guarantee.
     Input,
     /// A random order that follows from the coordinates, the classic one of textbooks. See [`random()`].
     Random,

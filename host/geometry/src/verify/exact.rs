@@ -13,12 +13,12 @@ pub(super) trait ExactPoint: Copy {
     /// The turn from `a` over `b` to `c`: `Greater` if the three turn left.
     fn orient2d(a: Self, b: Self, c: Self) -> Ordering;
 
-    /// Whether `d` is inside (`Greater`), on (`Equal`) or outside (`Less`) the circle of the counter-clockwise triangle: the sign of the 3x3
-    /// determinant of the corners seen from `d` and lifted onto a paraboloid.
+    /// Whether `d` is inside (`Greater`), on (`Equal`) or outside (`Less`) the circle of the counter-clockwise
+    /// triangle: the sign of the 3x3 determinant of the corners seen from `d` and lifted onto a paraboloid.
     fn incircle(a: Self, b: Self, c: Self, d: Self) -> Ordering;
 
-    /// Twice the signed area of a triangle, or of the sector from the origin to `b` and `c` if `a` is `None`, where integers of 128 bits can
-    /// sum all areas of a mesh.
+    /// Twice the signed area of a triangle, or of the sector from the origin to `b` and `c` if `a` is `None`, where
+    /// integers of 128 bits can sum all areas of a mesh.
     fn doubled_area(a: Option<Self>, b: Self, c: Self) -> Option<i128>;
 }
 
@@ -40,9 +40,9 @@ impl ExactPoint for Point {
         minor(vector(a, b), vector(a, c)).cmp(&0)
     }
 
-    /// Differences are below 2^32 and lifts and minors below 2^65, so products may pass 2^127. The determinant does not: with
-    /// coordinates up to `S` it is at most `S⁴ / 2`, less than 2^127 (`cpu/view.rs` has a proof), and the sum of wrapped
-    /// products is right modulo 2^128.
+    /// Differences are below 2^32 and lifts and minors below 2^65, so products may pass 2^127. The determinant does
+    /// not: with coordinates up to `S` it is at most `S⁴ / 2`, less than 2^127 (`cpu/view.rs` has a proof), and the sum
+    /// of wrapped products is right modulo 2^128.
     fn incircle(a: Self, b: Self, c: Self, d: Self) -> Ordering {
         let [a, b, c] = [a, b, c].map(|corner| vector(d, corner));
         let term = |v: [i128; 2], one, other| (v[0] * v[0] + v[1] * v[1]).wrapping_mul(minor(one, other));
@@ -91,8 +91,8 @@ impl ExactNumber for i64 {
 /// `(3 + 16 u) u` and `(10 + 96 u) u` with `u = 2^-53`; the room between holds what underflow adds, if no magnitude is tiny.
 const ORIENT2D_BOUND: f64 = 4.0 * f64::EPSILON;
 const INCIRCLE_BOUND: f64 = 12.0 * f64::EPSILON;
-/// Lifts and sums of magnitudes from which on underflow adds next to nothing: 2^-1074 is below 1e-180 of them, and the product of two is
-/// a normal number.
+/// Lifts and sums of magnitudes from which on underflow adds next to nothing: 2^-1074 is below 1e-180 of them, and the
+/// product of two is a normal number.
 const TINY: f64 = 1e-140;
 
 /// The sign of a rounded value, if it is beyond the bound.

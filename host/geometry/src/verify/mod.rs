@@ -1,16 +1,21 @@
 //! The validator, which proves that a mesh is the canonical one.
 //!
-//! Use the validator in tests of code that makes or changes meshes, and on answers of hardware that you do not
-//! trust. It shares no predicate, no sort and no step of an algorithm with the devices, the model or the rest of the
-//! host, only the types of points and meshes. The validator has exact integers of its own, the lifted 3x3 determinant,
-//! and a hull by monotone chain (Andrew 1979) instead.
+//! Use the validator in tests of code that makes or changes meshes, and on answers of hardware that you do not trust.
+//! The validator shares no predicate, no sort and no step of an algorithm with the devices, the model or the rest of
+//! the host, only the types of points and meshes. Instead, it has exact integers of its own, the lifted 3x3
+//! determinant, and a hull by monotone chain (Andrew 1979).
 //!
 //! An accepted list of triangles is the canonical mesh, because
-//! - all triangles are counter-clockwise, and each edge has its two sides or is a hull edge, each of which is there once:
-//!   so each place inside the hull lies in as many triangles as the hull's boundary winds around it, which is one. For
-//!   integers the sum of the areas says so once more, and Euler's formula the number of triangles;
-//! - each inner edge is locally Delaunay: so all triangles are Delaunay (Delaunay 1934);
-//! - each tie follows the tie rule, and the list is sorted: so there is no other such list.
+//! - all triangles are counter-clockwise, and each edge has one triangle on either side, or is a hull edge with one
+//!   triangle, and no hull edge is missing: so the number of triangles above a place changes from 0 to 1 at the hull
+//!   and nowhere else, and the triangles fill the hull without overlap;
+//! - each distinct point is a corner: so no triangle holds another point, because two triangles would overlap there;
+//! - each inner edge is locally Delaunay, ties by the tie rule: so all triangles are Delaunay (Delaunay 1934), and as
+//!   the tie rule is a lifting (see [`cpu`](crate::cpu)), no other set of triangles passes;
+//! - each triangle begins with its smallest index, and the list is sorted: so there is no other such list.
+//!
+//! Euler's formula and the sum of the areas follow from the first two points. The validator checks Euler's formula all
+//! the same, and the areas where integers of 128 bits can sum them, which is for points of the grid.
 
 mod digits;
 mod edges;
@@ -38,8 +43,8 @@ const MAX_COUNT: usize = (u32::MAX / 3) as usize;
 /// Proves that `triangles` is the canonical Delaunay triangulation of `points`, and counts what it has seen.
 ///
 /// The triangles may come from anywhere; indices out of range and other nonsense are errors, never a panic. Points are
-/// of any type that can be triangulated. O(n log n), with about 200 bytes a point. [`Mesh::verify`](crate::Mesh::verify) also checks the
-/// hull and the duplicates of a mesh.
+/// of any type that can be triangulated. O(n log n), with about 200 bytes a point.
+/// [`Mesh::verify`](crate::Mesh::verify) also checks the hull and the duplicates of a mesh.
 ///
 /// ```
 /// use incircle_geometry::{verify, Point};

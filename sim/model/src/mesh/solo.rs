@@ -1,5 +1,5 @@
 //! Solo insertion, in constant memory, for cavities whose boundary is longer than the list: split the root, then flip
-//! once round the star (Lawson's flips, in the order of the star).
+//! once round the star (the flips of Lawson 1977, in the order of the star).
 //!
 //! Hardware twin: the blocks of `hdl/src/engine/solo/`.
 

@@ -6,8 +6,9 @@ use crate::predicate::{orient2d, Point};
 
 impl Mesh {
     /// The id of the record that holds `p`: a finite triangle with `p` inside or on its border, or a ghost triangle
-    /// with `p` strictly beyond its hull edge. From `start` on, the walk leaves each triangle across the edge with
-    /// the most negative orient2d.
+    /// with `p` strictly beyond its hull edge. From `start` on, the walk leaves each triangle across the edge whose
+    /// orient2d is lowest, if that is negative. Of equal ones the first slot counts. No triangle comes twice, because
+    /// the mesh is Delaunay (docs/engine.md, "Why some insertion always finishes").
     pub(super) fn locate(&mut self, p: Point, start: u32) -> u32 {
         let mut id = start;
         loop {

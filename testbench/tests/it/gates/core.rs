@@ -7,7 +7,7 @@ use incircle_hdl::top::CORE_NAME;
 use incircle_protocol::{Config, NAMED, SMALL};
 use incircle_testbench::gate::{self, Cells};
 
-/// Cells of the small core by Yosys 0.23, as in the README.
+/// The small core by Yosys 0.23, as `docs/core.md` has it.
 const MEASURED: Cells = Cells {
     lut4: 5020,
     carry: 1238,

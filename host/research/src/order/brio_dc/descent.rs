@@ -26,8 +26,8 @@ impl Lists {
     /// Lets the points of all pairs go down the tree and meet the leaves that they come to. O(n), because a node is
     /// visited more than once only by points.
     pub(super) fn descend_with(&mut self, tree: &mut Quadtree, pairs: &mut Vec<Pair>) {
-        // A node above another one is larger. Its pairs come first, so its descent takes the points of
-        // the other with it.
+        // Pairs of larger nodes come first, and a node is larger than all below it. So the descent from a node also
+        // takes the points that are paired with the nodes below.
         sort_by_key(pairs);
         for (list, length) in [(&mut self.first, tree.nodes.len() / 2), (&mut self.next, pairs.len())] {
             list.clear();

@@ -2,8 +2,8 @@
 //! first along the Z-curve.
 //!
 //! With a fixed order among equally near points, each component has exactly one pair of points that are nearest to each
-//! other: on a longer cycle all steps would be equally long, and the step after the cycle's first point would have to
-//! lead back to that point.
+//! other. On a longer cycle all steps would be equally long. The successor of that point of the cycle which comes first
+//! along the Z-curve would then have this point as its nearest, and the cycle would end after two steps.
 //!
 //! Two algorithms lead from the well-separated pairs to the graph. In the linear one (Callahan and Kosaraju 1995)
 //! points descend through the tree to the nodes that can hold their nearest neighbour. The other one looks at all

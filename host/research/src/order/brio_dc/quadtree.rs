@@ -117,7 +117,7 @@ impl Quadtree {
     }
 
     /// Builds the tree anew from the top and finds the right half of each node by bisection, in O(n log n), which is
-    /// less than O(n log U). Points and `complete` are as in [`Self::build_by_stack`].
+    /// at most O(n log U). Points and `complete` are as in [`Self::build_by_stack`].
     pub(super) fn build_from_top(&mut self, points: &[Point], mut complete: impl FnMut(&mut Self, u32)) {
         self.nodes.clear();
         (0..).zip(points).for_each(|(place, &point)| self.add_leaf(place, point));
