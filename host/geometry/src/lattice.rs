@@ -1,7 +1,8 @@
 //! The lattice of a point set: whole steps of one length in which all its coordinates are integers.
 //!
-//! Triangulation by integers is exact and quick, so the numbers that people have are looked at first: are they whole, are they decimals, do they
-//! share a binary grid? The first lattice that fits is taken. A set without one is triangulated on its doubles, exactly as well.
+//! Triangulation by integers is exact and quick, so the numbers that people have are looked at first: are they whole,
+//! are they decimals, do they share a binary grid? The first lattice that fits is taken. A set without one is
+//! triangulated on its doubles, exactly as well.
 
 use alloc::borrow::Cow;
 use alloc::vec::Vec;
@@ -38,7 +39,7 @@ impl fmt::Display for Step {
     }
 }
 
-/// Where a set of points lies in steps of one length: coordinate `offset + p` for a grid point `p`, all times the step.
+/// The lattice of a set of points. A grid point `p` stands for the coordinates `offset + p`, times the step.
 ///
 /// ```
 /// use incircle_geometry::lattice::{Lattice, Step};
@@ -92,8 +93,9 @@ impl Lattice {
         (bits <= u32::BITS).then(|| (Self { step, offset, bits }, points.iter().map(grid).collect()))
     }
 
-    /// The lattice of doubles, and the points on it: whole numbers if all are, else multiples of the largest power of two that makes all whole.
-    /// `None` if a coordinate is infinite or not a number, or if a span is 2^32 steps or more.
+    /// The lattice of doubles, and the points on it: whole numbers if all are, else multiples of the largest power of
+    /// two that makes all whole. `None` if a coordinate is infinite or not a number, or if a span is
+    /// 2^32 steps or more.
     pub fn of_doubles(points: &[[f64; 2]]) -> Option<(Self, Vec<Point>)> {
         let exponent =
             points.iter().flatten().map(|&value| trailing_exponent(value)).try_fold(i32::MAX, |least, one| {
@@ -161,14 +163,15 @@ fn power_of_two(exponent: i32) -> f64 {
 pub enum Numbers<'a> {
     /// Points of the grid.
     Grid(Cow<'a, [Point]>),
-    /// Whole numbers.
+    /// Points with whole coordinates of up to 64 bits.
     Whole(Cow<'a, [[i64; 2]]>),
-    /// Doubles.
+    /// Points with doubles as coordinates, which must be finite.
     Doubles(Cow<'a, [[f64; 2]]>),
 }
 
 impl<'a> Numbers<'a> {
-    /// Finds the lattice of the points and lays them onto the grid; returns them as they are, and `None`, if there is none.
+    /// Finds the lattice of the points and lays them onto the grid; returns them as they are, and `None`,
+    /// if there is none.
     pub fn on_lattice(self) -> (Self, Option<Lattice>) {
         let found = match &self {
             Self::Grid(points) => {

@@ -176,7 +176,8 @@ impl<'d> Session<'d> {
         Ok(solutions.into_iter().flatten().collect())
     }
 
-    /// Triangulates jobs of grid points, which count among `total` points; `job` gives the number of each among all jobs.
+    /// Triangulates jobs of grid points, which count among `total` points; `job` gives the number of
+    /// each among all jobs.
     fn triangulate_grids(
         &mut self,
         grids: Vec<Vec<Point>>,

@@ -1,4 +1,5 @@
-//! Points in all numbers that people have: each type is triangulated exactly as it is, on the back ends that can hold it.
+//! Points in all numbers that people have: each type is triangulated exactly as it is, on the back ends
+//! that can hold it.
 
 use incircle::{Device, Error, ErrorKind, Options, Point, Step};
 use incircle_testkit::{delaunay_of_doubles, SplitMix64};

@@ -81,9 +81,11 @@ fn distinct(points: &[[f64; 2]]) -> (Vec<usize>, Vec<Exact>) {
     ((0..points.len()).filter(is_first).collect(), exact)
 }
 
-/// The canonical triangles of points with finite coordinates: all counter-clockwise triples that no point conflicts with. O(n^4).
+/// The canonical triangles of points with finite coordinates: all counter-clockwise triples that no
+/// point conflicts with. O(n^4).
 ///
-/// Corners are places in `points`, the smallest first, and the list is sorted. Of equal points the first counts; -0 equals 0.
+/// Corners are places in `points`, the smallest first, and the list is sorted. Of equal points the first
+/// counts; -0 equals 0.
 ///
 /// # Panics
 /// If a coordinate is infinite or not a number.
@@ -108,8 +110,9 @@ pub fn delaunay_of_doubles(points: &[[f64; 2]]) -> Vec<[u32; 3]> {
     triangles
 }
 
-/// The canonical hull of points that do not all lie on one line: every point on the boundary of the convex hull, counter-clockwise from the
-/// lowest place in `points` on. For points on one line the points in lexicographic order. O(n³).
+/// The canonical hull of points that do not all lie on one line: every point on the boundary of the convex hull,
+/// counter-clockwise from the lowest place in `points` on. For points on one line the points
+/// in lexicographic order. O(n³).
 pub fn hull_of_doubles(points: &[[f64; 2]]) -> Vec<u32> {
     let (mut distinct, exact) = distinct(points);
     let turn = |a: usize, b: usize, c: usize| cross(&exact[a], &exact[b], &exact[c]).cmp(&zero());

@@ -55,7 +55,8 @@ impl Grid {
     }
 }
 
-/// Sorts the points and takes duplicates out, on up to `threads` threads. O(n) where few points share a cell, O(n log n) at worst.
+/// Sorts the points and takes duplicates out, on up to `threads` threads. O(n) where few points share a cell, O(n
+/// log n) at worst.
 pub(super) fn sort<C: Coordinate>(points: &[[C; 2]], threads: usize) -> FilteredSites<C> {
     let grid = Grid::over(points);
     let mut cells = vec![Point::default(); points.len()];
@@ -88,7 +89,8 @@ pub(super) fn sort<C: Coordinate>(points: &[[C; 2]], threads: usize) -> Filtered
 struct Groups {
     /// Sorted by the first index of the cell, then by index.
     sharing: Vec<Duplicate>,
-    /// A bit for each input index: set for the first of a cell with several points. Nearly all cells have one, and one bit says so.
+    /// A bit for each input index: set for the first of a cell with several points. Nearly all cells have one, and
+    /// one bit says so.
     is_shared: Vec<u64>,
 }
 

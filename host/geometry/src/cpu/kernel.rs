@@ -1,4 +1,4 @@
-//! What the CPU triangulator asks of the numbers that coordinates are.
+//! The arithmetic that the CPU triangulator needs for one kind of coordinates.
 
 use core::cmp::Ordering;
 

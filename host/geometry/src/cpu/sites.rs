@@ -130,7 +130,8 @@ impl Curve {
         (1 << self.index_bits) - 1
     }
 
-    /// The bucket that the leading bits of a position name. Where there is one bucket, positions may have 64 other bits.
+    /// The bucket that the leading bits of a position name. Where there is one bucket, positions may
+    /// have 64 other bits.
     #[inline(always)]
     fn bucket(&self, position: u64) -> usize {
         position.checked_shr(self.rest_bits).unwrap_or(0) as usize

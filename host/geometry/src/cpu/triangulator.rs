@@ -123,8 +123,9 @@ pub fn triangulate<P: PlanePoint>(points: Vec<P>, threads: NonZeroUsize, watch: 
     Ok(Mesh { points, triangles, hull, duplicates })
 }
 
-/// The triangles, hull and duplicates of points in the numbers in which they are given; see [`triangulate`]. Whole numbers and doubles are not
-/// looked at for a lattice, which [`Numbers::on_lattice`] finds, and take longer here than on one.
+/// The triangles, hull and duplicates of points in the numbers in which they are given; see [`triangulate`]. Whole
+/// numbers and doubles are not looked at for a lattice, which [`Numbers::on_lattice`] finds, and take longer
+/// here than on one.
 ///
 /// # Errors
 /// As those of [`triangulate`].

@@ -13,7 +13,7 @@ pub(super) struct Big {
 }
 
 impl Big {
-    /// `mantissa * 2^shift`.
+    /// The integer `mantissa * 2^shift`.
     pub(super) fn shifted(mantissa: i64, shift: u32) -> Self {
         let (word, bit) = ((shift / u64::BITS) as usize, shift % u64::BITS);
         let wide = u128::from(mantissa.unsigned_abs()) << bit;
@@ -124,7 +124,11 @@ mod tests {
 
     proptest! {
         #[test]
-        fn sums_and_products_are_those_of_128_bits(one in -1i128 << 100..1 << 100, other in -1i128 << 100..1 << 100, cut in 0u32..90) {
+        fn sums_and_products_are_those_of_128_bits(
+            one in -1i128 << 100..1 << 100,
+            other in -1i128 << 100..1 << 100,
+            cut in 0u32..90,
+        ) {
             let (one, other) = (one >> cut, other >> (90 - cut));
             prop_assert_eq!(value(&big(one)), one);
             prop_assert_eq!(value(&big(one).plus(&big(other))), one + other);

@@ -110,10 +110,11 @@ mod tests {
     proptest! {
         #[test]
         fn products_of_256_bits_are_ordered_like_those_of_any_size(
-            a in any::<i64>(), b in any::<i64>(), c in any::<i64>(), d in any::<i64>(), shifts in prop::array::uniform4(0u32..62),
+            values in prop::array::uniform4(any::<i64>()),
+            shifts in prop::array::uniform4(0u32..62),
         ) {
-            let [a, b, c, d] = [(a, shifts[0]), (b, shifts[1]), (c, shifts[2]), (d, shifts[3])]
-                .map(|(value, shift)| (value, shift, i128::from(value) << shift));
+            let [a, b, c, d] =
+                [0, 1, 2, 3].map(|k| (values[k], shifts[k], i128::from(values[k]) << shifts[k]));
             let big = |(value, shift, _): (i64, u32, i128)| Big::shifted(value, shift);
             let expected = big(a).times(&big(b)).minus(&big(c).times(&big(d))).sign();
             prop_assert_eq!(product(a.2, b.2).cmp(&product(c.2, d.2)), expected);

@@ -7,7 +7,8 @@ use core::cmp::Ordering;
 /// The base of the digits.
 const BASE: i128 = 1 << 32;
 
-/// A number `sum(digits[k] * 2^(32 (low + k)))`. All digits are in `0..2^32`, but for the last, which has the sign of the number and is not zero.
+/// A number `sum(digits[k] * 2^(32 (low + k)))`. All digits are in `0..2^32`, but for the last, which has the sign of
+/// the number and is not zero.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Digits {
     low: i32,
@@ -15,7 +16,7 @@ pub(super) struct Digits {
 }
 
 impl Digits {
-    /// `mantissa * 2^exponent`.
+    /// The number `mantissa * 2^exponent`.
     pub(super) fn new(mantissa: i64, exponent: i32) -> Self {
         let shift = exponent.rem_euclid(32);
         Self::carried(exponent.div_euclid(32), vec![i128::from(mantissa) << shift])
@@ -86,7 +87,11 @@ mod tests {
 
     proptest! {
         #[test]
-        fn arithmetic_is_that_of_128_bits(one in -1i128 << 120..1 << 120, other in -1i128 << 120..1 << 120, cut in 0u32..120) {
+        fn arithmetic_is_that_of_128_bits(
+            one in -1i128 << 120..1 << 120,
+            other in -1i128 << 120..1 << 120,
+            cut in 0u32..120,
+        ) {
             let (one, other) = (one >> cut, other >> (120 - cut));
             prop_assert_eq!(number(one).sign(), one.cmp(&0));
             prop_assert_eq!(number(one).minus(&number(other)).sign(), one.cmp(&other));

@@ -1,4 +1,5 @@
-//! Exact signs for the validator: grid points in 128-bit integers, all others in [`Digits`] behind a floating-point filter.
+//! Exact signs for the validator: grid points in 128-bit integers, all others in [`Digits`]
+//! behind a floating-point filter.
 
 use core::cmp::Ordering;
 
@@ -87,8 +88,9 @@ impl ExactNumber for i64 {
     }
 }
 
-/// Bounds of the errors of the filter, in multiples of a sum of magnitudes. Shewchuk's bounds for the same expressions (1997) are
-/// `(3 + 16 u) u` and `(10 + 96 u) u` with `u = 2^-53`; the room between holds what underflow adds, if no magnitude is tiny.
+/// Bounds of the errors of the filter, in multiples of a sum of magnitudes. Shewchuk's bounds for the same expressions
+/// (1997) are `(3 + 16 u) u` and `(10 + 96 u) u` with `u = 2^-53`; the room between holds what underflow adds, if
+/// no magnitude is tiny.
 const ORIENT2D_BOUND: f64 = 4.0 * f64::EPSILON;
 const INCIRCLE_BOUND: f64 = 12.0 * f64::EPSILON;
 /// Lifts and sums of magnitudes from which on underflow adds next to nothing: 2^-1074 is below 1e-180 of them, and the

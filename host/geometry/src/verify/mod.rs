@@ -109,7 +109,8 @@ fn check_finite(points: &[[f64; 2]]) -> Result<(), VerifyError> {
     }
 }
 
-/// Checks each triangle by itself and the order of the list; returns twice the sum of the areas, if the numbers allow it.
+/// Checks each triangle by itself and the order of the list; returns twice the sum of the areas, if
+/// the numbers allow it.
 fn check_triangles<P: ExactPoint>(sites: &Sites<'_, P>, triangles: &[[u32; 3]]) -> Result<Option<i128>, VerifyError> {
     let mut covered = Some(0);
     for (triangle, &corners) in triangles.iter().enumerate() {
