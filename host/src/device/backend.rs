@@ -34,8 +34,8 @@ pub(crate) trait Backend {
         false
     }
 
-    /// Does one job whose points lie on no lattice of up to 32 bits, if [`takes_all_numbers`](Self::takes_all_numbers).
-    fn triangulate_off_lattice(&mut self, _numbers: &Numbers<'_>, terms: Terms<'_>) -> Result<Answer, Error> {
+    /// Does one job on points in any numbers, if [`takes_all_numbers`](Self::takes_all_numbers).
+    fn triangulate_numbers(&mut self, _numbers: &Numbers<'_>, terms: Terms<'_>) -> Result<Answer, Error> {
         Err(Error::NoLattice { coord_bits: terms.identity.coord_bits, device: self.name() })
     }
 

@@ -47,7 +47,7 @@ impl Backend for CpuBackend {
         true
     }
 
-    fn triangulate_off_lattice(&mut self, numbers: &Numbers<'_>, terms: Terms<'_>) -> Result<Answer, Error> {
+    fn triangulate_numbers(&mut self, numbers: &Numbers<'_>, terms: Terms<'_>) -> Result<Answer, Error> {
         let Terms { contexts, limit, options, .. } = terms;
         connect(numbers, contexts, options, limit)
     }

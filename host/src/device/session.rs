@@ -90,17 +90,21 @@ impl<'d> Session<'d> {
         options: &Options<'_>,
     ) -> Result<Solution<P>, Error> {
         let terms = self.terms(points.len(), options);
-        match self.on_grid(&points, terms)? {
-            Some((grid, lattice)) => {
-                let mut solution = self.backend.triangulate(grid, terms)?;
-                solution.report.lattice = Some(lattice);
-                Ok(solution.with_points(points))
+        let (numbers, lattice) = self.on_lattice(&points, terms)?;
+        let mut solution = match numbers {
+            // A device takes points as its own. `on_lattice` has refused all that is not on its grid.
+            Numbers::Grid(grid) if !self.backend.takes_all_numbers() => {
+                let grid = grid.into_owned();
+                self.backend.triangulate(grid, terms)?.with_points(points)
             }
-            None => {
-                let answer = self.backend.triangulate_off_lattice(&P::numbers(&points), terms)?;
-                Ok(answer.with(points))
+            numbers => {
+                let answer = self.backend.triangulate_numbers(&numbers, terms)?;
+                drop(numbers);
+                answer.with(points)
             }
-        }
+        };
+        solution.report.lattice = lattice;
+        Ok(solution)
     }
 
     /// Triangulates many sets of points in one call, as a batch. Each mesh is byte for byte the
@@ -150,18 +154,18 @@ impl<'d> Session<'d> {
         let (mut on_lattices, mut grids) = (Vec::new(), Vec::new());
         let mut off_lattices = Vec::new();
         for (job, points) in jobs.iter().enumerate() {
-            match self.on_grid(points.as_ref(), terms).map_err(in_job(job))? {
-                Some((grid, lattice)) => {
+            match self.on_lattice(points.as_ref(), terms).map_err(in_job(job))? {
+                (Numbers::Grid(grid), lattice) => {
                     on_lattices.push((job, lattice));
-                    grids.push(grid);
+                    grids.push(grid.into_owned());
                 }
-                None => off_lattices.push(job),
+                _ => off_lattices.push(job),
             }
         }
         let mut passed = grids.iter().map(Vec::len).sum();
         let found = self.triangulate_grids(grids, |grid| on_lattices[grid].0, terms, total)?;
         for ((job, lattice), mut solution) in on_lattices.into_iter().zip(found) {
-            solution.report.lattice = Some(lattice);
+            solution.report.lattice = lattice;
             solutions[job] = Some(solution.with_points(own(jobs[job].as_ref())));
         }
         for job in off_lattices {
@@ -228,24 +232,28 @@ impl<'d> Session<'d> {
         Ok(())
     }
 
-    /// Lays the points of a job onto their lattice. `None` if they have none, and the back end can do without.
-    fn on_grid<P: PlanePoint>(&self, points: &[P], terms: Terms<'_>) -> Result<Option<(Vec<Point>, Lattice)>, Error> {
+    /// Checks the points of a job and lays them onto their lattice. The numbers are those of the grid, unless there is
+    /// no lattice and the back end can do without.
+    fn on_lattice<'p, P: PlanePoint>(
+        &self,
+        points: &'p [P],
+        terms: Terms<'_>,
+    ) -> Result<(Numbers<'p>, Option<Lattice>), Error> {
         self.check_job(points.len(), terms.contexts)?;
         let numbers = P::numbers(points);
         if let Numbers::Doubles(doubles) = &numbers {
             check_finite(doubles)?;
         }
-        let Identity { coord_bits, .. } = self.identity;
-        match numbers.on_lattice() {
-            (Numbers::Grid(grid), Some(lattice)) if lattice.bits <= coord_bits => {
-                Ok(Some((grid.into_owned(), lattice)))
+        let coord_bits = self.identity.coord_bits;
+        let device = || self.backend.name();
+        let (numbers, lattice) = numbers.on_lattice();
+        match (&numbers, lattice) {
+            (Numbers::Grid(grid), Some(lattice)) if lattice.bits > coord_bits => {
+                let outside = first_outside(grid, lattice, coord_bits);
+                Err(outside.unwrap_or_else(|| Error::LatticeTooWide { lattice, coord_bits, device: device() }))
             }
-            (Numbers::Grid(grid), Some(lattice)) => match first_outside(&grid, lattice, coord_bits) {
-                Some(error) => Err(error),
-                None => Err(Error::LatticeTooWide { lattice, coord_bits, device: self.backend.name() }),
-            },
-            _ if self.backend.takes_all_numbers() => Ok(None),
-            _ => Err(Error::NoLattice { coord_bits, device: self.backend.name() }),
+            (_, None) if !self.backend.takes_all_numbers() => Err(Error::NoLattice { coord_bits, device: device() }),
+            _ => Ok((numbers, lattice)),
         }
     }
 }
