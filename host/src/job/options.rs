@@ -134,7 +134,7 @@ impl<'a> Options<'a> {
     /// The time limit of a job of this many points unless the caller sets one: a minute and 2 ms per point.
     ///
     /// The limit is generous: the simulated core with one context takes about 0.08 ms per uniform point, which are 156
-    /// clocks at some two million clocks a second. Choose more for a device that is much slower, such as a simulation
+    /// clocks at about two million clocks a second. Choose more for a device that is much slower, such as a simulation
     /// that writes waveforms.
     pub fn default_timeout(points: usize) -> Duration {
         let milliseconds = u64::try_from(points).unwrap_or(u64::MAX).saturating_mul(2);
