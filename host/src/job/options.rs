@@ -93,10 +93,10 @@ pub struct Options<'a> {
     pub progress: Option<ProgressListener<'a>>,
     /// Contexts that work, which is the number of insertions in flight at once: from 1 to the contexts of the device,
     /// see [`Session::identity`](crate::Session::identity). `None` stands for all of them. In a batch this is an upper
-    /// bound, and each job gets as many as pay.
+    /// bound, and each job gets as many as make it faster.
     pub contexts: Option<u32>,
-    /// Points of one `Insert` command, 65,536 by default; fewer than 3 count as 3. Progress is told,
-    /// and cancellation heard, between chunks.
+    /// Points of one `Insert` command, 65,536 by default; fewer than 3 count as 3. Progress is reported,
+    /// and cancellation noticed, between chunks.
     pub insert_chunk: usize,
 }
 
