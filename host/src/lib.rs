@@ -80,8 +80,8 @@
 //! points of 16 bits it takes at most 200 bytes a point beyond the points themselves. Coordinates are whole numbers
 //! from 0 to 2^31 - 1 on the CPU; a device has its own number of bits, 16 for the standard cores. A job may have up to
 //! [`MAX_POINTS`] points; a device holds as many distinct ones as its [`Identity`] says. There are no constrained
-//! edges, no Voronoi cells, no search for the triangle that holds a place, and no insertion into or deletion from a
-//! finished mesh.
+//! edges, no Voronoi cells, no search for the triangle that holds a given place, and no insertion into or deletion from
+//! a finished mesh.
 //!
 //! No set of points and no faulty device makes a call panic: every failure is an [`Error`], whose [`ErrorKind`] says
 //! whose fault it is. Only the predicates, called by themselves, need coordinates below 2^31.
