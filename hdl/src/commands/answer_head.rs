@@ -12,7 +12,6 @@ use super::types::{Head, RecordCount, Request, Word};
 use crate::prelude::*;
 use incircle_protocol::{Opcode, Status, COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS, LATENCY_BUCKETS};
 
-/// Status and length of an answer; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AnswerHead {
     pub clock: Signal<In, Clock>,

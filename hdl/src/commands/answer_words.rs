@@ -10,7 +10,6 @@ use super::types::{RecordCount, Tally, VertexCount, Word};
 use crate::prelude::*;
 use incircle_protocol::{Opcode, CORE_COORD_BITS, CORE_VERSION, MAGIC, PROTOCOL_VERSION};
 
-/// The words of a payload; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AnswerWords {
     pub clock: Signal<In, Clock>,

@@ -12,7 +12,6 @@ use crate::engine::Deal;
 use crate::prelude::*;
 use incircle_protocol::{Opcode, CLEAR_BATCH, FIRST_ROUND};
 
-/// The effect of a `Clear`; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct ClearCommand {
     /// After a reset all contexts work.

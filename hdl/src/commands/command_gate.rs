@@ -11,7 +11,6 @@ use super::types::{CommandState, TakenWord};
 use crate::engine::EngineState;
 use rust_hdl_core::prelude::*;
 
-/// The gate for command words; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CommandGate {
     pub command: CommandSink,

@@ -31,7 +31,6 @@ use crate::engine::{Arrival, Deal, EngineState};
 use crate::prelude::*;
 use incircle_protocol::{Opcode, PADDING};
 
-/// The port for commands; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CommandPort {
     pub clock: Signal<In, Clock>,

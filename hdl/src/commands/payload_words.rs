@@ -8,7 +8,6 @@
 use super::types::{AnswerBeat, Word, WordIndex};
 use crate::prelude::*;
 
-/// The words of a payload, one after the other; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct PayloadWords {
     pub clock: Signal<In, Clock>,

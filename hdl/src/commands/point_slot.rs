@@ -11,7 +11,6 @@ use crate::engine::types::VertexId;
 use crate::engine::{Arrival, EngineState};
 use crate::prelude::*;
 
-/// The last point and the counts; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct PointSlot {
     pub clock: Signal<In, Clock>,

@@ -11,7 +11,6 @@ use crate::engine::types::VertexId;
 use crate::mesh::Record;
 use crate::prelude::*;
 
-/// The buffer for a record; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RecordBuffer {
     pub clock: Signal<In, Clock>,

@@ -16,7 +16,6 @@ use crate::engine::types::TriangleId;
 use crate::mesh::Record;
 use crate::prelude::*;
 
-/// The payload of a read-out; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RecordReads {
     pub clock: Signal<In, Clock>,

@@ -6,7 +6,6 @@ use super::types::Word;
 use crate::mesh::Record;
 use rust_hdl_core::prelude::*;
 
-/// The words of a record; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RecordWords {
     pub record: Signal<In, Record>,

@@ -43,7 +43,6 @@ pub enum AnswerState {
     Records,
 }
 
-/// The sender of answers; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Responder {
     pub clock: Signal<In, Clock>,

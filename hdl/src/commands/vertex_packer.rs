@@ -23,7 +23,6 @@ use super::types::{AnswerBeat, RecordCount, Word};
 use crate::engine::types::VertexId;
 use crate::prelude::*;
 
-/// The packer of vertices; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VertexPacker {
     pub clock: Signal<In, Clock>,

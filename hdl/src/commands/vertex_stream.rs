@@ -15,7 +15,6 @@ use crate::prelude::*;
 /// Number of address bits of the queue of beats.
 const QUEUE_BITS: usize = 4;
 
-/// The vertices of a range of records; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VertexStream {
     pub clock: Signal<In, Clock>,

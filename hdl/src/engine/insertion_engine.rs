@@ -25,7 +25,6 @@ use crate::mesh::ReadRecord;
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 
-/// The insertion engine; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct InsertionEngine {
     pub clock: Signal<In, Clock>,
@@ -103,7 +102,7 @@ impl Logic for InsertionEngine {
         self.pipeline.fetch_id.next = self.insertions.start.val().id;
         self.pipeline.clear.next = self.insertions.clear.val();
 
-        // The progress of a solo insertion may mask `early`, a clock ahead: it changes only while no visit is out.
+        // The progress of a solo insertion may mask `early` a clock ahead, for it changes only with no visit in flight.
         self.insertions.limits.next = self.limits.val();
         self.insertions.deal.next = self.deal.val();
         self.insertions.arrived.next = self.arrived.val();

@@ -11,7 +11,6 @@ use super::types::{
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 
-/// The insertions in flight; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Insertions {
     pub clock: Signal<In, Clock>,

@@ -20,7 +20,6 @@ use rust_hdl_core::prelude::*;
 
 use super::ecp5;
 
-/// A memory with one write and one read port; see the top of this file.
 #[derive(LogicBlock)]
 pub struct BlockMemory<const A: usize, const D: usize> {
     pub clock: Signal<In, Clock>,

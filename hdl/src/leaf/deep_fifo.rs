@@ -32,7 +32,6 @@ use super::memory_shape::MAX_ADDRESS_BITS;
 use super::spill_ring::SpillRing;
 use crate::prelude::*;
 
-/// A deep FIFO; see the top of this file.
 #[derive(LogicBlock)]
 pub struct DeepFifo<const A: usize, const D: usize> {
     pub clock: Signal<In, Clock>,

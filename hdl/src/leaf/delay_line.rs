@@ -14,7 +14,6 @@ use crate::prelude::*;
 /// Number of bits of the counter; the ring uses as many of them as it needs.
 const COUNTER_BITS: usize = 6;
 
-/// A delay of data; see the top of this file.
 #[derive(LogicBlock)]
 pub struct DelayLine<const D: usize> {
     pub clock: Signal<In, Clock>,

@@ -17,7 +17,6 @@
 use super::memory_shape::{assert_shape, low_part, unused_part, zero_extended};
 use rust_hdl_core::prelude::*;
 
-/// A memory between two clocks; see the top of this file.
 #[derive(LogicBlock)]
 pub struct DualClockMemory<const A: usize, const D: usize> {
     /// Clock of the writes, which happen at its rising edge.

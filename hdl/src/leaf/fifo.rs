@@ -14,7 +14,6 @@ use super::lut_memory::LutMemory;
 use super::memory_shape::MAX_ADDRESS_BITS;
 use crate::prelude::*;
 
-/// A FIFO; see the top of this file.
 #[derive(LogicBlock)]
 pub struct Fifo<const A: usize, const D: usize> {
     pub clock: Signal<In, Clock>,

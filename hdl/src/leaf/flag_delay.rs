@@ -8,7 +8,6 @@
 
 use rust_hdl_core::prelude::*;
 
-/// A delayed flag; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FlagDelay {
     pub clock: Signal<In, Clock>,

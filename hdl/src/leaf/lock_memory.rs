@@ -22,7 +22,6 @@ use rust_hdl_core::prelude::*;
 
 use super::ecp5;
 
-/// A memory of lock bits; see the top of this file.
 #[derive(LogicBlock)]
 pub struct LockMemory<const A: usize> {
     pub clock: Signal<In, Clock>,

@@ -11,7 +11,6 @@
 use super::memory_shape::{assert_shape, low_part, unused_part, zero_extended, MAX_ADDRESS_BITS};
 use rust_hdl_core::prelude::*;
 
-/// A memory with a combinational read; see the top of this file.
 #[derive(LogicBlock)]
 pub struct LutMemory<const A: usize, const D: usize> {
     /// Clock of the writes, which happen at its rising edge.

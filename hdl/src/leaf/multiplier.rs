@@ -14,7 +14,6 @@
 
 use rust_hdl_core::prelude::*;
 
-/// A multiplier; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Multiplier {
     pub clock: Signal<In, Clock>,

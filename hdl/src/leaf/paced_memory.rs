@@ -22,7 +22,6 @@ use rust_hdl_core::prelude::*;
 
 use super::ecp5;
 
-/// A memory with a paced read port; see the top of this file.
 #[derive(LogicBlock)]
 pub struct PacedMemory<const A: usize, const D: usize> {
     pub clock: Signal<In, Clock>,

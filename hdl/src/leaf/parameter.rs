@@ -6,7 +6,6 @@
 
 use rust_hdl_core::prelude::*;
 
-/// A constant that a constructor sets; see the top of this file.
 #[derive(Clone, Copy, Debug)]
 pub struct Parameter<T: Synth> {
     constant: Constant<T>,

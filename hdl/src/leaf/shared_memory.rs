@@ -23,7 +23,6 @@ use rust_hdl_core::prelude::*;
 
 use super::ecp5;
 
-/// A memory with a read port and a shared port; see the top of this file.
 #[derive(LogicBlock)]
 pub struct SharedMemory<const A: usize, const D: usize> {
     pub clock: Signal<In, Clock>,

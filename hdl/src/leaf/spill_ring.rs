@@ -6,7 +6,6 @@
 use super::block_memory::BlockMemory;
 use crate::prelude::*;
 
-/// The ring of spilled entries; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct SpillRing<const A: usize, const D: usize> {
     pub clock: Signal<In, Clock>,

@@ -9,7 +9,6 @@
 
 use rust_hdl_core::prelude::*;
 
-/// The two cells; see the top of this file.
 #[derive(LogicBlock)]
 pub struct Synchroniser<T: Synth> {
     /// Clock of the receiver; all happens at its rising edge.

@@ -57,7 +57,6 @@ macro_rules! packed {
     )*};
 }
 
-/// Packed bits as a structure; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Unpack<T: Unpacked, const N: usize> {
     /// The packed fields, the first one in the lowest bits.

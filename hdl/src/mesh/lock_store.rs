@@ -30,7 +30,6 @@ use crate::engine::types::LockClear;
 use crate::leaf::{BlockMemory, LockMemory, Parameter};
 use crate::prelude::*;
 
-/// Locks and their holders; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct LockStore {
     pub clock: Signal<In, Clock>,

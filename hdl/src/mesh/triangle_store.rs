@@ -29,7 +29,6 @@ use crate::engine::types::{ContextId, LockClear, TriangleId, Write, WriteEnables
 use crate::leaf::BlockMemory;
 use rust_hdl_core::prelude::*;
 
-/// The triangle memory; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct TriangleStore {
     pub clock: Signal<In, Clock>,

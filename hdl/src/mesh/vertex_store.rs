@@ -20,7 +20,6 @@ use crate::leaf::{BlockMemory, SharedMemory};
 use crate::predicate::{Corners, Point};
 use rust_hdl_core::prelude::*;
 
-/// The vertex memory; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VertexStore {
     pub clock: Signal<In, Clock>,

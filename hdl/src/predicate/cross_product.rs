@@ -16,7 +16,6 @@
 use crate::leaf::Multiplier;
 use crate::prelude::*;
 
-/// A cross product; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CrossProduct {
     pub clock: Signal<In, Clock>,

@@ -15,7 +15,6 @@
 use crate::leaf::Multiplier;
 use crate::prelude::*;
 
-/// A dot product; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct DotProduct {
     pub clock: Signal<In, Clock>,

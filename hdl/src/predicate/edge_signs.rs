@@ -14,7 +14,6 @@ use super::signs::EdgeFlags;
 use crate::leaf::{FlagDelay, Parameter};
 use crate::prelude::*;
 
-/// The flags of three orient2d; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct EdgeSigns {
     pub clock: Signal<In, Clock>,

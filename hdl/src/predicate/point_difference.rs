@@ -9,7 +9,6 @@
 
 use rust_hdl_core::prelude::*;
 
-/// A vector between two points; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct PointDifference {
     /// The two points: `x` in bits 0 to 15, `y` in bits 16 to 31, unsigned.

@@ -11,7 +11,6 @@ use super::widths::Point;
 use crate::leaf::FlagDelay;
 use rust_hdl_core::prelude::*;
 
-/// The order of four points; see the top of this file.
 #[derive(LogicBlock)]
 pub struct VertexOrder {
     pub clock: Signal<In, Clock>,

@@ -24,7 +24,6 @@ use super::wide_product::WideProduct;
 use super::widths::Point;
 use crate::prelude::*;
 
-/// The predicates of a visit; see the top of this file.
 #[derive(LogicBlock)]
 pub struct VisitPredicates {
     pub clock: Signal<In, Clock>,

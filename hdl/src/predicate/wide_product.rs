@@ -13,7 +13,6 @@
 use crate::leaf::Multiplier;
 use crate::prelude::*;
 
-/// A wide product; see the top of this file.
 #[derive(LogicBlock)]
 pub struct WideProduct {
     pub clock: Signal<In, Clock>,

@@ -28,7 +28,6 @@ pub enum PackState {
     Rest,
 }
 
-/// Parts of answers; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AnswerPacker {
     pub clock: Signal<In, Clock>,

@@ -15,7 +15,6 @@ use incircle_protocol::PHASE_BITS;
 
 const _: () = assert!(PHASE_BITS == 24, "the phase of this block has as many bits as the protocol says");
 
-/// Ticks at the rate of the bits; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct BitClock {
     pub clock: Signal<In, Clock>,

@@ -20,7 +20,6 @@
 use super::types::Byte;
 use crate::prelude::*;
 
-/// A decoder of COBS; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CobsDecoder {
     pub clock: Signal<In, Clock>,

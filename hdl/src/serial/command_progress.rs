@@ -11,7 +11,6 @@
 use crate::commands::types::Word;
 use crate::prelude::*;
 
-/// The commands under way; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CommandProgress {
     /// After a reset no command is under way.

@@ -18,7 +18,6 @@ use super::types::Byte;
 use crate::commands::types::Word;
 use crate::prelude::*;
 
-/// Bytes joined into words; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CommandWords {
     pub clock: Signal<In, Clock>,

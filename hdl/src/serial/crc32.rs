@@ -12,7 +12,6 @@ use super::types::Byte;
 use crate::commands::types::Word;
 use crate::prelude::*;
 
-/// A running check sum; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Crc32 {
     pub clock: Signal<In, Clock>,

@@ -9,7 +9,6 @@ use super::types::{AnswerPlace, Byte};
 use crate::commands::types::Word;
 use crate::prelude::*;
 
-/// The bytes of a frame; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FrameBytes {
     pub clock: Signal<In, Clock>,

@@ -9,7 +9,6 @@ use super::types::{Byte, Contents};
 use crate::prelude::*;
 use incircle_protocol::DeviceFrame;
 
-/// The choice of the next frame; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FrameChoice {
     pub clock: Signal<In, Clock>,

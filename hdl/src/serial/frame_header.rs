@@ -10,7 +10,6 @@ use crate::commands::types::Word;
 use crate::prelude::*;
 use incircle_protocol::{STATUS_BAD_RATE, STATUS_BUSY, STATUS_DROPPED, STATUS_OPEN};
 
-/// The header of frames to the host; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FrameHeader {
     /// After a reset no frame counts as dropped.

@@ -43,7 +43,6 @@ packed! {
     }
 }
 
-/// The judgement of frames; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FrameJudge {
     pub clock: Signal<In, Clock>,

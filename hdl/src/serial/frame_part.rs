@@ -7,7 +7,6 @@ use super::types::BytePlace;
 use crate::prelude::*;
 use incircle_protocol::{ANSWER_HEADER_BYTES, CRC_BYTES, DEVICE_HEADER_BYTES, GREETING_WORDS};
 
-/// The ends of parts; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FramePart {
     pub clock: Signal<In, Clock>,

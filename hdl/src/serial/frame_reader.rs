@@ -33,7 +33,6 @@ pub enum ReadState {
     Excess,
 }
 
-/// The reader of frames; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FrameReader {
     pub clock: Signal<In, Clock>,

@@ -21,7 +21,6 @@ pub enum SendState {
     End,
 }
 
-/// The sender of frames; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FrameSender {
     pub clock: Signal<In, Clock>,

@@ -13,7 +13,6 @@ use incircle_protocol::{
 
 const _: () = assert!(GREETING_WORDS == 13, "the kernel of this block lists the words of the greeting");
 
-/// The bytes of the greeting; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Greeting {
     pub clock: Signal<In, Clock>,

@@ -12,7 +12,6 @@ use incircle_protocol::{LinkConfig, BREAK_MS};
 
 const _: () = assert!(BREAK_MS == 1, "eight eighths of this block are a break, and a short one");
 
-/// The timers of the line; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct LineTimers {
     /// After a reset the silence begins anew.

@@ -22,7 +22,6 @@ use crate::commands::CommandSource;
 use incircle_protocol::LinkConfig;
 use rust_hdl_core::prelude::*;
 
-/// The receiving half of the link; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct LinkReceiver {
     pub clock: Signal<In, Clock>,

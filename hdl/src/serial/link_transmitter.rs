@@ -25,7 +25,6 @@ use crate::commands::types::Word;
 use incircle_protocol::{Config, LinkConfig};
 use rust_hdl_core::prelude::*;
 
-/// The transmitting half of the link; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct LinkTransmitter {
     pub clock: Signal<In, Clock>,

@@ -11,7 +11,6 @@ use super::types::Byte;
 use crate::commands::types::Word;
 use crate::prelude::*;
 
-/// The digest of a session; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct PayloadDigest {
     pub clock: Signal<In, Clock>,

@@ -14,7 +14,6 @@ use crate::leaf::Parameter;
 use crate::prelude::*;
 use incircle_protocol::{LinkConfig, FIRST_RATE, MAX_STEP};
 
-/// The rate of the line; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RateControl {
     pub clock: Signal<In, Clock>,

@@ -21,7 +21,6 @@ use incircle_protocol::LinkConfig;
 /// Bits of an address of the largest FIFO.
 const ADDRESS_BITS: usize = 15;
 
-/// A FIFO whose last bytes are provisional; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct ReceiveFifo {
     pub clock: Signal<In, Clock>,

@@ -14,7 +14,6 @@ use super::types::Byte;
 use crate::prelude::*;
 use incircle_protocol::DeviceFrame;
 
-/// The control frames that are due; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Replies {
     /// After a reset no frame is due.
@@ -63,7 +62,7 @@ impl Logic for Replies {
             | self.ack.q.val()
             | self.nak.q.val();
 
-        // The last assignment wins, so the frames stand here in the reverse of their order (rule 1).
+        // The last assignment wins, so the frames are listed here in reverse order (rule 1).
         self.kind.next = 0x83.into();
         self.acknowledges.next = true;
         self.closes.next = false;

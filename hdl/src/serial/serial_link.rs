@@ -23,7 +23,6 @@ use crate::commands::{AnswerSink, CommandSource};
 use crate::prelude::*;
 use incircle_protocol::{Config, ConfigError, LinkConfig, LinkConfigError};
 
-/// A core's link to a serial line; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct SerialLink {
     /// One clock; a synchronous reset, active high.

@@ -11,7 +11,6 @@ use super::frame_judge::Asked;
 use super::types::{Byte, Session};
 use crate::prelude::*;
 
-/// The state of the session; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct SessionState {
     /// After a reset no session is open.

@@ -30,7 +30,6 @@ pub enum ReceiveState {
     Recover,
 }
 
-/// A receiver of bytes; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct UartReceiver {
     pub clock: Signal<In, Clock>,

@@ -11,7 +11,6 @@ use super::bit_clock::BitClock;
 use super::types::{Byte, Step};
 use crate::prelude::*;
 
-/// A transmitter of bytes; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct UartTransmitter {
     pub clock: Signal<In, Clock>,

@@ -17,7 +17,6 @@
 use crate::commands::types::Word;
 use crate::prelude::*;
 
-/// Beats split into words; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct WordNarrower {
     pub clock: Signal<In, Clock>,

@@ -10,7 +10,6 @@
 use crate::leaf::Parameter;
 use crate::prelude::*;
 
-/// Pairs joined to beats; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AnswerBeats<const W: usize> {
     /// The core's clock; a reset forgets all pairs.

@@ -24,7 +24,6 @@ use crate::commands::types::Word;
 use crate::commands::AnswerSink;
 use crate::prelude::*;
 
-/// Words joined to pairs; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AnswerPairs {
     /// The core's clock; a reset forgets all words.

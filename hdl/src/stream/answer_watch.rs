@@ -8,7 +8,6 @@ use crate::commands::types::Word;
 use crate::prelude::*;
 use incircle_protocol::{answer_header, Status};
 
-/// The watch on answers; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AnswerWatch<const W: usize> {
     /// The bus's clock and reset.

@@ -22,7 +22,6 @@
 use crate::leaf::{DualClockMemory, Parameter, Synchroniser};
 use crate::prelude::*;
 
-/// A FIFO between two clocks; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AsyncFifo<const P: usize, const D: usize> {
     /// The writer's side: its clock, and a reset that empties the FIFO.
@@ -53,7 +52,7 @@ pub struct AsyncFifo<const P: usize, const D: usize> {
     read_gray: DFF<Bits<P>>,
     /// The memory holds nothing that the reader could fetch.
     empty: DFF<Bit>,
-    /// An entry stands in the register of the memory's array (`fetched`), and one in the output register (`shown`).
+    /// An entry is in the register of the memory's array (`fetched`), and one in the output register (`shown`).
     fetched: DFF<Bit>,
     shown: DFF<Bit>,
     takes: Signal<Local, Bit>,

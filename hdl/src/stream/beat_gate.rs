@@ -6,7 +6,6 @@
 use super::events::CommandEvents;
 use crate::prelude::*;
 
-/// The gate for command beats; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct BeatGate<const K: usize> {
     /// The bus's clock and reset.

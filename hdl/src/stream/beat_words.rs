@@ -19,7 +19,6 @@ use crate::commands::CommandSource;
 use crate::leaf::Parameter;
 use crate::prelude::*;
 
-/// Beats split into words; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct BeatWords<const W: usize> {
     /// The core's clock; a reset forgets the words of a beat.

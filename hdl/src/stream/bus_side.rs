@@ -11,7 +11,6 @@ use crate::leaf::{Parameter, Synchroniser};
 use crate::prelude::*;
 use incircle_protocol::Config;
 
-/// The bus's half of the link; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct BusSide<const W: usize, const K: usize, const E: usize> {
     /// The bus's clock and its reset, active low.

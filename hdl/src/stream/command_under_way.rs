@@ -8,7 +8,6 @@
 use crate::commands::types::Word;
 use crate::prelude::*;
 
-/// The command under way; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CommandUnderWay {
     /// The core's clock; after a reset no command is under way.

@@ -11,7 +11,6 @@ use crate::commands::{AnswerSink, CommandSource};
 use crate::leaf::{Parameter, Synchroniser};
 use crate::prelude::*;
 
-/// The core's half of the link; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CoreSide<const W: usize, const E: usize> {
     /// The clock of the core.

@@ -10,7 +10,6 @@ use incircle_protocol::{
 };
 use rust_hdl_core::prelude::*;
 
-/// The registers of constants; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct DeviceIdentity {
     /// Number of the register that is read.

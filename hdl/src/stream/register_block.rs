@@ -15,7 +15,6 @@ use crate::commands::types::Word;
 use crate::prelude::*;
 use incircle_protocol::{Config, StreamRegister};
 
-/// The register block; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RegisterBlock {
     /// The bus's clock and reset.
@@ -80,7 +79,7 @@ impl Logic for RegisterBlock {
         self.control_index.next = 16.into();
         self.errors_index.next = 18.into();
 
-        // Events stand behind the writes that clear them, so that an error in the very clock of its
+        // Events come behind the writes that clear them, so that an error in the very clock of its
         // clearing is not lost.
         self.write_index.next = self.port.write_address.val().get_bits::<10>(2);
         self.writes_control.next = self.write_index.val() == self.control_index.val();

@@ -28,7 +28,6 @@ use super::axi::{Address, AxiLite};
 use crate::commands::types::Word;
 use crate::prelude::*;
 
-/// The AXI4-Lite port; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RegisterPort {
     /// The bus's clock; a reset forgets all transactions.

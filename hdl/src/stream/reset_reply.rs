@@ -8,7 +8,6 @@
 use crate::leaf::FlagDelay;
 use crate::prelude::*;
 
-/// The core's side of a reset; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct ResetReply {
     /// The clock of the core.

@@ -21,7 +21,6 @@ pub enum ResetState {
     Rest,
 }
 
-/// The bus's side of a reset; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct ResetRequest {
     /// The bus's clock and its reset, which begins a reset of the core too.

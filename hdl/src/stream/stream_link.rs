@@ -27,7 +27,6 @@ use rust_hdl_core::prelude::*;
 const POINTER_BITS: usize = 10;
 const _: () = assert!(AsyncFifo::<POINTER_BITS, 1>::DEPTH == STREAM_FIFO_BEATS as usize);
 
-/// A core's link to an AXI bus; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct StreamLink<const W: usize, const K: usize, const E: usize> {
     /// Clock and reset of the AXI ports; the reset is active low and synchronous.

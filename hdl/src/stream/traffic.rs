@@ -11,7 +11,6 @@ use crate::commands::types::Word;
 use crate::prelude::*;
 use incircle_protocol::StreamRegister;
 
-/// The counters of the streams; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Traffic {
     /// The bus's clock; a reset sets all counters to 0.

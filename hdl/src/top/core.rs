@@ -16,7 +16,6 @@ use crate::leaf::Parameter;
 use incircle_protocol::{infinite_vertex, patience, triangle_capacity, Config, ConfigError};
 use rust_hdl_core::prelude::*;
 
-/// The core; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Core {
     /// One clock, and a synchronous reset, active high, which lasts four clocks or more at power-up and one or more

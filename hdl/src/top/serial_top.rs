@@ -10,7 +10,6 @@ use crate::prelude::*;
 use crate::serial::{SerialError, SerialLink};
 use incircle_protocol::{Config, LinkConfig};
 
-/// The core behind a serial link; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct SerialTop {
     /// One clock, and a synchronous reset, active high.

@@ -9,7 +9,6 @@ use crate::stream::{AxiLite, AxisSink, AxisSource, StreamLink};
 use incircle_protocol::{Config, ConfigError};
 use rust_hdl_core::prelude::*;
 
-/// The core behind a stream link; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct StreamTop<const W: usize, const K: usize, const E: usize> {
     /// Clock and reset of the AXI ports; the reset is active low and synchronous.

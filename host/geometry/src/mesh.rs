@@ -14,8 +14,8 @@ pub const EMPTY: u32 = u32::MAX;
 /// The Delaunay triangulation of the distinct points of a set, in canonical form.
 ///
 /// A set of points has exactly one mesh: every back end and every order of insertion gives the same lists. Two meshes
-/// are equal if all four lists are, so `==` on two meshes of the same points shows any difference
-/// between two back ends.
+/// are equal if all four lists are equal, so `==` on two meshes of the same points shows whether
+/// two back ends disagree.
 ///
 /// A mesh comes from [`cpu::triangulate`](crate::cpu::triangulate) or from the library `incircle`. The points keep the
 /// type in which they were given. All indices are positions in [`points`](Self::points). `n` distinct points with `h`
@@ -38,8 +38,8 @@ pub const EMPTY: u32 = u32::MAX;
 pub struct Mesh<P = Point> {
     /// The input points, in input order, duplicates included.
     pub points: Vec<P>,
-    /// Triples of indices into `points`, counter-clockwise if y grows upwards, each with its
-    /// smallest index first, sorted.
+    /// Triples of indices into `points` in sorted order, counter-clockwise if y grows upwards,
+    /// each with its smallest index first.
     pub triangles: Vec<[u32; 3]>,
     /// Indices of the points on the hull, counter-clockwise, lowest index first; points in the middle of a hull edge
     /// are included. A mesh without triangles lists all distinct points in lexicographic order here.

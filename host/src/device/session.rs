@@ -61,7 +61,7 @@ impl<'d> Session<'d> {
     /// [`Mesh::duplicates`](crate::Mesh::duplicates). With fewer than three distinct points, or with all points on one
     /// line, there are no triangles, and the host answers alone.
     ///
-    /// Cost: O(n log n) on the device in the mean, O(n) on the host. At a million points of 16 bits the peak of memory
+    /// Cost: O(n log n) on the device on average, O(n) on the host. At a million points of 16 bits the peak of memory
     /// is below 200 bytes per point, with the mesh and the CPU triangulator or the software model, but without the
     /// points of the caller.
     ///

@@ -5,7 +5,7 @@ use incircle_protocol::FIRST_ROUND;
 use incircle_geometry::order::{along_curve, rounds, Rounds};
 use incircle_geometry::Point;
 
-/// First place of an order from which on points belong to all contexts in turn; see [`FIRST_ROUND`].
+/// The place in an order from which points belong to all contexts in turn; see [`FIRST_ROUND`].
 const FIRST: usize = FIRST_ROUND as usize;
 
 /// The default order of insertion for a device with this many contexts.

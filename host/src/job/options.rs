@@ -93,10 +93,10 @@ pub struct Options<'a> {
     pub progress: Option<ProgressListener<'a>>,
     /// Contexts that work, which is the number of insertions in flight at once: from 1 to the contexts of the device,
     /// see [`Session::identity`](crate::Session::identity). `None` stands for all of them. In a batch this is an upper
-    /// bound, and each job gets as many as pay.
+    /// bound, and each job gets as many as make it faster.
     pub contexts: Option<u32>,
-    /// Points of one `Insert` command, 65,536 by default; fewer than 3 count as 3. Progress is told, and
-    /// cancellation heard, between chunks.
+    /// Points of one `Insert` command, 65,536 by default; fewer than 3 count as 3. Progress is reported,
+    /// and cancellation noticed, between chunks.
     pub insert_chunk: usize,
 }
 
@@ -134,8 +134,8 @@ impl<'a> Options<'a> {
     /// The time limit of a job of this many points unless the caller sets one: a minute and 2 ms per point.
     ///
     /// The limit is generous: the simulated core with one context takes about 0.08 ms per uniform point, which are 156
-    /// clocks at some two million clocks a second. Choose more for a device that is much slower, such as a
-    /// simulation that writes waveforms.
+    /// clocks at about two million clocks a second. Choose more for a device that is much slower, such as a simulation
+    /// that writes waveforms.
     pub fn default_timeout(points: usize) -> Duration {
         let milliseconds = u64::try_from(points).unwrap_or(u64::MAX).saturating_mul(2);
         Duration::from_secs(60).saturating_add(Duration::from_millis(milliseconds))

@@ -119,7 +119,7 @@ impl Default for Pace {
 }
 
 impl Pace {
-    /// Number of items of `words` words that pass in about a quarter of a second, so that progress is told and an
+    /// Number of items of `words` words that pass in about a quarter of a second, so that progress is reported and an
     /// interrupt heard in time: at least 64 and at most `most`.
     pub(crate) fn chunk(self, most: usize, words: usize) -> usize {
         const LEAST: usize = 64;

@@ -3,8 +3,8 @@
 //! Hardware twin: the blocks of `hdl/src/stream/`.
 //!
 //! [`StreamModel`] models the device behind one AXI4-Stream in each direction and a register block, without a clock:
-//! the device takes beats while there is room, and gives answers while there are some. Behind the beats is a
-//! [`WordStream`]. The model shares nothing with the hardware or with a host but the numbers of the protocol.
+//! the device takes beats while there is room, and gives answers while there are some. A [`WordStream`] lies
+//! behind the beats. The model shares nothing with the hardware or with a host but the numbers of the protocol.
 //!
 //! ```
 //! use incircle_model::stream::{ModelCore, StreamModel};

@@ -61,7 +61,7 @@ pub enum DirectoryError {
     },
 }
 
-/// A card whose files stand in a mounted directory until this is dropped.
+/// A card whose files are in a mounted directory until this value is dropped.
 pub struct CardDirectory {
     path: PathBuf,
     card: Arc<Card>,

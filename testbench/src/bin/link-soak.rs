@@ -17,7 +17,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     }
     let mut is_good = true;
     for (detail, config, points) in [(Detail::Pins, SMALL, 100), (Detail::Bytes, FULL, 1500)] {
-        // `one_in`: at least one job of so many must meet a fault. Small jobs rarely do at one
+        // `one_in`: at least one job of this many must meet a fault. Small jobs rarely do at one
         // bit error in a million bits.
         for (ber, least, one_in) in [(1e-6, 1.0, 200), (1e-5, 1.0, 20), (1e-4, 0.95, 2)] {
             let faults = FaultSpec { ber, seed: 1000, ..FaultSpec::default() };

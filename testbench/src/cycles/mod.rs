@@ -1,6 +1,6 @@
 //! Cycles of the core, counted on the model clock by clock: exact figures, and the same on every machine.
 //!
-//! [`measure`] runs one job in the way of the host: it removes duplicates, orders the points in rounds along the
+//! [`measure`] runs one job as the host does: it removes duplicates, orders the points in rounds along the
 //! Hilbert curve, and deals them to the contexts. [`document`] puts many such jobs into the tables of `cycles.md`.
 
 mod airports;

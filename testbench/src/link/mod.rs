@@ -1,7 +1,7 @@
 //! The driver of the serial link in front of simulated boards, in virtual time, and the goodput that it reaches there.
 //!
 //! [`VirtualLine`] joins the protocol that runs over ports of the operating system to a board with its pins or without,
-//! with faults and a delay each way in between. No clock on the wall is involved, so every run can be repeated.
+//! with faults and a delay each way in between. No real time is involved, so every run can be repeated.
 //! [`Served`] is a board behind a pseudo-terminal, in real time.
 
 mod goodput;

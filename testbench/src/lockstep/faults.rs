@@ -38,7 +38,7 @@ pub const FAULTS: &[Fault] = &[
     },
     // One column of neighbours that is never written.
     Fault { name: "link", pieces: &[piece("links$2$write_enable = @;", "enables[(64'h3)+:(1)]", "1'b0")] },
-    // One tie decided wrongly: the apex is not asked.
+    // One tie decided wrongly: the apex has no say.
     Fault {
         name: "tie",
         pieces: &[piece(
@@ -55,7 +55,7 @@ pub const FAULTS: &[Fault] = &[
             piece("test_is_refused$d = @;", "tests & foreign & (~holds_priority)", "1'b0"),
         ],
     },
-    // L1: an attempt that aborts releases its locks while visits of it are still out.
+    // L1: an attempt that aborts releases its locks while some of its visits are still in flight.
     Fault {
         name: "drain",
         pieces: &[piece("step[(64'h0)+:(1)] = @;", "ends_here", "ends_here | found[(64'hf)+:(1)]")],
@@ -84,7 +84,7 @@ pub const FAULTS: &[Fault] = &[
             piece("job = @;", "star$committed[(64'h1)+:(56)]", "commit[(64'h1)+:(56)]"),
         ],
     },
-    // L5: a locked root is believed to hold the point still.
+    // L5: a locked root counts as holding the point, without a second look.
     Fault {
         name: "root",
         pieces: &[

@@ -63,7 +63,7 @@ impl Job {
         job
     }
 
-    /// Makes such a job for a batch of so many jobs (0 for as many as the core has contexts).
+    /// Makes such a job for a batch of this many jobs (0 for as many as the core has contexts).
     pub fn batch_of(points: &[u32], piece: usize, jobs: u32, config: Config) -> Self {
         Self::beginning_with(batch_word(jobs), points, piece, config)
     }

@@ -3,9 +3,9 @@
 //!
 //! A time is that of the whole call, from a list of points to a mesh in the form of the library, and each contestant
 //! should find as many triangles as ours. Just before its timed run each contestant triangulates other points of the
-//! set, untimed (for the airports, the same points in another order). Handing out memory says much about a machine and
-//! little about an algorithm: without the untimed run four million points take some 10 ns longer each, and more than
-//! 200 ns where a virtual machine has lent its free memory to others.
+//! set, untimed (for the airports, the same points in another order). The cost of fresh memory says much about a
+//! machine and little about an algorithm: without the untimed run four million points take about 10 ns longer each, and
+//! more than 200 ns where a virtual machine has lent its free memory to others.
 //!
 //! Ratios are medians, over the repetitions, of times taken next to each other, so that other work on
 //! the machine touches both. The JSON objects also have the processor's time on the calling thread

@@ -3,15 +3,13 @@
 //!
 //! 1. A context falls asleep when its last visit completes. The context keeps its point, unless its ring is complete or
 //!    the point equals a vertex (L1).
-//! 2. A context asks for the priority when it aborts, and returns it when its ring is complete or its point equals a
-//!    vertex (L2).
+//! 2. A context asks for the priority when it aborts, and returns it with a complete ring or a duplicate point (L2).
 //!
 //! Latency: none, the block is combinational.
 
 use crate::engine::types::{Case, Outcome, Step, TriangleId, Visit};
 use rust_hdl_core::prelude::*;
 
-/// The outcome of a visit; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Aftermath {
     /// The completed visit, its case, and the step of its attempt.

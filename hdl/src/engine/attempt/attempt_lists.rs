@@ -13,7 +13,6 @@ use crate::engine::types::{
 };
 use rust_hdl_core::prelude::*;
 
-/// The lists of an attempt; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AttemptLists {
     /// The visit that completes in this clock.

@@ -22,7 +22,6 @@ use crate::leaf::LutMemory;
 use crate::prelude::*;
 use incircle_protocol::Config;
 
-/// The points of the contexts; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AttemptPoints {
     pub clock: Signal<In, Clock>,

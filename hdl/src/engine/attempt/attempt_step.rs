@@ -13,10 +13,9 @@ use super::attempt_store::Held;
 use crate::engine::types::{Attempt, Case, LockCount, RingCount, Step};
 use rust_hdl_core::prelude::*;
 
-/// The step of an attempt; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AttemptStep {
-    /// The state before the test, with the flags that stand beside it.
+    /// The state before the test, with the flags that are kept beside it.
     pub held: Signal<In, Held>,
     /// The visit took a lock.
     pub took: Signal<In, Bit>,

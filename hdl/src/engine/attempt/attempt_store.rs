@@ -22,7 +22,7 @@ crate::packed! {
     /// An attempt, with flags that are ready sooner because they are kept apart from it.
     pub struct Held {
         pub attempt: Attempt,
-        /// Only one visit of the attempt is out; or the list has no room for another entry (`is_full`).
+        /// Only one visit of the attempt is in flight; or the list has no room for another entry (`is_full`).
         pub is_last: bool,
         pub is_full: bool,
         /// The bit of `attempt.half_open` for the visit's `cavity_entry`.
@@ -32,7 +32,6 @@ crate::packed! {
     }
 }
 
-/// The states of all attempts; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AttemptStore {
     pub clock: Signal<In, Clock>,

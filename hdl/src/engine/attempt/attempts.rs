@@ -4,8 +4,7 @@
 //!    back in one clock. So visits of different contexts may complete in any mixture, one a clock.
 //! 2. An aborted attempt drains: its visits in flight complete, the locks that they take are logged, and then all its
 //!    locks are released (L1).
-//! 3. All outputs belong to the visit of this clock. `seeded`, the busy contexts and the priority are read a clock
-//!    ahead.
+//! 3. All outputs belong to the visit of this clock; `seeded`, busy contexts and the priority are read a clock ahead.
 //!
 //! Latency: 1 clock from `early` to the outputs; the state is there for the visit of the next clock.
 //!
@@ -43,7 +42,6 @@ use crate::engine::types::{
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 
-/// The effects of completed visits; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Attempts {
     pub clock: Signal<In, Clock>,

@@ -5,7 +5,6 @@
 
 use rust_hdl_core::prelude::*;
 
-/// An address; see the top of this file.
 #[derive(LogicBlock)]
 pub struct ContextAddress<const P: usize, const A: usize> {
     /// The context that the word belongs to.

@@ -29,7 +29,6 @@
 use crate::engine::types::{Bundle, Case, RingEntry, TriangleId, Turned, Visit};
 use crate::prelude::*;
 
-/// The visits that follow; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct NextVisits {
     pub clock: Signal<In, Clock>,

@@ -7,7 +7,7 @@
 //! 3. The root is visited again under its lock, because the findings of the walk need not be true any more (L5).
 //! 4. At most one of `looks` to `root_duplicate` in the case is high, except that `waits` comes with `revisits`. None
 //!    is high for a test of an attempt that drains.
-//! 5. All that does not depend on the verdict is decided a clock ahead. `is_busy` and `holds_priority` are inputs
+//! 5. Whatever does not depend on the verdict is decided a clock ahead. `is_busy` and `holds_priority` are inputs
 //!    of that clock too.
 //!
 //! Latency: 1 clock from the early inputs; none from `verdict`, `drains` and `is_full`.
@@ -31,7 +31,6 @@
 use crate::engine::types::{Case, Turned, Upcoming, Verdict, Visit};
 use crate::prelude::*;
 
-/// The meaning of a visit; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VisitCase {
     pub clock: Signal<In, Clock>,

@@ -32,7 +32,6 @@ use crate::engine::write::{LinkWrite, RecordWrite};
 use crate::prelude::*;
 use incircle_protocol::Config;
 
-/// The commit; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Commit {
     pub clock: Signal<In, Clock>,

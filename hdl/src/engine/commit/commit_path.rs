@@ -16,7 +16,6 @@ use crate::engine::types::{
 use crate::prelude::*;
 use incircle_protocol::Config;
 
-/// From rings to stars; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CommitPath {
     pub clock: Signal<In, Clock>,

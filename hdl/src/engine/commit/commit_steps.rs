@@ -22,7 +22,6 @@ pub enum CommitState {
     Close,
 }
 
-/// The steps; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CommitSteps {
     pub clock: Signal<In, Clock>,

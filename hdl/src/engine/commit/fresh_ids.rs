@@ -20,7 +20,6 @@
 
 use crate::prelude::*;
 
-/// The counts of records; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FreshIds {
     pub clock: Signal<In, Clock>,

@@ -25,7 +25,6 @@ use crate::leaf::BlockMemory;
 use crate::prelude::*;
 use incircle_protocol::Config;
 
-/// The lists of inner records; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct InnerList {
     pub clock: Signal<In, Clock>,

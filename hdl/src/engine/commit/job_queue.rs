@@ -1,5 +1,4 @@
-//! Queues commit jobs or release jobs, first come, first served. A commit or a release takes many clocks, and others
-//! become due meanwhile.
+//! Queues commit jobs or release jobs, first come, first served: each takes many clocks, and others come meanwhile.
 //!
 //! 1. Every context has at most one job in a queue, so there is a place for each.
 //!
@@ -17,7 +16,6 @@ use crate::engine::types::CONTEXT_BITS;
 use crate::leaf::{LutMemory, Parameter};
 use crate::prelude::*;
 
-/// A queue of jobs; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct JobQueue<const D: usize> {
     pub clock: Signal<In, Clock>,

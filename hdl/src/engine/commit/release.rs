@@ -34,7 +34,6 @@ use crate::leaf::{BlockMemory, Unpack};
 use crate::prelude::*;
 use incircle_protocol::Config;
 
-/// The log of locks and its release; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Release {
     pub clock: Signal<In, Clock>,

@@ -1,7 +1,6 @@
 //! The rings of all contexts: entries come as they become final, and are read in the order of their ring.
 //!
-//! 1. An entry is read at the earliest two clocks after it becomes final, and is not written again before it has left
-//!    the output.
+//! 1. An entry is read two clocks after it becomes final, or later, and is not written again before it leaves.
 //! 2. `read` comes from far away and goes into a register before any logic uses it.
 //!
 //! Latency: none from `read_place` to `after`, so that one entry a clock can be followed; two moves to `read`.
@@ -21,7 +20,6 @@ use incircle_protocol::Config;
 /// Width in bits of the word that leads on from an entry.
 const FOLLOWER_BITS: usize = ENTRY_BITS + 1;
 
-/// The rings of all contexts; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RingList {
     pub clock: Signal<In, Clock>,

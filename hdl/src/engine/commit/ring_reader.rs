@@ -38,7 +38,6 @@ use crate::leaf::Unpack;
 use crate::prelude::*;
 use incircle_protocol::Config;
 
-/// The reader of rings; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RingReader {
     pub clock: Signal<In, Clock>,

@@ -10,7 +10,6 @@
 use crate::engine::types::{Entry, RingHead, TriangleId};
 use rust_hdl_core::prelude::*;
 
-/// The choice of an id; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct StarId {
     /// The next entry of the ring reader; its flag `shares` says that rule 1 denies it the id of its cavity record.

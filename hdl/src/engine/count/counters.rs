@@ -15,7 +15,6 @@ use crate::engine::types::{Clocks, Events};
 use crate::prelude::*;
 use incircle_protocol::Counter;
 
-/// The event counters; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Counters {
     pub clock: Signal<In, Clock>,

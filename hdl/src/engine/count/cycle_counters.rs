@@ -9,7 +9,6 @@ use super::event_counter::{EventCounter, WideCounter};
 use crate::prelude::*;
 use incircle_protocol::Counter;
 
-/// Counts of clocks; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CycleCounters {
     pub clock: Signal<In, Clock>,

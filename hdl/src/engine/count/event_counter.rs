@@ -7,7 +7,7 @@
 
 use crate::prelude::*;
 
-/// A counter of one word; see the top of this file.
+/// A counter of one word.
 #[derive(LogicBlock, Default)]
 pub struct EventCounter {
     pub clock: Signal<In, Clock>,
@@ -38,7 +38,7 @@ impl Logic for EventCounter {
     }
 }
 
-/// A counter of two words of `N` bits; see the top of this file.
+/// A counter of two words of `N` bits.
 #[derive(LogicBlock)]
 pub struct WideCounter<const N: usize> {
     pub clock: Signal<In, Clock>,

@@ -26,14 +26,13 @@ const COUNT_BITS: usize = 15;
 
 const _: () = assert!(LATENCY_BUCKETS == 128, "the address of this block's memory has seven bits");
 
-/// The histogram; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Latencies {
     pub clock: Signal<In, Clock>,
     /// Reset and clear start a sweep.
     pub reset: Signal<In, Bit>,
     pub clears: Signal<In, Bit>,
-    /// An insertion took so many clocks; not during a sweep.
+    /// An insertion took this many clocks; not during a sweep.
     pub comes: Signal<In, Bit>,
     pub latency: Signal<In, Clocks>,
     /// The buckets are being cleared, one a clock.

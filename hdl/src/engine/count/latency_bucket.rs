@@ -9,7 +9,6 @@
 use crate::engine::types::Clocks;
 use crate::prelude::*;
 
-/// The bucket of a latency; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct LatencyBucket {
     pub clock: Signal<In, Clock>,

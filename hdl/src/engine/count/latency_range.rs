@@ -9,7 +9,6 @@
 use crate::engine::types::Clocks;
 use crate::prelude::*;
 
-/// Latencies of insertions; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct LatencyRange {
     pub clock: Signal<In, Clock>,

@@ -7,7 +7,6 @@ use crate::engine::types::{RingCount, VisitEvents};
 use crate::prelude::*;
 use incircle_protocol::Counter;
 
-/// Counts of visits; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VisitCounters {
     pub clock: Signal<In, Clock>,

@@ -34,7 +34,6 @@
 use crate::engine::types::{CommitJob, Committed, ContextSet, ContextState, Outcome, Released, Start};
 use crate::prelude::*;
 
-/// The state of each context; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct ContextFlags {
     pub clock: Signal<In, Clock>,

@@ -14,7 +14,6 @@ use crate::engine::types::{
 use crate::prelude::*;
 use incircle_protocol::Config;
 
-/// The dispatcher; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Dispatcher {
     pub clock: Signal<In, Clock>,
@@ -32,8 +31,7 @@ pub struct Dispatcher {
     pub came: Signal<In, Bit>,
     /// The progress of the first triangles.
     pub seed: Signal<In, SeedProgress>,
-    /// A visit completes, with these consequences for its context; while it may ask for visits (`may_ask`), no context
-    /// starts.
+    /// A visit completes, with these consequences; while it may ask for visits (`may_ask`), no context starts.
     pub is_done: Signal<In, Bit>,
     pub outcome: Signal<In, Outcome>,
     pub may_ask: Signal<In, Bit>,

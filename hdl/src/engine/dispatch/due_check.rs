@@ -12,7 +12,6 @@ use super::next_point::Passed;
 use crate::engine::types::{ContextId, ContextSet, ContextState, VertexId};
 use rust_hdl_core::prelude::*;
 
-/// The check; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct DueCheck {
     /// The state of all contexts.

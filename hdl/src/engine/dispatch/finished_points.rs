@@ -2,7 +2,7 @@
 //!
 //! 1. Two points may be finished in one clock: one by a commit or a solo insertion, and a duplicate.
 //! 2. Fewer than three points, or three collinear ones, are never finished. Then nothing is left to do as soon as
-//!    no visit is out.
+//!    no visit is in flight.
 //! 3. A finished point is noted at its edge, counted at the next and compared at the third, but `arrived` is compared
 //!    at once. In the clock after a point has come `is_quiet` may be out of date, but no command reads `is_quiet` then.
 //!
@@ -22,7 +22,6 @@
 
 use crate::prelude::*;
 
-/// The count of finished points; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FinishedPoints {
     pub clock: Signal<In, Clock>,
@@ -39,7 +38,7 @@ pub struct FinishedPoints {
     pub duplicate: Signal<In, Bit>,
     /// No first triangle is being made, because the points that have come are too few or collinear.
     pub has_no_start: Signal<In, Bit>,
-    /// No visit is out and no lock is held.
+    /// No visit is in flight and no lock is held.
     pub all_rest: Signal<In, Bit>,
     /// Every point is finished or never will be, and no insertion is at work.
     pub is_quiet: Signal<Out, Bit>,

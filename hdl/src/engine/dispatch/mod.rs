@@ -9,9 +9,9 @@
 //!                       |
 //!                       +-----> Watchdog -> stuck
 //! ```
-//! A pointer goes round the contexts, one a clock, and starts the context it stands at if that context is due. The
+//! A pointer goes round the contexts, one a clock, and starts the context it points to if that context is due. The
 //! round costs an insertion a few clocks, but avoids a search over all contexts, which would be the slowest path of the
-//! core. [`Watchdog`] reports `stuck` when no point was finished for `incircle_protocol::patience` clocks; commands are
+//! core. [`Watchdog`] reports `stuck` if no point is finished for `incircle_protocol::patience` clocks; commands are
 //! then answered with `Stuck`.
 //!
 //! Lock rules (see `docs/engine.md`): L1, a context whose attempt aborted rests until a fourth round of the pointer

@@ -15,7 +15,7 @@ use incircle_protocol::FIRST_ROUND;
 use rust_hdl_core::prelude::*;
 
 crate::packed! {
-    /// The context that the pointer stands at.
+    /// The context to which the pointer points.
     pub struct Pointer {
         pub turn: ContextId,
         /// The sum `3 turn + 2`: in a batch, the third vertex of the context's own first triangle.
@@ -42,7 +42,6 @@ crate::packed! {
     }
 }
 
-/// The next vertex of a context; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct NextPoint {
     /// The number of contexts that work, and whether each has a mesh of its own.

@@ -25,7 +25,6 @@ crate::packed! {
     }
 }
 
-/// The plans of the contexts; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct PlanTable {
     pub clock: Signal<In, Clock>,

@@ -9,7 +9,6 @@ use super::next_point::Pointer;
 use crate::engine::types::ContextId;
 use crate::prelude::*;
 
-/// The pointer; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct StartPointer {
     pub clock: Signal<In, Clock>,

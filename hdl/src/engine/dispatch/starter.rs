@@ -64,7 +64,6 @@ crate::packed! {
     }
 }
 
-/// Starts walks; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Starter {
     pub clock: Signal<In, Clock>,

@@ -15,7 +15,6 @@
 use crate::engine::types::Clocks;
 use crate::prelude::*;
 
-/// The watchdog; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Watchdog {
     pub clock: Signal<In, Clock>,
@@ -27,7 +26,7 @@ pub struct Watchdog {
     pub is_quiet: Signal<In, Bit>,
     /// The number of clocks to wait, a constant; see `patience` of the protocol.
     pub patience: Signal<In, Clocks>,
-    /// The fault: so many clocks have passed with work to do and no point finished.
+    /// The fault: that many clocks have passed with work to do and no point finished.
     pub stuck: Signal<Out, Bit>,
     rests: DFF<Bit>,
     clocks: DFF<Clocks>,

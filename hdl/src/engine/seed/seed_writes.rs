@@ -15,7 +15,6 @@ use crate::engine::types::Write;
 use crate::engine::write::RecordWrite;
 use rust_hdl_core::prelude::*;
 
-/// The first records; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct SeedWrites {
     /// The record to write. 0: the vertices as they came, for the look at which way they turn; 1: the triangle; 2 to

@@ -24,7 +24,6 @@ use super::seed_writes::SeedWrites;
 use crate::engine::types::{Arrival, ContextId, Deal, SeedProgress, TriangleId, Verdict, VertexId, Write};
 use crate::prelude::*;
 
-/// The first triangles; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Seeder {
     pub clock: Signal<In, Clock>,

@@ -9,7 +9,7 @@
 //! ```
 //! The state is constant however large the star becomes, so no list can overflow. A solo insertion is slow and rare.
 //!
-//! Lock rules: none. No other visit is out and no lock is held during a solo insertion;
+//! Lock rules: none. No other visit is in flight and no lock is held during a solo insertion;
 //! [`ContextFlags`](super::ContextFlags) and [`Starter`](super::Starter) see to that.
 
 #[expect(clippy::module_inception, reason = "the room carries the name of its main block")]

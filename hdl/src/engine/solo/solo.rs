@@ -3,7 +3,7 @@
 //!
 //! 1. The mesh has changed since the attempt that overflowed. So the point is located again, from the root
 //!    that held it then.
-//! 2. Visits of a solo insertion take no locks, and at most one is out.
+//! 2. Visits of a solo insertion take no locks, and at most one is in flight.
 //! 3. While the record outside the star record at work conflicts with the point, the edge between them is flipped and
 //!    the same position is tested again. Otherwise the link from outside is mended, and the next star record is at
 //!    work. The insertion ends where the round began.
@@ -42,13 +42,12 @@ use crate::engine::types::{
 };
 use crate::prelude::*;
 
-/// The solo insertion; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Solo {
     pub clock: Signal<In, Clock>,
     /// Reset ends the insertion.
     pub reset: Signal<In, Bit>,
-    /// A solo insertion begins at this edge, with no visit out and no lock held; only while none is at work.
+    /// A solo insertion begins at this edge, with no visit in flight and no lock held; only while none is at work.
     pub start: Signal<In, SoloStart>,
     /// The next new id.
     pub records: Signal<In, TriangleId>,

@@ -17,7 +17,6 @@ use super::star_state::{Beyond, SoloPhase, SoloTurn, StarTriangle};
 use crate::engine::types::{Bundle, Completion, ContextId, Slot, TriangleId, Turned, Verdict, VertexId, Visit, Write};
 use crate::prelude::*;
 
-/// The star; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct SoloStar {
     pub clock: Signal<In, Clock>,
@@ -55,7 +54,7 @@ pub struct SoloStar {
     triangle: DFF<StarTriangle>,
     beyond: DFF<Beyond>,
     request: DFF<Write>,
-    /// Two values that stand long before they are asked for: the last star record of the round, and the second new id.
+    /// Two values that are settled long before they are used: the last star record of the round, and the second new id.
     is_last: DFF<Bit>,
     third: DFF<TriangleId>,
     visits: SoloVisit,

@@ -30,7 +30,6 @@ pub enum SoloState {
     Flip,
 }
 
-/// The steps; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct SoloSteps {
     pub clock: Signal<In, Clock>,

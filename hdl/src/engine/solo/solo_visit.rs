@@ -6,7 +6,6 @@ use super::star_state::{SoloPhase, StarTriangle};
 use crate::engine::types::{Bundle, ContextId, TriangleId, Turned};
 use rust_hdl_core::prelude::*;
 
-/// Visits of a solo insertion; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct SoloVisit {
     /// The context of the insertion.

@@ -7,7 +7,6 @@ use crate::engine::types::{Slot, TriangleId, Turned, VertexId, Write};
 use crate::engine::write::{LinkWrite, RecordWrite};
 use rust_hdl_core::prelude::*;
 
-/// Writes of a solo insertion; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct SoloWrites {
     /// The write that is due. If none is, `write` is a link: from the visited record to the star record at work

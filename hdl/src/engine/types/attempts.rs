@@ -97,7 +97,7 @@ crate::packed! {
     /// The consequences of a completed visit for its context.
     pub struct Outcome {
         pub context: ContextId,
-        /// None of the context's visits is out any more.
+        /// None of the context's visits is in flight any more.
         pub sleeps: bool,
         /// The context keeps its point and will retry.
         pub will_retry: bool,

@@ -36,7 +36,7 @@ crate::packed! {
         pub id: VertexId,
     }
 
-    /// The coordinates of the point that the context has taken stand on the port of the vertex memory.
+    /// The coordinates of the point that the context has taken are at the port of the vertex memory.
     pub struct Fetched {
         pub valid: bool,
         pub context: ContextId,
@@ -75,7 +75,7 @@ crate::packed! {
 
     /// The state of all contexts, a bit each; and which of them holds the priority or asks for a solo insertion.
     pub struct ContextState {
-        /// None of the context's visits is out.
+        /// The context is asleep: none of its visits is in flight.
         pub asleep: ContextSet,
         /// The context keeps its point and will retry.
         pub retrying: ContextSet,
@@ -92,7 +92,7 @@ crate::packed! {
         /// The context `solo_context` asks for a solo insertion or is at it: no context starts.
         pub solo_valid: bool,
         pub solo_context: ContextId,
-        /// No visit is out and no lock is held; known a clock after it has come true.
+        /// No visit is in flight and no lock is held; the flag rises a clock after both hold.
         pub all_rest: bool,
     }
 

@@ -22,7 +22,7 @@ crate::packed! {
         pub root_changed: bool,
         /// A context takes the priority.
         pub takes_priority: bool,
-        /// A ring is complete, and its cavity has so many records.
+        /// A ring is complete, and its cavity has this many records.
         pub cavity_ends: bool,
         pub cavity_triangles: RingCount,
     }

@@ -1,12 +1,11 @@
 //! The queue of visits: bundles come in, and their visits are issued, one in each clock, first in, first out. A cavity
 //! asks for up to three visits at once, but the read port of the triangle memory serves one a clock.
 //!
-//! 1. The one to three visits of a bundle are issued in their order, one a clock. `Bundle` says in which fields they
-//!    differ.
-//! 2. The queue has a place for every ring entry of every context. A context never has more visits out than its ring
-//!    has entries, so the queue never overflows.
+//! 1. The one to three visits of a bundle are issued in order, one a clock. `Bundle` says in which fields they differ.
+//! 2. The queue has a place for every ring entry of every context. A context never has more visits in flight than its
+//!    ring has entries, so the queue never overflows.
 //! 3. The id of the record goes to all block RAMs of the triangle memory. Three registers hold the id, so that each can
-//!    stand near the RAMs that it drives. Reset clears one, sets all bits of another and does not act on
+//!    lie near the RAMs that it drives. Reset clears one, sets all bits of another and does not act on
 //!    the third, because synthesis would merge equal registers.
 //!
 //! Latency: 1 clock from `push` to `visit` if the queue is empty.
@@ -26,7 +25,6 @@ use crate::engine::types::{Bundle, Push, RecordRead, TriangleId, Visit, BUNDLE_B
 use crate::leaf::{DeepFifo, Unpack};
 use crate::prelude::*;
 
-/// The queue and the issue register; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Issue {
     pub clock: Signal<In, Clock>,

@@ -23,7 +23,6 @@
 use crate::engine::types::{Bundle, Follow, Push, Start};
 use crate::prelude::*;
 
-/// The push port; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct PushPort {
     pub clock: Signal<In, Clock>,

@@ -19,7 +19,6 @@ use crate::engine::types::{Slot, Turned, Verdict};
 use crate::predicate::{EdgeFlags, OrderFlags, Signs};
 use rust_hdl_core::prelude::*;
 
-/// The verdict of a visit; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VerdictLogic {
     /// The record as the reader has rotated it.

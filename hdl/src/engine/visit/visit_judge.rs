@@ -21,7 +21,6 @@ use crate::engine::types::{Turned, Verdict};
 use crate::predicate::{Corners, Point, VisitPredicates};
 use rust_hdl_core::prelude::*;
 
-/// Signs and verdict; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VisitJudge {
     pub clock: Signal<In, Clock>,

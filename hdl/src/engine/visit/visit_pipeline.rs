@@ -5,7 +5,7 @@
 //!    `turned.again` (L7). Vertices, neighbours and slot of `turned` and the whole `verdict` are arbitrary then, but
 //!    `took` and `foreign` are valid.
 //! 3. A visit is judged by the point that its context has 4 clocks after the issue. The user changes that point only
-//!    while none of the context's visits is out.
+//!    while none of the context's visits is in flight.
 //! 4. A read-out never meets a write of its record at one edge, because the user reads only while no
 //!    insertion is at work.
 //!
@@ -39,7 +39,6 @@ use crate::predicate::{Point, POINT_BITS};
 use crate::prelude::*;
 use incircle_protocol::{triangle_id_bits, vertex_id_bits, Config};
 
-/// The visit pipeline; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VisitPipeline {
     pub clock: Signal<In, Clock>,
@@ -58,7 +57,7 @@ pub struct VisitPipeline {
     /// The visit that completes in this clock; and the one that completes in the next clock unless reset comes first.
     pub completion: Signal<Out, Completion>,
     pub early: Signal<Out, Upcoming>,
-    /// A record that the read-out wants, only while no visit is out; and the record that has been read.
+    /// A record that the read-out wants, only while no visit is in flight; and the record that has been read.
     pub read: Signal<In, RecordRead>,
     pub read_out: Signal<Out, ReadRecord>,
     /// A write into the triangle memory; `enables` says which columns.
@@ -193,7 +192,7 @@ impl Logic for VisitPipeline {
         self.turned_delay.data_in.next = self.turned_bits.val();
         self.delayed_turned.bits.next = self.turned_delay.data_out.val();
 
-        // The delay line ends in clock 14: a register stands between it and the verdict, which is combinational.
+        // The delay line ends in clock 14: a register lies between it and the verdict, which is combinational.
         self.judged.d.next = self.delayed_turned.value.val();
         self.judge.turned.next = self.judged.q.val();
         self.early.next.done = self.valid.q.val().get_bit(14);

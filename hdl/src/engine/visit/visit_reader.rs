@@ -30,7 +30,6 @@ use crate::mesh::{Record, TriangleStore, VertexStore};
 use crate::predicate::Corners;
 use crate::prelude::*;
 
-/// Rotation and corners of a record; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VisitReader {
     pub clock: Signal<In, Clock>,

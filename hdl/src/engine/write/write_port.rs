@@ -19,7 +19,6 @@
 use crate::engine::types::{Write, WriteEnables};
 use crate::prelude::*;
 
-/// The write port; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct WritePort {
     pub clock: Signal<In, Clock>,

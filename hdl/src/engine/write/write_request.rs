@@ -6,7 +6,7 @@
 use crate::engine::types::{Slot, TriangleId, VertexId, Write};
 use rust_hdl_core::prelude::*;
 
-/// A whole record; see the top of this file.
+/// The request that writes a whole record.
 #[derive(LogicBlock, Default)]
 pub struct RecordWrite {
     /// The id of the record, its vertices, and its neighbours.
@@ -39,7 +39,7 @@ impl Logic for RecordWrite {
     }
 }
 
-/// One link; see the top of this file.
+/// The request that writes one link of a record.
 #[derive(LogicBlock, Default)]
 pub struct LinkWrite {
     /// The record, and the slot of the link that is written.
@@ -47,7 +47,7 @@ pub struct LinkWrite {
     pub slot: Signal<In, Slot>,
     /// The neighbour that the link names from now on.
     pub value: Signal<In, TriangleId>,
-    /// The write of this slot alone; `value` stands in all three slots, because the enables choose.
+    /// The write of this slot alone; `value` is in all three slots, because the enables choose one.
     pub write: Signal<Out, Write>,
     slot0: Signal<Local, Slot>,
     slot1: Signal<Local, Slot>,

@@ -23,7 +23,7 @@ const GAP: u32 = 1 << 31;
 /// bucket and its copy take 64 kB.
 const BUCKET_BITS: u32 = 11;
 /// Triangles of an id that are sorted without branches. An id is the smallest corner of two triangles on average, and
-/// of more than four one time in ten.
+/// of more than four in one case out of ten.
 const FEW: usize = 4;
 /// Edges that are processed together. A block and its triangles, 14 kB, stay in the first-level cache.
 const BLOCK: usize = 512;

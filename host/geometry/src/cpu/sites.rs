@@ -21,9 +21,9 @@ use crate::sort::{sort_by_key, Keyed, SMALL};
 /// Bits of a word that are sorted at a time: three digits of the radix sort of a usual bucket, enough to distinguish
 /// nearly all its points.
 const KEY_BITS: u32 = 24;
-/// Points of a bucket on average, if there are several buckets and the points are even: this number to twice as many,
-/// unless many threads or very many points ask for larger buckets. Such a bucket takes 16 to 32 kB, and as much again
-/// to be sorted, which is near what a first-level cache holds.
+/// Points of a bucket on average, if there are several buckets and the points are spread evenly: this number to twice
+/// as many, unless many threads or very many points ask for larger buckets. Such a bucket takes 16 to 32 kB, and as
+/// much again to be sorted, which is near what a first-level cache holds.
 const BUCKET: usize = 2048;
 
 /// The distinct points of a set, sorted along the Z-curve.
@@ -168,8 +168,9 @@ impl Curve {
 
 /// Sorts the points along the curve and takes duplicates out, on `threads` threads.
 ///
-/// O(n), by radix: points are distributed to buckets of [`BUCKET`] points or somewhat more, if the set is even, and
-/// each bucket is sorted by itself. A thread has whole buckets, so threads help less if most points are in few of them.
+/// O(n), by radix: points are distributed to buckets of [`BUCKET`] points or somewhat more, if they are spread evenly,
+/// and each bucket is sorted by itself. A thread has whole buckets, so threads help less if few buckets hold
+/// most of the points.
 pub(super) fn sort(points: &[Point], threads: usize) -> Sites {
     let curve = Curve::of(points, threads);
     let mut all = Sites {

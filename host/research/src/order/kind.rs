@@ -17,14 +17,14 @@ pub enum Order {
     /// One pass along a curve.
     Along(Curve),
     /// Rounds of growing random samples, each along a curve. [`Curve::Hilbert`] and [`Alpha::Quarter`] make the default
-    /// order of the product.
+    /// order of the library.
     Brio(Curve, Alpha),
     /// Rounds in which each point comes after its nearest neighbour, at which the walk to the point begins.
     BrioDc(BrioDc),
 }
 
 impl Order {
-    /// The default order of the product: BRIO with a share of 1/4 along Hilbert's curve.
+    /// The default order of the library: BRIO with a share of 1/4 along Hilbert's curve.
     pub const BRIO_HILBERT: Self = Self::Brio(Curve::Hilbert, Alpha::Quarter);
 
     /// All orders of insertion.

@@ -15,7 +15,7 @@ mod tests;
 
 /// Hundredths of a clock in a clock. The costs below are in hundredths of a clock, unless they say otherwise.
 const CLOCK: u64 = 100;
-/// Cost of an insertion by a context that no other context is in the way of: 155 clocks counted.
+/// Cost of an insertion by a context that meets no other context: 155 clocks counted.
 const UNDISTURBED_INSERTION: u64 = 155 * CLOCK;
 /// Cost that one more job adds to a round of a group while the read port has room: now and then one of its visits waits
 /// for a visit of another job. Fitted to the table at [`rounds`], up to 8 jobs.

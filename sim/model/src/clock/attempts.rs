@@ -27,7 +27,7 @@ pub(super) struct Attempt {
     /// Bit `y` says that the boundary has moved across one of the two edges that the cavity record of entry `y`
     /// brought. The root uses bits 0 and 1.
     pub half_open: u64,
-    /// Whether the attempt aborts: its visits that are out complete first.
+    /// Whether the attempt aborts: its visits in flight complete first.
     pub drains: bool,
 }
 
@@ -37,7 +37,7 @@ pub(super) struct Outcome {
     pub context: usize,
     /// The visits to be made next.
     pub push: Option<Bundle>,
-    /// Whether no visit of the context is out any more.
+    /// Whether no visit of the context is in flight any more.
     pub sleeps: bool,
     /// Whether the context tries its point again when it wakes.
     pub will_retry: bool,

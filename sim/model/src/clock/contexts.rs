@@ -12,7 +12,7 @@ pub(super) type Set = u32;
 
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Contexts {
-    /// Contexts without a visit that is out.
+    /// Contexts without a visit in flight.
     pub asleep: Set,
     /// Contexts that try their point again when they wake.
     pub retrying: Set,

@@ -5,7 +5,7 @@
 pub enum Defect {
     /// L1: a test that finds a foreign lock goes on.
     IgnoresForeignLocks,
-    /// L1: an aborting attempt releases its locks while some of its visits are still out.
+    /// L1: an aborting attempt releases its locks while some of its visits are still in flight.
     ReleasesBeforeDrained,
     /// L1: a context that has aborted does not rest before it tries again.
     NeverRests,

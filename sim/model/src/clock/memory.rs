@@ -29,7 +29,7 @@ impl Write {
         Self { valid: true, id, vertices: true, links: [true; 3], record: Record { v, n } }
     }
 
-    /// A write of one neighbour. The value stands in all three slots, and the vertices are zero.
+    /// A write of one neighbour. The value is in all three slots, and the vertices are zero.
     pub(super) fn link(id: u32, slot: usize, value: u32) -> Self {
         let mut links = [false; 3];
         links[slot] = true;

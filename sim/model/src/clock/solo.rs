@@ -31,7 +31,7 @@ pub(super) struct Solo {
     pub state: State,
     /// The clock within `Split` and `Flip`, or the number of the neighbour within `Mend`.
     step: u32,
-    /// Whether a visit is out.
+    /// Whether a visit is in flight.
     awaits: bool,
     /// The context that started at the last edge, and the visit that completed in the clock before. The block acts on
     /// all its inputs one clock after they come.

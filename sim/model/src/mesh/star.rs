@@ -31,7 +31,7 @@ impl Mesh {
                 };
             }
         }
-        // In the core, the visits that are out when the list overflows complete, and are counted.
+        // In the core, the visits in flight complete when the list overflows, and are counted.
         self.counts.tests += cavity.queue.len() as u32;
         self.cavity = cavity;
         fits

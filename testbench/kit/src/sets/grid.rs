@@ -10,7 +10,7 @@ pub const BITS: std::ops::RangeInclusive<u32> = 1..=31;
 pub enum GenerateError {
     /// Coordinate bits outside [`BITS`].
     Bits(u32),
-    /// There is no memory for so many points.
+    /// The memory cannot hold that many points.
     Memory(usize),
 }
 

@@ -2,7 +2,7 @@
 //! behind a socket, with a configuration space, two windows of registers, DMA into the host's memory,
 //! messages as interrupts, and a reset.
 //!
-//! [`VfioCard`] wraps any [`incircle_sim::pcie::Beats`] in the bridge that stands before the real card. The first
+//! [`VfioCard`] wraps any [`incircle_sim::pcie::Beats`] in the bridge that lies before the real card. The first
 //! window has the registers of the card; the second has those of AMD's DMA bridge, in the subset that one channel each
 //! way needs. [`VfioDriver`] finds the windows, maps memory for DMA, takes interrupts, and provides the three files
 //! that the library's own driver expects. The library's jobs thus run through every part of a PCIe device.

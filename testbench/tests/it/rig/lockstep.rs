@@ -79,7 +79,7 @@ impl Rig {
         self.pair = Lockstep::new(self.name, self.config, self.seed);
     }
 
-    /// Checks that the test ran for at least so many clocks.
+    /// Checks that the test ran for at least this many clocks.
     pub fn expect_clocks(&mut self, least: u64) {
         self.clocks += self.pair.clocks();
         println!("{}: {} clocks", self.name, self.clocks);

@@ -138,7 +138,7 @@ impl Talker {
         }
     }
 
-    /// Holds this level for so many bits.
+    /// Holds this level for the given number of bits.
     pub fn hold(&mut self, level: bool, bits: usize) {
         self.bits.extend(std::iter::repeat_n(level, bits));
     }

@@ -89,7 +89,7 @@ pub struct StandIn {
     /// The words on offer, one or two, and whether the answer ends with them.
     offered: Option<(u32, Option<u32>, bool)>,
     pub resets: usize,
-    /// Takes a command once in so many clocks, so that a FIFO can fill.
+    /// Takes a command once in this many clocks, so that a FIFO can fill.
     pub pace: u64,
 }
 
@@ -184,7 +184,7 @@ impl<P: Pins> Rig<P> {
         self.say(SESSION, HostFrame::Data, number, &payload);
     }
 
-    /// Runs until a frame has come, for at most so many clocks.
+    /// Runs until a frame has come, for at most this many clocks.
     pub fn hear_within(&mut self, clocks: usize) -> Option<Heard> {
         for _ in 0..clocks {
             self.clock();

@@ -16,7 +16,7 @@ named_ports!([] AnswerPairs,
 /// Words on offer: one or two, and whether the answer ends with them.
 type Offer = (u32, Option<u32>, bool);
 
-/// Cuts an answer of so many words into pieces of one and two.
+/// Cuts an answer of this many words into pieces of one and two.
 fn pieces(length: u64, random: &mut SplitMix64, next: &mut u32) -> Vec<Offer> {
     let mut left = length;
     let mut offers = Vec::new();

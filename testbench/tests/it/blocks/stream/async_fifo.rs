@@ -14,7 +14,7 @@ named_ports!([const P: usize, const D: usize] AsyncFifo<P, D>,
 
 const WRITE_AND_READ: [&str; 2] = ["write_clock", "read_clock"];
 
-/// Pace of one side of the FIFO, which goes on in one of so many clocks. The two numbers take turns.
+/// Pace of one side of the FIFO, which goes on in one clock out of this many. The two numbers take turns.
 struct Pace([u64; 2]);
 
 impl Pace {

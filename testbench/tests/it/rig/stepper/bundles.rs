@@ -233,7 +233,7 @@ pub struct Deal {
 }
 
 impl Deal {
-    /// Both ways of dealing points to so many contexts.
+    /// Both ways of dealing points to this many contexts.
     pub fn both(contexts: u64) -> [Self; 2] {
         [Self::one_mesh(contexts), Self::batch(contexts)]
     }

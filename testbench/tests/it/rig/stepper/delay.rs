@@ -6,7 +6,7 @@ use std::collections::VecDeque;
 pub struct Delay<T>(VecDeque<Option<T>>);
 
 impl<T> Delay<T> {
-    /// Makes an empty pipeline of so many clock edges.
+    /// Makes an empty pipeline of this many clock edges.
     pub fn new(edges: usize) -> Self {
         Self((0..edges).map(|_| None).collect())
     }

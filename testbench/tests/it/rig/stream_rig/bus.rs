@@ -35,7 +35,7 @@ struct Offers {
 pub struct Bus {
     /// Bytes of a beat.
     pub beat_bytes: usize,
-    /// The streams and the registers' channels go on in one of so many clocks.
+    /// The streams and the registers' channels go on in one clock out of this many.
     pub pace: u64,
     /// The host takes no answer.
     pub is_deaf: bool,

@@ -125,7 +125,7 @@ impl<P: Pins> Rig<P> {
         Self::after_reset(pins, beat_bits, core, (periods, seed), 60)
     }
 
-    /// Makes a device after a reset of so many edges of the bus.
+    /// Makes a device after a reset of this many edges of the bus.
     pub fn after_reset(
         pins: P,
         beat_bits: usize,
@@ -139,7 +139,7 @@ impl<P: Pins> Rig<P> {
         rig
     }
 
-    /// Holds `bus_reset_n` low for so many edges of the bus.
+    /// Holds `bus_reset_n` low for this many edges of the bus.
     pub fn bus_reset(&mut self, edges: u64) {
         self.bus.reset = true;
         let end = self.edges[0] + 1 + edges;

@@ -108,7 +108,7 @@ fn release_clock(block: &mut Stepper<Release>, reference: &mut ReleaseReference,
 /// State of a context.
 #[derive(Clone, Debug)]
 enum Attempt {
-    /// The context logs so many more locks; the list has those logged so far.
+    /// The context logs this many more locks; the list has those logged so far.
     Logs(u64, Vec<u64>),
     /// The ring of the context is being written.
     Commits(Vec<u64>),

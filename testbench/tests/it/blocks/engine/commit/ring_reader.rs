@@ -140,7 +140,7 @@ impl ReaderRig {
         }
     }
 
-    /// Makes entries of any context final in any order, and takes the head, each in so many of 8 clocks.
+    /// Makes entries of any context final in any order, and takes the head, each in this many of 8 clocks.
     fn random_drive(&mut self, fills: u64, takes: u64, random: &mut SplitMix64) -> Drive {
         let mut drive = Drive { reset: random.below(900) == 0, takes: random.below(8) < takes, ..Drive::default() };
         let context = random.below(self.contexts.len() as u64);

@@ -359,7 +359,7 @@ fn deed(rig: &Rig, random: &mut SplitMix64) -> Option<(u64, Deed)> {
     sleeps.or(frees).map(|deed| (context, deed))
 }
 
-/// Runs jobs one after another, each with so many contexts and points, as batches or not.
+/// Runs jobs one after another, each with this many contexts and points, as batches or not.
 fn jobs(name: &'static str, config: Config, jobs: &[(u64, u64)], is_batch: bool) {
     let mut random = SplitMix64::new(80);
     let (mut again, mut waits) = (0, 0);
