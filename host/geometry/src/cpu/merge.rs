@@ -1,8 +1,6 @@
 //! The merge of two triangulations on both sides of a line (Guibas and Stolfi 1985).
 
-#[cfg(feature = "std")]
-use super::edges::{moved, Half, HALVES};
-use super::edges::{Edges, Free};
+use super::edges::{Edges, Halves};
 use super::kernel::{is_inside, Kernel};
 
 /// The triangulation of a subset of the points, known by its outermost vertices. Each of those is given as the
@@ -17,24 +15,16 @@ pub(super) struct Part {
     bottom: u32,
     /// At the vertex of largest y, and of largest x among those.
     top: u32,
-    /// Unused half-edges for more edges.
-    free: Free,
     /// Whether the part is a single vertex, whose half-edge leads back to it.
     is_vertex: bool,
 }
 
 impl Part {
-    /// Renumbers the half-edges of a segment, which begins with vertex `first`, from the start of all; returns the part
-    /// with the new numbers.
+    /// The part after `by` was added to the numbers of all half-edges.
     #[cfg(feature = "std")]
-    pub(super) fn moved(self, halves: &mut [Half], first: u32) -> Self {
-        let by = HALVES as u32 * first;
-        for half in halves.iter_mut() {
-            half.move_by(by, first);
-        }
-        let Self { left, right, bottom, top, free, is_vertex } = self;
-        let free = Free { first: moved(free.first, by), last: moved(free.last, by) };
-        Self { left: left + by, right: right + by, bottom: bottom + by, top: top + by, free, is_vertex }
+    pub(super) fn moved(self, by: u32) -> Self {
+        let Self { left, right, bottom, top, is_vertex } = self;
+        Self { left: left + by, right: right + by, bottom: bottom + by, top: top + by, is_vertex }
     }
 
     /// The half-edge that leaves the leftmost vertex counter-clockwise along the hull.
@@ -81,22 +71,22 @@ impl<K: Kernel> Candidate<K> {
     }
 }
 
-impl<K: Kernel> Edges<'_, K> {
+impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
     /// Makes the part of one vertex.
     #[inline(always)]
     pub(super) fn vertex(&mut self, v: u32) -> Part {
-        let (own, free) = self.start_vertex(v);
-        Part { left: own, right: own, bottom: own, top: own, free, is_vertex: true }
+        let own = self.start_vertex(v);
+        Part { left: own, right: own, bottom: own, top: own, is_vertex: true }
     }
 
     /// Makes the part of two vertices, `v` and the next one.
     #[inline(always)]
     pub(super) fn edge(&mut self, v: u32) -> Part {
-        let (own, free) = self.start_edge(v);
+        let own = self.start_edge(v);
         let (a, b) = (self.site(v), self.site(v + 1));
         let lower = |is_first: bool| own + u32::from(!is_first);
         let (by_x, by_y) = (lower(a < b), lower(K::swapped(a) < K::swapped(b)));
-        Part { left: by_x, right: by_x ^ 1, bottom: by_y, top: by_y ^ 1, free, is_vertex: false }
+        Part { left: by_x, right: by_x ^ 1, bottom: by_y, top: by_y ^ 1, is_vertex: false }
     }
 
     /// Makes the part of three vertices, `v` and the next two; `None` if they lie on one line.
@@ -109,30 +99,36 @@ impl<K: Kernel> Edges<'_, K> {
         }
         let (second, third) = if turn.is_gt() { (1, 2) } else { (2, 1) };
         let corners = [at(0), at(second), at(third)];
-        let (own, free) = self.start_triangle(v, [v, v + second, v + third]);
-        // The half-edge of each corner along the hull is the first one of a pair: 0, 2 and 4 from `own` on.
+        let leaving = self.start_triangle([v, v + second, v + third]);
         let least = |keys: [K::Site; 3]| {
-            let (key, place) = if keys[1] < keys[0] { (keys[1], 2) } else { (keys[0], 0) };
-            own + if keys[2] < key { 4 } else { place }
+            let (key, place) = if keys[1] < keys[0] { (keys[1], leaving[1]) } else { (keys[0], leaving[0]) };
+            if keys[2] < key {
+                leaving[2]
+            } else {
+                place
+            }
         };
         let most = |keys: [K::Site; 3]| {
-            let (key, place) = if keys[1] > keys[0] { (keys[1], 2) } else { (keys[0], 0) };
-            own + if keys[2] > key { 4 } else { place }
+            let (key, place) = if keys[1] > keys[0] { (keys[1], leaving[1]) } else { (keys[0], leaving[0]) };
+            if keys[2] > key {
+                leaving[2]
+            } else {
+                place
+            }
         };
         let swapped = corners.map(K::swapped);
         let (left, right, bottom, top) = (least(corners), most(corners), least(swapped), most(swapped));
-        Some(Part { left, right, bottom, top, free, is_vertex: false })
+        Some(Part { left, right, bottom, top, is_vertex: false })
     }
 
     /// Joins two parts, at least one of which has an edge.
     pub(super) fn merge(&mut self, one: Part, other: Part, cut: Cut) -> Part {
         debug_assert!(!(one.is_vertex && other.is_vertex), "the pair of one would be lost");
-        let mut free = self.join(one.free, other.free);
-        let first = self.lower_tangent(&one, &other, cut, &mut free);
+        let first = self.lower_tangent(&one, &other, cut);
         // `zip` may remove the half-edges of vertices that are ends of the first or the last base edge. The vertices
         // stay, so both are remembered, and such a half-edge is replaced by that of the base edge.
         let outermost = self.outermost(&one, &other, cut).map(|e| (e, self.origin(e)));
-        let last = self.zip(first, &mut free);
+        let last = self.zip(first);
         let [left, right, bottom, top] = outermost.map(|(e, vertex)| {
             let e = if vertex == first.a { first.at_a } else { e };
             if vertex == last.b {
@@ -141,12 +137,12 @@ impl<K: Kernel> Edges<'_, K> {
                 e
             }
         });
-        Part { left, right, bottom, top, free, is_vertex: false }
+        Part { left, right, bottom, top, is_vertex: false }
     }
 
     /// Makes the first base edge. All points of both parts lie on its line or to its left.
     #[inline(always)]
-    fn lower_tangent(&mut self, one: &Part, other: &Part, cut: Cut, free: &mut Free) -> Base {
+    fn lower_tangent(&mut self, one: &Part, other: &Part, cut: Cut) -> Base {
         let (facing, mut rdi) = match cut {
             Cut::Vertical => (one.right, other.left),
             Cut::Horizontal => (one.top, other.bottom),
@@ -166,23 +162,18 @@ impl<K: Kernel> Edges<'_, K> {
                 break;
             }
         }
-        self.first_edge((ldi, one.is_vertex), (rdi, other.is_vertex), free)
+        self.first_edge((ldi, one.is_vertex), (rdi, other.is_vertex))
     }
 
     /// Makes the edge between the origins of two half-edges along the hulls. A single vertex already has a
     /// pair for the edge.
     #[inline(always)]
-    fn first_edge(
-        &mut self,
-        (ldi, a_is_vertex): (u32, bool),
-        (rdi, b_is_vertex): (u32, bool),
-        free: &mut Free,
-    ) -> Base {
+    fn first_edge(&mut self, (ldi, a_is_vertex): (u32, bool), (rdi, b_is_vertex): (u32, bool)) -> Base {
         let (a, b) = (self.origin(ldi), self.origin(rdi));
         let at_a = match (a_is_vertex, b_is_vertex) {
             (true, _) => ldi,
             (false, true) => rdi ^ 1,
-            (false, false) => self.take(free),
+            (false, false) => self.take(),
         };
         let at_b = at_a ^ 1;
         if a_is_vertex {
@@ -200,24 +191,24 @@ impl<K: Kernel> Edges<'_, K> {
 
     /// Fills the gap with triangles from the first base edge on; returns the last base edge.
     #[inline(always)]
-    fn zip(&mut self, mut base: Base, free: &mut Free) -> Base {
+    fn zip(&mut self, mut base: Base) -> Base {
         loop {
             let (a, b) = (self.site(base.a), self.site(base.b));
-            let one = self.candidate::<true>(base, a, b, free);
-            let other = self.candidate::<false>(base, a, b, free);
+            let one = self.candidate::<true>(base, a, b);
+            let other = self.candidate::<false>(base, a, b);
             let other_is_next = match (one.is_valid(), other.is_valid()) {
                 (false, false) => return base,
                 (true, true) => is_inside::<K>(a, b, one.seen, other.seen),
                 (_, other_is_valid) => other_is_valid,
             };
-            base = self.connect(base, one, other, other_is_next, free);
+            base = self.connect(base, one, other, other_is_next);
         }
     }
 
     /// Finds the first vertex of one part that a circle through `a` and `b` meets as it grows to the left, and removes
     /// the edges at `a` or `b` that cross the new triangle. The part is the first one if `OF_A`, else the second.
     #[inline(always)]
-    fn candidate<const OF_A: bool>(&mut self, base: Base, a: K::Site, b: K::Site, free: &mut Free) -> Candidate<K> {
+    fn candidate<const OF_A: bool>(&mut self, base: Base, a: K::Site, b: K::Site) -> Candidate<K> {
         let mut edge = if OF_A { self.next(base.at_a) } else { self.previous(base.at_b) };
         let (mut after, mut end) = self.beside::<OF_A>(edge);
         let mut seen = K::see(a, b, self.site(end));
@@ -227,7 +218,7 @@ impl<K: Kernel> Edges<'_, K> {
             if !is_inside::<K>(a, b, seen, behind) {
                 break;
             }
-            self.remove(edge, free);
+            self.remove(edge);
             (edge, after, end, seen) = (after, after_next, end_of_next, behind);
         }
         Candidate { edge, end, seen }
@@ -246,16 +237,9 @@ impl<K: Kernel> Edges<'_, K> {
     /// Makes the next base edge: from `a` to the end of `other`, or from the end of `one` to `b`. The code selects
     /// instead of branching, because no processor predicts which of the two it is.
     #[inline(always)]
-    fn connect(
-        &mut self,
-        base: Base,
-        one: Candidate<K>,
-        other: Candidate<K>,
-        other_is_next: bool,
-        free: &mut Free,
-    ) -> Base {
+    fn connect(&mut self, base: Base, one: Candidate<K>, other: Candidate<K>, other_is_next: bool) -> Base {
         let select = |if_other: u32, if_one: u32| if other_is_next { if_other } else { if_one };
-        let pair = self.take(free);
+        let pair = self.take();
         let (at_kept, at_corner) = (pair, pair ^ 1);
         // `back` leads from the new corner to `a` or `b`. The new half-edge stands beside `back`, on the
         // side of the base.

@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 use std::thread::Builder;
 
 use super::conquer::{conquer, level_after, GoOn, Waiting};
-use super::edges::{Edges, Half, HALVES};
+use super::edges::{move_by, Edges, Half, HALVES};
 use super::kernel::Kernel;
 use super::merge::Part;
 use super::parallel::lock;
@@ -29,15 +29,16 @@ pub(super) fn triangulate<K: Kernel>(
     go_on: GoOn<'_>,
 ) -> Option<Part> {
     if threads < 2 {
-        return conquer::<K>(sites, places, halves, go_on);
+        return conquer(&mut Edges::<K, _> { sites, halves, unused: 0 }, places, &mut Waiting::new(), go_on);
     }
     let mut segments = Vec::new();
     divide::<K>(places, 0..sites.len(), (sites.len() / (SEGMENTS * threads)).max(LEAST), &mut segments);
     let parts = conquer_all::<K>(sites, places, halves, &segments, threads, go_on);
-    let mut edges = Edges::<K> { sites, halves };
+    let unused = join_unused(halves, &segments, &parts);
+    let mut edges = Edges::<K, _> { sites, halves, unused };
     let mut waiting = Waiting::new();
-    for (segment, part) in segments.iter().zip(parts) {
-        waiting.take(&mut edges, part?, level_after::<K>(places, segment.end - 1));
+    for (segment, own) in segments.iter().zip(parts) {
+        waiting.take(&mut edges, own?.0, level_after::<K>(places, segment.end - 1));
     }
     waiting.whole()
 }
@@ -57,6 +58,21 @@ fn divide<K: Kernel>(places: &[K::Place], subtree: Range<usize>, most: usize, se
     divide::<K>(places, place..subtree.end, most, segments);
 }
 
+/// The part of a segment, and its first unused pair.
+type Own = (Part, u32);
+
+/// Joins the unused pairs of all segments to one list; returns its first pair. The list of each segment ends with the last
+/// pair of its range, which is never used, because a segment of n vertices has fewer than 3 n edges.
+fn join_unused(halves: &mut [Half], segments: &[Range<usize>], parts: &[Option<Own>]) -> u32 {
+    let mut first = 0;
+    for (segment, own) in segments.iter().zip(parts).rev() {
+        let end = HALVES * segment.end;
+        halves[end - 2].next = u32::wrapping_sub(first, end as u32);
+        first = own.map_or(0, |(_, unused)| unused);
+    }
+    first
+}
+
 /// A segment to be triangulated: its place among all, its vertices and half-edges.
 type Task<'a> = (usize, Range<usize>, &'a mut [Half]);
 
@@ -68,7 +84,7 @@ fn conquer_all<K: Kernel>(
     segments: &[Range<usize>],
     threads: usize,
     go_on: GoOn<'_>,
-) -> Vec<Option<Part>> {
+) -> Vec<Option<Own>> {
     let mut tasks: Vec<Task<'_>> = Vec::with_capacity(segments.len());
     for (place, segment) in segments.iter().enumerate() {
         let (own, rest) = std::mem::take(&mut halves).split_at_mut(HALVES * segment.len());
@@ -81,11 +97,15 @@ fn conquer_all<K: Kernel>(
         let Some((place, segment, halves)) = task else {
             return;
         };
-        let Some(part) = conquer::<K>(&sites[segment.clone()], &places[segment.clone()], halves, go_on) else {
+        let mut edges = Edges::<K, _> { sites: &sites[segment.clone()], halves, unused: 0 };
+        let Some(part) = conquer(&mut edges, &places[segment.clone()], &mut Waiting::new(), go_on) else {
             // An empty list of tasks makes the other threads end as well.
             return lock(&tasks).clear();
         };
-        lock(&parts)[place] = Some(part.moved(halves, segment.start as u32));
+        let by = (HALVES * segment.start) as u32;
+        let own = (part.moved(by), edges.unused + by);
+        move_by(edges.halves, by, segment.start as u32);
+        lock(&parts)[place] = Some(own);
     };
     std::thread::scope(|scope| {
         for _ in 1..threads {

@@ -85,7 +85,7 @@ fn triangles(points: &[Point], threads: usize) -> Vec<[u32; 3]> {
     let mut halves = pages::zeros::<Half>(HALVES * sites.len());
     let whole =
         segments::triangulate::<Integers<Wide>>(&sites, &sites, &mut halves, threads, &mut |_| true).expect("points");
-    let hull = collect::hull(&mut halves, &ids, whole.leftmost());
+    let hull = collect::hull_of(&mut halves, &ids, whole.leftmost());
     collect::triangles(halves, &ids, points.len(), 2 * ids.len() - 2 - hull.len(), threads)
 }
 

@@ -5,7 +5,9 @@ use core::num::NonZeroUsize;
 use core::ops::ControlFlow;
 
 #[cfg(not(feature = "std"))]
-use super::conquer::conquer;
+use super::conquer::{conquer, Waiting};
+#[cfg(not(feature = "std"))]
+use super::edges::Edges;
 use super::edges::{Half, HALVES};
 use super::filtered::{Filtered, FilteredSite};
 use super::filtered_sites::{self, FilteredSites};
@@ -271,7 +273,7 @@ fn assemble(
     let Some(whole) = whole else {
         return Ok((Vec::new(), Vec::new()));
     };
-    let hull = collect::hull(&mut halves, ids, whole.leftmost());
+    let hull = collect::hull_of(&mut halves, ids, whole.leftmost());
     let count = 2 * ids.len() - 2 - hull.len();
     let triangles = collect::triangles(halves, ids, points, count, threads);
     Ok((triangles, hull))
@@ -296,7 +298,7 @@ fn whole<K: Kernel>(
     _threads: usize,
     go_on: GoOn<'_>,
 ) -> Option<Part> {
-    conquer::<K>(sites, places, halves, go_on)
+    conquer(&mut Edges::<K, _> { sites, halves, unused: 0 }, places, &mut Waiting::new(), go_on)
 }
 
 /// Whether there are fewer than three sites, or all lie on one line.
