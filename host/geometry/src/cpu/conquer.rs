@@ -31,6 +31,7 @@ pub(super) type GoOn<'a> = &'a mut dyn FnMut(usize) -> bool;
 
 /// The stack of parts that wait for their other halves, each with the level of the cut after it. Levels fall towards
 /// the top of the stack.
+#[derive(Debug, Default)]
 pub(super) struct Waiting(Vec<(Part, u32)>);
 
 impl Waiting {

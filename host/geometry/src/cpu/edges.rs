@@ -17,7 +17,7 @@ use super::kernel::Kernel;
 pub(super) const HALVES: usize = 6;
 
 /// One half of an edge.
-#[derive(Clone, Copy, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(super) struct Half {
     /// The next half-edge of this origin, counter-clockwise; of an unused pair, the place of the next unused pair,

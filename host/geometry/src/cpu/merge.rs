@@ -5,7 +5,7 @@ use super::kernel::{is_inside, Kernel};
 
 /// The triangulation of a subset of the points, known by its outermost vertices. Each of those is given as the
 /// half-edge that leaves it counter-clockwise along the hull.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Part {
     /// At the vertex of smallest x, and of smallest y among those.
     left: u32,

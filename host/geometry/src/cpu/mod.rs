@@ -37,11 +37,15 @@ mod parallel;
 #[cfg(feature = "std")]
 mod segments;
 mod sites;
+mod small;
+mod small_collect;
+mod small_sites;
 #[cfg(test)]
 mod tests;
 mod triangulator;
 mod view;
 
+pub use small::Triangulator;
 pub use triangulator::{
     connect, connect_doubles, connect_integers, threads_for, triangulate, Connectivity, Error, Progress, Stage, Watch,
 };

@@ -212,7 +212,7 @@ fn connect_filtered<C: Coordinate>(
     Ok(Connectivity { triangles, hull, duplicates })
 }
 
-fn check(points: usize) -> Result<(), Error> {
+pub(super) fn check(points: usize) -> Result<(), Error> {
     if points > MAX_POINTS {
         return Err(Error::TooManyPoints { points });
     }
@@ -302,7 +302,7 @@ fn whole<K: Kernel>(
 }
 
 /// Whether there are fewer than three sites, or all lie on one line.
-fn is_collinear<K: Kernel>(sites: &[K::Site]) -> bool {
+pub(super) fn is_collinear<K: Kernel>(sites: &[K::Site]) -> bool {
     let [a, b, rest @ ..] = sites else {
         return true;
     };
