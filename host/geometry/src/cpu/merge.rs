@@ -1,7 +1,7 @@
 //! The merge of two triangulations on both sides of a line (Guibas and Stolfi 1985).
 
 use super::edges::{Edges, Halves};
-use super::kernel::{is_inside, Kernel};
+use super::kernel::Kernel;
 
 /// The triangulation of a subset of the points, known by its outermost vertices. Each of those is given as the
 /// half-edge that leaves it counter-clockwise along the hull.
@@ -196,11 +196,11 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
             let (a, b) = (self.site(base.a), self.site(base.b));
             let one = self.candidate::<true>(base, a, b);
             let other = self.candidate::<false>(base, a, b);
-            let other_is_next = match (one.is_valid(), other.is_valid()) {
-                (false, false) => return base,
-                (true, true) => is_inside::<K>(a, b, one.seen, other.seen),
-                (_, other_is_valid) => other_is_valid,
-            };
+            let (one_is_valid, other_is_valid) = (one.is_valid(), other.is_valid());
+            if !(one_is_valid | other_is_valid) {
+                return base;
+            }
+            let other_is_next = other_is_valid & (!one_is_valid | K::is_left_and_inside(a, b, one.seen, other.seen));
             base = self.connect(base, one, other, other_is_next);
         }
     }
@@ -212,10 +212,10 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
         let mut edge = if OF_A { self.next(base.at_a) } else { self.previous(base.at_b) };
         let (mut after, mut end) = self.beside::<OF_A>(edge);
         let mut seen = K::see(a, b, self.site(end));
-        while K::is_left(seen) {
+        loop {
             let (after_next, end_of_next) = self.beside::<OF_A>(after);
             let behind = K::see(a, b, self.site(end_of_next));
-            if !is_inside::<K>(a, b, seen, behind) {
+            if !K::is_left_and_inside(a, b, seen, behind) {
                 break;
             }
             self.remove(edge);

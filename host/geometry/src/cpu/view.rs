@@ -35,7 +35,7 @@ use core::marker::PhantomData;
 
 use bytemuck::Zeroable;
 
-use super::kernel::Kernel;
+use super::kernel::{tie_is_inside, Kernel};
 use crate::point::Point;
 
 /// Determinants fit 64 bits if coordinates have up to this many bits.
@@ -69,13 +69,19 @@ pub(super) trait Width: Copy + Sync + 'static {
     /// The integer that holds a cross or a dot product.
     type Product: Copy + Ord + Default;
     /// The integer that holds the determinant.
-    type Determinant: Ord + Default;
+    type Determinant: Copy + Ord + Default;
 
     /// Views the edge from `a` to `b` from `p`.
     fn view(a: Site, b: Site, p: Site) -> View<Self::Product>;
 
     /// Computes the determinant of the views from `c` and `q`, `dot(c) cross(q) - dot(q) cross(c)`.
     fn determinant(c: View<Self::Product>, q: View<Self::Product>) -> Self::Determinant;
+
+    /// Whether a cross product is positive and a determinant zero, as one condition.
+    fn is_left_and_tied(cross: Self::Product, determinant: Self::Determinant) -> bool;
+
+    /// Whether a cross product and a determinant are positive, as one condition.
+    fn is_left_and_positive(cross: Self::Product, determinant: Self::Determinant) -> bool;
 }
 
 /// The view in 64 bits, of coordinates of up to [`WIDE_BITS`] bits.
@@ -103,6 +109,16 @@ impl Width for Narrow {
     fn determinant(c: View<i64>, q: View<i64>) -> i64 {
         c.dot.wrapping_mul(q.cross).wrapping_sub(q.dot.wrapping_mul(c.cross))
     }
+
+    #[inline(always)]
+    fn is_left_and_tied(cross: i64, determinant: i64) -> bool {
+        determinant | !(cross.wrapping_neg() >> 63) == 0
+    }
+
+    #[inline(always)]
+    fn is_left_and_positive(cross: i64, determinant: i64) -> bool {
+        determinant & (cross.wrapping_neg() >> 63) > 0
+    }
 }
 
 /// Arithmetic for coordinates of up to [`WIDE_BITS`] bits.
@@ -121,6 +137,16 @@ impl Width for Wide {
     #[inline(always)]
     fn determinant(c: View<i64>, q: View<i64>) -> i128 {
         i128::from(c.dot) * i128::from(q.cross) - i128::from(q.dot) * i128::from(c.cross)
+    }
+
+    #[inline(always)]
+    fn is_left_and_tied(cross: i64, determinant: i128) -> bool {
+        determinant | !(i128::from(cross.wrapping_neg() >> 63)) == 0
+    }
+
+    #[inline(always)]
+    fn is_left_and_positive(cross: i64, determinant: i128) -> bool {
+        determinant & (i128::from(cross.wrapping_neg() >> 63)) > 0
     }
 }
 
@@ -143,6 +169,16 @@ impl Width for Widest {
     #[inline(always)]
     fn determinant(c: View<i128>, q: View<i128>) -> i128 {
         c.dot.wrapping_mul(q.cross).wrapping_sub(q.dot.wrapping_mul(c.cross))
+    }
+
+    #[inline(always)]
+    fn is_left_and_tied(cross: i128, determinant: i128) -> bool {
+        determinant | !(cross.wrapping_neg() >> 127) == 0
+    }
+
+    #[inline(always)]
+    fn is_left_and_positive(cross: i128, determinant: i128) -> bool {
+        determinant & (cross.wrapping_neg() >> 127) > 0
     }
 }
 
@@ -190,6 +226,15 @@ impl<W: Width> Kernel for Integers<W> {
     #[inline(always)]
     fn incircle(_: Site, _: Site, c: Self::Seen, q: Self::Seen) -> Ordering {
         W::determinant(c.view, q.view).cmp(&W::Determinant::default())
+    }
+
+    #[inline(always)]
+    fn is_left_and_inside(a: Site, b: Site, c: Self::Seen, q: Self::Seen) -> bool {
+        let determinant = W::determinant(c.view, q.view);
+        if W::is_left_and_tied(c.view.cross, determinant) {
+            return tie_is_inside::<Self>(a, b, c.site, q);
+        }
+        W::is_left_and_positive(c.view.cross, determinant)
     }
 
     #[inline(always)]
