@@ -8,7 +8,7 @@
 
 use alloc::vec::Vec;
 
-use super::edges::{Edges, Halves};
+use super::edges::{Edges, Halves, SiteList};
 use super::kernel::Kernel;
 use super::merge::{Cut, Part};
 
@@ -41,9 +41,9 @@ impl Waiting {
 
     /// Pushes the next part, after joining it with all waiting parts that lie below the cut `above`, which follows it.
     #[inline(always)]
-    pub(super) fn take<K: Kernel, H: Halves + ?Sized>(
+    pub(super) fn take<K: Kernel, H: Halves + ?Sized, S: SiteList<K::Site> + ?Sized>(
         &mut self,
-        edges: &mut Edges<'_, K, H>,
+        edges: &mut Edges<'_, K, H, S>,
         mut part: Part,
         above: u32,
     ) {
@@ -63,8 +63,8 @@ impl Waiting {
 /// Triangulates the distinct sites of a subtree, which stand along the curve, on this thread, given the place of each
 /// in the tree of cuts. `waiting` is empty, and so are all pairs of `halves`, from the first on. Returns `None` if there
 /// are no sites, or if `go_on` ends the work.
-pub(super) fn conquer<K: Kernel, H: Halves + ?Sized>(
-    edges: &mut Edges<'_, K, H>,
+pub(super) fn conquer<K: Kernel, H: Halves + ?Sized, S: SiteList<K::Site> + ?Sized>(
+    edges: &mut Edges<'_, K, H, S>,
     places: &[K::Place],
     waiting: &mut Waiting,
     go_on: GoOn<'_>,
@@ -92,7 +92,7 @@ pub(super) fn conquer<K: Kernel, H: Halves + ?Sized>(
     (go_on(v - asked)).then(|| waiting.whole()).flatten()
 }
 
-impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
+impl<K: Kernel, H: Halves + ?Sized, S: SiteList<K::Site> + ?Sized> Edges<'_, K, H, S> {
     /// Triangulates the largest square or half square that begins with vertex `v` and has up to three vertices, and
     /// counts these, given the levels of the cuts around them. Three vertices on a line are left to merges.
     #[inline(always)]

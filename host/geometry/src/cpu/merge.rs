@@ -1,6 +1,6 @@
 //! The merge of two triangulations on both sides of a line (Guibas and Stolfi 1985).
 
-use super::edges::{Edges, Halves};
+use super::edges::{Edges, Halves, SiteList};
 use super::kernel::Kernel;
 
 /// The triangulation of a subset of the points, known by its outermost vertices. Each of those is given as the
@@ -71,7 +71,7 @@ impl<K: Kernel> Candidate<K> {
     }
 }
 
-impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
+impl<K: Kernel, H: Halves + ?Sized, S: SiteList<K::Site> + ?Sized> Edges<'_, K, H, S> {
     /// Makes the part of one vertex.
     #[inline(always)]
     pub(super) fn vertex(&mut self, v: u32) -> Part {

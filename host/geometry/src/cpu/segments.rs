@@ -9,6 +9,7 @@ use super::edges::{move_by, Edges, Half, HALVES};
 use super::kernel::Kernel;
 use super::merge::Part;
 use super::parallel::lock;
+use core::marker::PhantomData;
 
 /// Segments for each thread: enough for all threads to end at about the same time.
 const SEGMENTS: usize = 8;
@@ -29,13 +30,18 @@ pub(super) fn triangulate<K: Kernel>(
     go_on: GoOn<'_>,
 ) -> Option<Part> {
     if threads < 2 {
-        return conquer(&mut Edges::<K, _> { sites, halves, unused: 0 }, places, &mut Waiting::new(), go_on);
+        return conquer(
+            &mut Edges::<K, _> { kernel: PhantomData, sites, halves, unused: 0 },
+            places,
+            &mut Waiting::new(),
+            go_on,
+        );
     }
     let mut segments = Vec::new();
     divide::<K>(places, 0..sites.len(), (sites.len() / (SEGMENTS * threads)).max(LEAST), &mut segments);
     let parts = conquer_all::<K>(sites, places, halves, &segments, threads, go_on);
     let unused = join_unused(halves, &segments, &parts);
-    let mut edges = Edges::<K, _> { sites, halves, unused };
+    let mut edges = Edges::<K, _> { kernel: PhantomData, sites, halves, unused };
     let mut waiting = Waiting::new();
     for (segment, own) in segments.iter().zip(parts) {
         waiting.take(&mut edges, own?.0, level_after::<K>(places, segment.end - 1));
@@ -97,7 +103,7 @@ fn conquer_all<K: Kernel>(
         let Some((place, segment, halves)) = task else {
             return;
         };
-        let mut edges = Edges::<K, _> { sites: &sites[segment.clone()], halves, unused: 0 };
+        let mut edges = Edges::<K, _> { kernel: PhantomData, sites: &sites[segment.clone()], halves, unused: 0 };
         let Some(part) = conquer(&mut edges, &places[segment.clone()], &mut Waiting::new(), go_on) else {
             // An empty list of tasks makes the other threads end as well.
             return lock(&tasks).clear();

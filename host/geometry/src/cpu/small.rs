@@ -3,11 +3,13 @@
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
+use core::marker::PhantomData;
+
 use bytemuck::{Pod, Zeroable};
 
 use super::collect;
 use super::conquer::{conquer, Waiting};
-use super::edges::{Edges, Half, Halves, HALVES};
+use super::edges::{Edges, Half, Halves, SiteList, HALVES};
 use super::small_collect::SmallCollect;
 use super::small_sites::SmallSites;
 use super::triangulator::{check, is_collinear, Error};
@@ -63,11 +65,20 @@ impl Halves for [Short; SHORTS] {
     }
 }
 
+/// Sites, of which all numbers of 16 bits are indices.
+impl SiteList<Site> for [Site; SHORTS] {
+    #[inline(always)]
+    fn site(&self, v: u32) -> Site {
+        self[usize::from(v as u16)]
+    }
+}
+
 /// The CPU triangulator with memory of its own.
 #[derive(Debug, Default)]
 pub struct Triangulator {
     sites: SmallSites,
     short: Option<Box<[Short; SHORTS]>>,
+    table: Option<Box<[Site; SHORTS]>>,
     long: Vec<Half>,
     waiting: Waiting,
     collect: SmallCollect,
@@ -97,7 +108,7 @@ impl Triangulator {
     }
 
     fn connect<W: Width>(&mut self, mesh: &mut Mesh) {
-        let Self { sites: SmallSites { sites, ids, .. }, short, long, waiting, collect } = self;
+        let Self { sites: SmallSites { sites, ids, .. }, table, short, long, waiting, collect } = self;
         if is_collinear::<Integers<W>>(sites) {
             mesh.triangles.clear();
             mesh.hull.clear();
@@ -110,26 +121,31 @@ impl Triangulator {
             let halves = &mut **short.get_or_insert_with(|| {
                 pages::zeros(SHORTS).into_boxed_slice().try_into().unwrap_or_else(|_| unreachable!())
             });
+            let table = &mut **table.get_or_insert_with(|| {
+                pages::zeros(SHORTS).into_boxed_slice().try_into().unwrap_or_else(|_| unreachable!())
+            });
+            table[..sites.len()].copy_from_slice(sites);
             halves[..room].fill(Short::zeroed());
-            finish::<W, _>(sites, ids, halves, waiting, collect, mesh);
+            finish::<W, _, _>(table, sites, ids, halves, waiting, collect, mesh);
         } else {
             long.clear();
             long.resize(room, Half::zeroed());
-            finish::<W, _>(sites, ids, long.as_mut_slice(), waiting, collect, mesh);
+            finish::<W, _, _>(sites.as_slice(), sites, ids, long.as_mut_slice(), waiting, collect, mesh);
         }
     }
 }
 
-fn finish<W: Width, H: Halves + ?Sized>(
-    sites: &[Site],
+fn finish<W: Width, H: Halves + ?Sized, S: SiteList<Site> + ?Sized>(
+    sites: &S,
+    places: &[Site],
     ids: &[u32],
     halves: &mut H,
     waiting: &mut Waiting,
     collect: &mut SmallCollect,
     mesh: &mut Mesh,
 ) {
-    let mut edges = Edges::<Integers<W>, H> { sites, halves, unused: 0 };
-    let Some(whole) = conquer(&mut edges, sites, waiting, &mut |_| true) else {
+    let mut edges = Edges::<Integers<W>, H, S> { kernel: PhantomData, sites, halves, unused: 0 };
+    let Some(whole) = conquer(&mut edges, places, waiting, &mut |_| true) else {
         return;
     };
     collect::hull(halves, ids, whole.leftmost(), &mut mesh.hull);
