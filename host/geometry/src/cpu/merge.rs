@@ -55,20 +55,16 @@ struct Base {
 }
 
 /// A vertex of one part that may become the third corner of the next triangle: the end of `edge`, which begins
-/// at `a` or `b`.
+/// at `a` or `b`; and the next vertex around `a` or `b`, away from the base edge.
 #[derive(Clone, Copy)]
 struct Candidate<K: Kernel> {
     edge: u32,
     end: u32,
-    seen: K::Seen,
-}
-
-impl<K: Kernel> Candidate<K> {
-    /// Whether the vertex lies to the left of the base edge.
-    #[inline(always)]
-    fn is_valid(&self) -> bool {
-        K::is_left(self.seen)
-    }
+    site: K::Site,
+    after: u32,
+    after_next: u32,
+    end_of_next: u32,
+    behind: K::Site,
 }
 
 impl<K: Kernel, H: Halves + ?Sized, S: SiteList<K::Site> + ?Sized> Edges<'_, K, H, S> {
@@ -192,36 +188,71 @@ impl<K: Kernel, H: Halves + ?Sized, S: SiteList<K::Site> + ?Sized> Edges<'_, K, 
     /// Fills the gap with triangles from the first base edge on; returns the last base edge.
     #[inline(always)]
     fn zip(&mut self, mut base: Base) -> Base {
+        let (mut a, mut b) = (self.site(base.a), self.site(base.b));
+        let mut one = self.candidate::<true>(self.next(base.at_a));
+        let mut other = self.candidate::<false>(self.previous(base.at_b));
         loop {
-            let (a, b) = (self.site(base.a), self.site(base.b));
-            let one = self.candidate::<true>(base, a, b);
-            let other = self.candidate::<false>(base, a, b);
-            let (one_is_valid, other_is_valid) = (one.is_valid(), other.is_valid());
+            let from_one = self.advance::<true>(&mut one, a, b);
+            let from_other = self.advance::<false>(&mut other, a, b);
+            let (one_is_valid, other_is_valid) = (K::is_left(from_one), K::is_left(from_other));
             if !(one_is_valid | other_is_valid) {
                 return base;
             }
-            let other_is_next = other_is_valid & (!one_is_valid | K::is_left_and_inside(a, b, one.seen, other.seen));
-            base = self.connect(base, one, other, other_is_next);
+            let pair = self.take();
+            // The new base edge leads from the corner of the triangle to the vertex that stays. `back` leads from the corner
+            // to the other one. The candidate of the vertex that stays is still the next one around it.
+            if other_is_valid & (!one_is_valid | K::is_left_and_inside(a, b, from_one, from_other)) {
+                let back = other.edge ^ 1;
+                let previous = self.previous(back);
+                self.insert(pair, other.end, base.at_a, one.edge);
+                self.insert(pair ^ 1, base.a, previous, back);
+                base = Base { at_a: pair, at_b: pair ^ 1, a: base.a, b: other.end };
+                b = other.site;
+                other = self.candidate::<false>(previous);
+            } else {
+                let back = one.edge ^ 1;
+                let next = self.next(back);
+                self.insert(pair ^ 1, one.end, other.edge, base.at_b);
+                self.insert(pair, base.b, back, next);
+                base = Base { at_a: pair, at_b: pair ^ 1, a: one.end, b: base.b };
+                a = one.site;
+                one = self.candidate::<true>(next);
+            }
         }
     }
 
-    /// Finds the first vertex of one part that a circle through `a` and `b` meets as it grows to the left, and removes
-    /// the edges at `a` or `b` that cross the new triangle. The part is the first one if `OF_A`, else the second.
+    /// The end of a half-edge at `a` if `OF_A`, else at `b`, as a candidate.
     #[inline(always)]
-    fn candidate<const OF_A: bool>(&mut self, base: Base, a: K::Site, b: K::Site) -> Candidate<K> {
-        let mut edge = if OF_A { self.next(base.at_a) } else { self.previous(base.at_b) };
-        let (mut after, mut end) = self.beside::<OF_A>(edge);
-        let mut seen = K::see(a, b, self.site(end));
+    fn candidate<const OF_A: bool>(&self, edge: u32) -> Candidate<K> {
+        let (after, end) = self.beside::<OF_A>(edge);
+        let (after_next, end_of_next) = self.beside::<OF_A>(after);
+        Candidate { edge, end, site: self.site(end), after, after_next, end_of_next, behind: self.site(end_of_next) }
+    }
+
+    /// Finds the first vertex of one part that a circle through `a` and `b` meets as it grows to the left, from the given
+    /// candidate on, and removes the edges at `a` or `b` that cross the new triangle. Returns the view from the vertex.
+    #[inline(always)]
+    fn advance<const OF_A: bool>(&mut self, candidate: &mut Candidate<K>, a: K::Site, b: K::Site) -> K::Seen {
+        let mut seen = K::see(a, b, candidate.site);
         loop {
-            let (after_next, end_of_next) = self.beside::<OF_A>(after);
-            let behind = K::see(a, b, self.site(end_of_next));
+            let behind = K::see(a, b, candidate.behind);
             if !K::is_left_and_inside(a, b, seen, behind) {
-                break;
+                return seen;
             }
-            self.remove(edge);
-            (edge, after, end, seen) = (after, after_next, end_of_next, behind);
+            self.remove(candidate.edge);
+            let Candidate { after, after_next, end_of_next, behind: site, .. } = *candidate;
+            let (after_that, end) = self.beside::<OF_A>(after_next);
+            *candidate = Candidate {
+                edge: after,
+                end: end_of_next,
+                site,
+                after: after_next,
+                after_next: after_that,
+                end_of_next: end,
+                behind: self.site(end),
+            };
+            seen = behind;
         }
-        Candidate { edge, end, seen }
     }
 
     /// The next half-edge around the same vertex, away from the base edge, and the end of the given half-edge.
@@ -231,28 +262,6 @@ impl<K: Kernel, H: Halves + ?Sized, S: SiteList<K::Site> + ?Sized> Edges<'_, K, 
             self.next_and_end(edge)
         } else {
             self.previous_and_end(edge)
-        }
-    }
-
-    /// Makes the next base edge: from `a` to the end of `other`, or from the end of `one` to `b`. The code selects
-    /// instead of branching, because no processor predicts which of the two it is.
-    #[inline(always)]
-    fn connect(&mut self, base: Base, one: Candidate<K>, other: Candidate<K>, other_is_next: bool) -> Base {
-        let select = |if_other: u32, if_one: u32| if other_is_next { if_other } else { if_one };
-        let pair = self.take();
-        let (at_kept, at_corner) = (pair, pair ^ 1);
-        // `back` leads from the new corner to `a` or `b`. The new half-edge stands beside `back`, on the
-        // side of the base.
-        let back = select(other.edge, one.edge) ^ 1;
-        let (corner, kept) = (select(other.end, one.end), select(base.a, base.b));
-        let (next, previous) = (self.next(back), self.previous(back));
-        self.insert(at_corner, kept, select(previous, back), select(back, next));
-        self.insert(at_kept, corner, select(base.at_a, other.edge), select(one.edge, base.at_b));
-        Base {
-            at_a: select(at_kept, at_corner),
-            at_b: select(at_corner, at_kept),
-            a: select(base.a, corner),
-            b: select(corner, base.b),
         }
     }
 
