@@ -77,11 +77,8 @@ pub(super) trait Width: Copy + Sync + 'static {
     /// Computes the determinant of the views from `c` and `q`, `dot(c) cross(q) - dot(q) cross(c)`.
     fn determinant(c: View<Self::Product>, q: View<Self::Product>) -> Self::Determinant;
 
-    /// Whether a cross product is positive and a determinant zero, as one condition.
-    fn is_left_and_tied(cross: Self::Product, determinant: Self::Determinant) -> bool;
-
-    /// Whether a cross product and a determinant are positive, as one condition.
-    fn is_left_and_positive(cross: Self::Product, determinant: Self::Determinant) -> bool;
+    /// The determinant if the cross product is positive, else -1; without a branch.
+    fn if_left(cross: Self::Product, determinant: Self::Determinant) -> Self::Determinant;
 }
 
 /// The view in 64 bits, of coordinates of up to [`WIDE_BITS`] bits.
@@ -111,13 +108,8 @@ impl Width for Narrow {
     }
 
     #[inline(always)]
-    fn is_left_and_tied(cross: i64, determinant: i64) -> bool {
-        determinant | !(cross.wrapping_neg() >> 63) == 0
-    }
-
-    #[inline(always)]
-    fn is_left_and_positive(cross: i64, determinant: i64) -> bool {
-        determinant & (cross.wrapping_neg() >> 63) > 0
+    fn if_left(cross: i64, determinant: i64) -> i64 {
+        determinant | (cross - 1) >> 63
     }
 }
 
@@ -140,13 +132,8 @@ impl Width for Wide {
     }
 
     #[inline(always)]
-    fn is_left_and_tied(cross: i64, determinant: i128) -> bool {
-        determinant | !(i128::from(cross.wrapping_neg() >> 63)) == 0
-    }
-
-    #[inline(always)]
-    fn is_left_and_positive(cross: i64, determinant: i128) -> bool {
-        determinant & (i128::from(cross.wrapping_neg() >> 63)) > 0
+    fn if_left(cross: i64, determinant: i128) -> i128 {
+        determinant | i128::from((cross - 1) >> 63)
     }
 }
 
@@ -172,13 +159,8 @@ impl Width for Widest {
     }
 
     #[inline(always)]
-    fn is_left_and_tied(cross: i128, determinant: i128) -> bool {
-        determinant | !(cross.wrapping_neg() >> 127) == 0
-    }
-
-    #[inline(always)]
-    fn is_left_and_positive(cross: i128, determinant: i128) -> bool {
-        determinant & (cross.wrapping_neg() >> 127) > 0
+    fn if_left(cross: i128, determinant: i128) -> i128 {
+        determinant | (cross - 1) >> 127
     }
 }
 
@@ -230,11 +212,9 @@ impl<W: Width> Kernel for Integers<W> {
 
     #[inline(always)]
     fn is_left_and_inside(a: Site, b: Site, c: Self::Seen, q: Self::Seen) -> bool {
-        let determinant = W::determinant(c.view, q.view);
-        if W::is_left_and_tied(c.view.cross, determinant) {
-            return tie_is_inside::<Self>(a, b, c.site, q);
-        }
-        W::is_left_and_positive(c.view.cross, determinant)
+        let determinant = W::if_left(c.view.cross, W::determinant(c.view, q.view));
+        let zero = W::Determinant::default();
+        determinant > zero || (determinant == zero && tie_is_inside::<Self>(a, b, c.site, q))
     }
 
     #[inline(always)]
