@@ -31,8 +31,14 @@ pub(super) type GoOn<'a> = &'a mut dyn FnMut(usize) -> bool;
 
 /// The stack of parts that wait for their other halves, each with the level of the cut after it. Levels fall towards
 /// the top of the stack.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Waiting(Vec<(Part, u32)>);
+
+impl Default for Waiting {
+    fn default() -> Self {
+        Self::new()
+    }
+}
 
 impl Waiting {
     pub(super) fn new() -> Self {

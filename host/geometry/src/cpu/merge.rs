@@ -21,7 +21,6 @@ pub(super) struct Part {
 
 impl Part {
     /// The part after `by` was added to the numbers of all half-edges.
-    #[cfg(feature = "std")]
     pub(super) fn moved(self, by: u32) -> Self {
         let Self { left, right, bottom, top, is_vertex } = self;
         Self { left: left + by, right: right + by, bottom: bottom + by, top: top + by, is_vertex }

@@ -38,8 +38,7 @@ mod parallel;
 mod segments;
 mod sites;
 mod small;
-mod small_collect;
-mod small_sites;
+mod subtrees;
 #[cfg(test)]
 mod tests;
 mod triangulator;

@@ -4,11 +4,12 @@ use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 use std::thread::Builder;
 
-use super::conquer::{conquer, level_after, GoOn, Waiting};
+use super::conquer::{conquer, GoOn, Waiting};
 use super::edges::{move_by, Edges, Half, HALVES};
 use super::kernel::Kernel;
 use super::merge::Part;
 use super::parallel::lock;
+use super::subtrees::{divide, join, Own};
 use core::marker::PhantomData;
 
 /// Segments for each thread: enough for all threads to end at about the same time.
@@ -40,43 +41,8 @@ pub(super) fn triangulate<K: Kernel>(
     let mut segments = Vec::new();
     divide::<K>(places, 0..sites.len(), (sites.len() / (SEGMENTS * threads)).max(LEAST), &mut segments);
     let parts = conquer_all::<K>(sites, places, halves, &segments, threads, go_on);
-    let unused = join_unused(halves, &segments, &parts);
-    let mut edges = Edges::<K, _> { kernel: PhantomData, sites, halves, unused };
-    let mut waiting = Waiting::new();
-    for (segment, own) in segments.iter().zip(parts) {
-        waiting.take(&mut edges, own?.0, level_after::<K>(places, segment.end - 1));
-    }
-    waiting.whole()
-}
-
-/// Cuts a subtree into segments, which are subtrees of up to `most` vertices.
-fn divide<K: Kernel>(places: &[K::Place], subtree: Range<usize>, most: usize, segments: &mut Vec<Range<usize>>) {
-    let within = &places[subtree.clone()];
-    let [first, .., last] = *within else {
-        return segments.push(subtree);
-    };
-    if within.len() <= most {
-        return segments.push(subtree);
-    }
-    let topmost = K::level(first, last);
-    let place = subtree.start + within.partition_point(|&place| K::level(first, place) < topmost);
-    divide::<K>(places, subtree.start..place, most, segments);
-    divide::<K>(places, place..subtree.end, most, segments);
-}
-
-/// The part of a segment, and its first unused pair.
-type Own = (Part, u32);
-
-/// Joins the unused pairs of all segments to one list; returns its first pair. The list of each segment ends with the last
-/// pair of its range, which is never used, because a segment of n vertices has fewer than 3 n edges.
-fn join_unused(halves: &mut [Half], segments: &[Range<usize>], parts: &[Option<Own>]) -> u32 {
-    let mut first = 0;
-    for (segment, own) in segments.iter().zip(parts).rev() {
-        let end = HALVES * segment.end;
-        halves[end - 2].next = u32::wrapping_sub(first, end as u32);
-        first = own.map_or(0, |(_, unused)| unused);
-    }
-    first
+    let mut edges = Edges::<K, _> { kernel: PhantomData, sites, halves, unused: 0 };
+    join(&mut edges, places, &segments, &parts, &mut Waiting::new())
 }
 
 /// A segment to be triangulated: its place among all, its vertices and half-edges.

@@ -5,7 +5,7 @@
 
 use alloc::vec::Vec;
 
-use super::view::Site;
+use super::super::view::Site;
 use crate::order::z_curve::{narrow_position, position};
 use crate::point::{Duplicate, Point};
 
@@ -108,6 +108,7 @@ impl SmallSites {
             word
         };
         self.words.clear();
+        self.words.reserve(points.len());
         let sites = points.iter().map(|&point| form.site(point)).zip(0..);
         if form.bits <= NARROW_BITS {
             self.words.extend(sites.map(|(site, index)| word(narrow_position(site.x, site.y), index)));
@@ -131,9 +132,10 @@ impl SmallSites {
             by_first[digit(word, first)] += 1;
             by_second[digit(word, second)] += 1;
         });
-        self.spare.resize(points.len(), 0);
-        scatter(&self.words, &mut self.spare, &mut by_second[..=mask], |word| digit(word, second));
-        scatter(&self.spare, &mut self.words, &mut by_first[..=mask], |word| digit(word, first));
+        self.spare.resize(points.len().max(self.spare.len()), 0);
+        let spare = &mut self.spare[..points.len()];
+        scatter(&self.words, spare, &mut by_second[..=mask], |word| digit(word, second));
+        scatter(spare, &mut self.words, &mut by_first[..=mask], |word| digit(word, first));
         self.counts = counts;
         for group in self.words.chunk_by_mut(|one, other| (one ^ other) >> second == 0) {
             if group.len() > 1 {
@@ -146,7 +148,9 @@ impl SmallSites {
     fn take(&mut self, points: &[Point], form: Form, duplicates: &mut Vec<Duplicate>) {
         let Self { sites, ids, words, .. } = self;
         sites.clear();
+        sites.reserve(points.len());
         ids.clear();
+        ids.reserve(points.len());
         let mut before = None;
         for word in words {
             let index = (*word & form.indices) as u32;

@@ -6,7 +6,7 @@
 
 use alloc::vec::Vec;
 
-use super::edges::{is_used, Halves};
+use super::super::edges::{is_used, Halves};
 
 /// Bits of a corner in a word that holds a triangle.
 const ID_BITS: u32 = 21;
@@ -42,9 +42,11 @@ impl SmallCollect {
             counts.clear();
             counts.resize(points, 0);
         }
-        self.found.resize(self.found.len().max(count + 1), 0);
-        self.sorted.resize(self.sorted.len().max(count), 0);
-        self.find(halves, ids);
+        self.found.resize(self.found.len().max(2 * points + 1), 0);
+        self.sorted.resize(self.sorted.len().max(2 * points), 0);
+        let found = self.find(halves, ids);
+        // Euler's formula says how many there are.
+        debug_assert_eq!(found, count);
         let (found, sorted) = (&self.found[..count], &mut self.sorted[..count]);
         add_up(&mut self.second);
         for &word in found {
@@ -61,8 +63,9 @@ impl SmallCollect {
         }
     }
 
-    /// Finds all triangles, and counts how often each id is a first and a second corner.
-    fn find<H: Halves + ?Sized>(&mut self, halves: &H, ids: &[u32]) {
+    /// Finds all triangles, and counts how often each id is a first and a second corner. Returns their
+    /// number.
+    fn find<H: Halves + ?Sized>(&mut self, halves: &H, ids: &[u32]) -> usize {
         let Self { found, first, second, .. } = self;
         let mut count = 0;
         for pair in 0..3 * ids.len() as u32 {
@@ -83,8 +86,7 @@ impl SmallCollect {
             first[smaller as usize] += is_triangle;
             second[larger as usize] += is_triangle;
         }
-        // Euler's formula says how many there are.
-        debug_assert_eq!(count + 1, found.len().min(count + 1));
+        count
     }
 }
 
