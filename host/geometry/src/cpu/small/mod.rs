@@ -140,9 +140,13 @@ impl Large {
     ) -> u32 {
         let Self { halves, subtrees, parts } = self;
         halves.resize(halves.len().max(HALVES * points), Half::zeroed());
+        // At each of 64 levels of cuts there are at most so many subtrees to be cut further.
+        let most = u64::BITS as usize * (points / short::MOST) + 1;
         subtrees.clear();
-        divide::<Integers<W>>(sites, 0..sites.len(), short::MOST, subtrees);
+        subtrees.reserve(most);
         parts.clear();
+        parts.reserve(most);
+        divide::<Integers<W>>(sites, 0..sites.len(), short::MOST, subtrees);
         parts.extend(subtrees.iter().map(|subtree| {
             let (part, unused) = short.conquer::<W>(&sites[subtree.clone()], waiting)?;
             short.copy_to(&mut halves[HALVES * subtree.start..HALVES * subtree.end], subtree.start as u32);
