@@ -76,16 +76,16 @@ pub(super) fn conquer<K: Kernel, H: Halves + ?Sized, S: SiteList<K::Site> + ?Siz
     go_on: GoOn<'_>,
 ) -> Option<Part> {
     let (mut v, mut asked) = (0, 0);
-    // `before` is the level of the cut before vertex `v`; `after` has the levels of the cuts after `v`,
-    // `v + 1` and `v + 2`.
+    // `before` is the level of the cut before vertex `v`; `after` has the levels of the cuts after `v`
+    // and the next three.
     let mut before = TOP;
-    let mut after = [0, 1, 2].map(|ahead| level_after::<K>(places, ahead));
+    let mut after = [0, 1, 2, 3].map(|ahead| level_after::<K>(places, ahead));
     while v < places.len() {
         let (part, count) = edges.leaf(v as u32, before, after);
         before = after[count - 1];
         for _ in 0..count {
             v += 1;
-            after = [after[1], after[2], level_after::<K>(places, v + 2)];
+            after = [after[1], after[2], after[3], level_after::<K>(places, v + 3)];
         }
         waiting.take(edges, part, before);
         if v - asked >= SLICE {
@@ -99,10 +99,15 @@ pub(super) fn conquer<K: Kernel, H: Halves + ?Sized, S: SiteList<K::Site> + ?Siz
 }
 
 impl<K: Kernel, H: Halves + ?Sized, S: SiteList<K::Site> + ?Sized> Edges<'_, K, H, S> {
-    /// Triangulates the largest square or half square that begins with vertex `v` and has up to three vertices, and
+    /// Triangulates the largest square or half square that begins with vertex `v` and has up to four vertices, and
     /// counts these, given the levels of the cuts around them. Three vertices on a line are left to merges.
     #[inline(always)]
-    fn leaf(&mut self, v: u32, before: u32, after: [u32; 3]) -> (Part, usize) {
+    fn leaf(&mut self, v: u32, before: u32, after: [u32; 4]) -> (Part, usize) {
+        if after[0].max(after[1]).max(after[2]) < before.min(after[3]) {
+            if let Some(part) = self.four(v) {
+                return (part, 4);
+            }
+        }
         if after[0].max(after[1]) < before.min(after[2]) {
             if let Some(part) = self.triangle(v) {
                 return (part, 3);

@@ -8,15 +8,15 @@ use super::kernel::Kernel;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Part {
     /// At the vertex of smallest x, and of smallest y among those.
-    left: u32,
+    pub(super) left: u32,
     /// At the vertex of largest x, and of largest y among those.
-    right: u32,
+    pub(super) right: u32,
     /// At the vertex of smallest y, and of smallest x among those.
-    bottom: u32,
+    pub(super) bottom: u32,
     /// At the vertex of largest y, and of largest x among those.
-    top: u32,
+    pub(super) top: u32,
     /// Whether the part is a single vertex, whose half-edge leads back to it.
-    is_vertex: bool,
+    pub(super) is_vertex: bool,
 }
 
 impl Part {
@@ -67,55 +67,6 @@ struct Candidate<K: Kernel> {
 }
 
 impl<K: Kernel, H: Halves + ?Sized, S: SiteList<K::Site> + ?Sized> Edges<'_, K, H, S> {
-    /// Makes the part of one vertex.
-    #[inline(always)]
-    pub(super) fn vertex(&mut self, v: u32) -> Part {
-        let own = self.start_vertex(v);
-        Part { left: own, right: own, bottom: own, top: own, is_vertex: true }
-    }
-
-    /// Makes the part of two vertices, `v` and the next one.
-    #[inline(always)]
-    pub(super) fn edge(&mut self, v: u32) -> Part {
-        let own = self.start_edge(v);
-        let (a, b) = (self.site(v), self.site(v + 1));
-        let lower = |is_first: bool| own + u32::from(!is_first);
-        let (by_x, by_y) = (lower(a < b), lower(K::swapped(a) < K::swapped(b)));
-        Part { left: by_x, right: by_x ^ 1, bottom: by_y, top: by_y ^ 1, is_vertex: false }
-    }
-
-    /// Makes the part of three vertices, `v` and the next two; `None` if they lie on one line.
-    #[inline(always)]
-    pub(super) fn triangle(&mut self, v: u32) -> Option<Part> {
-        let at = |k: u32| self.site(v + k);
-        let turn = K::orient2d(at(0), at(1), at(2));
-        if turn.is_eq() {
-            return None;
-        }
-        let (second, third) = if turn.is_gt() { (1, 2) } else { (2, 1) };
-        let corners = [at(0), at(second), at(third)];
-        let leaving = self.start_triangle([v, v + second, v + third]);
-        let least = |keys: [K::Site; 3]| {
-            let (key, place) = if keys[1] < keys[0] { (keys[1], leaving[1]) } else { (keys[0], leaving[0]) };
-            if keys[2] < key {
-                leaving[2]
-            } else {
-                place
-            }
-        };
-        let most = |keys: [K::Site; 3]| {
-            let (key, place) = if keys[1] > keys[0] { (keys[1], leaving[1]) } else { (keys[0], leaving[0]) };
-            if keys[2] > key {
-                leaving[2]
-            } else {
-                place
-            }
-        };
-        let swapped = corners.map(K::swapped);
-        let (left, right, bottom, top) = (least(corners), most(corners), least(swapped), most(swapped));
-        Some(Part { left, right, bottom, top, is_vertex: false })
-    }
-
     /// Joins two parts, at least one of which has an edge.
     pub(super) fn merge(&mut self, one: Part, other: Part, cut: Cut) -> Part {
         debug_assert!(!(one.is_vertex && other.is_vertex), "the pair of one would be lost");

@@ -30,6 +30,7 @@ mod edges;
 mod filtered;
 mod filtered_sites;
 mod kernel;
+mod leaf;
 mod merge;
 #[cfg(test)]
 mod oracle;
