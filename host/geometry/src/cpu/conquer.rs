@@ -8,7 +8,7 @@
 
 use alloc::vec::Vec;
 
-use super::edges::{Edges, Halves, SiteList};
+use super::edges::{Edges, Halves};
 use super::kernel::Kernel;
 use super::merge::{Cut, Part};
 
@@ -47,9 +47,9 @@ impl Waiting {
 
     /// Pushes the next part, after joining it with all waiting parts that lie below the cut `above`, which follows it.
     #[inline(always)]
-    pub(super) fn take<K: Kernel, H: Halves + ?Sized, S: SiteList<K::Site> + ?Sized>(
+    pub(super) fn take<K: Kernel, H: Halves + ?Sized>(
         &mut self,
-        edges: &mut Edges<'_, K, H, S>,
+        edges: &mut Edges<'_, K, H>,
         mut part: Part,
         above: u32,
     ) {
@@ -69,8 +69,8 @@ impl Waiting {
 /// Triangulates the distinct sites of a subtree, which stand along the curve, on this thread, given the place of each
 /// in the tree of cuts. `waiting` is empty, and so are all pairs of `halves`, from the first on. Returns `None` if there
 /// are no sites, or if `go_on` ends the work.
-pub(super) fn conquer<K: Kernel, H: Halves + ?Sized, S: SiteList<K::Site> + ?Sized>(
-    edges: &mut Edges<'_, K, H, S>,
+pub(super) fn conquer<K: Kernel, H: Halves + ?Sized>(
+    edges: &mut Edges<'_, K, H>,
     places: &[K::Place],
     waiting: &mut Waiting,
     go_on: GoOn<'_>,
@@ -98,7 +98,7 @@ pub(super) fn conquer<K: Kernel, H: Halves + ?Sized, S: SiteList<K::Site> + ?Siz
     (go_on(v - asked)).then(|| waiting.whole()).flatten()
 }
 
-impl<K: Kernel, H: Halves + ?Sized, S: SiteList<K::Site> + ?Sized> Edges<'_, K, H, S> {
+impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
     /// Triangulates the largest square or half square that begins with vertex `v` and has up to four vertices, and
     /// counts these, given the levels of the cuts around them. Three vertices on a line are left to merges.
     #[inline(always)]

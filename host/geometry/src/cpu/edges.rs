@@ -9,8 +9,6 @@
 //! first half counts from the pair behind it. So a range of zeros is the list of all its pairs in order. Pairs that
 //! become unused go to the front of the list, where they are still in the cache when they are taken again.
 
-use core::marker::PhantomData;
-
 use bytemuck::{Pod, Zeroable};
 
 use super::kernel::Kernel;
@@ -84,19 +82,6 @@ impl Halves for [Half] {
     }
 }
 
-/// A list of sites.
-pub(super) trait SiteList<S> {
-    /// Reads a site.
-    fn site(&self, v: u32) -> S;
-}
-
-impl<S: Copy> SiteList<S> for [S] {
-    #[inline(always)]
-    fn site(&self, v: u32) -> S {
-        self[v as usize]
-    }
-}
-
 /// Whether a pair of half-edges is an edge. The ends of unused pairs are equal.
 #[inline(always)]
 pub(super) fn is_used(ends: [u32; 2]) -> bool {
@@ -119,15 +104,14 @@ pub(super) fn move_by(halves: &mut [Half], by: u32, vertices: u32) {
 }
 
 /// The sites of a segment and the half-edges between them, both numbered from the start of the segment.
-pub(super) struct Edges<'a, K: Kernel, H: Halves + ?Sized, S: SiteList<K::Site> + ?Sized = [<K as Kernel>::Site]> {
-    pub(super) sites: &'a S,
-    pub(super) kernel: PhantomData<K>,
+pub(super) struct Edges<'a, K: Kernel, H: Halves + ?Sized> {
+    pub(super) sites: &'a [K::Site],
     pub(super) halves: &'a mut H,
     /// The first unused pair.
     pub(super) unused: u32,
 }
 
-impl<K: Kernel, H: Halves + ?Sized, S: SiteList<K::Site> + ?Sized> Edges<'_, K, H, S> {
+impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
     #[inline(always)]
     pub(super) fn next(&self, e: u32) -> u32 {
         self.halves.half(e).next
@@ -164,7 +148,7 @@ impl<K: Kernel, H: Halves + ?Sized, S: SiteList<K::Site> + ?Sized> Edges<'_, K, 
 
     #[inline(always)]
     pub(super) fn site(&self, v: u32) -> K::Site {
-        self.sites.site(v)
+        self.sites[v as usize]
     }
 
     /// The vertex at which half-edge `e` begins.

@@ -1,6 +1,6 @@
 //! The smallest parts, of up to four vertices, which are built without a merge.
 
-use super::edges::{Edges, Half, Halves, SiteList};
+use super::edges::{Edges, Half, Halves};
 use super::kernel::{is_inside, Kernel};
 use super::merge::Part;
 
@@ -19,7 +19,7 @@ const FOUR: [([u32; 4], bool); 8] = [
     ([0, 1, 2, 3], false),
 ];
 
-impl<K: Kernel, H: Halves + ?Sized, S: SiteList<K::Site> + ?Sized> Edges<'_, K, H, S> {
+impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
     /// Makes the part of one vertex.
     #[inline(always)]
     pub(super) fn vertex(&mut self, v: u32) -> Part {

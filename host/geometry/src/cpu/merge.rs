@@ -1,6 +1,6 @@
 //! The merge of two triangulations on both sides of a line (Guibas and Stolfi 1985).
 
-use super::edges::{Edges, Halves, SiteList};
+use super::edges::{Edges, Halves};
 use super::kernel::Kernel;
 
 /// The triangulation of a subset of the points, known by its outermost vertices. Each of those is given as the
@@ -66,7 +66,7 @@ struct Candidate<K: Kernel> {
     behind: K::Site,
 }
 
-impl<K: Kernel, H: Halves + ?Sized, S: SiteList<K::Site> + ?Sized> Edges<'_, K, H, S> {
+impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
     /// Joins two parts, at least one of which has an edge.
     pub(super) fn merge(&mut self, one: Part, other: Part, cut: Cut) -> Part {
         debug_assert!(!(one.is_vertex && other.is_vertex), "the pair of one would be lost");

@@ -37,6 +37,7 @@ mod oracle;
 mod parallel;
 #[cfg(feature = "std")]
 mod segments;
+mod short;
 mod sites;
 mod small;
 mod subtrees;

@@ -10,7 +10,6 @@ use super::kernel::Kernel;
 use super::merge::Part;
 use super::parallel::lock;
 use super::subtrees::{divide, join, Own};
-use core::marker::PhantomData;
 
 /// Segments for each thread: enough for all threads to end at about the same time.
 const SEGMENTS: usize = 8;
@@ -31,17 +30,12 @@ pub(super) fn triangulate<K: Kernel>(
     go_on: GoOn<'_>,
 ) -> Option<Part> {
     if threads < 2 {
-        return conquer(
-            &mut Edges::<K, _> { kernel: PhantomData, sites, halves, unused: 0 },
-            places,
-            &mut Waiting::new(),
-            go_on,
-        );
+        return conquer(&mut Edges::<K, _> { sites, halves, unused: 0 }, places, &mut Waiting::new(), go_on);
     }
     let mut segments = Vec::new();
     divide::<K>(places, 0..sites.len(), (sites.len() / (SEGMENTS * threads)).max(LEAST), &mut segments);
     let parts = conquer_all::<K>(sites, places, halves, &segments, threads, go_on);
-    let mut edges = Edges::<K, _> { kernel: PhantomData, sites, halves, unused: 0 };
+    let mut edges = Edges::<K, _> { sites, halves, unused: 0 };
     join(&mut edges, places, &segments, &parts, &mut Waiting::new())
 }
 
@@ -69,7 +63,7 @@ fn conquer_all<K: Kernel>(
         let Some((place, segment, halves)) = task else {
             return;
         };
-        let mut edges = Edges::<K, _> { kernel: PhantomData, sites: &sites[segment.clone()], halves, unused: 0 };
+        let mut edges = Edges::<K, _> { sites: &sites[segment.clone()], halves, unused: 0 };
         let Some(part) = conquer(&mut edges, &places[segment.clone()], &mut Waiting::new(), go_on) else {
             // An empty list of tasks makes the other threads end as well.
             return lock(&tasks).clear();

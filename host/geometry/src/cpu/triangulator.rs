@@ -1,8 +1,6 @@
 //! The CPU triangulator as a whole: from points to the mesh.
 
 use alloc::vec::Vec;
-#[cfg(not(feature = "std"))]
-use core::marker::PhantomData;
 use core::num::NonZeroUsize;
 use core::ops::ControlFlow;
 
@@ -300,7 +298,7 @@ fn whole<K: Kernel>(
     _threads: usize,
     go_on: GoOn<'_>,
 ) -> Option<Part> {
-    conquer(&mut Edges::<K, _> { kernel: PhantomData, sites, halves, unused: 0 }, places, &mut Waiting::new(), go_on)
+    conquer(&mut Edges::<K, _> { sites, halves, unused: 0 }, places, &mut Waiting::new(), go_on)
 }
 
 /// Whether there are fewer than three sites, or all lie on one line.

@@ -5,23 +5,21 @@
 //! the triangles are sorted in one piece (`collect`).
 
 mod collect;
-mod short;
 mod sites;
 #[cfg(test)]
 mod tests;
 
 use alloc::vec::Vec;
-use core::marker::PhantomData;
 use core::ops::{ControlFlow, Range};
 
 use bytemuck::Zeroable;
 
 use self::collect::SmallCollect;
-use self::short::ShortEdges;
 use self::sites::SmallSites;
 use super::collect::hull;
 use super::conquer::Waiting;
 use super::edges::{Edges, Half, Halves, HALVES};
+use super::short::{self, ShortHalves};
 use super::subtrees::{divide, join, Own};
 use super::triangulator::{check, connect, is_collinear, Error};
 use super::view::{Integers, Narrow, Site, Wide, Widest, Width, NARROW_BITS, WIDE_BITS};
@@ -56,7 +54,7 @@ use crate::point::Point;
 pub struct Triangulator {
     sites: SmallSites,
     /// The half-edges of a small set, or of one subtree of a larger set.
-    short: Option<ShortEdges>,
+    short: Option<ShortHalves>,
     large: Large,
     waiting: Waiting,
     collect: SmallCollect,
@@ -117,10 +115,11 @@ impl Triangulator {
             mesh.hull.sort_unstable_by_key(|&id| mesh.points[id as usize]);
             return;
         }
-        let short = short.get_or_insert_with(ShortEdges::new);
+        let short = short.get_or_insert_with(ShortHalves::new);
         if sites.len() <= short::MOST {
-            let whole = short.conquer::<W>(sites, waiting).map_or(0, |(part, _)| part.leftmost());
-            assemble(&mut *short.halves, whole, ids, collect, mesh);
+            let whole = short.conquer::<Integers<W>>(sites, sites, waiting, &mut |_| true);
+            let whole = whole.map_or(0, |(part, _)| part.leftmost());
+            assemble(short.halves(), whole, ids, collect, mesh);
         } else {
             let whole = large.conquer::<W>(sites, mesh.points.len(), short, waiting);
             assemble(large.halves.as_mut_slice(), whole, ids, collect, mesh);
@@ -135,7 +134,7 @@ impl Large {
         &mut self,
         sites: &[Site],
         points: usize,
-        short: &mut ShortEdges,
+        short: &mut ShortHalves,
         waiting: &mut Waiting,
     ) -> u32 {
         let Self { halves, subtrees, parts } = self;
@@ -148,13 +147,10 @@ impl Large {
         parts.reserve(most);
         divide::<Integers<W>>(sites, 0..sites.len(), short::MOST, subtrees);
         parts.extend(subtrees.iter().map(|subtree| {
-            let (part, unused) = short.conquer::<W>(&sites[subtree.clone()], waiting)?;
-            short.copy_to(&mut halves[HALVES * subtree.start..HALVES * subtree.end], subtree.start as u32);
-            let by = (HALVES * subtree.start) as u32;
-            Some((part.moved(by), unused + by))
+            let range = &mut halves[HALVES * subtree.start..HALVES * subtree.end];
+            short.conquer_range::<Integers<W>>(subtree.clone(), (sites, sites), range, waiting, &mut |_| true)
         }));
-        let mut edges =
-            Edges::<Integers<W>, _> { kernel: PhantomData, sites, halves: halves.as_mut_slice(), unused: 0 };
+        let mut edges = Edges::<Integers<W>, _> { sites, halves: halves.as_mut_slice(), unused: 0 };
         join(&mut edges, sites, subtrees, parts, waiting).map_or(0, |whole| whole.leftmost())
     }
 }

@@ -5,8 +5,9 @@ use std::ops::ControlFlow;
 
 use incircle_testkit::SplitMix64;
 
+use super::super::short;
 use super::super::triangulate;
-use super::{short, Triangulator};
+use super::Triangulator;
 use crate::mesh::Mesh;
 use crate::point::Point;
 

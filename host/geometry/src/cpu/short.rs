@@ -1,14 +1,15 @@
 //! Half-edges with numbers of 16 bits, for up to 10,922 vertices.
 
 use alloc::boxed::Box;
-use core::marker::PhantomData;
+use core::ops::Range;
 
 use bytemuck::{Pod, Zeroable};
 
-use super::super::conquer::{conquer, Waiting};
-use super::super::edges::{is_used, Edges, Half, Halves, SiteList, HALVES};
-use super::super::merge::Part;
-use super::super::view::{Integers, Site, Width};
+use super::conquer::{conquer, GoOn, Waiting};
+use super::edges::{is_used, Edges, Half, Halves, HALVES};
+use super::kernel::Kernel;
+use super::merge::Part;
+use super::subtrees::Own;
 use crate::pages;
 
 /// Numbers of 16 bits.
@@ -60,44 +61,51 @@ impl Halves for [Short; NUMBERS] {
     }
 }
 
-/// Every number of 16 bits is an index of this list too.
-impl SiteList<Site> for [Site; NUMBERS] {
-    #[inline(always)]
-    fn site(&self, v: u32) -> Site {
-        self[usize::from(v as u16)]
-    }
-}
-
-/// The memory for a set or a subtree of up to [`MOST`] vertices: two lists of half a megabyte each. Of both, a small set
-/// touches only the beginning.
+/// The memory for the half-edges of a set or a subtree of up to [`MOST`] vertices: half a megabyte, of which few vertices
+/// touch only the beginning.
 #[derive(Debug)]
-pub(super) struct ShortEdges {
-    pub(super) halves: Box<[Short; NUMBERS]>,
-    sites: Box<[Site; NUMBERS]>,
-}
+pub(super) struct ShortHalves(Box<[Short; NUMBERS]>);
 
-impl ShortEdges {
+impl ShortHalves {
     pub(super) fn new() -> Self {
-        Self { halves: table(), sites: table() }
+        let list = pages::zeros(NUMBERS).into_boxed_slice();
+        Self(list.try_into().unwrap_or_else(|_| unreachable!("the list has one item for each number")))
     }
 
-    /// Triangulates up to [`MOST`] sites, which stand along the curve. Returns the part and the first unused pair.
-    pub(super) fn conquer<W: Width>(&mut self, sites: &[Site], waiting: &mut Waiting) -> Option<(Part, u32)> {
-        let Self { halves, sites: table } = self;
-        halves[..HALVES * sites.len()].fill(Short::zeroed());
-        table[..sites.len()].copy_from_slice(sites);
-        let mut edges =
-            Edges::<Integers<W>, _, _> { kernel: PhantomData, sites: &**table, halves: &mut **halves, unused: 0 };
-        let part = conquer(&mut edges, sites, waiting, &mut |_| true)?;
+    /// Triangulates up to [`MOST`] sites; see [`conquer`]. Returns the part and the first unused pair.
+    pub(super) fn conquer<K: Kernel>(
+        &mut self,
+        sites: &[K::Site],
+        places: &[K::Place],
+        waiting: &mut Waiting,
+        go_on: GoOn<'_>,
+    ) -> Option<(Part, u32)> {
+        self.0[..HALVES * sites.len()].fill(Short::zeroed());
+        let mut edges = Edges::<K, _> { sites, halves: &mut *self.0, unused: 0 };
+        let part = conquer(&mut edges, places, waiting, go_on)?;
         Some((part, edges.unused))
     }
 
+    /// Triangulates a subtree of up to [`MOST`] vertices, in the range of its sites, in a list of longer half-edges.
+    pub(super) fn conquer_range<K: Kernel>(
+        &mut self,
+        range: Range<usize>,
+        (sites, places): (&[K::Site], &[K::Place]),
+        halves: &mut [Half],
+        waiting: &mut Waiting,
+        go_on: GoOn<'_>,
+    ) -> Option<Own> {
+        let (part, unused) = self.conquer::<K>(&sites[range.clone()], &places[range.clone()], waiting, go_on)?;
+        self.copy_to(halves, range.start as u32);
+        let by = (HALVES * range.start) as u32;
+        Some((part.moved(by), unused + by))
+    }
+
     /// Copies the half-edges to the range of the subtree in a list of longer ones, given the subtree's first vertex.
-    pub(super) fn copy_to(&self, range: &mut [Half], vertex: u32) {
+    fn copy_to(&self, range: &mut [Half], vertex: u32) {
         let by = HALVES as u32 * vertex;
-        for (pair, (to, from)) in
-            (0..).step_by(2).zip(range.as_chunks_mut::<2>().0.iter_mut().zip(self.halves.as_chunks::<2>().0))
-        {
+        let pairs = range.as_chunks_mut::<2>().0.iter_mut().zip(self.0.as_chunks::<2>().0);
+        for (pair, (to, from)) in (0..).step_by(2).zip(pairs) {
             if is_used([from[0].end.into(), from[1].end.into()]) {
                 *to = from.map(|Short { next, previous, end, .. }| Half {
                     next: by + u32::from(next),
@@ -111,10 +119,9 @@ impl ShortEdges {
             }
         }
     }
-}
 
-/// Makes a list of zeros for all numbers of 16 bits.
-fn table<T: Zeroable>() -> Box<[T; NUMBERS]> {
-    let list = pages::zeros(NUMBERS).into_boxed_slice();
-    list.try_into().unwrap_or_else(|_| unreachable!("the list has one item for each number"))
+    /// The half-edges of the last set.
+    pub(super) fn halves(&mut self) -> &mut [Short; NUMBERS] {
+        &mut self.0
+    }
 }
