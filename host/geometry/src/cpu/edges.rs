@@ -88,21 +88,6 @@ pub(super) fn is_used(ends: [u32; 2]) -> bool {
     ends[0] != ends[1]
 }
 
-/// Renumbers the half-edges of a range for a longer list: adds `by` to the numbers of half-edges and `vertices` to those
-/// of vertices. The list of unused pairs stays as it is, because it counts from pair to pair.
-#[cfg(feature = "std")]
-pub(super) fn move_by(halves: &mut [Half], by: u32, vertices: u32) {
-    for pair in halves.as_chunks_mut::<2>().0 {
-        if is_used([pair[0].end, pair[1].end]) {
-            *pair = pair.map(|Half { next, previous, end }| Half {
-                next: next + by,
-                previous: previous + by,
-                end: end + vertices,
-            });
-        }
-    }
-}
-
 /// The sites of a segment and the half-edges between them, both numbered from the start of the segment.
 pub(super) struct Edges<'a, K: Kernel, H: Halves + ?Sized> {
     pub(super) sites: &'a [K::Site],

@@ -4,9 +4,9 @@ use super::edges::{Edges, Half, Halves};
 use super::kernel::{is_inside, Kernel};
 use super::merge::Part;
 
-/// Four vertices in general position, by the turns of their triples, if the first three turn left. The index has a bit for
-/// each left turn: 4 for (0, 1, 3), 2 for (0, 2, 3), 1 for (1, 2, 3). Three vertices of the hull come first,
-/// counter-clockwise. The last one is inside of them, or comes behind them on the hull.
+/// Four vertices of which no three lie on a line, by the turns of their triples, if the first three turn left. The index
+/// has a bit for each left turn: 4 for (0, 1, 3), 2 for (0, 2, 3), 1 for (1, 2, 3). Three vertices of the hull come first,
+/// counter-clockwise. The last vertex lies inside their triangle, if so marked, or follows them on the hull.
 const FOUR: [([u32; 4], bool); 8] = [
     ([0, 3, 2, 1], true),
     ([0, 3, 1, 2], false),
@@ -133,4 +133,36 @@ fn outermost<K: Kernel, const N: usize>(corners: [K::Site; N], leaving: [u32; N]
     };
     let swapped = corners.map(K::swapped);
     Part { left: least(corners), right: most(corners), bottom: least(swapped), top: most(swapped), is_vertex: false }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::view::{Integers, Site, Wide};
+    use super::*;
+
+    #[test]
+    fn four_turns_tell_the_order_of_four_vertices() {
+        let at = |k: u32| Site { x: k % 5, y: k / 5 };
+        let is_left = |a: Site, b: Site, c: Site| Integers::<Wide>::orient2d(a, b, c).is_gt();
+        let mut found = [0; 8];
+        for all in (0..25u32.pow(4)).map(|k| [k % 25, k / 25 % 25, k / 625 % 25, k / 15_625].map(at)) {
+            let turns = [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]].map(|of| of.map(|k: usize| all[k]));
+            if turns.iter().any(|&[a, b, c]| Integers::<Wide>::orient2d(a, b, c).is_eq()) {
+                continue;
+            }
+            let [first, rest @ ..] = turns.map(|[a, b, c]| usize::from(is_left(a, b, c)));
+            if first == 0 {
+                continue;
+            }
+            let place = rest.into_iter().fold(0, |place, bit| place << 1 | bit);
+            let (order, is_last_inside) = FOUR[place];
+            let [a, b, c, d] = order.map(|k| all[k as usize]);
+            let hull = if is_last_inside { [(a, b), (b, c), (c, a), (a, b)] } else { [(a, b), (b, c), (c, d), (d, a)] };
+            for (from, to) in hull {
+                assert!([a, b, c, d].into_iter().all(|p| p == from || p == to || is_left(from, to, p)), "{all:?}");
+            }
+            found[place] += 1;
+        }
+        assert!(found.iter().enumerate().all(|(place, &count)| (count > 100) == (place != 2)), "{found:?}");
+    }
 }

@@ -5,10 +5,11 @@ use std::sync::{Mutex, PoisonError};
 use std::thread::Builder;
 
 use super::conquer::{conquer, GoOn, Waiting};
-use super::edges::{move_by, Edges, Half, HALVES};
+use super::edges::{Edges, Half, HALVES};
 use super::kernel::Kernel;
 use super::merge::Part;
 use super::parallel::lock;
+use super::short::{self, ShortHalves};
 use super::subtrees::{divide, join, Own};
 
 /// Segments for each thread: enough for all threads to end at about the same time.
@@ -29,11 +30,12 @@ pub(super) fn triangulate<K: Kernel>(
     threads: usize,
     go_on: GoOn<'_>,
 ) -> Option<Part> {
-    if threads < 2 {
+    if threads < 2 && sites.len() <= short::MOST {
         return conquer(&mut Edges::<K, _> { sites, halves, unused: 0 }, places, &mut Waiting::new(), go_on);
     }
+    let most = if threads < 2 { short::MOST } else { (sites.len() / (SEGMENTS * threads)).clamp(LEAST, short::MOST) };
     let mut segments = Vec::new();
-    divide::<K>(places, 0..sites.len(), (sites.len() / (SEGMENTS * threads)).max(LEAST), &mut segments);
+    divide::<K>(places, 0..sites.len(), most, &mut segments);
     let parts = conquer_all::<K>(sites, places, halves, &segments, threads, go_on);
     let mut edges = Edges::<K, _> { sites, halves, unused: 0 };
     join(&mut edges, places, &segments, &parts, &mut Waiting::new())
@@ -58,20 +60,20 @@ fn conquer_all<K: Kernel>(
         halves = rest;
     }
     let (tasks, parts) = (Mutex::new(tasks), Mutex::new(vec![None; segments.len()]));
-    let work = |go_on: GoOn<'_>| loop {
-        let task = lock(&tasks).pop();
-        let Some((place, segment, halves)) = task else {
-            return;
-        };
-        let mut edges = Edges::<K, _> { sites: &sites[segment.clone()], halves, unused: 0 };
-        let Some(part) = conquer(&mut edges, &places[segment.clone()], &mut Waiting::new(), go_on) else {
-            // An empty list of tasks makes the other threads end as well.
-            return lock(&tasks).clear();
-        };
-        let by = (HALVES * segment.start) as u32;
-        let own = (part.moved(by), edges.unused + by);
-        move_by(edges.halves, by, segment.start as u32);
-        lock(&parts)[place] = Some(own);
+    let work = |go_on: GoOn<'_>| {
+        let (mut short, mut waiting) = (ShortHalves::new(), Waiting::new());
+        loop {
+            let task = lock(&tasks).pop();
+            let Some((place, segment, halves)) = task else {
+                return;
+            };
+            let own = short.conquer_range::<K>(segment, (sites, places), halves, &mut waiting, go_on);
+            if own.is_none() {
+                // An empty list of tasks makes the other threads end as well.
+                return lock(&tasks).clear();
+            }
+            lock(&parts)[place] = own;
+        }
     };
     std::thread::scope(|scope| {
         for _ in 1..threads {

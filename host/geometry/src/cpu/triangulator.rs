@@ -4,19 +4,14 @@ use alloc::vec::Vec;
 use core::num::NonZeroUsize;
 use core::ops::ControlFlow;
 
-#[cfg(not(feature = "std"))]
-use super::conquer::{conquer, Waiting};
-#[cfg(not(feature = "std"))]
-use super::edges::Edges;
 use super::edges::{Half, HALVES};
 use super::filtered::{Filtered, FilteredSite};
 use super::filtered_sites::{self, FilteredSites};
 use super::kernel::Kernel;
-#[cfg(feature = "std")]
-use super::segments;
 use super::sites::{sort, Sites};
+use super::subtrees::whole;
 use super::view::{Integers, Narrow, Wide, Widest, Width, NARROW_BITS, WIDE_BITS};
-use super::{collect, conquer::GoOn, merge::Part};
+use super::{collect, merge::Part};
 use crate::double::Coordinate;
 use crate::mesh::Mesh;
 use crate::pages;
@@ -130,10 +125,12 @@ pub fn connect(points: &[Point], threads: NonZeroUsize, watch: Watch<'_>) -> Res
     let threads = threads_for(points.len(), threads).get();
     tell(watch, Stage::Order, 0, points.len())?;
     let sites = sort(points, threads);
-    match sites.bits {
-        ..=NARROW_BITS => connect_sites::<Narrow>(points, sites, threads, watch),
-        ..=WIDE_BITS => connect_sites::<Wide>(points, sites, threads, watch),
-        _ => connect_sites::<Widest>(points, sites, threads, watch),
+    if sites.bits <= NARROW_BITS {
+        connect_sites::<Narrow>(points, sites, threads, watch)
+    } else if sites.bits <= WIDE_BITS {
+        connect_sites::<Wide>(points, sites, threads, watch)
+    } else {
+        connect_sites::<Widest>(points, sites, threads, watch)
     }
 }
 
@@ -277,28 +274,6 @@ fn assemble(
     let count = 2 * ids.len() - 2 - hull.len();
     let triangles = collect::triangles(halves, ids, points, count, threads);
     Ok((triangles, hull))
-}
-
-#[cfg(feature = "std")]
-fn whole<K: Kernel>(
-    sites: &[K::Site],
-    places: &[K::Place],
-    halves: &mut [Half],
-    threads: usize,
-    go_on: GoOn<'_>,
-) -> Option<Part> {
-    segments::triangulate::<K>(sites, places, halves, threads, go_on)
-}
-
-#[cfg(not(feature = "std"))]
-fn whole<K: Kernel>(
-    sites: &[K::Site],
-    places: &[K::Place],
-    halves: &mut [Half],
-    _threads: usize,
-    go_on: GoOn<'_>,
-) -> Option<Part> {
-    conquer(&mut Edges::<K, _> { sites, halves, unused: 0 }, places, &mut Waiting::new(), go_on)
 }
 
 /// Whether there are fewer than three sites, or all lie on one line.
