@@ -16,6 +16,9 @@ pub(super) trait Kernel: Copy + Sync + 'static {
     /// The place of a point in the tree of cuts.
     type Place: Copy + Send + Sync;
 
+    /// Whether a view that may not be needed costs less than a branch that a processor cannot predict.
+    const HAS_CHEAP_VIEWS: bool;
+
     /// Swaps the axes of a point, so that points compare by y, then x.
     fn swapped(site: Self::Site) -> Self::Site;
 

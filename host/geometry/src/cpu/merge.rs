@@ -185,6 +185,9 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
     fn advance<const OF_A: bool>(&mut self, candidate: &mut Candidate<K>, a: K::Site, b: K::Site) -> K::Seen {
         let mut seen = K::see(a, b, candidate.site);
         loop {
+            if !K::HAS_CHEAP_VIEWS && !K::is_left(seen) {
+                return seen;
+            }
             let behind = K::see(a, b, candidate.behind);
             if !K::is_left_and_inside(a, b, seen, behind) {
                 return seen;

@@ -180,6 +180,8 @@ impl<W: Width> Kernel for Integers<W> {
     type Seen = Seen<W::Product>;
     type Place = Site;
 
+    const HAS_CHEAP_VIEWS: bool = true;
+
     #[inline(always)]
     fn swapped(site: Site) -> Site {
         Site { x: site.y, y: site.x }
