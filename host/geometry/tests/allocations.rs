@@ -1,4 +1,4 @@
-//! Calls of a used triangulator allocate nothing. Alone in its file, because the allocator counts for the whole process.
+//! Calls of a used triangulator allocate nothing. Alone in its file, because the allocator counts for all threads.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -38,8 +38,8 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// Sets that differ in all that decides about memory: even ones, lattices with many ties, points of few places, points on
-/// a line, points on a circle, which all lie on the hull, and a crowd beside a far point.
+/// Sets that differ in all that decides about memory: even ones, lattices with many ties, points of few places,
+/// points on a line, points on a circle, which all lie on the hull, and a crowd beside a far point.
 fn sets(count: usize) -> Vec<Vec<Point>> {
     let mut random = SplitMix64::new(91);
     let side = count.isqrt() as u32;

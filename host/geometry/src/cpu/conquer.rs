@@ -67,8 +67,8 @@ impl Waiting {
 }
 
 /// Triangulates the distinct sites of a subtree, which stand along the curve, on this thread, given the place of each
-/// in the tree of cuts. `waiting` is empty, and so are all pairs of `halves`, from the first on. Returns `None` if there
-/// are no sites, or if `go_on` ends the work.
+/// in the tree of cuts. `waiting` is empty, and so are all pairs of `halves`, from the first on. Returns `None` if
+/// there are no sites, or if `go_on` ends the work.
 pub(super) fn conquer<K: Kernel, H: Halves + ?Sized>(
     edges: &mut Edges<'_, K, H>,
     places: &[K::Place],

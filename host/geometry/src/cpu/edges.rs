@@ -5,9 +5,9 @@
 //! half-edge counter-clockwise and `previous` the next one clockwise. `n` points never have more than `3 n` edges, so
 //! a part of the plane owns a range of six half-edges a vertex, and nothing is allocated.
 //!
-//! Unused pairs form a linked list without any preparation: both ends of an unused pair are equal, and the `next` of its
-//! first half counts from the pair behind it. So a range of zeros is the list of all its pairs in order. Pairs that
-//! become unused go to the front of the list, where they are still in the cache when they are taken again.
+//! Unused pairs form a linked list without any preparation: both ends of an unused pair are equal, and the `next` of
+//! its first half counts from the pair behind it. So a range of zeros is the list of all its pairs in order. Pairs
+//! that become unused go to the front of the list, where they are still in the cache when they are taken again.
 
 use bytemuck::{Pod, Zeroable};
 

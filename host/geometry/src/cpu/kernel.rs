@@ -38,8 +38,8 @@ pub(super) trait Kernel: Copy + Sync + 'static {
     /// the left: `Greater` if `q` lies inside the circle through `a`, `b` and `c`.
     fn incircle(a: Self::Site, b: Self::Site, c: Self::Seen, q: Self::Seen) -> Ordering;
 
-    /// Whether the point of `c` lies to the left of the base edge, and that of `q` inside the circle through `a`, `b` and `c`; see
-    /// [`is_inside`]. Kernels with cheap determinants compute both without a branch in between.
+    /// Whether the point of `c` lies to the left of the base edge, and that of `q` inside the circle through `a`, `b`
+    /// and `c`; see [`is_inside`]. Kernels with cheap determinants compute both without a branch in between.
     #[inline(always)]
     fn is_left_and_inside(a: Self::Site, b: Self::Site, c: Self::Seen, q: Self::Seen) -> bool {
         Self::is_left(c) && is_inside::<Self>(a, b, c, q)

@@ -4,9 +4,9 @@ use super::edges::{Edges, Half, Halves};
 use super::kernel::{is_inside, Kernel};
 use super::merge::Part;
 
-/// Four vertices of which no three lie on a line, by the turns of their triples, if the first three turn left. The index
-/// has a bit for each left turn: 4 for (0, 1, 3), 2 for (0, 2, 3), 1 for (1, 2, 3). Three vertices of the hull come first,
-/// counter-clockwise. The last vertex lies inside their triangle, if so marked, or follows them on the hull.
+/// Four vertices of which no three lie on a line, by the turns of their triples, if the first three turn left. The
+/// index has a bit for each left turn: 4 for (0, 1, 3), 2 for (0, 2, 3), 1 for (1, 2, 3). Three vertices of the hull
+/// come first, counter-clockwise. The last vertex lies inside their triangle, if so marked, or follows on the hull.
 const FOUR: [([u32; 4], bool); 8] = [
     ([0, 3, 2, 1], true),
     ([0, 3, 1, 2], false),
@@ -81,7 +81,8 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
         Some(outermost::<K, 4>(at, leaving))
     }
 
-    /// Makes the half-edges of a triangle with a vertex `d` inside; returns those that leave the corners along the hull.
+    /// Makes the half-edges of a triangle with a vertex `d` inside; returns those that leave the hull's corners along
+    /// it, counter-clockwise.
     #[inline(always)]
     fn start_star(&mut self, [a, b, c, d]: [u32; 4]) -> [u32; 3] {
         let [ab, bc, ca, da, db, dc] = core::array::from_fn(|_| self.take());
@@ -92,8 +93,8 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
         [ab, bc, ca]
     }
 
-    /// Makes the half-edges of a counter-clockwise square with the diagonal from `a` to `c`; returns those that leave the
-    /// corners along the hull.
+    /// Makes the half-edges of a counter-clockwise square with the diagonal from `a` to `c`; returns those that leave
+    /// the corners along the hull.
     #[inline(always)]
     fn start_square(&mut self, [a, b, c, d]: [u32; 4]) -> [u32; 4] {
         let [ab, bc, cd, da, ac] = core::array::from_fn(|_| self.take());

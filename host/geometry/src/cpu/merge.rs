@@ -59,10 +59,13 @@ struct Base {
 struct Candidate<K: Kernel> {
     edge: u32,
     end: u32,
+    /// The site of `end`.
     site: K::Site,
+    /// The half-edge after `edge`, and the one after that.
     after: u32,
     after_next: u32,
     end_of_next: u32,
+    /// The site of `end_of_next`, to which `after` leads.
     behind: K::Site,
 }
 
@@ -149,8 +152,8 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
                 return base;
             }
             let pair = self.take();
-            // The new base edge leads from the corner of the triangle to the vertex that stays. `back` leads from the corner
-            // to the other one. The candidate of the vertex that stays is still the next one around it.
+            // The new base edge leads from the corner of the triangle to the vertex that stays. `back` leads from the
+            // corner to the other one. The candidate of the vertex that stays is still the next one around it.
             if other_is_valid & (!one_is_valid | K::is_left_and_inside(a, b, from_one, from_other)) {
                 let back = other.edge ^ 1;
                 let previous = self.previous(back);
@@ -179,8 +182,8 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
         Candidate { edge, end, site: self.site(end), after, after_next, end_of_next, behind: self.site(end_of_next) }
     }
 
-    /// Finds the first vertex of one part that a circle through `a` and `b` meets as it grows to the left, from the given
-    /// candidate on, and removes the edges at `a` or `b` that cross the new triangle. Returns the view from the vertex.
+    /// Finds the first vertex of one part that a circle through `a` and `b` meets as it grows to the left, from the
+    /// given candidate on, and removes the edges at `a` or `b` that cross the new triangle. Returns the vertex's view.
     #[inline(always)]
     fn advance<const OF_A: bool>(&mut self, candidate: &mut Candidate<K>, a: K::Site, b: K::Site) -> K::Seen {
         let mut seen = K::see(a, b, candidate.site);

@@ -9,8 +9,9 @@
 //! constructing Delaunay triangulations*, 1987). File by file:
 //!
 //! 1. `sites` sorts the points along a Z-curve, whose quadrants form the tree of cuts.
-//! 2. `conquer` triangulates the parts of that tree from the leaves up. `leaf` builds parts of up to four vertices. Larger
-//!    sets are cut into `subtrees`, whose half-edges have numbers of 16 bits (`short`); `segments` deals them to threads.
+//! 2. `conquer` triangulates the parts of that tree from the leaves up. `leaf` builds parts of up to four vertices.
+//!    Larger sets are cut into `subtrees`, whose half-edges have numbers of 16 bits (`short`), and `segments` deals
+//!    the subtrees to threads.
 //! 3. `merge` joins two parts along their common border, on the half-edges of `edges`, with the predicates of `view`,
 //!    which never round and contain the tie rule.
 //! 4. `collect` finds the triangles at the edges, in the order of the curve, and sorts them.

@@ -61,8 +61,8 @@ impl Halves for [Short; NUMBERS] {
     }
 }
 
-/// The memory for the half-edges of a set or a subtree of up to [`MOST`] vertices: half a megabyte, of which few vertices
-/// touch only the beginning.
+/// The memory for the half-edges of a set or a subtree of up to [`MOST`] vertices: half a megabyte, of which few
+/// vertices touch only the beginning.
 #[derive(Debug)]
 pub(super) struct ShortHalves(Box<[Short; NUMBERS]>);
 

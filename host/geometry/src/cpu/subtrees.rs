@@ -28,8 +28,8 @@ pub(super) fn whole<K: Kernel>(
     segments::triangulate::<K>(sites, places, halves, threads, go_on)
 }
 
-/// Triangulates distinct sites, which stand along the curve, on this thread. Returns `None` if there are no sites, or if
-/// `go_on` ends the work.
+/// Triangulates distinct sites, which stand along the curve, on this thread. Returns `None` if there are no sites, or
+/// if `go_on` ends the work.
 #[cfg(not(feature = "std"))]
 pub(super) fn whole<K: Kernel>(
     sites: &[K::Site],

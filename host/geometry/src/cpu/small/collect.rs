@@ -1,8 +1,8 @@
 //! The triangles of a small set, sorted in memory that is kept from set to set.
 //!
-//! As in `collect`, each edge names at most one triangle, that to the left of the edge as seen from its end with the smaller
-//! id, if this end is the smallest corner. No two triangles have the first and the second corner in common, so two passes of
-//! a counting sort, by the second corner and then by the first, put all in order.
+//! As in `collect`, each edge names at most one triangle, that to the left of the edge as seen from its end with the
+//! smaller id, if this end is the smallest corner. No two triangles have the first and the second corner in common,
+//! so two passes of a counting sort, by the second corner and then by the first, put all in order.
 
 use alloc::vec::Vec;
 
@@ -63,8 +63,8 @@ impl SmallCollect {
         }
     }
 
-    /// Finds all triangles, and counts how often each id is a first and a second corner. Returns their
-    /// number.
+    /// Finds all triangles, and counts how often each id is a first and a second corner. Returns the
+    /// number of the triangles.
     fn find<H: Halves + ?Sized>(&mut self, halves: &H, ids: &[u32]) -> usize {
         let Self { found, first, second, .. } = self;
         let mut count = 0;

@@ -1,8 +1,8 @@
 //! The CPU triangulator for many sets one after the other, in memory that is kept from set to set.
 //!
 //! The work is the same as for one large set, and so are the merges, but three things are cheaper for few points: the
-//! points are sorted in one piece (`sites`), up to 10,922 of them have half-edges with numbers of 16 bits (`short`), and
-//! the triangles are sorted in one piece (`collect`).
+//! points are sorted in one piece (`sites`), up to 10,922 of them have half-edges with numbers of 16 bits (`short`),
+//! and the triangles are sorted in one piece (`collect`).
 
 mod collect;
 mod sites;
@@ -29,8 +29,8 @@ use crate::point::Point;
 
 /// The CPU triangulator for many small sets. The triangulator keeps its memory from set to set, and so does the mesh.
 ///
-/// One call for 200 points takes about 20 µs. A triangulator works on one thread, so a program with several threads gives
-/// each thread a triangulator of its own. For up to about 100,000 points a triangulator is quicker than
+/// One call for 200 points takes about 20 µs. A triangulator works on one thread, so a program with several threads
+/// gives each thread a triangulator of its own. For up to about 100,000 points a triangulator is quicker than
 /// [`triangulate`](super::triangulate) on one thread.
 ///
 /// **Memory.** A call allocates nothing if the triangulator and the mesh have served a set of at least as many points
@@ -132,8 +132,8 @@ impl Triangulator {
 }
 
 impl Large {
-    /// Triangulates sites, which stand along the curve, subtree by subtree, in a list with room for `points` sites. Returns
-    /// the half-edge that leaves the leftmost vertex along the hull.
+    /// Triangulates sites, which stand along the curve, subtree by subtree, in a list with room for `points` sites.
+    /// Returns the half-edge that leaves the leftmost vertex along the hull.
     fn conquer<W: Width>(
         &mut self,
         sites: &[Site],
@@ -159,8 +159,8 @@ impl Large {
     }
 }
 
-/// Puts the triangles and the hull of a triangulation into a mesh, given the half-edge that leaves the leftmost vertex along
-/// the hull.
+/// Puts the triangles and the hull of a triangulation into a mesh, given the half-edge that leaves the leftmost
+/// vertex along the hull.
 fn assemble<H: Halves + ?Sized>(
     halves: &mut H,
     leftmost: u32,

@@ -1,7 +1,7 @@
 //! The distinct points of a small set along the Z-curve, in memory that is kept from set to set.
 //!
-//! A word has the leading bits of the position on the curve, and below them the index of the point. Two passes of a radix
-//! sort order the words by so many leading bits that few points agree in them; these few are sorted by comparison.
+//! A word has the leading bits of the position on the curve, and below them the index of the point. Two passes of a
+//! radix sort order the words by so many leading bits that few points agree in them. Comparisons sort these few.
 
 use alloc::vec::Vec;
 
@@ -77,8 +77,8 @@ impl Form {
 }
 
 impl SmallSites {
-    /// Sorts the points along the curve and takes duplicates out. The duplicates go to a list of their own, sorted by index.
-    /// Returns the number of bits of a coordinate of the sites.
+    /// Sorts the points along the curve and takes duplicates out. The duplicates go to a list of their own, sorted by
+    /// index. Returns the number of bits of a coordinate of the sites.
     pub(super) fn sort(&mut self, points: &[Point], duplicates: &mut Vec<Duplicate>) -> u32 {
         let form = Form::of(points);
         if points.len() < FEW {
