@@ -38,8 +38,8 @@ pub const EMPTY: u32 = u32::MAX;
 pub struct Mesh<P = Point> {
     /// The input points, in input order, duplicates included.
     pub points: Vec<P>,
-    /// Triples of indices into `points` in sorted order, counter-clockwise if y grows upwards,
-    /// each with its smallest index first.
+    /// Triples of indices into `points` in sorted order, counter-clockwise if y grows upwards, each with
+    /// its smallest index first.
     pub triangles: Vec<[u32; 3]>,
     /// Indices of the points on the hull, counter-clockwise, lowest index first; points in the middle of a hull edge
     /// are included. A mesh without triangles lists all distinct points in lexicographic order here.

@@ -14,11 +14,11 @@ use core::ops::Range;
 use bytemuck::Zeroable;
 
 use super::buckets::{bucket_ends, items_of, runs, Bucketed, CHUNK, MOST_BUCKETS_BITS};
-use super::edges::Half;
+use super::edges::{is_used, Half, Halves};
 use super::parallel::in_parallel;
 
 /// Marks, in the `end` of a half-edge, that the outside lies to the left of the half-edge.
-const GAP: u32 = 1 << 31;
+const GAP: u32 = <[Half] as Halves>::GAP;
 /// Ids of a bucket, as a power of two, unless threads or very many points ask for more. With two triangles an id a
 /// bucket and its copy take 64 kB.
 const BUCKET_BITS: u32 = 11;
@@ -30,22 +30,28 @@ const BLOCK: usize = 512;
 
 /// The hull, counter-clockwise from its lowest id on. The function also marks the half-edges that have the
 /// outside to their left.
-pub(super) fn hull(halves: &mut [Half], ids: &[u32], start: u32) -> Vec<u32> {
-    let mut hull = Vec::new();
+pub(super) fn hull<H: Halves + ?Sized>(halves: &mut H, ids: &[u32], start: u32, hull: &mut Vec<u32>) {
+    hull.clear();
     let mut e = start;
     loop {
         // The outside lies to the right of `e`, so the next half-edge clockwise around its origin has it to the left.
-        let Half { previous, end, .. } = halves[e as usize];
-        halves[previous as usize].end |= GAP;
-        hull.push(ids[(end & !GAP) as usize]);
-        e = halves[(e ^ 1) as usize].next;
+        let Half { previous, end, .. } = halves.half(e);
+        halves.set_end(previous, halves.half(previous).end | H::GAP);
+        hull.push(ids[(end & !H::GAP) as usize]);
+        e = halves.half(e ^ 1).next;
         if e == start {
             break;
         }
     }
     let lowest = (0..hull.len()).min_by_key(|&place| hull[place]).unwrap_or(0);
     hull.rotate_left(lowest);
-    hull
+}
+
+/// The hull in a list of its own; see [`hull`].
+pub(super) fn hull_of(halves: &mut [Half], ids: &[u32], start: u32) -> Vec<u32> {
+    let mut found = Vec::new();
+    hull(halves, ids, start, &mut found);
+    found
 }
 
 /// All `count` triangles of the mesh of `points` input points, smallest id first in each, sorted. The memory of the
@@ -140,7 +146,7 @@ struct Edge {
 /// Lists the edges of a block of half-edges; returns their number.
 fn look_at(halves: &[Half], ids: &[u32], edges: &mut [Edge; BLOCK]) -> usize {
     let mut count = 0;
-    for pair in halves.as_chunks::<2>().0.iter().filter(|pair| pair[0].is_used()) {
+    for pair in halves.as_chunks::<2>().0.iter().filter(|pair| is_used([pair[0].end, pair[1].end])) {
         let id = |half: Half| ids[(half.end & !GAP) as usize];
         let (from, to) = (id(pair[1]), id(pair[0]));
         // An index instead of a branch, because no processor predicts which end has the smaller id.
@@ -307,7 +313,7 @@ mod tests {
         let mut halves = pages::zeros(HALVES * sites.len());
         let whole =
             segments::triangulate::<Integers<Narrow>>(&sites, &sites, &mut halves, 1, &mut |_| true).expect("points");
-        let hull = hull(&mut halves, &ids, whole.leftmost());
+        let hull = hull_of(&mut halves, &ids, whole.leftmost());
         let (buckets, count) = (Buckets::of(points.len(), 1), 2 * ids.len() - 2 - hull.len());
         let words = buckets.sorted::<Packed>(halves.clone(), &ids, count, 1);
         assert_eq!(words.len(), count);

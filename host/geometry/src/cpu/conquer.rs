@@ -8,7 +8,7 @@
 
 use alloc::vec::Vec;
 
-use super::edges::{Edges, Half};
+use super::edges::{Edges, Halves};
 use super::kernel::Kernel;
 use super::merge::{Cut, Part};
 
@@ -31,7 +31,14 @@ pub(super) type GoOn<'a> = &'a mut dyn FnMut(usize) -> bool;
 
 /// The stack of parts that wait for their other halves, each with the level of the cut after it. Levels fall towards
 /// the top of the stack.
+#[derive(Debug)]
 pub(super) struct Waiting(Vec<(Part, u32)>);
+
+impl Default for Waiting {
+    fn default() -> Self {
+        Self::new()
+    }
+}
 
 impl Waiting {
     pub(super) fn new() -> Self {
@@ -40,7 +47,12 @@ impl Waiting {
 
     /// Pushes the next part, after joining it with all waiting parts that lie below the cut `above`, which follows it.
     #[inline(always)]
-    pub(super) fn take<K: Kernel>(&mut self, edges: &mut Edges<'_, K>, mut part: Part, above: u32) {
+    pub(super) fn take<K: Kernel, H: Halves + ?Sized>(
+        &mut self,
+        edges: &mut Edges<'_, K, H>,
+        mut part: Part,
+        above: u32,
+    ) {
         while let Some((one, between)) = self.0.pop_if(|(_, between)| *between < above) {
             let cut = if between & 1 == 1 { Cut::Vertical } else { Cut::Horizontal };
             part = edges.merge(one, part, cut);
@@ -49,34 +61,33 @@ impl Waiting {
     }
 
     /// The part of all vertices, once the last part has been pushed.
-    pub(super) fn whole(mut self) -> Option<Part> {
+    pub(super) fn whole(&mut self) -> Option<Part> {
         self.0.pop().map(|(part, _)| part)
     }
 }
 
 /// Triangulates the distinct sites of a subtree, which stand along the curve, on this thread, given the place of each
-/// in the tree of cuts. Returns `None` if there are no sites, or if `go_on` ends the work.
-pub(super) fn conquer<K: Kernel>(
-    sites: &[K::Site],
+/// in the tree of cuts. `waiting` is empty, and so are all pairs of `halves`, from the first on. Returns `None` if
+/// there are no sites, or if `go_on` ends the work.
+pub(super) fn conquer<K: Kernel, H: Halves + ?Sized>(
+    edges: &mut Edges<'_, K, H>,
     places: &[K::Place],
-    halves: &mut [Half],
+    waiting: &mut Waiting,
     go_on: GoOn<'_>,
 ) -> Option<Part> {
-    let mut edges = Edges::<K> { sites, halves };
-    let mut waiting = Waiting::new();
     let (mut v, mut asked) = (0, 0);
-    // `before` is the level of the cut before vertex `v`; `after` has the levels of the cuts after `v`, `v + 1`
-    // and `v + 2`.
+    // `before` is the level of the cut before vertex `v`; `after` has the levels of the cuts after `v`
+    // and the next three.
     let mut before = TOP;
-    let mut after = [0, 1, 2].map(|ahead| level_after::<K>(places, ahead));
-    while v < sites.len() {
+    let mut after = [0, 1, 2, 3].map(|ahead| level_after::<K>(places, ahead));
+    while v < places.len() {
         let (part, count) = edges.leaf(v as u32, before, after);
         before = after[count - 1];
         for _ in 0..count {
             v += 1;
-            after = [after[1], after[2], level_after::<K>(places, v + 2)];
+            after = [after[1], after[2], after[3], level_after::<K>(places, v + 3)];
         }
-        waiting.take(&mut edges, part, before);
+        waiting.take(edges, part, before);
         if v - asked >= SLICE {
             if !go_on(v - asked) {
                 return None;
@@ -87,11 +98,16 @@ pub(super) fn conquer<K: Kernel>(
     (go_on(v - asked)).then(|| waiting.whole()).flatten()
 }
 
-impl<K: Kernel> Edges<'_, K> {
-    /// Triangulates the largest square or half square that begins with vertex `v` and has up to three vertices, and
+impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
+    /// Triangulates the largest square or half square that begins with vertex `v` and has up to four vertices, and
     /// counts these, given the levels of the cuts around them. Three vertices on a line are left to merges.
     #[inline(always)]
-    fn leaf(&mut self, v: u32, before: u32, after: [u32; 3]) -> (Part, usize) {
+    fn leaf(&mut self, v: u32, before: u32, after: [u32; 4]) -> (Part, usize) {
+        if after[0].max(after[1]).max(after[2]) < before.min(after[3]) {
+            if let Some(part) = self.four(v) {
+                return (part, 4);
+            }
+        }
         if after[0].max(after[1]) < before.min(after[2]) {
             if let Some(part) = self.triangle(v) {
                 return (part, 3);

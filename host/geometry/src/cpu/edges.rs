@@ -2,9 +2,12 @@
 //! 1985, without the dual).
 //!
 //! Half-edge `e` leads to its `end`; `e ^ 1` is the other half and leads back. Around a vertex, `next` is the next
-//! half-edge counter-clockwise and `previous` the next one clockwise. `n` points never have more than `3 n` edges, so
-//! vertex `v` brings the six half-edges from `6 v` on: a part of the plane owns a range of the list, nothing is
-//! allocated, and neighbours in the plane are neighbours in memory.
+//! half-edge counter-clockwise and `previous` the next one clockwise. `n` points never have more than `3 n` edges, so a
+//! part of the plane owns a range of six half-edges a vertex, and nothing is allocated.
+//!
+//! Unused pairs form a linked list without any preparation: both ends of an unused pair are equal, and the `next` of
+//! its first half counts from the pair behind it. So a range of zeros is the list of all its pairs in order. Pairs that
+//! become unused go to the front of the list, where they are still in the cache when they are taken again.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -13,17 +16,12 @@ use super::kernel::Kernel;
 /// Half-edges that a vertex brings.
 pub(super) const HALVES: usize = 6;
 
-/// Stands for the absence of a half-edge.
-const NONE: u32 = u32::MAX;
-
-/// The `end` of half-edges that are not in use.
-const UNUSED: u32 = u32::MAX;
-
 /// One half of an edge.
-#[derive(Clone, Copy, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(super) struct Half {
-    /// The next half-edge of this origin, counter-clockwise; of an unused pair, the next unused pair.
+    /// The next half-edge of this origin, counter-clockwise; of an unused pair, the place of the next unused pair,
+    /// counted from the pair behind this one.
     pub(super) next: u32,
     /// The next half-edge of this origin, clockwise.
     pub(super) previous: u32,
@@ -31,75 +29,101 @@ pub(super) struct Half {
     pub(super) end: u32,
 }
 
-impl Half {
-    /// Whether the half-edge is part of an edge.
-    pub(super) fn is_used(&self) -> bool {
-        self.end != UNUSED
-    }
+/// A list of half-edges.
+pub(super) trait Halves {
+    /// The bits of a number of a half-edge.
+    const MASK: u32;
+    /// A bit that no number of a vertex has.
+    const GAP: u32;
 
-    /// Renumbers the half-edge for a longer list: adds `by` to the numbers of half-edges and `vertices`
-    /// to those of vertices.
-    #[cfg(feature = "std")]
+    /// Reads a half-edge.
+    fn half(&self, e: u32) -> Half;
+
+    /// Writes a half-edge.
+    fn put(&mut self, e: u32, half: Half);
+
+    /// Writes the `next` of a half-edge.
+    fn set_next(&mut self, e: u32, next: u32);
+
+    /// Writes the `previous` of a half-edge.
+    fn set_previous(&mut self, e: u32, previous: u32);
+
+    /// Writes the `end` of a half-edge.
+    fn set_end(&mut self, e: u32, end: u32);
+}
+
+impl Halves for [Half] {
+    const MASK: u32 = u32::MAX;
+    const GAP: u32 = 1 << 31;
+
     #[inline(always)]
-    pub(super) fn move_by(&mut self, by: u32, vertices: u32) {
-        let Self { next, previous, end } = *self;
-        let end = if end == UNUSED { UNUSED } else { end + vertices };
-        *self = Self { next: moved(next, by), previous: moved(previous, by), end };
+    fn half(&self, e: u32) -> Half {
+        self[e as usize]
+    }
+
+    #[inline(always)]
+    fn put(&mut self, e: u32, half: Half) {
+        self[e as usize] = half;
+    }
+
+    #[inline(always)]
+    fn set_next(&mut self, e: u32, next: u32) {
+        self[e as usize].next = next;
+    }
+
+    #[inline(always)]
+    fn set_previous(&mut self, e: u32, previous: u32) {
+        self[e as usize].previous = previous;
+    }
+
+    #[inline(always)]
+    fn set_end(&mut self, e: u32, end: u32) {
+        self[e as usize].end = end;
     }
 }
 
-/// The number of a half-edge plus `by`; [`NONE`] stays as it is.
-#[cfg(feature = "std")]
+/// Whether a pair of half-edges is an edge. The ends of unused pairs are equal.
 #[inline(always)]
-pub(super) fn moved(e: u32, by: u32) -> u32 {
-    if e == NONE {
-        NONE
-    } else {
-        e + by
-    }
-}
-
-/// A linked list of unused pairs of half-edges.
-#[derive(Clone, Copy)]
-pub(super) struct Free {
-    pub(super) first: u32,
-    pub(super) last: u32,
+pub(super) fn is_used(ends: [u32; 2]) -> bool {
+    ends[0] != ends[1]
 }
 
 /// The sites of a segment and the half-edges between them, both numbered from the start of the segment.
-pub(super) struct Edges<'a, K: Kernel> {
+pub(super) struct Edges<'a, K: Kernel, H: Halves + ?Sized> {
     pub(super) sites: &'a [K::Site],
-    pub(super) halves: &'a mut [Half],
+    pub(super) halves: &'a mut H,
+    /// The first unused pair.
+    pub(super) unused: u32,
 }
 
-impl<K: Kernel> Edges<'_, K> {
+impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
     #[inline(always)]
     pub(super) fn next(&self, e: u32) -> u32 {
-        self.halves[e as usize].next
+        self.halves.half(e).next
     }
 
     #[inline(always)]
     pub(super) fn previous(&self, e: u32) -> u32 {
-        self.halves[e as usize].previous
+        self.halves.half(e).previous
     }
 
     /// The next half-edge of the origin, counter-clockwise, and the end.
     #[inline(always)]
     pub(super) fn next_and_end(&self, e: u32) -> (u32, u32) {
-        let Half { next, end, .. } = self.halves[e as usize];
+        let Half { next, end, .. } = self.halves.half(e);
         (next, end)
     }
 
     /// The next half-edge of the origin, clockwise, and the end.
     #[inline(always)]
     pub(super) fn previous_and_end(&self, e: u32) -> (u32, u32) {
-        let Half { previous, end, .. } = self.halves[e as usize];
+        let Half { previous, end, .. } = self.halves.half(e);
         (previous, end)
     }
 
     #[inline(always)]
     pub(super) fn end(&self, e: u32) -> u32 {
-        self.halves[e as usize].end
+        self.halves.half(e).end
     }
 
     #[inline(always)]
@@ -126,98 +150,75 @@ impl<K: Kernel> Edges<'_, K> {
 
     /// Makes the half-edges of a single vertex: a pair that begins and ends at the vertex, each alone in its circle.
     #[inline(always)]
-    pub(super) fn start_vertex(&mut self, v: u32) -> (u32, Free) {
-        let first = HALVES as u32 * v;
-        let own = &mut self.halves[first as usize..first as usize + HALVES];
-        own[0] = Half { next: first, previous: first, end: v };
-        own[1] = Half { next: first + 1, previous: first + 1, end: v };
-        (first, unused(&mut own[2..], first + 2))
+    pub(super) fn start_vertex(&mut self, v: u32) -> u32 {
+        let pair = self.take();
+        self.alone(pair, v);
+        self.alone(pair ^ 1, v);
+        pair
     }
 
     /// Makes the half-edges of two vertices, `v` and the next one: an edge between them.
     #[inline(always)]
-    pub(super) fn start_edge(&mut self, v: u32) -> (u32, Free) {
-        let first = HALVES as u32 * v;
-        let own = &mut self.halves[first as usize..first as usize + 2 * HALVES];
-        own[0] = Half { next: first, previous: first, end: v + 1 };
-        own[1] = Half { next: first + 1, previous: first + 1, end: v };
-        (first, unused(&mut own[2..], first + 2))
+    pub(super) fn start_edge(&mut self, v: u32) -> u32 {
+        let pair = self.take();
+        self.alone(pair, v + 1);
+        self.alone(pair ^ 1, v);
+        pair
     }
 
-    /// Makes the half-edges of three vertices from `v` on: a triangle with these corners, counter-clockwise. The first
-    /// half-edge of each pair leaves the corners in this order.
+    /// Makes the half-edges of a counter-clockwise triangle; returns those that leave the corners along the hull.
     #[inline(always)]
-    pub(super) fn start_triangle(&mut self, v: u32, [a, b, c]: [u32; 3]) -> (u32, Free) {
-        let first = HALVES as u32 * v;
-        let own = &mut self.halves[first as usize..first as usize + 3 * HALVES];
-        let only = |other: u32, end: u32| Half { next: first + other, previous: first + other, end };
-        own[..6].copy_from_slice(&[only(5, b), only(2, a), only(1, c), only(4, b), only(3, a), only(0, c)]);
-        (first, unused(&mut own[6..], first + 6))
+    pub(super) fn start_triangle(&mut self, [a, b, c]: [u32; 3]) -> [u32; 3] {
+        let [at_a, at_b, at_c] = [self.take(), self.take(), self.take()];
+        let mut put = |e: u32, other: u32, end: u32| self.halves.put(e, Half { next: other, previous: other, end });
+        put(at_a, at_c ^ 1, b);
+        put(at_a ^ 1, at_b, a);
+        put(at_b, at_a ^ 1, c);
+        put(at_b ^ 1, at_c, b);
+        put(at_c, at_b ^ 1, a);
+        put(at_c ^ 1, at_a, c);
+        [at_a, at_b, at_c]
     }
 
     /// Puts half-edge `e`, which leads to `end`, between two neighbours of the circle around its origin.
     #[inline(always)]
     pub(super) fn insert(&mut self, e: u32, end: u32, previous: u32, next: u32) {
-        self.halves[previous as usize].next = e;
-        self.halves[next as usize].previous = e;
-        self.halves[e as usize] = Half { next, previous, end };
+        self.halves.set_next(previous, e);
+        self.halves.set_previous(next, e);
+        self.halves.put(e, Half { next, previous, end });
     }
 
     /// Makes half-edge `e`, which leads to `end`, the only half-edge of its origin.
     #[inline(always)]
     pub(super) fn alone(&mut self, e: u32, end: u32) {
-        self.halves[e as usize] = Half { next: e, previous: e, end };
+        self.halves.put(e, Half { next: e, previous: e, end });
     }
 
     /// Takes an unused pair. There is always one, because a plane graph has fewer edges than three times its vertices.
     #[inline(always)]
-    pub(super) fn take(&mut self, free: &mut Free) -> u32 {
-        let pair = free.first;
-        free.first = self.next(pair);
+    pub(super) fn take(&mut self) -> u32 {
+        let pair = self.unused;
+        self.unused = self.next(pair).wrapping_add(pair + 2) & H::MASK;
         pair
     }
 
     /// Takes an edge out of the circles around both its ends, and makes its pair unused.
     #[inline(always)]
-    pub(super) fn remove(&mut self, e: u32, free: &mut Free) {
+    pub(super) fn remove(&mut self, e: u32) {
         for half in [e, e ^ 1] {
-            let Half { next, previous, .. } = self.halves[half as usize];
-            self.halves[previous as usize].next = next;
-            self.halves[next as usize].previous = previous;
+            let Half { next, previous, .. } = self.halves.half(half);
+            self.halves.set_next(previous, next);
+            self.halves.set_previous(next, previous);
         }
-        self.give(e & !1, free);
+        self.give(e & !1);
     }
 
     /// Returns a pair to the unused ones.
     #[inline(always)]
-    pub(super) fn give(&mut self, pair: u32, free: &mut Free) {
-        self.halves[pair as usize] = Half { next: free.first, previous: NONE, end: UNUSED };
-        self.halves[(pair ^ 1) as usize] = Half { next: NONE, previous: NONE, end: UNUSED };
-        if free.first == NONE {
-            free.last = pair;
-        }
-        free.first = pair;
+    pub(super) fn give(&mut self, pair: u32) {
+        self.halves.set_next(pair, self.unused.wrapping_sub(pair + 2));
+        self.halves.set_end(pair, 0);
+        self.halves.set_end(pair ^ 1, 0);
+        self.unused = pair;
     }
-
-    /// Joins two lists of unused pairs.
-    #[inline(always)]
-    pub(super) fn join(&mut self, one: Free, other: Free) -> Free {
-        if one.first == NONE {
-            return other;
-        }
-        self.halves[one.last as usize].next = other.first;
-        Free { first: one.first, last: if other.first == NONE { one.last } else { other.last } }
-    }
-}
-
-/// Links all pairs of a range that begins with half-edge `first` into a list of unused pairs.
-#[inline(always)]
-fn unused(own: &mut [Half], first: u32) -> Free {
-    let last = first + own.len() as u32 - 2;
-    for (pair, halves) in (first..).step_by(2).zip(own.chunks_exact_mut(2)) {
-        let next = if pair == last { NONE } else { pair + 2 };
-        halves[0] = Half { next, previous: NONE, end: UNUSED };
-        halves[1] = Half { next: NONE, previous: NONE, end: UNUSED };
-    }
-    Free { first, last }
 }

@@ -67,6 +67,9 @@ impl<C: Coordinate> Kernel for Filtered<C> {
     type Seen = Seen<C>;
     type Place = Place;
 
+    /// A view of a point on the line of the base edge takes exact integers.
+    const HAS_CHEAP_VIEWS: bool = false;
+
     #[inline(always)]
     fn swapped(site: FilteredSite<C>) -> FilteredSite<C> {
         FilteredSite([site.0[1], site.0[0]])

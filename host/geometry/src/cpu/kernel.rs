@@ -16,6 +16,9 @@ pub(super) trait Kernel: Copy + Sync + 'static {
     /// The place of a point in the tree of cuts.
     type Place: Copy + Send + Sync;
 
+    /// Whether a view that may not be needed costs less than a branch that a processor cannot predict.
+    const HAS_CHEAP_VIEWS: bool;
+
     /// Swaps the axes of a point, so that points compare by y, then x.
     fn swapped(site: Self::Site) -> Self::Site;
 
@@ -34,6 +37,13 @@ pub(super) trait Kernel: Copy + Sync + 'static {
     /// The sign of the determinant of incircle of the base edge `a`, `b` and the points of two views, of which that of
     /// `c` lies to the left: `Greater` if `q` lies inside the circle through `a`, `b` and `c`.
     fn incircle(a: Self::Site, b: Self::Site, c: Self::Seen, q: Self::Seen) -> Ordering;
+
+    /// Whether the point of `c` lies to the left of the base edge, and that of `q` inside the circle through `a`, `b`
+    /// and `c`; see [`is_inside`]. Kernels with cheap determinants compute both without a branch in between.
+    #[inline(always)]
+    fn is_left_and_inside(a: Self::Site, b: Self::Site, c: Self::Seen, q: Self::Seen) -> bool {
+        Self::is_left(c) && is_inside::<Self>(a, b, c, q)
+    }
 
     /// The level of the cut that separates two places: odd if all x of the first are at most those of the second and
     /// equal only with smaller y, even if the same holds with the axes swapped. Of three places in a row, the outer two
@@ -57,7 +67,7 @@ pub(super) fn is_inside<K: Kernel>(a: K::Site, b: K::Site, c: K::Seen, q: K::See
 
 /// Decides a tie: `a`, `b`, `c`, `q` lie on one circle, or `q` is on the line of `a` and `b`.
 #[inline(never)]
-fn tie_is_inside<K: Kernel>(a: K::Site, b: K::Site, c: K::Site, q: K::Seen) -> bool {
+pub(super) fn tie_is_inside<K: Kernel>(a: K::Site, b: K::Site, c: K::Site, q: K::Seen) -> bool {
     if !K::is_left(q) {
         return false;
     }

@@ -1,40 +1,29 @@
 //! The merge of two triangulations on both sides of a line (Guibas and Stolfi 1985).
 
-#[cfg(feature = "std")]
-use super::edges::{moved, Half, HALVES};
-use super::edges::{Edges, Free};
-use super::kernel::{is_inside, Kernel};
+use super::edges::{Edges, Halves};
+use super::kernel::Kernel;
 
 /// The triangulation of a subset of the points, known by its outermost vertices. Each of those is given as the
 /// half-edge that leaves it counter-clockwise along the hull.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Part {
     /// At the vertex of smallest x, and of smallest y among those.
-    left: u32,
+    pub(super) left: u32,
     /// At the vertex of largest x, and of largest y among those.
-    right: u32,
+    pub(super) right: u32,
     /// At the vertex of smallest y, and of smallest x among those.
-    bottom: u32,
+    pub(super) bottom: u32,
     /// At the vertex of largest y, and of largest x among those.
-    top: u32,
-    /// Unused half-edges for more edges.
-    free: Free,
+    pub(super) top: u32,
     /// Whether the part is a single vertex, whose half-edge leads back to it.
-    is_vertex: bool,
+    pub(super) is_vertex: bool,
 }
 
 impl Part {
-    /// Renumbers the half-edges of a segment, which begins with vertex `first`, from the start of all; returns the part
-    /// with the new numbers.
-    #[cfg(feature = "std")]
-    pub(super) fn moved(self, halves: &mut [Half], first: u32) -> Self {
-        let by = HALVES as u32 * first;
-        for half in halves.iter_mut() {
-            half.move_by(by, first);
-        }
-        let Self { left, right, bottom, top, free, is_vertex } = self;
-        let free = Free { first: moved(free.first, by), last: moved(free.last, by) };
-        Self { left: left + by, right: right + by, bottom: bottom + by, top: top + by, free, is_vertex }
+    /// The part after `by` was added to the numbers of all half-edges.
+    pub(super) fn moved(self, by: u32) -> Self {
+        let Self { left, right, bottom, top, is_vertex } = self;
+        Self { left: left + by, right: right + by, bottom: bottom + by, top: top + by, is_vertex }
     }
 
     /// The half-edge that leaves the leftmost vertex counter-clockwise along the hull.
@@ -64,75 +53,31 @@ struct Base {
     b: u32,
 }
 
-/// A vertex of one part that may become the third corner of the next triangle: the end of `edge`, which begins
-/// at `a` or `b`.
+/// A vertex of one part that may become the third corner of the next triangle: the end of `edge`, which begins at `a`
+/// or `b`; and the next vertex around `a` or `b`, away from the base edge.
 #[derive(Clone, Copy)]
 struct Candidate<K: Kernel> {
     edge: u32,
     end: u32,
-    seen: K::Seen,
+    /// The site of `end`.
+    site: K::Site,
+    /// The half-edge after `edge`, and the one after that.
+    after: u32,
+    after_next: u32,
+    end_of_next: u32,
+    /// The site of `end_of_next`, to which `after` leads.
+    behind: K::Site,
 }
 
-impl<K: Kernel> Candidate<K> {
-    /// Whether the vertex lies to the left of the base edge.
-    #[inline(always)]
-    fn is_valid(&self) -> bool {
-        K::is_left(self.seen)
-    }
-}
-
-impl<K: Kernel> Edges<'_, K> {
-    /// Makes the part of one vertex.
-    #[inline(always)]
-    pub(super) fn vertex(&mut self, v: u32) -> Part {
-        let (own, free) = self.start_vertex(v);
-        Part { left: own, right: own, bottom: own, top: own, free, is_vertex: true }
-    }
-
-    /// Makes the part of two vertices, `v` and the next one.
-    #[inline(always)]
-    pub(super) fn edge(&mut self, v: u32) -> Part {
-        let (own, free) = self.start_edge(v);
-        let (a, b) = (self.site(v), self.site(v + 1));
-        let lower = |is_first: bool| own + u32::from(!is_first);
-        let (by_x, by_y) = (lower(a < b), lower(K::swapped(a) < K::swapped(b)));
-        Part { left: by_x, right: by_x ^ 1, bottom: by_y, top: by_y ^ 1, free, is_vertex: false }
-    }
-
-    /// Makes the part of three vertices, `v` and the next two; `None` if they lie on one line.
-    #[inline(always)]
-    pub(super) fn triangle(&mut self, v: u32) -> Option<Part> {
-        let at = |k: u32| self.site(v + k);
-        let turn = K::orient2d(at(0), at(1), at(2));
-        if turn.is_eq() {
-            return None;
-        }
-        let (second, third) = if turn.is_gt() { (1, 2) } else { (2, 1) };
-        let corners = [at(0), at(second), at(third)];
-        let (own, free) = self.start_triangle(v, [v, v + second, v + third]);
-        // The half-edge of each corner along the hull is the first one of a pair: 0, 2 and 4 from `own` on.
-        let least = |keys: [K::Site; 3]| {
-            let (key, place) = if keys[1] < keys[0] { (keys[1], 2) } else { (keys[0], 0) };
-            own + if keys[2] < key { 4 } else { place }
-        };
-        let most = |keys: [K::Site; 3]| {
-            let (key, place) = if keys[1] > keys[0] { (keys[1], 2) } else { (keys[0], 0) };
-            own + if keys[2] > key { 4 } else { place }
-        };
-        let swapped = corners.map(K::swapped);
-        let (left, right, bottom, top) = (least(corners), most(corners), least(swapped), most(swapped));
-        Some(Part { left, right, bottom, top, free, is_vertex: false })
-    }
-
+impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
     /// Joins two parts, at least one of which has an edge.
     pub(super) fn merge(&mut self, one: Part, other: Part, cut: Cut) -> Part {
         debug_assert!(!(one.is_vertex && other.is_vertex), "the pair of one would be lost");
-        let mut free = self.join(one.free, other.free);
-        let first = self.lower_tangent(&one, &other, cut, &mut free);
+        let first = self.lower_tangent(&one, &other, cut);
         // `zip` may remove the half-edges of vertices that are ends of the first or the last base edge. The vertices
         // stay, so both are remembered, and such a half-edge is replaced by that of the base edge.
         let outermost = self.outermost(&one, &other, cut).map(|e| (e, self.origin(e)));
-        let last = self.zip(first, &mut free);
+        let last = self.zip(first);
         let [left, right, bottom, top] = outermost.map(|(e, vertex)| {
             let e = if vertex == first.a { first.at_a } else { e };
             if vertex == last.b {
@@ -141,12 +86,12 @@ impl<K: Kernel> Edges<'_, K> {
                 e
             }
         });
-        Part { left, right, bottom, top, free, is_vertex: false }
+        Part { left, right, bottom, top, is_vertex: false }
     }
 
     /// Makes the first base edge. All points of both parts lie on its line or to its left.
     #[inline(always)]
-    fn lower_tangent(&mut self, one: &Part, other: &Part, cut: Cut, free: &mut Free) -> Base {
+    fn lower_tangent(&mut self, one: &Part, other: &Part, cut: Cut) -> Base {
         let (facing, mut rdi) = match cut {
             Cut::Vertical => (one.right, other.left),
             Cut::Horizontal => (one.top, other.bottom),
@@ -166,23 +111,18 @@ impl<K: Kernel> Edges<'_, K> {
                 break;
             }
         }
-        self.first_edge((ldi, one.is_vertex), (rdi, other.is_vertex), free)
+        self.first_edge((ldi, one.is_vertex), (rdi, other.is_vertex))
     }
 
     /// Makes the edge between the origins of two half-edges along the hulls. A single vertex already has a
     /// pair for the edge.
     #[inline(always)]
-    fn first_edge(
-        &mut self,
-        (ldi, a_is_vertex): (u32, bool),
-        (rdi, b_is_vertex): (u32, bool),
-        free: &mut Free,
-    ) -> Base {
+    fn first_edge(&mut self, (ldi, a_is_vertex): (u32, bool), (rdi, b_is_vertex): (u32, bool)) -> Base {
         let (a, b) = (self.origin(ldi), self.origin(rdi));
         let at_a = match (a_is_vertex, b_is_vertex) {
             (true, _) => ldi,
             (false, true) => rdi ^ 1,
-            (false, false) => self.take(free),
+            (false, false) => self.take(),
         };
         let at_b = at_a ^ 1;
         if a_is_vertex {
@@ -200,37 +140,75 @@ impl<K: Kernel> Edges<'_, K> {
 
     /// Fills the gap with triangles from the first base edge on; returns the last base edge.
     #[inline(always)]
-    fn zip(&mut self, mut base: Base, free: &mut Free) -> Base {
+    fn zip(&mut self, mut base: Base) -> Base {
+        let (mut a, mut b) = (self.site(base.a), self.site(base.b));
+        let mut one = self.candidate::<true>(self.next(base.at_a));
+        let mut other = self.candidate::<false>(self.previous(base.at_b));
         loop {
-            let (a, b) = (self.site(base.a), self.site(base.b));
-            let one = self.candidate::<true>(base, a, b, free);
-            let other = self.candidate::<false>(base, a, b, free);
-            let other_is_next = match (one.is_valid(), other.is_valid()) {
-                (false, false) => return base,
-                (true, true) => is_inside::<K>(a, b, one.seen, other.seen),
-                (_, other_is_valid) => other_is_valid,
-            };
-            base = self.connect(base, one, other, other_is_next, free);
+            let from_one = self.advance::<true>(&mut one, a, b);
+            let from_other = self.advance::<false>(&mut other, a, b);
+            let (one_is_valid, other_is_valid) = (K::is_left(from_one), K::is_left(from_other));
+            if !(one_is_valid | other_is_valid) {
+                return base;
+            }
+            let pair = self.take();
+            // The new base edge leads from the corner of the triangle to the vertex that stays. `back` leads from the
+            // corner to the other one. The candidate of the vertex that stays is still the next one around it.
+            if other_is_valid & (!one_is_valid | K::is_left_and_inside(a, b, from_one, from_other)) {
+                let back = other.edge ^ 1;
+                let previous = self.previous(back);
+                self.insert(pair, other.end, base.at_a, one.edge);
+                self.insert(pair ^ 1, base.a, previous, back);
+                base = Base { at_a: pair, at_b: pair ^ 1, a: base.a, b: other.end };
+                b = other.site;
+                other = self.candidate::<false>(previous);
+            } else {
+                let back = one.edge ^ 1;
+                let next = self.next(back);
+                self.insert(pair ^ 1, one.end, other.edge, base.at_b);
+                self.insert(pair, base.b, back, next);
+                base = Base { at_a: pair, at_b: pair ^ 1, a: one.end, b: base.b };
+                a = one.site;
+                one = self.candidate::<true>(next);
+            }
         }
     }
 
-    /// Finds the first vertex of one part that a circle through `a` and `b` meets as it grows to the left, and removes
-    /// the edges at `a` or `b` that cross the new triangle. The part is the first one if `OF_A`, else the second.
+    /// The end of a half-edge at `a` if `OF_A`, else at `b`, as a candidate.
     #[inline(always)]
-    fn candidate<const OF_A: bool>(&mut self, base: Base, a: K::Site, b: K::Site, free: &mut Free) -> Candidate<K> {
-        let mut edge = if OF_A { self.next(base.at_a) } else { self.previous(base.at_b) };
-        let (mut after, mut end) = self.beside::<OF_A>(edge);
-        let mut seen = K::see(a, b, self.site(end));
-        while K::is_left(seen) {
-            let (after_next, end_of_next) = self.beside::<OF_A>(after);
-            let behind = K::see(a, b, self.site(end_of_next));
-            if !is_inside::<K>(a, b, seen, behind) {
-                break;
+    fn candidate<const OF_A: bool>(&self, edge: u32) -> Candidate<K> {
+        let (after, end) = self.beside::<OF_A>(edge);
+        let (after_next, end_of_next) = self.beside::<OF_A>(after);
+        Candidate { edge, end, site: self.site(end), after, after_next, end_of_next, behind: self.site(end_of_next) }
+    }
+
+    /// Finds the first vertex of one part that a circle through `a` and `b` meets as it grows to the left, from the
+    /// given candidate on, and removes the edges at `a` or `b` that cross the new triangle. Returns the vertex's view.
+    #[inline(always)]
+    fn advance<const OF_A: bool>(&mut self, candidate: &mut Candidate<K>, a: K::Site, b: K::Site) -> K::Seen {
+        let mut seen = K::see(a, b, candidate.site);
+        loop {
+            if !K::HAS_CHEAP_VIEWS && !K::is_left(seen) {
+                return seen;
             }
-            self.remove(edge, free);
-            (edge, after, end, seen) = (after, after_next, end_of_next, behind);
+            let behind = K::see(a, b, candidate.behind);
+            if !K::is_left_and_inside(a, b, seen, behind) {
+                return seen;
+            }
+            self.remove(candidate.edge);
+            let Candidate { after, after_next, end_of_next, behind: site, .. } = *candidate;
+            let (after_that, end) = self.beside::<OF_A>(after_next);
+            *candidate = Candidate {
+                edge: after,
+                end: end_of_next,
+                site,
+                after: after_next,
+                after_next: after_that,
+                end_of_next: end,
+                behind: self.site(end),
+            };
+            seen = behind;
         }
-        Candidate { edge, end, seen }
     }
 
     /// The next half-edge around the same vertex, away from the base edge, and the end of the given half-edge.
@@ -240,35 +218,6 @@ impl<K: Kernel> Edges<'_, K> {
             self.next_and_end(edge)
         } else {
             self.previous_and_end(edge)
-        }
-    }
-
-    /// Makes the next base edge: from `a` to the end of `other`, or from the end of `one` to `b`. The code selects
-    /// instead of branching, because no processor predicts which of the two it is.
-    #[inline(always)]
-    fn connect(
-        &mut self,
-        base: Base,
-        one: Candidate<K>,
-        other: Candidate<K>,
-        other_is_next: bool,
-        free: &mut Free,
-    ) -> Base {
-        let select = |if_other: u32, if_one: u32| if other_is_next { if_other } else { if_one };
-        let pair = self.take(free);
-        let (at_kept, at_corner) = (pair, pair ^ 1);
-        // `back` leads from the new corner to `a` or `b`. The new half-edge stands beside `back`, on the
-        // side of the base.
-        let back = select(other.edge, one.edge) ^ 1;
-        let (corner, kept) = (select(other.end, one.end), select(base.a, base.b));
-        let (next, previous) = (self.next(back), self.previous(back));
-        self.insert(at_corner, kept, select(previous, back), select(back, next));
-        self.insert(at_kept, corner, select(base.at_a, other.edge), select(one.edge, base.at_b));
-        Base {
-            at_a: select(at_kept, at_corner),
-            at_b: select(at_corner, at_kept),
-            a: select(base.a, corner),
-            b: select(corner, base.b),
         }
     }
 

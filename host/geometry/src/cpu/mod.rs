@@ -9,10 +9,14 @@
 //! radix sort is enough, and the tree of cuts has at most `2 w` levels for coordinates of `w` bits. File by file:
 //!
 //! 1. `sites` sorts the points along a Z-curve, whose quadrants form the tree of cuts.
-//! 2. `conquer` triangulates the parts of that tree from the leaves up, and `segments` does so on several threads.
+//! 2. `conquer` triangulates the parts of that tree from the leaves up. `leaf` builds parts of up to four vertices.
+//!    Larger sets are cut into `subtrees`, whose half-edges have numbers of 16 bits (`short`), and `segments` deals
+//!    the subtrees to threads.
 //! 3. `merge` joins two parts along their common border, on the half-edges of `edges`, with the predicates of `view`,
 //!    which never round and contain the tie rule.
 //! 4. `collect` finds the triangles at the edges, in the order of the curve, and sorts them.
+//!
+//! [`Triangulator`] does the same for many small sets, in memory that it keeps (`small`).
 //!
 //! Before points and triangles are sorted, `buckets` distributes them to buckets that are small enough to be
 //! sorted in the cache.
@@ -32,16 +36,21 @@ mod edges;
 mod filtered;
 mod filtered_sites;
 mod kernel;
+mod leaf;
 mod merge;
 #[cfg(test)]
 mod oracle;
 mod parallel;
 #[cfg(feature = "std")]
 mod segments;
+mod short;
 mod sites;
+mod small;
+mod subtrees;
 #[cfg(test)]
 mod tests;
 mod triangulator;
 mod view;
 
+pub use small::Triangulator;
 pub use triangulator::{connect, threads_for, triangulate, Connectivity, Error, Progress, Stage, Watch};

@@ -4,11 +4,13 @@ use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 use std::thread::Builder;
 
-use super::conquer::{conquer, level_after, GoOn, Waiting};
+use super::conquer::{conquer, GoOn, Waiting};
 use super::edges::{Edges, Half, HALVES};
 use super::kernel::Kernel;
 use super::merge::Part;
 use super::parallel::lock;
+use super::short::{self, ShortHalves};
+use super::subtrees::{divide, join, Own};
 
 /// Segments for each thread: enough for all threads to end at about the same time.
 const SEGMENTS: usize = 8;
@@ -28,33 +30,16 @@ pub(super) fn triangulate<K: Kernel>(
     threads: usize,
     go_on: GoOn<'_>,
 ) -> Option<Part> {
-    if threads < 2 {
-        return conquer::<K>(sites, places, halves, go_on);
+    // Where views are dear, half-edges are too small a part of the work to be copied.
+    if threads < 2 && (sites.len() <= short::MOST || !K::HAS_CHEAP_VIEWS) {
+        return conquer(&mut Edges::<K, _> { sites, halves, unused: 0 }, places, &mut Waiting::new(), go_on);
     }
+    let most = if threads < 2 { short::MOST } else { (sites.len() / (SEGMENTS * threads)).clamp(LEAST, short::MOST) };
     let mut segments = Vec::new();
-    divide::<K>(places, 0..sites.len(), (sites.len() / (SEGMENTS * threads)).max(LEAST), &mut segments);
+    divide::<K>(places, 0..sites.len(), most, &mut segments);
     let parts = conquer_all::<K>(sites, places, halves, &segments, threads, go_on);
-    let mut edges = Edges::<K> { sites, halves };
-    let mut waiting = Waiting::new();
-    for (segment, part) in segments.iter().zip(parts) {
-        waiting.take(&mut edges, part?, level_after::<K>(places, segment.end - 1));
-    }
-    waiting.whole()
-}
-
-/// Cuts a subtree into segments, which are subtrees of up to `most` vertices.
-fn divide<K: Kernel>(places: &[K::Place], subtree: Range<usize>, most: usize, segments: &mut Vec<Range<usize>>) {
-    let within = &places[subtree.clone()];
-    let [first, .., last] = *within else {
-        return segments.push(subtree);
-    };
-    if within.len() <= most {
-        return segments.push(subtree);
-    }
-    let topmost = K::level(first, last);
-    let place = subtree.start + within.partition_point(|&place| K::level(first, place) < topmost);
-    divide::<K>(places, subtree.start..place, most, segments);
-    divide::<K>(places, place..subtree.end, most, segments);
+    let mut edges = Edges::<K, _> { sites, halves, unused: 0 };
+    join(&mut edges, places, &segments, &parts, &mut Waiting::new())
 }
 
 /// A segment to be triangulated: its place among all, its vertices and half-edges.
@@ -68,7 +53,7 @@ fn conquer_all<K: Kernel>(
     segments: &[Range<usize>],
     threads: usize,
     go_on: GoOn<'_>,
-) -> Vec<Option<Part>> {
+) -> Vec<Option<Own>> {
     let mut tasks: Vec<Task<'_>> = Vec::with_capacity(segments.len());
     for (place, segment) in segments.iter().enumerate() {
         let (own, rest) = std::mem::take(&mut halves).split_at_mut(HALVES * segment.len());
@@ -76,16 +61,20 @@ fn conquer_all<K: Kernel>(
         halves = rest;
     }
     let (tasks, parts) = (Mutex::new(tasks), Mutex::new(vec![None; segments.len()]));
-    let work = |go_on: GoOn<'_>| loop {
-        let task = lock(&tasks).pop();
-        let Some((place, segment, halves)) = task else {
-            return;
-        };
-        let Some(part) = conquer::<K>(&sites[segment.clone()], &places[segment.clone()], halves, go_on) else {
-            // An empty list of tasks makes the other threads end as well.
-            return lock(&tasks).clear();
-        };
-        lock(&parts)[place] = Some(part.moved(halves, segment.start as u32));
+    let work = |go_on: GoOn<'_>| {
+        let (mut short, mut waiting) = (ShortHalves::new(), Waiting::new());
+        loop {
+            let task = lock(&tasks).pop();
+            let Some((place, segment, halves)) = task else {
+                return;
+            };
+            let own = short.conquer_range::<K>(segment, (sites, places), halves, &mut waiting, go_on);
+            if own.is_none() {
+                // An empty list of tasks makes the other threads end as well.
+                return lock(&tasks).clear();
+            }
+            lock(&parts)[place] = own;
+        }
     };
     std::thread::scope(|scope| {
         for _ in 1..threads {

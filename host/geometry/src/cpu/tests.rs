@@ -56,7 +56,12 @@ fn ties_are_decided<W: Width>() -> usize {
     let mut ties = 0;
     for (&a, &b) in grid.iter().flat_map(|a| grid.iter().map(move |b| (a, b))) {
         let seen = grid.iter().map(|&site| Integers::<W>::see(a, b, site));
-        let above: Vec<_> = seen.filter(|&seen| Integers::<W>::is_left(seen)).collect();
+        let seen: Vec<_> = seen.collect();
+        for (&c, &q) in seen.iter().flat_map(|c| seen.iter().map(move |q| (c, q))) {
+            let expected = Integers::<W>::is_left(c) && is_inside::<Integers<W>>(a, b, c, q);
+            assert_eq!(Integers::<W>::is_left_and_inside(a, b, c, q), expected);
+        }
+        let above: Vec<_> = seen.into_iter().filter(|&seen| Integers::<W>::is_left(seen)).collect();
         for (&c, &q) in above.iter().flat_map(|c| above.iter().map(move |q| (c, q))).filter(|(c, q)| c.site != q.site) {
             assert_eq!(is_inside::<Integers<W>>(a, b, c, q), conflicts(a, b, c.site, q.site));
             ties += usize::from(lifted(a, b, c.site, q.site) == 0);
@@ -85,7 +90,7 @@ fn triangles(points: &[Point], threads: usize) -> Vec<[u32; 3]> {
     let mut halves = pages::zeros::<Half>(HALVES * sites.len());
     let whole =
         segments::triangulate::<Integers<Wide>>(&sites, &sites, &mut halves, threads, &mut |_| true).expect("points");
-    let hull = collect::hull(&mut halves, &ids, whole.leftmost());
+    let hull = collect::hull_of(&mut halves, &ids, whole.leftmost());
     collect::triangles(halves, &ids, points.len(), 2 * ids.len() - 2 - hull.len(), threads)
 }
 

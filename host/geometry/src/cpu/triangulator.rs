@@ -4,17 +4,14 @@ use alloc::vec::Vec;
 use core::num::NonZeroUsize;
 use core::ops::ControlFlow;
 
-#[cfg(not(feature = "std"))]
-use super::conquer::conquer;
 use super::edges::{Half, HALVES};
 use super::filtered::{Filtered, FilteredSite};
 use super::filtered_sites::{self, FilteredSites};
 use super::kernel::Kernel;
-#[cfg(feature = "std")]
-use super::segments;
 use super::sites::{sort, Sites};
+use super::subtrees::whole;
 use super::view::{Integers, Narrow, Wide, Widest, Width, NARROW_BITS, WIDE_BITS};
-use super::{collect, conquer::GoOn, merge::Part};
+use super::{collect, merge::Part};
 use crate::double::Coordinate;
 use crate::lattice::Numbers;
 use crate::mesh::Mesh;
@@ -148,10 +145,12 @@ fn connect_grid(points: &[Point], threads: NonZeroUsize, watch: Watch<'_>) -> Re
     let threads = threads_for(points.len(), threads).get();
     tell(watch, Stage::Order, 0, points.len())?;
     let sites = sort(points, threads);
-    match sites.bits {
-        ..=NARROW_BITS => connect_sites::<Narrow>(points, sites, threads, watch),
-        ..=WIDE_BITS => connect_sites::<Wide>(points, sites, threads, watch),
-        _ => connect_sites::<Widest>(points, sites, threads, watch),
+    if sites.bits <= NARROW_BITS {
+        connect_sites::<Narrow>(points, sites, threads, watch)
+    } else if sites.bits <= WIDE_BITS {
+        connect_sites::<Wide>(points, sites, threads, watch)
+    } else {
+        connect_sites::<Widest>(points, sites, threads, watch)
     }
 }
 
@@ -195,7 +194,7 @@ fn connect_filtered<C: Coordinate>(
     Ok(Connectivity { triangles, hull, duplicates })
 }
 
-fn check(points: usize) -> Result<(), Error> {
+pub(super) fn check(points: usize) -> Result<(), Error> {
     if points > MAX_POINTS {
         return Err(Error::TooManyPoints { points });
     }
@@ -256,36 +255,14 @@ fn assemble(
     let Some(whole) = whole else {
         return Ok((Vec::new(), Vec::new()));
     };
-    let hull = collect::hull(&mut halves, ids, whole.leftmost());
+    let hull = collect::hull_of(&mut halves, ids, whole.leftmost());
     let count = 2 * ids.len() - 2 - hull.len();
     let triangles = collect::triangles(halves, ids, points, count, threads);
     Ok((triangles, hull))
 }
 
-#[cfg(feature = "std")]
-fn whole<K: Kernel>(
-    sites: &[K::Site],
-    places: &[K::Place],
-    halves: &mut [Half],
-    threads: usize,
-    go_on: GoOn<'_>,
-) -> Option<Part> {
-    segments::triangulate::<K>(sites, places, halves, threads, go_on)
-}
-
-#[cfg(not(feature = "std"))]
-fn whole<K: Kernel>(
-    sites: &[K::Site],
-    places: &[K::Place],
-    halves: &mut [Half],
-    _threads: usize,
-    go_on: GoOn<'_>,
-) -> Option<Part> {
-    conquer::<K>(sites, places, halves, go_on)
-}
-
 /// Whether there are fewer than three sites, or all lie on one line.
-fn is_collinear<K: Kernel>(sites: &[K::Site]) -> bool {
+pub(super) fn is_collinear<K: Kernel>(sites: &[K::Site]) -> bool {
     let [a, b, rest @ ..] = sites else {
         return true;
     };

@@ -41,7 +41,7 @@ use core::marker::PhantomData;
 
 use bytemuck::Zeroable;
 
-use super::kernel::Kernel;
+use super::kernel::{tie_is_inside, Kernel};
 use crate::point::Point;
 
 /// Determinants fit 64 bits if coordinates have up to this many bits.
@@ -75,13 +75,16 @@ pub(super) trait Width: Copy + Sync + 'static {
     /// The integer that holds a cross or a dot product.
     type Product: Copy + Ord + Default;
     /// The integer that holds the determinant.
-    type Determinant: Ord + Default;
+    type Determinant: Copy + Ord + Default;
 
     /// Views the edge from `a` to `b` from `p`.
     fn view(a: Site, b: Site, p: Site) -> View<Self::Product>;
 
     /// Computes the determinant of the views from `c` and `q`, `dot(c) cross(q) - dot(q) cross(c)`.
     fn determinant(c: View<Self::Product>, q: View<Self::Product>) -> Self::Determinant;
+
+    /// The determinant if the cross product is positive, else -1; without a branch.
+    fn if_left(cross: Self::Product, determinant: Self::Determinant) -> Self::Determinant;
 }
 
 /// The view in 64 bits, of coordinates of up to [`WIDE_BITS`] bits.
@@ -109,6 +112,11 @@ impl Width for Narrow {
     fn determinant(c: View<i64>, q: View<i64>) -> i64 {
         c.dot.wrapping_mul(q.cross).wrapping_sub(q.dot.wrapping_mul(c.cross))
     }
+
+    #[inline(always)]
+    fn if_left(cross: i64, determinant: i64) -> i64 {
+        determinant | (cross - 1) >> 63
+    }
 }
 
 /// Arithmetic for coordinates of up to [`WIDE_BITS`] bits.
@@ -127,6 +135,11 @@ impl Width for Wide {
     #[inline(always)]
     fn determinant(c: View<i64>, q: View<i64>) -> i128 {
         i128::from(c.dot) * i128::from(q.cross) - i128::from(q.dot) * i128::from(c.cross)
+    }
+
+    #[inline(always)]
+    fn if_left(cross: i64, determinant: i128) -> i128 {
+        determinant | i128::from((cross - 1) >> 63)
     }
 }
 
@@ -150,6 +163,11 @@ impl Width for Widest {
     fn determinant(c: View<i128>, q: View<i128>) -> i128 {
         c.dot.wrapping_mul(q.cross).wrapping_sub(q.dot.wrapping_mul(c.cross))
     }
+
+    #[inline(always)]
+    fn if_left(cross: i128, determinant: i128) -> i128 {
+        determinant | (cross - 1) >> 127
+    }
 }
 
 /// The kernel of grid points.
@@ -167,6 +185,8 @@ impl<W: Width> Kernel for Integers<W> {
     type Site = Site;
     type Seen = Seen<W::Product>;
     type Place = Site;
+
+    const HAS_CHEAP_VIEWS: bool = true;
 
     #[inline(always)]
     fn swapped(site: Site) -> Site {
@@ -196,6 +216,13 @@ impl<W: Width> Kernel for Integers<W> {
     #[inline(always)]
     fn incircle(_: Site, _: Site, c: Self::Seen, q: Self::Seen) -> Ordering {
         W::determinant(c.view, q.view).cmp(&W::Determinant::default())
+    }
+
+    #[inline(always)]
+    fn is_left_and_inside(a: Site, b: Site, c: Self::Seen, q: Self::Seen) -> bool {
+        let determinant = W::if_left(c.view.cross, W::determinant(c.view, q.view));
+        let zero = W::Determinant::default();
+        determinant > zero || (determinant == zero && tie_is_inside::<Self>(a, b, c.site, q))
     }
 
     #[inline(always)]

@@ -12,6 +12,18 @@ pub fn position(x: u32, y: u32) -> u64 {
     spread(x) << 1 | spread(y)
 }
 
+/// The position of the cell `(x, y)` along the curve, for coordinates of up to 16 bits: both are spread at once.
+#[inline(always)]
+pub fn narrow_position(x: u32, y: u32) -> u64 {
+    let fold = |bits: u64, shift: u32, mask: u64| (bits | bits << shift) & mask;
+    let both = u64::from(x) << 32 | u64::from(y);
+    let both = fold(both, 8, 0x00ff_00ff_00ff_00ff);
+    let both = fold(both, 4, 0x0f0f_0f0f_0f0f_0f0f);
+    let both = fold(both, 2, 0x3333_3333_3333_3333);
+    let both = fold(both, 1, 0x5555_5555_5555_5555);
+    both >> 31 & 0xaaaa_aaaa | both & 0x5555_5555
+}
+
 /// The cell at a position: the inverse of [`position`].
 #[inline(always)]
 pub fn point_at(position: u64) -> Point {

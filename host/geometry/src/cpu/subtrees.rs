@@ -1,0 +1,83 @@
+//! Subtrees of the cuts, which are triangulated one by one and then joined.
+
+use alloc::vec::Vec;
+use core::ops::Range;
+
+#[cfg(not(feature = "std"))]
+use super::conquer::conquer;
+use super::conquer::{level_after, GoOn, Waiting};
+use super::edges::{Edges, Half, Halves, HALVES};
+use super::kernel::Kernel;
+use super::merge::Part;
+#[cfg(feature = "std")]
+use super::segments;
+
+/// The part of a subtree, and its first unused pair, both numbered from the start of all half-edges.
+pub(super) type Own = (Part, u32);
+
+/// Triangulates distinct sites, which stand along the curve, on up to `threads` threads. Returns `None` if there are no
+/// sites, or if `go_on` ends the work.
+#[cfg(feature = "std")]
+pub(super) fn whole<K: Kernel>(
+    sites: &[K::Site],
+    places: &[K::Place],
+    halves: &mut [Half],
+    threads: usize,
+    go_on: GoOn<'_>,
+) -> Option<Part> {
+    segments::triangulate::<K>(sites, places, halves, threads, go_on)
+}
+
+/// Triangulates distinct sites, which stand along the curve, on this thread. Returns `None` if there are no sites, or
+/// if `go_on` ends the work.
+#[cfg(not(feature = "std"))]
+pub(super) fn whole<K: Kernel>(
+    sites: &[K::Site],
+    places: &[K::Place],
+    halves: &mut [Half],
+    _threads: usize,
+    go_on: GoOn<'_>,
+) -> Option<Part> {
+    conquer(&mut Edges::<K, _> { sites, halves, unused: 0 }, places, &mut Waiting::new(), go_on)
+}
+
+/// Cuts a subtree into smaller ones of up to `most` vertices.
+pub(super) fn divide<K: Kernel>(
+    places: &[K::Place],
+    subtree: Range<usize>,
+    most: usize,
+    subtrees: &mut Vec<Range<usize>>,
+) {
+    let within = &places[subtree.clone()];
+    let [first, .., last] = *within else {
+        return subtrees.push(subtree);
+    };
+    if within.len() <= most {
+        return subtrees.push(subtree);
+    }
+    let topmost = K::level(first, last);
+    let place = subtree.start + within.partition_point(|&place| K::level(first, place) < topmost);
+    divide::<K>(places, subtree.start..place, most, subtrees);
+    divide::<K>(places, place..subtree.end, most, subtrees);
+}
+
+/// Joins all subtrees, given in order with their parts. Returns `None` if there are none, or if a part is missing.
+pub(super) fn join<K: Kernel>(
+    edges: &mut Edges<'_, K, [Half]>,
+    places: &[K::Place],
+    subtrees: &[Range<usize>],
+    parts: &[Option<Own>],
+    waiting: &mut Waiting,
+) -> Option<Part> {
+    // The list of the unused pairs of each subtree ends with the last pair of its range, which is never used, because a
+    // subtree of n vertices has fewer than 3 n edges. There the list of the next subtree is tied on.
+    for (subtree, own) in subtrees.iter().zip(parts).rev() {
+        let end = (HALVES * subtree.end) as u32;
+        edges.halves.set_next(end - 2, edges.unused.wrapping_sub(end));
+        edges.unused = own.map_or(0, |(_, unused)| unused);
+    }
+    for (subtree, own) in subtrees.iter().zip(parts) {
+        waiting.take(edges, (*own)?.0, level_after::<K>(places, subtree.end - 1));
+    }
+    waiting.whole()
+}
