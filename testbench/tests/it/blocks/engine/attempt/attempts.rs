@@ -242,7 +242,7 @@ impl Rig {
         if outcome.commit.is_some() {
             life.context.growth.assert_ring(&self.ground, &self.targets[life.context.target]);
             let inners = life.context.growth.inner.len();
-            *self.tally.entry("inner triangles").or_default() += inners;
+            *self.tally.entry("inner records").or_default() += inners;
             let is_full = life.context.growth.entries.len() as u64 == self.ring;
             *self.tally.entry("full rings").or_default() += usize::from(is_full);
         }

@@ -73,7 +73,7 @@ impl ListRig {
     }
 }
 
-fn gives_inner_triangles(name: &'static str, config: Config) {
+fn gives_inner_records(name: &'static str, config: Config) {
     let mut random = SplitMix64::new(11);
     let mut rig = ListRig::new(name, config);
     let mut given = 0;
@@ -99,12 +99,12 @@ fn gives_inner_triangles(name: &'static str, config: Config) {
 
 #[test]
 fn inner_list_of_the_shortest_list() {
-    gives_inner_triangles("inner_list_6", TINY);
+    gives_inner_records("inner_list_6", TINY);
 }
 
 #[test]
 fn inner_list_of_the_longest_list() {
-    gives_inner_triangles("inner_list_64", LONGEST);
+    gives_inner_records("inner_list_64", LONGEST);
 }
 
 #[test]
