@@ -19,6 +19,9 @@ fn ply_that_is_cut_or_lies() {
     refuse("p.ply", "ply\nformat ascii 1.0\n", &["PLY header"]);
     refuse("p.ply", "solid\n", &["PLY header", "Expected magic number 'ply'"]);
     refuse("p.ply", "ply\nformat ascii 1.0\nelement face 0\nend_header\n", &["no element 'vertex'"]);
+    refuse("p.ply", "ply\n\u{1b}[31m\n", &["PLY header", r"'\u{1b}[31m"]);
+    let named = "ply\nformat ascii 1.0\nelement \u{1b}x 9\nproperty float x\nelement vertex 0\nend_header\n";
+    refuse("p.ply", named, &[r"\u{1b}x"]);
     let no_y = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n";
     refuse("p.ply", no_y, &["vertex 1, y", "missing"]);
     let no_properties = "ply\nformat binary_little_endian 1.0\nelement vertex 9999999999999\nend_header\n";
