@@ -222,6 +222,7 @@ fn wrong_use_ends_with_two() {
         ("bench -n 600000000", "536870911"),
         ("generate uniform -n 5 -o x.ply", "x.ply"),
         ("verify p.csv m.svg", "m.svg"),
+        ("verify - - --format csv", "points and mesh cannot both come from standard input"),
     ];
     scratch.write("m.svg", "<svg/>");
     for (arguments, part) in one_sentence {
