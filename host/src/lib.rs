@@ -1,10 +1,10 @@
-//! Exact canonical Delaunay triangulation of integer points, in hardware or software.
+//! Exact canonical Delaunay triangulation of points in the plane, in hardware or software.
 //!
-//! Use this library when a triangulation must be *right* and *reproducible*: coordinates are integers, every predicate
-//! is exact, and a set of points has one answer. Every back end gives that answer byte for byte: the CPU triangulator,
-//! the software model, the simulated core, a board at a serial port, a card in a PCIe slot. Duplicates, collinear
-//! points and fewer than three points are no errors. Where four or more points lie on one empty circle, all diagonals
-//! start at the lexicographically smallest of them.
+//! Use this library when a triangulation must be *right* and *reproducible*: coordinates are taken as they are, every
+//! predicate is exact, and a set of points has one answer. Every back end gives that answer byte for byte: the CPU
+//! triangulator, the software model, the simulated core, a board at a serial port, a card in a PCIe slot. Duplicates,
+//! collinear points and fewer than three points are no errors. Where four or more points lie on one empty circle, all
+//! diagonals start at the lexicographically smallest of them.
 //!
 //! # In one call
 //!
@@ -65,8 +65,8 @@
 //!
 //! | you have | reach for |
 //! |---|---|
-//! | a set of integer points | [`triangulate`] |
-//! | floating-point values | [`quantize()`] first; its report says what rounding did |
+//! | a set of points, whole numbers or floating-point ones | [`triangulate`] |
+//! | floating-point values that a device is to take | [`quantize()`] first; its report says what rounding did |
 //! | a board, a card or a model | [`Device::open`] with an address from [`DeviceAddress`], then [`Device::session`] |
 //! | a time limit, a progress bar, a cancel button | [`Options`] with [`Session::triangulate_with`] |
 //! | many small sets | [`Session::triangulate_batch`]: a device works on them side by side |
@@ -77,14 +77,14 @@
 //! # Cost and limits
 //!
 //! The CPU triangulator takes O(n) time on even sets and O(n w) at worst, with coordinates of `w` bits. At a million
-//! points of 16 bits it takes at most 200 bytes a point beyond the points themselves. Coordinates are whole numbers
-//! from 0 to 2^31 - 1 on the CPU; a device has its own number of bits, 16 for the standard cores. A job may have up to
-//! [`MAX_POINTS`] points; a device holds as many distinct ones as its [`Identity`] says. There are no constrained
-//! edges, no Voronoi cells, no search for the triangle that holds a given place, and no insertion into or deletion from
-//! a finished mesh.
+//! points of 16 bits it takes at most 200 bytes a point beyond the points themselves. The CPU triangulator takes whole
+//! numbers of up to 64 bits and all finite doubles; a device has its own number of bits, 16 for the standard cores, and
+//! takes points whose [`Lattice`] fits them. A job may have up to [`MAX_POINTS`] points; a device holds as many
+//! distinct ones as its [`Identity`] says. There are no constrained edges, no Voronoi cells, no search for the triangle
+//! that holds a place, and no insertion into or deletion from a finished mesh.
 //!
 //! No set of points and no faulty device makes a call panic: every failure is an [`Error`], whose [`ErrorKind`] says
-//! whose fault it is. Only the predicates, called by themselves, need coordinates below 2^31.
+//! whose fault it is. Only the predicates of integers, called by themselves, need coordinates below 2^31.
 #![warn(missing_docs)]
 
 mod commands;
@@ -97,8 +97,10 @@ pub mod transports;
 
 pub use device::{Device, DeviceAddress, Session};
 pub use error::{DeviceFault, Error, ErrorKind, Shown, TransportError};
+pub use incircle_geometry::lattice::{Lattice, Step};
 pub use incircle_geometry::verify::{self, verify, VerifyError, VerifySummary};
-pub use incircle_geometry::{orient2d, predicate, Duplicate, Mesh, Order, Point, UnknownOrder, EMPTY, MAX_POINTS};
+pub use incircle_geometry::{double, orient2d, predicate, Duplicate, Mesh, Order, PlanePoint, Point};
+pub use incircle_geometry::{UnknownOrder, EMPTY, MAX_POINTS};
 pub use incircle_protocol::{Config, Identity};
 pub use job::{Counters, Latencies, Options, Progress, ProgressListener, Report, Solution, Stage};
 pub use quantize::{quantize, Quantization, Quantize};
@@ -122,12 +124,14 @@ pub mod order {
 /// ```
 /// let mesh = incircle::triangulate(&[(0, 0), (9, 0), (3, 5), (9, 9)])?;
 /// assert_eq!(mesh.triangles, [[0, 1, 2], [1, 3, 2]]);
+/// let tenths = incircle::triangulate(&[[-0.1, 0.1], [0.2, 0.1], [0.2, 0.4], [-0.1, 0.4]])?;
+/// assert_eq!(tenths.triangles.len(), 2);
 /// # Ok::<(), incircle::Error>(())
 /// ```
 ///
 /// # Errors
-/// [`Error::CoordinateOutOfRange`] for a coordinate of more than 31 bits, [`Error::TooManyPoints`] beyond
-/// [`MAX_POINTS`], and [`Error::Timeout`] for a job that takes longer than [`Options::default_timeout`].
-pub fn triangulate<P: Into<Point> + Copy>(points: &(impl AsRef<[P]> + ?Sized)) -> Result<Mesh, Error> {
+/// [`Error::NotFinite`] for a coordinate that is NaN or infinite, [`Error::TooManyPoints`] beyond [`MAX_POINTS`], and
+/// [`Error::Timeout`] for a job that takes longer than [`Options::default_timeout`].
+pub fn triangulate<P: PlanePoint>(points: &(impl AsRef<[P]> + ?Sized)) -> Result<Mesh<P>, Error> {
     Device::cpu(None).session()?.triangulate(points).map(|solution| solution.mesh)
 }

@@ -59,9 +59,9 @@ impl Quantization {
 ///
 /// # Errors
 /// [`Error::NotFinite`] for the first value that is not finite; else [`Error::NotInteger`] for the first one with a
-/// fraction; else [`Error::OutOfGrid`] for the first one outside 0 to 2^`coord_bits` - 1. In this order a caller
-/// can tell a set that could be quantised from one that is plainly wrong. [`Error::CoordBits`] for bits outside 1
-/// to 31, and [`Error::TooManyPoints`] beyond [`MAX_POINTS`].
+/// fraction; else [`Error::OutOfGrid`] for the first one outside 0 to 2^`coord_bits` - 1. In this order a caller can
+/// tell a set that could be quantised from one that is plainly wrong. [`Error::CoordBits`] for bits outside 1 to 31,
+/// and [`Error::TooManyPoints`] beyond [`MAX_POINTS`].
 pub fn integers(points: &[[f64; 2]], coord_bits: u32) -> Result<Vec<Point>, Error> {
     check_coord_bits(coord_bits)?;
     check_count(points)?;
@@ -150,7 +150,7 @@ fn check_count(points: &[[f64; 2]]) -> Result<(), Error> {
     Ok(())
 }
 
-fn check_finite(points: &[[f64; 2]]) -> Result<(), Error> {
+pub(crate) fn check_finite(points: &[[f64; 2]]) -> Result<(), Error> {
     match values(points).find(|(.., value)| !value.is_finite()) {
         Some((index, axis, value)) => Err(Error::NotFinite { index, axis, value }),
         None => Ok(()),

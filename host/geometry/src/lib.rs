@@ -14,8 +14,8 @@
 //! | whether a point is inside a circle | [`incircle`] | ten multiplications |
 //! | a good order of insertion | [`Order::order`] | O(n), about 20 ns a point |
 //!
-//! Nothing is rounded: coordinates are unsigned integers below 2^31, and a proof bounds the width of every intermediate
-//! result.
+//! Nothing is rounded: coordinates are unsigned integers below 2^31, and a proof bounds the width
+//! of every intermediate result.
 //!
 //! ```
 //! use core::num::NonZeroUsize;
@@ -39,10 +39,13 @@
 extern crate alloc;
 
 pub mod cpu;
+pub mod double;
 mod edges;
+pub mod lattice;
 mod mesh;
 pub mod order;
 pub mod pages;
+mod plane_point;
 mod point;
 pub mod predicate;
 pub mod sort;
@@ -50,6 +53,7 @@ pub mod verify;
 
 pub use mesh::{Mesh, EMPTY};
 pub use order::{Order, UnknownOrder};
+pub use plane_point::PlanePoint;
 pub use point::{Duplicate, Point, MAX_COORD_BITS, MAX_POINTS};
 pub use predicate::{incircle, orient2d};
 pub use verify::{verify, VerifyError, VerifySummary};

@@ -4,6 +4,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use crate::edges::EdgeList;
+use crate::plane_point::PlanePoint;
 use crate::point::{Duplicate, Point};
 use crate::verify::{self, VerifyError};
 
@@ -16,9 +17,9 @@ pub const EMPTY: u32 = u32::MAX;
 /// are equal if all four lists are equal, so `==` on two meshes of the same points shows whether
 /// two back ends disagree.
 ///
-/// A mesh comes from [`cpu::triangulate`](crate::cpu::triangulate) or from the library `incircle`. All
-/// indices are positions in [`points`](Self::points). `n` distinct points with `h` of them on the hull have
-/// `2 n - 2 - h` triangles.
+/// A mesh comes from [`cpu::triangulate`](crate::cpu::triangulate) or from the library `incircle`. The points keep the
+/// type in which they were given. All indices are positions in [`points`](Self::points). `n` distinct points with `h`
+/// of them on the hull have `2 n - 2 - h` triangles.
 ///
 /// ```
 /// use core::num::NonZeroUsize;
@@ -33,10 +34,10 @@ pub const EMPTY: u32 = u32::MAX;
 /// # Ok::<(), cpu::Error>(())
 /// ```
 #[non_exhaustive]
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Mesh {
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mesh<P = Point> {
     /// The input points, in input order, duplicates included.
-    pub points: Vec<Point>,
+    pub points: Vec<P>,
     /// Triples of indices into `points` in sorted order, counter-clockwise if y grows upwards,
     /// each with its smallest index first.
     pub triangles: Vec<[u32; 3]>,
@@ -47,9 +48,15 @@ pub struct Mesh {
     pub duplicates: Vec<Duplicate>,
 }
 
-impl Mesh {
+impl<P> Default for Mesh<P> {
+    fn default() -> Self {
+        Self::new(Vec::new(), Vec::new(), Vec::new(), Vec::new())
+    }
+}
+
+impl<P> Mesh<P> {
     /// Makes a mesh of its four lists, without any check. Call [`Mesh::verify`] on lists from elsewhere.
-    pub fn new(points: Vec<Point>, triangles: Vec<[u32; 3]>, hull: Vec<u32>, duplicates: Vec<Duplicate>) -> Self {
+    pub fn new(points: Vec<P>, triangles: Vec<[u32; 3]>, hull: Vec<u32>, duplicates: Vec<Duplicate>) -> Self {
         Self { points, triangles, hull, duplicates }
     }
 
@@ -64,9 +71,9 @@ impl Mesh {
     /// is computed at each call, so keep it. O(n) by a radix sort of the edges, with 190 bytes a point while it runs.
     ///
     /// ```
-    /// use incircle_geometry::Mesh;
+    /// use incircle_geometry::{Mesh, Point};
     ///
-    /// let square = Mesh::new(Vec::new(), vec![[0, 1, 2], [0, 2, 3]], Vec::new(), Vec::new());
+    /// let square = Mesh::<Point>::new(Vec::new(), vec![[0, 1, 2], [0, 2, 3]], Vec::new(), Vec::new());
     /// assert_eq!(square.neighbors(), [[None, Some(1), None], [None, None, Some(0)]]);
     /// ```
     pub fn neighbors(&self) -> Vec<[Option<u32>; 3]> {
@@ -86,9 +93,9 @@ impl Mesh {
     /// half-edge of the same edge in the other triangle, or [`EMPTY`] on the hull. O(n), as [`Mesh::neighbors`].
     ///
     /// ```
-    /// use incircle_geometry::{Mesh, EMPTY};
+    /// use incircle_geometry::{Mesh, Point, EMPTY};
     ///
-    /// let square = Mesh::new(Vec::new(), vec![[0, 1, 2], [0, 2, 3]], Vec::new(), Vec::new());
+    /// let square = Mesh::<Point>::new(Vec::new(), vec![[0, 1, 2], [0, 2, 3]], Vec::new(), Vec::new());
     /// assert_eq!(square.halfedges(), [EMPTY, EMPTY, 3, 2, EMPTY, EMPTY]);
     /// ```
     pub fn halfedges(&self) -> Vec<u32> {
@@ -99,7 +106,9 @@ impl Mesh {
         }
         halfedges
     }
+}
 
+impl<P: PlanePoint> Mesh<P> {
     /// Proves with the independent validator that the whole mesh is the canonical one, hull and duplicates included.
     ///
     /// O(n log n). The function [`verify`](fn@crate::verify) checks triangles without a hull and duplicates.

@@ -32,9 +32,9 @@ pub const fn orient2d(a: Point, b: Point, c: Point) -> i64 {
 
 /// Tells whether `d` lies inside the circle through `a`, `b` and `c`.
 ///
-/// For a counter-clockwise triangle the result is positive if `d` is inside, zero if `d` is on the circle, and
-/// negative if `d` is outside. A clockwise triangle has the opposite sign. The function is the plain determinant: the
-/// tie rule, by which the canonical mesh decides a zero, is not part of it. Ten multiplications, two of them to 128
+/// For a counter-clockwise triangle the result is positive if `d` is inside, zero if `d` is on the circle, and negative
+/// if `d` is outside. A clockwise triangle has the opposite sign. The function is the plain determinant: the tie rule,
+/// by which the canonical mesh decides a zero, is not part of it. Ten multiplications, two of them to 128
 /// bits; usable in constants.
 ///
 /// The determinant is evaluated as `dot(c) cross(d) - dot(d) cross(c)`, where `dot` and `cross` are the products of the

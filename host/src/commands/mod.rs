@@ -56,8 +56,8 @@ impl CommandChannel {
         Ok(identity)
     }
 
-    /// Hands over commands, whose answers are received later and in the same order. After any error the
-    /// channel is out of step.
+    /// Hands over commands, whose answers are received later and in the same order. After any error the channel
+    /// is out of step.
     pub(crate) fn submit(&mut self, commands: &[Command<&[u32]>], limit: Limit) -> Result<(), Error> {
         self.check_step()?;
         let result = self.transport.submit(commands, limit.deadline());

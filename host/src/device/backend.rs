@@ -3,8 +3,9 @@
 use incircle_protocol::Identity;
 
 use crate::error::Error;
-use crate::job::{Options, Solution};
+use crate::job::{Answer, Options, Solution};
 use crate::limit::Limit;
+use incircle_geometry::lattice::Numbers;
 use incircle_geometry::Point;
 
 /// A back end: the CPU triangulator, or a device that takes commands.
@@ -27,6 +28,16 @@ pub(crate) trait Backend {
 
     /// Does one job and tells its listener about the progress.
     fn triangulate(&mut self, points: Vec<Point>, terms: Terms<'_>) -> Result<Solution, Error>;
+
+    /// Whether the back end can do jobs whose points lie on no lattice: doubles and long integers.
+    fn takes_all_numbers(&self) -> bool {
+        false
+    }
+
+    /// Does one job on points in any numbers, if [`takes_all_numbers`](Self::takes_all_numbers).
+    fn triangulate_numbers(&mut self, _numbers: &Numbers<'_>, terms: Terms<'_>) -> Result<Answer, Error> {
+        Err(Error::NoLattice { coord_bits: terms.identity.coord_bits, device: self.name() })
+    }
 
     /// Does those of many jobs that go well together, and returns the others.
     fn triangulate_together(&mut self, jobs: Vec<Vec<Point>>, terms: Terms<'_>) -> Result<Together, Error>;

@@ -5,15 +5,16 @@ use std::ops::ControlFlow;
 use std::sync::{Mutex, PoisonError};
 use std::thread::Builder;
 
-use incircle_geometry::cpu::{self, threads_for};
-use incircle_geometry::{Point, MAX_COORD_BITS, MAX_POINTS};
+use incircle_geometry::cpu::{self, threads_for, Connectivity};
+use incircle_geometry::lattice::Numbers;
+use incircle_geometry::{Point, MAX_POINTS};
 use incircle_protocol::{Identity, MAGIC, PROTOCOL_VERSION};
 
 use super::backend::{Backend, JobLeft, Terms, Together};
 use crate::error::Error;
 use crate::job::batch::{JOBS_PER_LOOK, MAX_JOB_POINTS};
 use crate::job::watch::{tell, Stopwatch};
-use crate::job::{Options, Report, Solution, Stage};
+use crate::job::{Answer, Options, Report, Solution, Stage};
 use crate::limit::Limit;
 
 /// Name of the back end in reports and errors.
@@ -40,6 +41,15 @@ impl Backend for CpuBackend {
     fn triangulate(&mut self, points: Vec<Point>, terms: Terms<'_>) -> Result<Solution, Error> {
         let Terms { contexts, limit, options, .. } = terms;
         solve(points, contexts, options, limit)
+    }
+
+    fn takes_all_numbers(&self) -> bool {
+        true
+    }
+
+    fn triangulate_numbers(&mut self, numbers: &Numbers<'_>, terms: Terms<'_>) -> Result<Answer, Error> {
+        let Terms { contexts, limit, options, .. } = terms;
+        connect(numbers, contexts, options, limit)
     }
 
     /// Does small jobs side by side, each in one thread. Large jobs are left over: all threads do one together.
@@ -88,12 +98,18 @@ fn side_by_side(jobs: Numbered<Vec<Point>>, terms: Terms<'_>) -> Numbered<Result
     })
 }
 
-/// Does one job with at most `threads` threads.
+/// Does one job of grid points with at most `threads` threads.
 fn solve(points: Vec<Point>, threads: u32, options: &Options<'_>, limit: Limit) -> Result<Solution, Error> {
+    let answer = connect(&Numbers::Grid(points.as_slice().into()), threads, options, limit)?;
+    Ok(answer.with(points))
+}
+
+/// Triangulates points in their numbers with at most `threads` threads.
+fn connect(numbers: &Numbers<'_>, threads: u32, options: &Options<'_>, limit: Limit) -> Result<Answer, Error> {
     let allowed = NonZeroUsize::new(threads as usize).unwrap_or(NonZeroUsize::MIN);
-    let threads = threads_for(points.len(), allowed);
+    let threads = threads_for(numbers.len(), allowed);
     let (mut watch, mut at, mut failure) = (Stopwatch::start(), Stage::Order, None);
-    let found = cpu::triangulate(points, threads, &mut |progress| {
+    let found = cpu::connect(numbers, threads, &mut |progress| {
         let stage = stage_of(progress.stage);
         if stage != at {
             watch.ended(at);
@@ -108,18 +124,19 @@ fn solve(points: Vec<Point>, threads: u32, options: &Options<'_>, limit: Limit) 
             }
         }
     });
-    let mesh = found.map_err(|error| failure.unwrap_or_else(|| error_of(error)))?;
+    let Connectivity { triangles, hull, duplicates } =
+        found.map_err(|error| failure.unwrap_or_else(|| error_of(error)))?;
     watch.ended(at);
     let report = Report {
         backend: CPU_NAME.to_owned(),
         order: ORDER,
         stages: watch.stages,
-        coord_bits: MAX_COORD_BITS,
+        coord_bits: u32::BITS,
         capacity: MAX_POINTS as u32,
         contexts: threads.get() as u32,
         ..Report::default()
     };
-    Ok(Solution::of(mesh, report))
+    Ok(Answer { triangles, hull, duplicates, report })
 }
 
 /// The identity of the CPU triangulator: its threads stand in the place of contexts.
@@ -130,7 +147,7 @@ pub(crate) fn identity(threads: u32) -> Identity {
         magic: MAGIC,
         protocol_version: PROTOCOL_VERSION,
         core_version: major << 16 | minor << 8 | number(env!("CARGO_PKG_VERSION_PATCH")),
-        coord_bits: MAX_COORD_BITS,
+        coord_bits: u32::BITS,
         capacity: MAX_POINTS as u32,
         contexts: threads,
         ring_capacity: 0,
@@ -149,9 +166,6 @@ fn stage_of(stage: cpu::Stage) -> Stage {
 /// The error of a job for an error of the CPU triangulator.
 fn error_of(error: cpu::Error) -> Error {
     match error {
-        cpu::Error::CoordinateOutOfRange { index, point: Point { x, y } } => {
-            Error::CoordinateOutOfRange { index, x, y, coord_bits: MAX_COORD_BITS }
-        }
         cpu::Error::TooManyPoints { points } => Error::TooManyPoints { points, max: MAX_POINTS },
         cpu::Error::Cancelled(cpu::Progress { stage, done, total, .. }) => {
             Error::Cancelled { stage: stage_of(stage).name(), done, total }

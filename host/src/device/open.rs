@@ -59,9 +59,9 @@ impl Device {
     /// and a core has the configuration `large`.
     ///
     /// # Errors
-    /// [`Error::Open`] for a port or a card that cannot be opened, [`Error::Link`] for a card whose
-    /// registers are not those of a sound one, [`Error::Address`] for `sim`, which is not part of the
-    /// library, and the errors of [`Device::model`].
+    /// [`Error::Open`] for a port or a card that cannot be opened, [`Error::Link`] for a card whose registers are not
+    /// those of a sound one, [`Error::Address`] for `sim`, which is not part of the library, and
+    /// the errors of [`Device::model`].
     pub fn at(address: &DeviceAddress) -> Result<Self, Error> {
         match address {
             &DeviceAddress::Cpu { threads } => Ok(Self::cpu(threads)),
@@ -100,8 +100,8 @@ impl Device {
     /// insertion after the other. Memory grows as points arrive.
     ///
     /// # Errors
-    /// [`Error::CoordBits`] outside 1 to 31, [`Error::Model`] for a capacity below 4 or above 2^30 - 1, the most
-    /// that record ids have room for.
+    /// [`Error::CoordBits`] outside 1 to 31, [`Error::Model`] for a capacity below 4 or above 2^30 - 1, the most that
+    /// record ids have room for.
     pub fn model(coord_bits: u32, capacity: u32) -> Result<Self, Error> {
         check_coord_bits(coord_bits)?;
         let transport = ModelTransport::new(coord_bits, capacity)?;
@@ -119,8 +119,8 @@ impl Device {
         Ok(Self::from_transport(Box::new(ClockTransport::new(config)?)))
     }
 
-    /// Makes a device of a transport, such as a simulation, a board with a link of its own, or a test
-    /// double. Nothing is sent yet.
+    /// Makes a device of a transport, such as a simulation, a board with a link of its own, or a test double.
+    /// Nothing is sent yet.
     pub fn from_transport(transport: Box<dyn Transport>) -> Self {
         Self { backend: Box::new(DeviceBackend::new(transport)) }
     }

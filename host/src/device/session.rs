@@ -7,17 +7,18 @@ use crate::error::Error;
 use crate::job::watch::{tell, PartListener};
 use crate::job::{Options, Solution, Stage};
 use crate::limit::Limit;
+use crate::quantize::check_finite;
+use incircle_geometry::lattice::{Lattice, Numbers};
 use incircle_geometry::pages;
-use incircle_geometry::Point;
-use incircle_geometry::MAX_POINTS;
+use incircle_geometry::{PlanePoint, Point, MAX_POINTS};
 
 /// Exclusive use of a device that has been greeted and checked.
 ///
 /// A session comes from [`Device::session`](crate::Device::session) and takes any number of jobs:
 ///
 /// - [`triangulate`](Self::triangulate) for one job with the default [`Options`];
-/// - [`triangulate_with`](Self::triangulate_with) for a time limit, progress, cancellation,
-///   an order, or fewer contexts;
+/// - [`triangulate_with`](Self::triangulate_with) for a time limit, progress, cancellation, an
+///   order, or fewer contexts;
 /// - [`triangulate_owned`](Self::triangulate_owned) for points that the caller can part with;
 /// - [`triangulate_batch`](Self::triangulate_batch) for many jobs, which a device works on side by side.
 ///
@@ -50,10 +51,7 @@ impl<'d> Session<'d> {
     ///
     /// # Errors
     /// The errors of [`Session::triangulate_with`].
-    pub fn triangulate<P: Into<Point> + Copy>(
-        &mut self,
-        points: &(impl AsRef<[P]> + ?Sized),
-    ) -> Result<Solution, Error> {
+    pub fn triangulate<P: PlanePoint>(&mut self, points: &(impl AsRef<[P]> + ?Sized)) -> Result<Solution<P>, Error> {
         self.triangulate_with(points, &Options::default())
     }
 
@@ -68,17 +66,17 @@ impl<'d> Session<'d> {
     /// points of the caller.
     ///
     /// # Errors
-    /// - [`Error::CoordinateOutOfRange`], [`Error::TooManyPoints`], [`Error::Capacity`] and [`Error::Contexts`]
-    ///   for input and options that the device cannot take; [`Error::Cancelled`] if the listener says so. The
-    ///   session can be used again.
+    /// - [`Error::CoordinateOutOfRange`], [`Error::TooManyPoints`], [`Error::Capacity`] and [`Error::Contexts`] for
+    ///   input and options that the device cannot take; [`Error::Cancelled`] if the listener says so. The session
+    ///   can be used again.
     /// - [`Error::Link`] and [`Error::Device`] for a link that fails and an answer that no sound device gives;
     ///   [`Error::Timeout`] if the deadline passes while the device works. The session is then out of step and refuses
     ///   further work: open the device again.
-    pub fn triangulate_with<P: Into<Point> + Copy>(
+    pub fn triangulate_with<P: PlanePoint>(
         &mut self,
         points: &(impl AsRef<[P]> + ?Sized),
         options: &Options<'_>,
-    ) -> Result<Solution, Error> {
+    ) -> Result<Solution<P>, Error> {
         self.triangulate_owned(own(points.as_ref()), options)
     }
 
@@ -86,31 +84,48 @@ impl<'d> Session<'d> {
     ///
     /// # Errors
     /// The errors of [`Session::triangulate_with`].
-    pub fn triangulate_owned(&mut self, points: Vec<Point>, options: &Options<'_>) -> Result<Solution, Error> {
+    pub fn triangulate_owned<P: PlanePoint>(
+        &mut self,
+        points: Vec<P>,
+        options: &Options<'_>,
+    ) -> Result<Solution<P>, Error> {
         let terms = self.terms(points.len(), options);
-        self.check_input(&points, terms.contexts)?;
-        self.backend.triangulate(points, terms)
+        let (numbers, lattice) = self.on_lattice(&points, terms)?;
+        let mut solution = match numbers {
+            // A device takes points as its own. `on_lattice` has refused all that is not on its grid.
+            Numbers::Grid(grid) if !self.backend.takes_all_numbers() => {
+                let grid = grid.into_owned();
+                self.backend.triangulate(grid, terms)?.with_points(points)
+            }
+            numbers => {
+                let answer = self.backend.triangulate_numbers(&numbers, terms)?;
+                drop(numbers);
+                answer.with(points)
+            }
+        };
+        solution.report.lattice = lattice;
+        Ok(solution)
     }
 
-    /// Triangulates many sets of points in one call, as a batch. Each mesh is byte for byte
-    /// the one that [`Session::triangulate_with`] gives.
+    /// Triangulates many sets of points in one call, as a batch. Each mesh is byte for byte the
+    /// one that [`Session::triangulate_with`] gives.
     ///
     /// Reach for a batch when there are many small jobs: a single small mesh has no room for many insertions at once,
-    /// so a device works on several jobs side by side, one in each context. [`Options::contexts`] bounds their
-    /// number. Jobs that are too large to share the memory are *exclusive*: each has the memory to itself, with as
-    /// many contexts as pay. The host decides which jobs share the memory, so as to need the fewest clocks. While the
-    /// device works on one job, the host sends the next and orders the points of the one after it, if the transport
-    /// takes commands ahead. The CPU triangulator works on one small job in each thread.
+    /// so a device works on several jobs side by side, one in each context. [`Options::contexts`] bounds their number.
+    /// Jobs that are too large to share the memory are *exclusive*: each has the memory to itself, with as many
+    /// contexts as pay. The host decides which jobs share the memory, so as to need the fewest clocks. While the device
+    /// works on one job, the host sends the next and orders the points of the one after it, if the transport takes
+    /// commands ahead. The CPU triangulator works on one small job in each thread.
     ///
-    /// - **Reports.** Jobs that shared the device, or were sent ahead, have no times; they have counters only if
-    ///   they had the whole memory.
+    /// - **Reports.** Jobs that shared the device, or were sent ahead, have no times; they have counters only if they
+    ///   had the whole memory.
     /// - **Time.** [`Options::timeout`] is one limit for all jobs that share the memory, and one for each of the
     ///   others. While a job is sent ahead, its time is added to that of the job before it.
     /// - **Progress** counts the points of all jobs, duplicates included, and never goes back: first [`Stage::Order`]
     ///   for the jobs that share the memory, then [`Stage::Insert`]. If the listener cancels, the answers to what was
     ///   sent are still received, so the session stays in step.
-    /// - [`Options::insert_chunk`] matters only for a job of more than 65,536 points, and where
-    ///   the transport takes nothing ahead.
+    /// - [`Options::insert_chunk`] matters only for a job of more than 65,536 points, and where the
+    ///   transport takes nothing ahead.
     ///
     /// ```
     /// use incircle::{Device, Options, Point};
@@ -127,34 +142,68 @@ impl<'d> Session<'d> {
     /// # Errors
     /// The errors of [`Session::triangulate_with`], inside [`Error::InJob`] if one job is at fault. After an error
     /// there are no solutions, not even of the jobs that were done.
-    pub fn triangulate_batch<P: Into<Point> + Copy>(
+    pub fn triangulate_batch<P: PlanePoint>(
         &mut self,
         jobs: &[impl AsRef<[P]>],
         options: &Options<'_>,
-    ) -> Result<Vec<Solution>, Error> {
-        let jobs: Vec<Vec<Point>> = jobs.iter().map(|points| own(points.as_ref())).collect();
-        let total = jobs.iter().map(Vec::len).sum();
+    ) -> Result<Vec<Solution<P>>, Error> {
+        let total = jobs.iter().map(|points| points.as_ref().len()).sum();
         let terms = self.terms(total, options);
-        let in_job = |job: usize| move |source| Error::InJob { job, source: Box::new(source) };
-        self.check_input(&[], terms.contexts)?;
+        self.check_job(0, terms.contexts)?;
+        let mut solutions: Vec<Option<Solution<P>>> = jobs.iter().map(|_| None).collect();
+        let (mut on_lattices, mut grids) = (Vec::new(), Vec::new());
+        let mut off_lattices = Vec::new();
         for (job, points) in jobs.iter().enumerate() {
-            self.check_input(points, terms.contexts).map_err(in_job(job))?;
+            match self.on_lattice(points.as_ref(), terms).map_err(in_job(job))? {
+                (Numbers::Grid(grid), lattice) => {
+                    on_lattices.push((job, lattice));
+                    grids.push(grid.into_owned());
+                }
+                _ => off_lattices.push(job),
+            }
         }
-        let Together { mut solutions, left } = self.backend.triangulate_together(jobs, terms)?;
-        let mut passed = total - left.iter().map(|left| left.points.len()).sum::<usize>();
-        for JobLeft { job, points, contexts } in left {
+        let mut passed = grids.iter().map(Vec::len).sum();
+        let found = self.triangulate_grids(grids, |grid| on_lattices[grid].0, terms, total)?;
+        for ((job, lattice), mut solution) in on_lattices.into_iter().zip(found) {
+            solution.report.lattice = lattice;
+            solutions[job] = Some(solution.with_points(own(jobs[job].as_ref())));
+        }
+        for job in off_lattices {
+            let points = own(jobs[job].as_ref());
             let part = PartListener::new(options, passed, total);
             let listener = |progress| part.hear(progress);
             passed += points.len();
-            let options = Options { progress: Some(&listener), contexts: Some(contexts), ..*options };
+            let options = Options { progress: Some(&listener), ..*options };
             solutions[job] = Some(self.triangulate_owned(points, &options).map_err(in_job(job))?);
         }
         tell(options, Stage::Insert, total, total)?;
         Ok(solutions.into_iter().flatten().collect())
     }
 
-    /// Clocks of the device since it was opened; `None` unless the device is a simulated
-    /// core, whose clocks are counted.
+    /// Triangulates jobs of grid points, which count among `total` points; `job` gives the number of
+    /// each among all jobs.
+    fn triangulate_grids(
+        &mut self,
+        grids: Vec<Vec<Point>>,
+        job: impl Fn(usize) -> usize,
+        terms: Terms<'_>,
+        total: usize,
+    ) -> Result<Vec<Solution>, Error> {
+        let own_total: usize = grids.iter().map(Vec::len).sum();
+        let Together { mut solutions, left } = self.backend.triangulate_together(grids, terms)?;
+        let mut passed = own_total - left.iter().map(|left| left.points.len()).sum::<usize>();
+        for JobLeft { job: grid, points, contexts } in left {
+            let part = PartListener::new(terms.options, passed, total);
+            let listener = |progress| part.hear(progress);
+            passed += points.len();
+            let options = Options { progress: Some(&listener), contexts: Some(contexts), ..*terms.options };
+            solutions[grid] = Some(self.triangulate_owned(points, &options).map_err(in_job(job(grid)))?);
+        }
+        Ok(solutions.into_iter().flatten().collect())
+    }
+
+    /// Clocks of the device since it was opened; `None` unless the device is a simulated core,
+    /// whose clocks are counted.
     #[must_use]
     pub fn clocks(&self) -> Option<u64> {
         self.backend.clocks()
@@ -171,28 +220,62 @@ impl<'d> Session<'d> {
         }
     }
 
-    /// Refuses more contexts than the device has, more points than a job may have, and coordinates beyond its bits.
-    fn check_input(&self, points: &[Point], asked: u32) -> Result<(), Error> {
-        let Identity { contexts, coord_bits, .. } = self.identity;
+    /// Refuses more contexts than the device has, and more points than a job may have.
+    fn check_job(&self, points: usize, asked: u32) -> Result<(), Error> {
+        let contexts = self.identity.contexts;
         if !(1..=contexts).contains(&asked) {
             return Err(Error::Contexts { asked, contexts, device: self.backend.name() });
         }
-        if points.len() > MAX_POINTS {
-            return Err(Error::TooManyPoints { points: points.len(), max: MAX_POINTS });
+        if points > MAX_POINTS {
+            return Err(Error::TooManyPoints { points, max: MAX_POINTS });
         }
-        let outside = |point: &Point| (point.x | point.y) >> coord_bits != 0;
-        match points.iter().position(outside) {
-            Some(index) => {
-                Err(Error::CoordinateOutOfRange { index, x: points[index].x, y: points[index].y, coord_bits })
+        Ok(())
+    }
+
+    /// Checks the points of a job and lays them onto their lattice. The numbers are those of the grid, unless there is
+    /// no lattice and the back end can do without.
+    fn on_lattice<'p, P: PlanePoint>(
+        &self,
+        points: &'p [P],
+        terms: Terms<'_>,
+    ) -> Result<(Numbers<'p>, Option<Lattice>), Error> {
+        self.check_job(points.len(), terms.contexts)?;
+        let numbers = P::numbers(points);
+        if let Numbers::Doubles(doubles) = &numbers {
+            check_finite(doubles)?;
+        }
+        let coord_bits = self.identity.coord_bits;
+        let device = || self.backend.name();
+        let (numbers, lattice) = numbers.on_lattice();
+        match (&numbers, lattice) {
+            (Numbers::Grid(grid), Some(lattice)) if lattice.bits > coord_bits => {
+                let outside = first_outside(grid, lattice, coord_bits);
+                Err(outside.unwrap_or_else(|| Error::LatticeTooWide { lattice, coord_bits, device: device() }))
             }
-            None => Ok(()),
+            (_, None) if !self.backend.takes_all_numbers() => Err(Error::NoLattice { coord_bits, device: device() }),
+            _ => Ok((numbers, lattice)),
         }
     }
 }
 
-/// Copies the points of the caller, converted.
-fn own<P: Into<Point> + Copy>(points: &[P]) -> Vec<Point> {
+/// The error of the first grid point outside a device's grid; `None` if the points were laid onto the grid here, where
+/// they have other coordinates than the caller knows.
+fn first_outside(grid: &[Point], lattice: Lattice, coord_bits: u32) -> Option<Error> {
+    if lattice != Lattice::of_grid(grid) {
+        return None;
+    }
+    let index = grid.iter().position(|point| (point.x | point.y) >> coord_bits != 0)?;
+    Some(Error::CoordinateOutOfRange { index, x: grid[index].x, y: grid[index].y, coord_bits })
+}
+
+/// Puts an error into its job of a batch.
+fn in_job(job: usize) -> impl Fn(Error) -> Error {
+    move |source| Error::InJob { job, source: Box::new(source) }
+}
+
+/// Copies the points of the caller.
+fn own<P: PlanePoint>(points: &[P]) -> Vec<P> {
     let mut own = pages::with_room(points.len());
-    own.extend(points.iter().map(|&point| -> Point { point.into() }));
+    own.extend_from_slice(points);
     own
 }

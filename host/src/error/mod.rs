@@ -1,5 +1,5 @@
-//! Everything that can go wrong, as typed errors. Each says in one sentence what happened, with the numbers, and
-//! what to do about it.
+//! Everything that can go wrong, as typed errors. Each says in one sentence what happened, with the numbers, and what
+//! to do about it.
 
 mod device_fault;
 mod kind;
@@ -15,18 +15,22 @@ pub use kind::ErrorKind;
 pub use shown::Shown;
 pub use transport_error::TransportError;
 
+use incircle_geometry::lattice::Lattice;
+
 /// An error of the library.
 ///
 /// Print the error: its text is one sentence with the numbers and what to do. Match on the variant where a program can
 /// do something about that case, or ask [`kind`](Self::kind) whose fault the error is.
 ///
 /// ```
-/// use incircle::{Error, ErrorKind};
+/// use incircle::{Device, Error, ErrorKind};
 ///
-/// let error = incircle::triangulate(&[(0, 0), (1 << 31, 5)]).expect_err("31 bits are the limit");
-/// assert!(matches!(error, Error::CoordinateOutOfRange { index: 1, coord_bits: 31, .. }));
+/// let mut device = Device::open("clock?config=tiny")?;
+/// let error = device.session()?.triangulate(&[(0, 0), (65536, 5)]).expect_err("16 bits are the limit");
+/// assert!(matches!(error, Error::CoordinateOutOfRange { index: 1, coord_bits: 16, .. }));
 /// assert_eq!(error.kind(), ErrorKind::BadInput);
-/// assert!(error.to_string().starts_with("point 1 is (2147483648, 5), but coordinates of 31 bits end at 2147483647"));
+/// assert!(error.to_string().starts_with("point 1 is (65536, 5), but coordinates of 16 bits end at 65535"));
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -45,6 +49,30 @@ pub enum Error {
         y: u32,
         /// Bits of a coordinate of the device.
         coord_bits: u32,
+    },
+    /// The lattice of the points has more bits than a coordinate of the device.
+    #[error(
+        "the points lie on a lattice with steps of {} and {} bits, but {device} has coordinates of {coord_bits} bits: \
+         use the back end cpu or quantise the points", .lattice.step, .lattice.bits
+    )]
+    LatticeTooWide {
+        /// The lattice of the points.
+        lattice: Lattice,
+        /// Bits of a coordinate of the device.
+        coord_bits: u32,
+        /// Name of the device.
+        device: String,
+    },
+    /// The points lie on no lattice of up to 32 bits, and the device cannot do without.
+    #[error(
+        "the points lie on no lattice of up to 32 bits, and {device} has coordinates of {coord_bits} bits: \
+         use the back end cpu, which takes all doubles, or quantise the points"
+    )]
+    NoLattice {
+        /// Bits of a coordinate of the device.
+        coord_bits: u32,
+        /// Name of the device.
+        device: String,
     },
     /// A value is NaN or infinite.
     #[error("the {axis} of point {index} is {value}, which is not a finite number: remove or correct the point")]
@@ -229,6 +257,8 @@ impl Error {
     pub fn kind(&self) -> ErrorKind {
         match self {
             Self::CoordinateOutOfRange { .. }
+            | Self::LatticeTooWide { .. }
+            | Self::NoLattice { .. }
             | Self::NotFinite { .. }
             | Self::NotInteger { .. }
             | Self::OutOfGrid { .. }

@@ -1,9 +1,9 @@
 //! From the records of a device to the canonical mesh. Nothing in a record is used before it is checked.
 //!
-//! The checks cost O(n): ids are in range, locks and unused bits are clear, triangles are counter-clockwise and
-//! none comes twice, ghost triangles close one hull, and areas sum to the area of the hull. Ids of neighbours,
-//! where they are read, are only checked to be in range, and not used. The Delaunay property and the tie rule are
-//! not checked here: [`Mesh::verify`](crate::Mesh::verify) proves them.
+//! The checks cost O(n): ids are in range, locks and unused bits are clear, triangles are counter-clockwise and none
+//! comes twice, ghost triangles close one hull, and areas sum to the area of the hull. Ids of neighbours, where they
+//! are read, are only checked to be in range, and not used. The Delaunay property and the tie rule are not checked
+//! here: [`Mesh::verify`](crate::Mesh::verify) proves them.
 
 use std::ops::Range;
 

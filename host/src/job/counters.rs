@@ -5,9 +5,9 @@ use incircle_protocol::{latency_of_bucket, Counter, COUNTER_WORDS, LATENCY_BUCKE
 /// The event counters of a device after a job.
 ///
 /// Look here to learn why a job was slow: long walks (`walk_visits`), contention between contexts (`aborts`,
-/// `root_retries`, `revisits`), or a host that does not send points fast enough (`wait_cycles`). All counts are for
-/// one job. Where there is no clock, as in the software model, cycle counts are 0, and so are counts of what
-/// contexts do to each other.
+/// `root_retries`, `revisits`), or a host that does not send points fast enough (`wait_cycles`). All counts are for one
+/// job. Where there is no clock, as in the software model, cycle counts are 0, and so are counts of what contexts
+/// do to each other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Counters {
@@ -35,8 +35,8 @@ pub struct Counters {
     pub flips: u32,
     /// Visits that lock the root of a cavity and evaluate it again.
     pub root_visits: u32,
-    /// Visits made once more because a record was being written, a lock was held, or the context's
-    /// own commit was not finished.
+    /// Visits made once more because a record was being written, a lock was held, or the context's own
+    /// commit was not finished.
     pub revisits: u32,
     /// Attempts aborted because another context held a lock.
     pub aborts: u32,
@@ -132,8 +132,8 @@ pub struct Latencies {
     pub insertions: u64,
     /// Fewest cycles of an insertion; exact.
     pub min: u32,
-    /// Upper bound on the median: half of the insertions took no more cycles than this. The median itself is
-    /// at most an eighth less.
+    /// Upper bound on the median: half of the insertions took no more cycles than this. The median itself is at
+    /// most an eighth less.
     pub median: u32,
     /// Upper bound on the 99th percentile: 99 of 100 insertions took no more cycles than this. The percentile itself is
     /// at most an eighth less.

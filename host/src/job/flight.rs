@@ -1,8 +1,8 @@
-//! Carrying loads to a device: sending them, receiving and checking the answers, and trying once
-//! more after a passing fault.
+//! Carrying loads to a device: sending them, receiving and checking the answers, and trying once more
+//! after a passing fault.
 //!
-//! If the transport takes commands ahead, the commands of the next load are sent before the answers to
-//! the current one are received.
+//! If the transport takes commands ahead, the commands of the next load are sent before the answers to the
+//! current one are received.
 
 use std::collections::VecDeque;
 

@@ -94,8 +94,8 @@ impl Group {
     }
 
     /// Checks the counts that the device reports after `sent` points: all must have arrived, and those that were
-    /// repeated must count as duplicates. The points of jobs that share the memory are sent with one command, so
-    /// all of them are due.
+    /// repeated must count as duplicates. The points of jobs that share the memory are sent with one command, so all
+    /// of them are due.
     pub(crate) fn check_report(&self, report: &InsertReport, sent: usize) -> Result<(), DeviceFault> {
         let (vertices, records) = match &self.jobs[..] {
             [_] => (sent, 2 * sent - 2),

@@ -79,8 +79,8 @@ impl Load {
         Self { group, steps, is_step_by_step: true, time: None }
     }
 
-    /// The command of a step, if it has one. The words of its points are appended to `words`, and the
-    /// command has their range there.
+    /// The command of a step, if it has one. The words of its points are appended to `words`, and the command
+    /// has their range there.
     pub(crate) fn command(
         &self,
         step: &Step,

@@ -24,6 +24,7 @@ pub(crate) mod prepare;
 mod report;
 pub(crate) mod watch;
 
+pub(crate) use answer::Answer;
 pub use answer::Solution;
 pub use counters::{Counters, Latencies};
 pub use options::{Options, Progress, ProgressListener, Stage};

@@ -86,8 +86,8 @@ const INSERT_CHUNK: usize = 65_536;
 pub struct Options<'a> {
     /// Time limit for the whole job. `None` stands for [`Options::default_timeout`], stretched for a simulated device.
     pub timeout: Option<Duration>,
-    /// Order of insertion, for devices that insert points one after another; the CPU triangulator has
-    /// an order of its own.
+    /// Order of insertion, for devices that insert points one after another; the CPU triangulator has an
+    /// order of its own.
     pub order: Order,
     /// Listener that is called at the start of each stage and after every chunk.
     pub progress: Option<ProgressListener<'a>>,

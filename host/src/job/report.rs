@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use super::counters::{Counters, Latencies};
 use super::options::Stage;
+use incircle_geometry::lattice::Lattice;
 
 /// A report on a job: counts of the mesh, times, and facts about the device.
 ///
@@ -53,6 +54,9 @@ pub struct Report {
     /// beginning of the batch, to the last triangle of this job. `None` for all other jobs, and where the transport
     /// does not know the clocks.
     pub clocks: Option<u64>,
+    /// The lattice of the points; `None` if they have none, and the CPU triangulator worked on their
+    /// doubles or long integers.
+    pub lattice: Option<Lattice>,
     /// Bits of a coordinate of the device.
     pub coord_bits: u32,
     /// Points that the device holds.

@@ -142,12 +142,12 @@ fn a_passed_deadline_is_a_timeout_and_no_more() {
 fn wrong_choices_are_named() {
     let mut device = Device::open("cpu?threads=2").expect("the CPU triangulator");
     let mut session = device.session().expect("a session");
-    assert_eq!((session.identity().contexts, session.identity().coord_bits), (2, 31));
+    assert_eq!((session.identity().contexts, session.identity().coord_bits), (2, 32));
     for asked in [0, 3] {
         let options = Options::default().contexts(asked);
         let error = session.triangulate_with(&[Point::new(1, 1)], &options).expect_err("no such thread");
         assert!(matches!(error, Error::Contexts { contexts: 2, .. }), "{error}");
     }
-    let error = session.triangulate(&[(0, 0), (1 << 31, 0)]).expect_err("too wide");
-    assert!(matches!(error, Error::CoordinateOutOfRange { index: 1, coord_bits: 31, .. }), "{error}");
+    let error = session.triangulate(&[[0.0, 0.0], [f64::INFINITY, 0.0]]).expect_err("too wide");
+    assert!(matches!(error, Error::NotFinite { index: 1, axis: 'x', .. }), "{error}");
 }

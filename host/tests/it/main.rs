@@ -4,6 +4,7 @@ mod common;
 
 mod cpu;
 mod hostile;
+mod numbers;
 mod oracle;
 mod quantize;
 

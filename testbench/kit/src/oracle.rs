@@ -4,8 +4,8 @@
 //! four cocircular points the lexicographically smallest is lowered on the paraboloid by an infinitely small amount, so
 //! each set of points has exactly one answer.
 
-/// Twice the area of `a b c`: positive if the three turn counter-clockwise, 0 if they lie on a
-/// line, and exact for all coordinates.
+/// Twice the area of `a b c`: positive if the three turn counter-clockwise, 0 if they lie on a line, and
+/// exact for all coordinates.
 pub fn orient2d<P: Into<[u32; 2]>>(a: P, b: P, c: P) -> i128 {
     let [a, b, c] = [a.into(), b.into(), c.into()];
     let from_a = |point: [u32; 2], axis: usize| i128::from(point[axis]) - i128::from(a[axis]);
@@ -24,8 +24,8 @@ pub fn conflicts<P: Copy + Into<[u32; 2]>>(a: P, b: P, c: P, d: P) -> bool {
     if inside != 0 {
         return inside > 0;
     }
-    // Lowering a corner changes the determinant by minus the factor of the corner's lift. If
-    // `d` is lowered, `d` moves inside.
+    // Lowering a corner changes the determinant by minus the factor of the corner's lift. If `d` is
+    // lowered, `d` moves inside.
     match [a, b, c, d].into_iter().min() {
         Some(smallest) if smallest == a => orient2d(d, b, c) < 0,
         Some(smallest) if smallest == b => orient2d(d, c, a) < 0,

@@ -57,8 +57,8 @@ impl SplitMix64 {
         items[self.below(items.len() as u64) as usize]
     }
 
-    /// Returns points of the square `[0, side)`, each place with equal chance, as any type
-    /// that pairs of coordinates turn into.
+    /// Returns points of the square `[0, side)`, each place with equal chance, as any type that pairs
+    /// of coordinates turn into.
     pub fn points<P: From<[u32; 2]>>(&mut self, count: usize, side: u32) -> Vec<P> {
         (0..count).map(|_| P::from([self.below_u32(side), self.below_u32(side)])).collect()
     }

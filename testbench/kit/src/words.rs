@@ -12,8 +12,8 @@ pub fn boxed(random: &mut Random32, count: u32, side: u32) -> Vec<u32> {
     (0..count).map(|_| random.below(side) | random.below(side) << 16).collect()
 }
 
-/// Random points of a box where every other point is one of the eight before it: duplicates of
-/// points that are still being inserted.
+/// Random points of a box where every other point is one of the eight before it: duplicates of points that
+/// are still being inserted.
 pub fn stuttering(random: &mut Random32, count: u32, side: u32) -> Vec<u32> {
     let mut points: Vec<u32> = Vec::new();
     for _ in 0..count {

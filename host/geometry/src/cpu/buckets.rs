@@ -1,8 +1,8 @@
 //! Items distributed to buckets in one pass, before the sizes of the buckets are known.
 //!
-//! A bucket is a chain of chunks. The chunks of all buckets are pieces of one list, taken in the order of need.
-//! So the pass writes to one place per bucket, and all these places stay in the second-level cache. The last
-//! chunk of each bucket of each thread is half empty on average, so there should be at least a chunk of items for
+//! A bucket is a chain of chunks. The chunks of all buckets are pieces of one list, taken in the order of need. So the
+//! pass writes to one place per bucket, and all these places stay in the second-level cache. The last chunk of each
+//! bucket of each thread is half empty on average, so there should be at least a chunk of items for
 //! each thread and bucket.
 
 use alloc::vec;

@@ -291,8 +291,9 @@ fn sort_few<T: Ord + Copy>([a, b, c, d]: &mut [T; FEW]) {
 #[cfg(test)]
 mod tests {
     use super::super::edges::HALVES;
+    use super::super::segments;
     use super::super::sites::{sort, Sites};
-    use super::super::{segments, view::Narrow};
+    use super::super::view::{Integers, Narrow};
     use super::*;
     use crate::order::mix;
     use crate::pages;
@@ -304,7 +305,8 @@ mod tests {
         let points: Vec<Point> = (0..6000).map(mix).map(|k| Point::new(k as u32 & 0xffff, k as u32 >> 16)).collect();
         let Sites { sites, ids, .. } = sort(&points, 1);
         let mut halves = pages::zeros(HALVES * sites.len());
-        let whole = segments::triangulate::<Narrow>(&sites, &mut halves, 1, &mut |_| true).expect("points");
+        let whole =
+            segments::triangulate::<Integers<Narrow>>(&sites, &sites, &mut halves, 1, &mut |_| true).expect("points");
         let hull = hull(&mut halves, &ids, whole.leftmost());
         let (buckets, count) = (Buckets::of(points.len(), 1), 2 * ids.len() - 2 - hull.len());
         let words = buckets.sorted::<Packed>(halves.clone(), &ids, count, 1);

@@ -9,8 +9,8 @@
 use alloc::vec::Vec;
 
 use super::edges::{Edges, Half};
+use super::kernel::Kernel;
 use super::merge::{Cut, Part};
-use super::view::{Site, Width};
 
 /// Most parts that wait at a time: one for each bit of both coordinates, and the new one.
 const DEPTH: usize = 64;
@@ -19,18 +19,10 @@ const TOP: u32 = u32::MAX;
 /// Vertices between two questions whether the work goes on.
 const SLICE: usize = 1 << 15;
 
-/// The level, in the tree of cuts, of the cut between two sites. Levels rise with the bit in which the sites differ,
-/// and for the same bit a cut of x is above a cut of y. Levels of x are odd.
-#[inline(always)]
-pub(super) fn level(one: Site, other: Site) -> u32 {
-    let bits = |one: i32, other: i32| u32::BITS - ((one ^ other) as u32).leading_zeros();
-    (2 * bits(one.x, other.x) + 1).max(2 * bits(one.y, other.y))
-}
-
 /// The level of the cut after vertex `v`.
 #[inline(always)]
-pub(super) fn level_after(sites: &[Site], v: usize) -> u32 {
-    sites.get(v..v + 2).map_or(TOP, |pair| level(pair[0], pair[1]))
+pub(super) fn level_after<K: Kernel>(places: &[K::Place], v: usize) -> u32 {
+    places.get(v..v + 2).map_or(TOP, |pair| K::level(pair[0], pair[1]))
 }
 
 /// A function that says whether the work goes on. Called from time to time with the number of vertices done
@@ -48,10 +40,10 @@ impl Waiting {
 
     /// Pushes the next part, after joining it with all waiting parts that lie below the cut `above`, which follows it.
     #[inline(always)]
-    pub(super) fn take<W: Width>(&mut self, edges: &mut Edges<'_>, mut part: Part, above: u32) {
+    pub(super) fn take<K: Kernel>(&mut self, edges: &mut Edges<'_, K>, mut part: Part, above: u32) {
         while let Some((one, between)) = self.0.pop_if(|(_, between)| *between < above) {
             let cut = if between & 1 == 1 { Cut::Vertical } else { Cut::Horizontal };
-            part = edges.merge::<W>(one, part, cut);
+            part = edges.merge(one, part, cut);
         }
         self.0.push((part, above));
     }
@@ -62,24 +54,29 @@ impl Waiting {
     }
 }
 
-/// Triangulates the distinct sites of a subtree, which stand along the curve, on this thread. Returns `None` if there
-/// are no sites, or if `go_on` ends the work.
-pub(super) fn conquer<W: Width>(sites: &[Site], halves: &mut [Half], go_on: GoOn<'_>) -> Option<Part> {
-    let mut edges = Edges { sites, halves };
+/// Triangulates the distinct sites of a subtree, which stand along the curve, on this thread, given the place of each
+/// in the tree of cuts. Returns `None` if there are no sites, or if `go_on` ends the work.
+pub(super) fn conquer<K: Kernel>(
+    sites: &[K::Site],
+    places: &[K::Place],
+    halves: &mut [Half],
+    go_on: GoOn<'_>,
+) -> Option<Part> {
+    let mut edges = Edges::<K> { sites, halves };
     let mut waiting = Waiting::new();
     let (mut v, mut asked) = (0, 0);
-    // `before` is the level of the cut before vertex `v`; `after` has the levels of the cuts after `v`,
-    // `v + 1` and `v + 2`.
+    // `before` is the level of the cut before vertex `v`; `after` has the levels of the cuts after `v`, `v + 1`
+    // and `v + 2`.
     let mut before = TOP;
-    let mut after = [0, 1, 2].map(|ahead| level_after(sites, ahead));
+    let mut after = [0, 1, 2].map(|ahead| level_after::<K>(places, ahead));
     while v < sites.len() {
         let (part, count) = edges.leaf(v as u32, before, after);
         before = after[count - 1];
         for _ in 0..count {
             v += 1;
-            after = [after[1], after[2], level_after(sites, v + 2)];
+            after = [after[1], after[2], level_after::<K>(places, v + 2)];
         }
-        waiting.take::<W>(&mut edges, part, before);
+        waiting.take(&mut edges, part, before);
         if v - asked >= SLICE {
             if !go_on(v - asked) {
                 return None;
@@ -90,7 +87,7 @@ pub(super) fn conquer<W: Width>(sites: &[Site], halves: &mut [Half], go_on: GoOn
     (go_on(v - asked)).then(|| waiting.whole()).flatten()
 }
 
-impl Edges<'_> {
+impl<K: Kernel> Edges<'_, K> {
     /// Triangulates the largest square or half square that begins with vertex `v` and has up to three vertices, and
     /// counts these, given the levels of the cuts around them. Three vertices on a line are left to merges.
     #[inline(always)]

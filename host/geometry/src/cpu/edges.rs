@@ -8,7 +8,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::view::Site;
+use super::kernel::Kernel;
 
 /// Half-edges that a vertex brings.
 pub(super) const HALVES: usize = 6;
@@ -67,12 +67,12 @@ pub(super) struct Free {
 }
 
 /// The sites of a segment and the half-edges between them, both numbered from the start of the segment.
-pub(super) struct Edges<'a> {
-    pub(super) sites: &'a [Site],
+pub(super) struct Edges<'a, K: Kernel> {
+    pub(super) sites: &'a [K::Site],
     pub(super) halves: &'a mut [Half],
 }
 
-impl Edges<'_> {
+impl<K: Kernel> Edges<'_, K> {
     #[inline(always)]
     pub(super) fn next(&self, e: u32) -> u32 {
         self.halves[e as usize].next
@@ -108,19 +108,19 @@ impl Edges<'_> {
     }
 
     #[inline(always)]
-    pub(super) fn site(&self, v: u32) -> Site {
+    pub(super) fn site(&self, v: u32) -> K::Site {
         self.sites[v as usize]
     }
 
     /// The vertex at which half-edge `e` begins.
     #[inline(always)]
-    pub(super) fn from(&self, e: u32) -> Site {
+    pub(super) fn from(&self, e: u32) -> K::Site {
         self.site(self.origin(e))
     }
 
     /// The vertex at which half-edge `e` ends.
     #[inline(always)]
-    pub(super) fn to(&self, e: u32) -> Site {
+    pub(super) fn to(&self, e: u32) -> K::Site {
         self.site(self.end(e))
     }
 

@@ -3,7 +3,7 @@
 #[cfg(feature = "std")]
 use super::edges::{moved, Half, HALVES};
 use super::edges::{Edges, Free};
-use super::view::{incircle, orient2d, Seen, Site, Width};
+use super::kernel::{is_inside, Kernel};
 
 /// The triangulation of a subset of the points, known by its outermost vertices. Each of those is given as the
 /// half-edge that leaves it counter-clockwise along the hull.
@@ -67,21 +67,21 @@ struct Base {
 /// A vertex of one part that may become the third corner of the next triangle: the end of `edge`, which begins
 /// at `a` or `b`.
 #[derive(Clone, Copy)]
-struct Candidate {
+struct Candidate<K: Kernel> {
     edge: u32,
     end: u32,
-    seen: Seen,
+    seen: K::Seen,
 }
 
-impl Candidate {
+impl<K: Kernel> Candidate<K> {
     /// Whether the vertex lies to the left of the base edge.
     #[inline(always)]
     fn is_valid(&self) -> bool {
-        self.seen.view.cross > 0
+        K::is_left(self.seen)
     }
 }
 
-impl Edges<'_> {
+impl<K: Kernel> Edges<'_, K> {
     /// Makes the part of one vertex.
     #[inline(always)]
     pub(super) fn vertex(&mut self, v: u32) -> Part {
@@ -95,7 +95,7 @@ impl Edges<'_> {
         let (own, free) = self.start_edge(v);
         let (a, b) = (self.site(v), self.site(v + 1));
         let lower = |is_first: bool| own + u32::from(!is_first);
-        let (by_x, by_y) = (lower(a < b), lower(a.swapped() < b.swapped()));
+        let (by_x, by_y) = (lower(a < b), lower(K::swapped(a) < K::swapped(b)));
         Part { left: by_x, right: by_x ^ 1, bottom: by_y, top: by_y ^ 1, free, is_vertex: false }
     }
 
@@ -103,36 +103,36 @@ impl Edges<'_> {
     #[inline(always)]
     pub(super) fn triangle(&mut self, v: u32) -> Option<Part> {
         let at = |k: u32| self.site(v + k);
-        let area = orient2d(at(0), at(1), at(2));
-        if area == 0 {
+        let turn = K::orient2d(at(0), at(1), at(2));
+        if turn.is_eq() {
             return None;
         }
-        let (second, third) = if area > 0 { (1, 2) } else { (2, 1) };
+        let (second, third) = if turn.is_gt() { (1, 2) } else { (2, 1) };
         let corners = [at(0), at(second), at(third)];
         let (own, free) = self.start_triangle(v, [v, v + second, v + third]);
         // The half-edge of each corner along the hull is the first one of a pair: 0, 2 and 4 from `own` on.
-        let least = |keys: [Site; 3]| {
+        let least = |keys: [K::Site; 3]| {
             let (key, place) = if keys[1] < keys[0] { (keys[1], 2) } else { (keys[0], 0) };
             own + if keys[2] < key { 4 } else { place }
         };
-        let most = |keys: [Site; 3]| {
+        let most = |keys: [K::Site; 3]| {
             let (key, place) = if keys[1] > keys[0] { (keys[1], 2) } else { (keys[0], 0) };
             own + if keys[2] > key { 4 } else { place }
         };
-        let swapped = corners.map(Site::swapped);
+        let swapped = corners.map(K::swapped);
         let (left, right, bottom, top) = (least(corners), most(corners), least(swapped), most(swapped));
         Some(Part { left, right, bottom, top, free, is_vertex: false })
     }
 
     /// Joins two parts, at least one of which has an edge.
-    pub(super) fn merge<W: Width>(&mut self, one: Part, other: Part, cut: Cut) -> Part {
+    pub(super) fn merge(&mut self, one: Part, other: Part, cut: Cut) -> Part {
         debug_assert!(!(one.is_vertex && other.is_vertex), "the pair of one would be lost");
         let mut free = self.join(one.free, other.free);
         let first = self.lower_tangent(&one, &other, cut, &mut free);
         // `zip` may remove the half-edges of vertices that are ends of the first or the last base edge. The vertices
         // stay, so both are remembered, and such a half-edge is replaced by that of the base edge.
         let outermost = self.outermost(&one, &other, cut).map(|e| (e, self.origin(e)));
-        let last = self.zip::<W>(first, &mut free);
+        let last = self.zip(first, &mut free);
         let [left, right, bottom, top] = outermost.map(|(e, vertex)| {
             let e = if vertex == first.a { first.at_a } else { e };
             if vertex == last.b {
@@ -156,10 +156,10 @@ impl Edges<'_> {
         let mut ldi = self.previous(facing);
         let (mut a, mut b) = (self.from(ldi), self.from(rdi));
         loop {
-            if orient2d(a, self.to(ldi), b) > 0 {
+            if K::orient2d(a, self.to(ldi), b).is_gt() {
                 ldi = self.previous(ldi ^ 1);
                 a = self.from(ldi);
-            } else if orient2d(b, self.to(rdi), a) < 0 {
+            } else if K::orient2d(b, self.to(rdi), a).is_lt() {
                 rdi = self.next(rdi ^ 1);
                 b = self.from(rdi);
             } else {
@@ -200,14 +200,14 @@ impl Edges<'_> {
 
     /// Fills the gap with triangles from the first base edge on; returns the last base edge.
     #[inline(always)]
-    fn zip<W: Width>(&mut self, mut base: Base, free: &mut Free) -> Base {
+    fn zip(&mut self, mut base: Base, free: &mut Free) -> Base {
         loop {
             let (a, b) = (self.site(base.a), self.site(base.b));
-            let one = self.candidate::<W, true>(base, a, b, free);
-            let other = self.candidate::<W, false>(base, a, b, free);
+            let one = self.candidate::<true>(base, a, b, free);
+            let other = self.candidate::<false>(base, a, b, free);
             let other_is_next = match (one.is_valid(), other.is_valid()) {
                 (false, false) => return base,
-                (true, true) => incircle::<W>(a, b, one.seen, other.seen),
+                (true, true) => is_inside::<K>(a, b, one.seen, other.seen),
                 (_, other_is_valid) => other_is_valid,
             };
             base = self.connect(base, one, other, other_is_next, free);
@@ -217,14 +217,14 @@ impl Edges<'_> {
     /// Finds the first vertex of one part that a circle through `a` and `b` meets as it grows to the left, and removes
     /// the edges at `a` or `b` that cross the new triangle. The part is the first one if `OF_A`, else the second.
     #[inline(always)]
-    fn candidate<W: Width, const OF_A: bool>(&mut self, base: Base, a: Site, b: Site, free: &mut Free) -> Candidate {
+    fn candidate<const OF_A: bool>(&mut self, base: Base, a: K::Site, b: K::Site, free: &mut Free) -> Candidate<K> {
         let mut edge = if OF_A { self.next(base.at_a) } else { self.previous(base.at_b) };
         let (mut after, mut end) = self.beside::<OF_A>(edge);
-        let mut seen = Seen::new(a, b, self.site(end));
-        while seen.view.cross > 0 {
+        let mut seen = K::see(a, b, self.site(end));
+        while K::is_left(seen) {
             let (after_next, end_of_next) = self.beside::<OF_A>(after);
-            let behind = Seen::new(a, b, self.site(end_of_next));
-            if !incircle::<W>(a, b, seen, behind) {
+            let behind = K::see(a, b, self.site(end_of_next));
+            if !is_inside::<K>(a, b, seen, behind) {
                 break;
             }
             self.remove(edge, free);
@@ -246,7 +246,14 @@ impl Edges<'_> {
     /// Makes the next base edge: from `a` to the end of `other`, or from the end of `one` to `b`. The code selects
     /// instead of branching, because no processor predicts which of the two it is.
     #[inline(always)]
-    fn connect(&mut self, base: Base, one: Candidate, other: Candidate, other_is_next: bool, free: &mut Free) -> Base {
+    fn connect(
+        &mut self,
+        base: Base,
+        one: Candidate<K>,
+        other: Candidate<K>,
+        other_is_next: bool,
+        free: &mut Free,
+    ) -> Base {
         let select = |if_other: u32, if_one: u32| if other_is_next { if_other } else { if_one };
         let pair = self.take(free);
         let (at_kept, at_corner) = (pair, pair ^ 1);
@@ -269,7 +276,7 @@ impl Edges<'_> {
     #[inline(always)]
     fn outermost(&self, one: &Part, other: &Part, cut: Cut) -> [u32; 4] {
         let by_x = |e: u32| self.from(e);
-        let by_y = |e: u32| self.from(e).swapped();
+        let by_y = |e: u32| K::swapped(self.from(e));
         match cut {
             Cut::Vertical => {
                 let bottom = if by_y(other.bottom) < by_y(one.bottom) { other.bottom } else { one.bottom };

@@ -29,6 +29,9 @@ mod buckets;
 mod collect;
 mod conquer;
 mod edges;
+mod filtered;
+mod filtered_sites;
+mod kernel;
 mod merge;
 #[cfg(test)]
 mod oracle;
@@ -41,4 +44,4 @@ mod tests;
 mod triangulator;
 mod view;
 
-pub use triangulator::{threads_for, triangulate, Error, Progress, Stage, Watch};
+pub use triangulator::{connect, threads_for, triangulate, Connectivity, Error, Progress, Stage, Watch};

@@ -4,8 +4,8 @@ use alloc::vec::Vec;
 #[cfg(feature = "std")]
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Applies `work` to all items and returns the results in the order of the items. The number of threads is
-/// that of the items, the calling thread included. If the system will not start a thread, the threads that did
+/// Applies `work` to all items and returns the results in the order of the items. The number of threads is that of the
+/// items, the calling thread included. If the system will not start a thread, the threads that did
 /// start share its work.
 #[cfg(feature = "std")]
 pub(super) fn in_parallel<T: Send, R: Send>(items: impl Iterator<Item = T>, work: impl Fn(T) -> R + Sync) -> Vec<R> {

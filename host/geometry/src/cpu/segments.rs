@@ -4,11 +4,11 @@ use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 use std::thread::Builder;
 
-use super::conquer::{conquer, level, level_after, GoOn, Waiting};
+use super::conquer::{conquer, level_after, GoOn, Waiting};
 use super::edges::{Edges, Half, HALVES};
+use super::kernel::Kernel;
 use super::merge::Part;
 use super::parallel::lock;
-use super::view::{Site, Width};
 
 /// Segments for each thread: enough for all threads to end at about the same time.
 const SEGMENTS: usize = 8;
@@ -21,47 +21,49 @@ const LEAST: usize = 64;
 ///
 /// Each segment of the curve is a subtree of the cuts. The calling thread joins the segments, which is little work
 /// because their borders are short.
-pub(super) fn triangulate<W: Width>(
-    sites: &[Site],
+pub(super) fn triangulate<K: Kernel>(
+    sites: &[K::Site],
+    places: &[K::Place],
     halves: &mut [Half],
     threads: usize,
     go_on: GoOn<'_>,
 ) -> Option<Part> {
     if threads < 2 {
-        return conquer::<W>(sites, halves, go_on);
+        return conquer::<K>(sites, places, halves, go_on);
     }
     let mut segments = Vec::new();
-    divide(sites, 0..sites.len(), (sites.len() / (SEGMENTS * threads)).max(LEAST), &mut segments);
-    let parts = conquer_all::<W>(sites, halves, &segments, threads, go_on);
-    let mut edges = Edges { sites, halves };
+    divide::<K>(places, 0..sites.len(), (sites.len() / (SEGMENTS * threads)).max(LEAST), &mut segments);
+    let parts = conquer_all::<K>(sites, places, halves, &segments, threads, go_on);
+    let mut edges = Edges::<K> { sites, halves };
     let mut waiting = Waiting::new();
     for (segment, part) in segments.iter().zip(parts) {
-        waiting.take::<W>(&mut edges, part?, level_after(sites, segment.end - 1));
+        waiting.take(&mut edges, part?, level_after::<K>(places, segment.end - 1));
     }
     waiting.whole()
 }
 
 /// Cuts a subtree into segments, which are subtrees of up to `most` vertices.
-fn divide(sites: &[Site], subtree: Range<usize>, most: usize, segments: &mut Vec<Range<usize>>) {
-    let within = &sites[subtree.clone()];
+fn divide<K: Kernel>(places: &[K::Place], subtree: Range<usize>, most: usize, segments: &mut Vec<Range<usize>>) {
+    let within = &places[subtree.clone()];
     let [first, .., last] = *within else {
         return segments.push(subtree);
     };
     if within.len() <= most {
         return segments.push(subtree);
     }
-    let topmost = level(first, last);
-    let place = subtree.start + within.partition_point(|&site| level(first, site) < topmost);
-    divide(sites, subtree.start..place, most, segments);
-    divide(sites, place..subtree.end, most, segments);
+    let topmost = K::level(first, last);
+    let place = subtree.start + within.partition_point(|&place| K::level(first, place) < topmost);
+    divide::<K>(places, subtree.start..place, most, segments);
+    divide::<K>(places, place..subtree.end, most, segments);
 }
 
-/// A segment to be triangulated: its place among all, its first vertex, its sites and half-edges.
-type Task<'a> = (usize, usize, &'a [Site], &'a mut [Half]);
+/// A segment to be triangulated: its place among all, its vertices and half-edges.
+type Task<'a> = (usize, Range<usize>, &'a mut [Half]);
 
 /// Triangulates all segments, each by itself. The calling thread works too, and it alone asks whether to go on.
-fn conquer_all<W: Width>(
-    sites: &[Site],
+fn conquer_all<K: Kernel>(
+    sites: &[K::Site],
+    places: &[K::Place],
     mut halves: &mut [Half],
     segments: &[Range<usize>],
     threads: usize,
@@ -70,20 +72,20 @@ fn conquer_all<W: Width>(
     let mut tasks: Vec<Task<'_>> = Vec::with_capacity(segments.len());
     for (place, segment) in segments.iter().enumerate() {
         let (own, rest) = std::mem::take(&mut halves).split_at_mut(HALVES * segment.len());
-        tasks.push((place, segment.start, &sites[segment.clone()], own));
+        tasks.push((place, segment.clone(), own));
         halves = rest;
     }
     let (tasks, parts) = (Mutex::new(tasks), Mutex::new(vec![None; segments.len()]));
     let work = |go_on: GoOn<'_>| loop {
         let task = lock(&tasks).pop();
-        let Some((place, first, sites, halves)) = task else {
+        let Some((place, segment, halves)) = task else {
             return;
         };
-        let Some(part) = conquer::<W>(sites, halves, go_on) else {
+        let Some(part) = conquer::<K>(&sites[segment.clone()], &places[segment.clone()], halves, go_on) else {
             // An empty list of tasks makes the other threads end as well.
             return lock(&tasks).clear();
         };
-        lock(&parts)[place] = Some(part.moved(halves, first as u32));
+        lock(&parts)[place] = Some(part.moved(halves, segment.start as u32));
     };
     std::thread::scope(|scope| {
         for _ in 1..threads {

@@ -130,6 +130,13 @@ impl Curve {
         (1 << self.index_bits) - 1
     }
 
+    /// The bucket that the leading bits of a position name. Where there is one bucket, positions may
+    /// have 64 other bits.
+    #[inline(always)]
+    fn bucket(&self, position: u64) -> usize {
+        position.checked_shr(self.rest_bits).unwrap_or(0) as usize
+    }
+
     /// Whether the words have whole positions.
     fn is_exact(&self) -> bool {
         self.rest_bits + self.index_bits <= u64::BITS
@@ -142,7 +149,7 @@ impl Curve {
     }
 
     /// The word for the second sort, if words are not exact: the bits of the position that the first word left out, and
-    /// the index. Both fit one word, because `rest_bits` is at most 62 and an index has at most 29 bits.
+    /// the index. Both fit one word, because `rest_bits` is at most 64 and an index has at most 29 bits.
     fn placed_finely(&self, position: u64, index: u64) -> Placed {
         let missing = self.rest_bits + self.index_bits - u64::BITS;
         Placed(position << (u64::BITS - missing) | index)
@@ -153,7 +160,7 @@ impl Curve {
         let mut bucketed = Bucketed::new(self.buckets(), points.len());
         for (&point, index) in points.iter().zip(first as u64..) {
             let position = self.position(point);
-            bucketed.put((position >> self.rest_bits) as usize, self.placed(position, index));
+            bucketed.put(self.bucket(position), self.placed(position, index));
         }
         bucketed
     }
@@ -221,7 +228,7 @@ impl Kept<'_> {
                 continue;
             }
             before = Some(rest);
-            let position = bucket << curve.rest_bits | rest >> (u64::BITS - curve.rest_bits);
+            let position = bucket.checked_shl(curve.rest_bits).unwrap_or(0) | rest >> (u64::BITS - curve.rest_bits);
             self.keep(point_at(position).into(), index);
         }
     }

@@ -2,19 +2,21 @@
 
 use std::cmp::Ordering;
 
+use incircle_testkit::{incircle_of_doubles, orient2d_of_doubles};
 use proptest::prelude::*;
 
 use super::edges::{Half, HALVES};
+use super::kernel::{is_inside, Kernel};
 use super::sites::{sort, Sites};
-use super::view::{incircle, Narrow, Seen, Site, View, Wide, Width};
+use super::view::{Integers, Narrow, Site, Wide, Widest, Width};
 use super::{collect, segments};
 use crate::order::mix;
 use crate::pages;
 use crate::point::Point;
 
 /// A coordinate of up to `bits` bits, often an extreme one.
-fn coordinate(bits: u32) -> impl Strategy<Value = i32> {
-    let last = ((1u64 << bits) - 1) as i32;
+fn coordinate(bits: u32) -> impl Strategy<Value = u32> {
+    let last = ((1u64 << bits) - 1) as u32;
     prop_oneof![2 => 0..=last, 1 => Just(0), 1 => Just(last), 1 => Just(last / 2), 1 => Just(last - last / 2)]
 }
 
@@ -35,7 +37,7 @@ fn lifted(a: Site, b: Site, c: Site, d: Site) -> i128 {
 /// Whether `q` is inside the circle of `a`, `b`, `c`, with the smallest of the four lowered on the paraboloid.
 /// `lowered` is the factor of the smallest point's lift in the determinant.
 fn conflicts(a: Site, b: Site, c: Site, q: Site) -> bool {
-    let orient2d = |p: Site, q: Site, r: Site| View::of(p, q, r).cross;
+    let orient2d = |p: Site, q: Site, r: Site| Widest::view(p, q, r).cross;
     let lowered = match [a, b, c, q].into_iter().min() {
         Some(smallest) if smallest == a => -orient2d(q, b, c),
         Some(smallest) if smallest == b => -orient2d(q, c, a),
@@ -48,20 +50,27 @@ fn conflicts(a: Site, b: Site, c: Site, q: Site) -> bool {
     }
 }
 
-#[test]
-fn ties_are_decided_by_the_smallest() {
+/// Compares all ties of a small grid with the definition; returns how many there are.
+fn ties_are_decided<W: Width>() -> usize {
     let grid: Vec<Site> = (0..16).map(|k| Site { x: k / 4, y: k % 4 }).collect();
     let mut ties = 0;
     for (&a, &b) in grid.iter().flat_map(|a| grid.iter().map(move |b| (a, b))) {
-        let above: Vec<Seen> = grid.iter().map(|&site| Seen::new(a, b, site)).filter(|s| s.view.cross > 0).collect();
+        let seen = grid.iter().map(|&site| Integers::<W>::see(a, b, site));
+        let above: Vec<_> = seen.filter(|&seen| Integers::<W>::is_left(seen)).collect();
         for (&c, &q) in above.iter().flat_map(|c| above.iter().map(move |q| (c, q))).filter(|(c, q)| c.site != q.site) {
-            let expected = conflicts(a, b, c.site, q.site);
-            assert_eq!(incircle::<Narrow>(a, b, c, q), expected);
-            assert_eq!(incircle::<Wide>(a, b, c, q), expected);
+            assert_eq!(is_inside::<Integers<W>>(a, b, c, q), conflicts(a, b, c.site, q.site));
             ties += usize::from(lifted(a, b, c.site, q.site) == 0);
         }
     }
+    ties
+}
+
+#[test]
+fn ties_are_decided_by_the_smallest() {
+    let ties = ties_are_decided::<Narrow>();
     assert!(ties > 100, "{ties}");
+    assert_eq!(ties_are_decided::<Wide>(), ties);
+    assert_eq!(ties_are_decided::<Widest>(), ties);
 }
 
 /// The position along the curve, bit by bit: the bits of x and y in turn, x first.
@@ -74,7 +83,8 @@ fn position(point: Point) -> u64 {
 fn triangles(points: &[Point], threads: usize) -> Vec<[u32; 3]> {
     let Sites { sites, ids, .. } = sort(points, threads);
     let mut halves = pages::zeros::<Half>(HALVES * sites.len());
-    let whole = segments::triangulate::<Wide>(&sites, &mut halves, threads, &mut |_| true).expect("points");
+    let whole =
+        segments::triangulate::<Integers<Wide>>(&sites, &sites, &mut halves, threads, &mut |_| true).expect("points");
     let hull = collect::hull(&mut halves, &ids, whole.leftmost());
     collect::triangles(halves, &ids, points.len(), 2 * ids.len() - 2 - hull.len(), threads)
 }
@@ -138,7 +148,7 @@ fn a_crowd_beside_a_far_point_is_sorted() {
 /// Covers several buckets, positions that fit a word and positions that do not, and many points of one place.
 #[test]
 fn many_points_are_sorted_with_their_duplicates() {
-    for bits in [1, 5, 11, 16, 24, 31] {
+    for bits in [1, 5, 11, 16, 24, 31, 32] {
         let random = |k: u64| mix(k) >> 8 & ((1 << bits) - 1);
         let points: Vec<Point> = (0..10_000u64)
             .map(|k| if k % 10 == 7 { 1 << 40 } else { k })
@@ -182,18 +192,26 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
     #[test]
+    fn the_widest_determinants_have_the_right_sign(a in site(32), b in site(32), c in site(32), q in site(32)) {
+        let [at_a, at_b, at_c, at_q] = [a, b, c, q].map(|p| [f64::from(p.x), f64::from(p.y)]);
+        let found = Widest::determinant(Widest::view(a, b, c), Widest::view(a, b, q)).cmp(&0);
+        prop_assert_eq!(found, incircle_of_doubles(at_a, at_b, at_c, at_q));
+        prop_assert_eq!(Widest::view(a, b, c).cross.cmp(&0), orient2d_of_doubles(at_a, at_b, at_c));
+    }
+
+    #[test]
     fn narrow_determinants_are_exact(a in site(16), b in site(16), c in site(16), q in site(16)) {
         let expected = lifted(a, b, c, q);
         // The bound by which determinants fit 64 bits.
         let side = i128::from(u16::MAX);
         prop_assert!(2 * expected.abs() <= side * side * side * side);
-        let found = Narrow::determinant(View::of(a, b, c), View::of(a, b, q));
+        let found = Narrow::determinant(Narrow::view(a, b, c), Narrow::view(a, b, q));
         prop_assert_eq!(i128::from(found), expected);
     }
 
     #[test]
     fn wide_determinants_are_exact(a in site(31), b in site(31), c in site(31), q in site(31)) {
-        prop_assert_eq!(Wide::determinant(View::of(a, b, c), View::of(a, b, q)), lifted(a, b, c, q));
+        prop_assert_eq!(Wide::determinant(Wide::view(a, b, c), Wide::view(a, b, q)), lifted(a, b, c, q));
     }
 
     #[test]
@@ -220,7 +238,7 @@ proptest! {
             prop_assert_eq!(lowest(points[duplicate.index as usize]), Some(duplicate.of));
             prop_assert!(duplicate.of < duplicate.index);
         }
-        let position = |site: &Site| position(Point::new(site.x as u32, site.y as u32));
+        let position = |site: &Site| position(Point::new(site.x, site.y));
         prop_assert!(sorted.sites.windows(2).all(|pair| position(&pair[0]) < position(&pair[1])));
     }
 }

@@ -7,14 +7,20 @@ use core::ops::ControlFlow;
 #[cfg(not(feature = "std"))]
 use super::conquer::conquer;
 use super::edges::{Half, HALVES};
+use super::filtered::{Filtered, FilteredSite};
+use super::filtered_sites::{self, FilteredSites};
+use super::kernel::Kernel;
 #[cfg(feature = "std")]
 use super::segments;
 use super::sites::{sort, Sites};
-use super::view::{orient2d, Narrow, Site, Wide, Width, NARROW_BITS};
+use super::view::{Integers, Narrow, Wide, Widest, Width, NARROW_BITS, WIDE_BITS};
 use super::{collect, conquer::GoOn, merge::Part};
+use crate::double::Coordinate;
+use crate::lattice::Numbers;
 use crate::mesh::Mesh;
 use crate::pages;
-use crate::point::{Point, MAX_COORD_BITS, MAX_POINTS};
+use crate::plane_point::PlanePoint;
+use crate::point::{Duplicate, Point, MAX_POINTS};
 
 /// Points that justify one more thread.
 const THREAD_POINTS: usize = 16_384;
@@ -65,6 +71,12 @@ pub enum Error {
         /// The point with this coordinate.
         point: Point,
     },
+    /// A coordinate is infinite or not a number.
+    #[error("point {index} has a coordinate that is infinite or not a number: leave it out, or give it a place")]
+    NotFinite {
+        /// Input index of the point.
+        index: usize,
+    },
     /// There are more points than [`MAX_POINTS`].
     #[error("{points} points are more than the {MAX_POINTS} that indices allow: cut the set into parts")]
     TooManyPoints {
@@ -82,7 +94,7 @@ pub fn threads_for(points: usize, allowed: NonZeroUsize) -> NonZeroUsize {
 
 /// Computes the canonical Delaunay triangulation of a set of points, on at most `threads` threads; see [`threads_for`].
 ///
-/// Coordinates must be below 2^31. Duplicates collapse onto their lowest index and are listed in the mesh. Fewer than
+/// Coordinates may have all 32 bits. Duplicates collapse onto their lowest index and are listed in the mesh. Fewer than
 /// three distinct points, or points on one line, give a mesh without triangles. The function calls `watch` with its
 /// progress, on the caller's thread, and ends early if `watch` asks for it.
 ///
@@ -104,39 +116,90 @@ pub fn threads_for(points: usize, allowed: NonZeroUsize) -> NonZeroUsize {
 /// ```
 ///
 /// # Errors
-/// There are more than [`MAX_POINTS`] points, a coordinate has more than 31 bits, or the watch ends the work.
-pub fn triangulate(points: Vec<Point>, threads: NonZeroUsize, watch: Watch<'_>) -> Result<Mesh, Error> {
-    check(&points)?;
-    let threads = threads_for(points.len(), threads).get();
-    tell(watch, Stage::Order, 0, points.len())?;
-    let Sites { sites, ids, mut duplicates, bits } = sort(&points, threads);
-    duplicates.sort_unstable();
-    let (triangles, hull) = if is_collinear(&sites) {
-        let mut hull = ids;
-        hull.sort_unstable_by_key(|&id| points[id as usize]);
-        (Vec::new(), hull)
-    } else if bits <= NARROW_BITS {
-        triangles_and_hull::<Narrow>(sites, &ids, points.len(), threads, watch)?
-    } else {
-        triangles_and_hull::<Wide>(sites, &ids, points.len(), threads, watch)?
-    };
+/// There are more than [`MAX_POINTS`] points, or the watch ends the work.
+pub fn triangulate<P: PlanePoint>(points: Vec<P>, threads: NonZeroUsize, watch: Watch<'_>) -> Result<Mesh<P>, Error> {
+    let (numbers, _) = P::numbers(&points).on_lattice();
+    let Connectivity { triangles, hull, duplicates } = connect(&numbers, threads, watch)?;
     Ok(Mesh { points, triangles, hull, duplicates })
 }
 
-fn check(points: &[Point]) -> Result<(), Error> {
-    if points.len() > MAX_POINTS {
-        return Err(Error::TooManyPoints { points: points.len() });
+/// The triangles, hull and duplicates of points in the numbers in which they are given; see [`triangulate`]. Whole
+/// numbers and doubles are not looked at for a lattice, which [`Numbers::on_lattice`] finds, and take longer
+/// here than on one.
+///
+/// # Errors
+/// As those of [`triangulate`].
+pub fn connect(numbers: &Numbers<'_>, threads: NonZeroUsize, watch: Watch<'_>) -> Result<Connectivity, Error> {
+    match numbers {
+        Numbers::Grid(points) => connect_grid(points, threads, watch),
+        Numbers::Whole(points) => connect_filtered(points, threads, watch),
+        Numbers::Doubles(points) => {
+            let is_finite = |point: &[f64; 2]| point.iter().all(|value| value.is_finite());
+            match points.iter().position(|point| !is_finite(point)) {
+                Some(index) => Err(Error::NotFinite { index }),
+                None => connect_filtered(points, threads, watch),
+            }
+        }
     }
-    // One pass without branches decides for all points together, far faster than a look at each. Nearly always all
-    // coordinates are in range.
-    let all = points.iter().fold(0, |all, point| all | point.x | point.y);
-    if all >> MAX_COORD_BITS == 0 {
-        return Ok(());
+}
+
+fn connect_grid(points: &[Point], threads: NonZeroUsize, watch: Watch<'_>) -> Result<Connectivity, Error> {
+    check(points.len())?;
+    let threads = threads_for(points.len(), threads).get();
+    tell(watch, Stage::Order, 0, points.len())?;
+    let sites = sort(points, threads);
+    match sites.bits {
+        ..=NARROW_BITS => connect_sites::<Narrow>(points, sites, threads, watch),
+        ..=WIDE_BITS => connect_sites::<Wide>(points, sites, threads, watch),
+        _ => connect_sites::<Widest>(points, sites, threads, watch),
     }
-    match points.iter().position(|point| (point.x | point.y) >> MAX_COORD_BITS != 0) {
-        Some(index) => Err(Error::CoordinateOutOfRange { index, point: points[index] }),
-        None => Ok(()),
+}
+
+fn connect_sites<W: Width>(
+    points: &[Point],
+    Sites { sites, ids, mut duplicates, .. }: Sites,
+    threads: usize,
+    watch: Watch<'_>,
+) -> Result<Connectivity, Error> {
+    duplicates.sort_unstable();
+    if is_collinear::<Integers<W>>(&sites) {
+        let mut hull = ids;
+        hull.sort_unstable_by_key(|&id| points[id as usize]);
+        return Ok(Connectivity { triangles: Vec::new(), hull, duplicates });
     }
+    let halves = insert::<Integers<W>>(&sites, &sites, threads, watch)?;
+    drop(sites);
+    let (triangles, hull) = assemble(halves, &ids, points.len(), threads, watch)?;
+    Ok(Connectivity { triangles, hull, duplicates })
+}
+
+fn connect_filtered<C: Coordinate>(
+    points: &[[C; 2]],
+    threads: NonZeroUsize,
+    watch: Watch<'_>,
+) -> Result<Connectivity, Error> {
+    check(points.len())?;
+    let threads = threads_for(points.len(), threads).get();
+    tell(watch, Stage::Order, 0, points.len())?;
+    let FilteredSites { sites, places, ids, mut duplicates } = filtered_sites::sort(points, threads);
+    duplicates.sort_unstable();
+    if is_collinear::<Filtered<C>>(&sites) {
+        let mut order: Vec<(FilteredSite<C>, u32)> = sites.into_iter().zip(ids).collect();
+        order.sort_unstable();
+        let hull = order.into_iter().map(|(_, id)| id).collect();
+        return Ok(Connectivity { triangles: Vec::new(), hull, duplicates });
+    }
+    let halves = insert::<Filtered<C>>(&sites, &places, threads, watch)?;
+    drop((sites, places));
+    let (triangles, hull) = assemble(halves, &ids, points.len(), threads, watch)?;
+    Ok(Connectivity { triangles, hull, duplicates })
+}
+
+fn check(points: usize) -> Result<(), Error> {
+    if points > MAX_POINTS {
+        return Err(Error::TooManyPoints { points });
+    }
+    Ok(())
 }
 
 /// Reports progress to the watch, which may end the work.
@@ -148,26 +211,47 @@ fn tell(watch: Watch<'_>, stage: Stage, done: usize, total: usize) -> Result<(),
     }
 }
 
-/// The triangles and the hull of sites that are not all on one line.
-fn triangles_and_hull<W: Width>(
-    sites: Vec<Site>,
-    ids: &[u32],
-    points: usize,
+/// The triangles of a mesh, its hull, and the points that fell onto earlier ones; all by input index.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Connectivity {
+    /// The triangles, as [`Mesh::triangles`].
+    pub triangles: Vec<[u32; 3]>,
+    /// The hull, as [`Mesh::hull`].
+    pub hull: Vec<u32>,
+    /// The duplicates, as [`Mesh::duplicates`].
+    pub duplicates: Vec<Duplicate>,
+}
+
+/// The half-edges of the triangulation of sites that are not all on one line, and what leads into them. Returns `None`
+/// in place of the latter if there are no sites.
+fn insert<K: Kernel>(
+    sites: &[K::Site],
+    places: &[K::Place],
     threads: usize,
     watch: Watch<'_>,
-) -> Result<(Vec<[u32; 3]>, Vec<u32>), Error> {
+) -> Result<(Vec<Half>, Option<Part>), Error> {
     let mut halves = pages::zeros::<Half>(HALVES * sites.len());
     let total = sites.len();
     tell(watch, Stage::Insert, 0, total)?;
     let (mut done, mut ending) = (0, Ok(()));
-    let whole = whole::<W>(&sites, &mut halves, threads, &mut |more| {
+    let whole = whole::<K>(sites, places, &mut halves, threads, &mut |more| {
         done += more;
         ending = tell(watch, Stage::Insert, done.min(total), total);
         ending.is_ok()
     });
     ending?;
     tell(watch, Stage::Insert, total, total)?;
-    drop(sites);
+    Ok((halves, whole))
+}
+
+/// The triangles and the hull of a triangulation, given the input index of each site and the number of input points.
+fn assemble(
+    (mut halves, whole): (Vec<Half>, Option<Part>),
+    ids: &[u32],
+    points: usize,
+    threads: usize,
+    watch: Watch<'_>,
+) -> Result<(Vec<[u32; 3]>, Vec<u32>), Error> {
     tell(watch, Stage::Assemble, 0, points)?;
     let Some(whole) = whole else {
         return Ok((Vec::new(), Vec::new()));
@@ -179,19 +263,31 @@ fn triangles_and_hull<W: Width>(
 }
 
 #[cfg(feature = "std")]
-fn whole<W: Width>(sites: &[Site], halves: &mut [Half], threads: usize, go_on: GoOn<'_>) -> Option<Part> {
-    segments::triangulate::<W>(sites, halves, threads, go_on)
+fn whole<K: Kernel>(
+    sites: &[K::Site],
+    places: &[K::Place],
+    halves: &mut [Half],
+    threads: usize,
+    go_on: GoOn<'_>,
+) -> Option<Part> {
+    segments::triangulate::<K>(sites, places, halves, threads, go_on)
 }
 
 #[cfg(not(feature = "std"))]
-fn whole<W: Width>(sites: &[Site], halves: &mut [Half], _threads: usize, go_on: GoOn<'_>) -> Option<Part> {
-    conquer::<W>(sites, halves, go_on)
+fn whole<K: Kernel>(
+    sites: &[K::Site],
+    places: &[K::Place],
+    halves: &mut [Half],
+    _threads: usize,
+    go_on: GoOn<'_>,
+) -> Option<Part> {
+    conquer::<K>(sites, places, halves, go_on)
 }
 
 /// Whether there are fewer than three sites, or all lie on one line.
-fn is_collinear(sites: &[Site]) -> bool {
+fn is_collinear<K: Kernel>(sites: &[K::Site]) -> bool {
     let [a, b, rest @ ..] = sites else {
         return true;
     };
-    rest.iter().all(|&c| orient2d(*a, *b, c) == 0)
+    rest.iter().all(|&c| K::orient2d(*a, *b, c).is_eq())
 }

@@ -3,8 +3,8 @@
 //! The curve has order 32 and covers the whole grid, so the order of two points does not depend on the coordinate bits.
 //! A table, which the compiler fills, turns four bits of each coordinate at a time into a position.
 //!
-//! A quadrant's copy of the curve is the first copy with its axes swapped, or with both axes reversed, or
-//! with both changes. Two flags are the whole state. Source: Hilbert, *Über die stetige Abbildung einer Linie
+//! A quadrant's copy of the curve is the first copy with its axes swapped, or with both axes reversed, or with both
+//! changes. Two flags are the whole state. Source: Hilbert, *Über die stetige Abbildung einer Linie
 //! auf ein Flächenstück*, 1891.
 
 use alloc::vec::Vec;

@@ -11,8 +11,8 @@ use crate::point::Point;
 
 /// The order in which points are inserted. The mesh does not depend on the order, but the time does.
 ///
-/// Keep the default for points that come in no useful order. Choose [`Order::Input`] if neighbours in the input
-/// are neighbours in the plane already, as in a scan; sorting is then saved. The CPU triangulator inserts nothing
+/// Keep the default for points that come in no useful order. Choose [`Order::Input`] if neighbours in the input are
+/// neighbours in the plane already, as in a scan; sorting is then saved. The CPU triangulator inserts nothing
 /// and needs no order.
 ///
 /// ```

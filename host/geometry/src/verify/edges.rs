@@ -5,12 +5,16 @@ use alloc::vec::Vec;
 use core::cmp::Ordering;
 
 use super::error::VerifyError;
-use super::exact::incircle;
+use super::exact::ExactPoint;
 use super::sites::Sites;
 use super::summary::VerifySummary;
 
 /// Checks all edges, and counts edges and ties in the summary.
-pub(super) fn check(sites: &Sites<'_>, triangles: &[[u32; 3]], summary: &mut VerifySummary) -> Result<(), VerifyError> {
+pub(super) fn check<P: ExactPoint>(
+    sites: &Sites<'_, P>,
+    triangles: &[[u32; 3]],
+    summary: &mut VerifySummary,
+) -> Result<(), VerifyError> {
     let sides = sides(triangles);
     let edges = || sides.chunk_by(|one, other| one.0 == other.0);
     let mut hull = HullEdges::of(&summary.hull, sites.points.len());
@@ -104,15 +108,20 @@ impl HullEdges {
 }
 
 /// Checks the local Delaunay property and the tie rule of the edge between two triangles; returns true for a tie.
-fn check_inner_edge(sites: &Sites<'_>, triangles: &[[u32; 3]], one: u32, other: u32) -> Result<bool, VerifyError> {
+fn check_inner_edge<P: ExactPoint>(
+    sites: &Sites<'_, P>,
+    triangles: &[[u32; 3]],
+    one: u32,
+    other: u32,
+) -> Result<bool, VerifyError> {
     let corner = |halfedge: u32, step: u32| triangles[(halfedge / 3) as usize][((halfedge % 3 + step) % 3) as usize];
     let (a, b, c, d) = (corner(one, 0), corner(one, 1), corner(one, 2), corner(other, 2));
-    match incircle(sites.at(a), sites.at(b), sites.at(c), sites.at(d)) {
+    match P::incircle(sites.at(a), sites.at(b), sites.at(c), sites.at(d)) {
         Ordering::Less => Ok(false),
         Ordering::Greater => Err(VerifyError::NotDelaunay { triangle: (one / 3) as usize, point: d, edge: [a, b] }),
         Ordering::Equal => {
             let corners = [a, d, b, c];
-            let smallest = corners.into_iter().min_by_key(|&index| sites.at(index));
+            let smallest = corners.into_iter().min_by(|&one, &other| sites.at(one).compare(&sites.at(other)));
             match smallest {
                 Some(smallest) if smallest != a && smallest != b => {
                     Err(VerifyError::WrongTie { corners, edge: [a, b], smallest })

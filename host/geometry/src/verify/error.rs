@@ -1,20 +1,16 @@
 //! The defects that the validator finds.
 
-use crate::point::Point;
-
 /// The first defect that [`verify`](fn@crate::verify) found in a mesh.
 ///
 /// Triangles are numbered by their place in the list, points by their input index. The message names both.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum VerifyError {
-    /// A coordinate is too large for exact arithmetic in 128 bits.
-    #[error("point {index} is {point}, but the validator takes coordinates below 2147483648")]
-    CoordinateTooLarge {
+    /// A coordinate is infinite or not a number.
+    #[error("point {index} has a coordinate that is infinite or not a number")]
+    NotFinite {
         /// Input index of the point.
         index: usize,
-        /// The point with this coordinate.
-        point: Point,
     },
     /// There are more points or triangles than 32-bit half-edge numbers allow.
     #[error("{count} points or triangles are more than the validator's {max}")]

@@ -2,8 +2,8 @@
 //!
 //! Use the validator in tests of code that makes or changes meshes, and on answers of hardware that you do not trust.
 //! The validator shares no predicate, no sort and no step of an algorithm with the devices, the model or the rest of
-//! the host, only the types of points and meshes. Instead, it has exact 128-bit integers, the lifted 3x3 determinant,
-//! and a hull by monotone chain (Andrew 1979).
+//! the host, only the types of points and meshes. Instead, it has exact integers of its own, the lifted 3x3
+//! determinant, and a hull by monotone chain (Andrew 1979).
 //!
 //! An accepted list of triangles is the canonical mesh, because
 //! - all triangles are counter-clockwise, and each edge has one triangle on either side, or is a hull edge with one
@@ -14,8 +14,10 @@
 //!   the tie rule is a lifting (see [`cpu`](crate::cpu)), no other set of triangles passes;
 //! - each triangle begins with its smallest index, and the list is sorted: so there is no other such list.
 //!
-//! Euler's formula and the sum of the areas follow from the first two points. The validator checks both all the same.
+//! Euler's formula and the sum of the areas follow from the first two points. The validator checks Euler's formula all
+//! the same, and the areas where integers of 128 bits can sum them, which is for points of the grid.
 
+mod digits;
 mod edges;
 mod error;
 mod exact;
@@ -28,10 +30,11 @@ use alloc::vec::Vec;
 pub use error::VerifyError;
 pub use summary::VerifySummary;
 
+use crate::lattice::Numbers;
+use crate::plane_point::PlanePoint;
 use crate::point::Duplicate;
-use crate::point::Point;
 
-use exact::COORDINATE_LIMIT;
+use exact::ExactPoint;
 use sites::Sites;
 
 /// Most points or triangles that the validator takes: three half-edges of each triangle must fit 32 bits.
@@ -39,9 +42,9 @@ const MAX_COUNT: usize = (u32::MAX / 3) as usize;
 
 /// Proves that `triangles` is the canonical Delaunay triangulation of `points`, and counts what it has seen.
 ///
-/// The triangles may come from anywhere; indices out of range and other nonsense are errors, never a panic. Coordinates
-/// must be below 2^31. O(n log n), with about 200 bytes a point. [`Mesh::verify`](crate::Mesh::verify) also checks the
-/// hull and the duplicates of a mesh.
+/// The triangles may come from anywhere; indices out of range and other nonsense are errors, never a panic. Points are
+/// of any type that can be triangulated. O(n log n), with about 200 bytes a point.
+/// [`Mesh::verify`](crate::Mesh::verify) also checks the hull and the duplicates of a mesh.
 ///
 /// ```
 /// use incircle_geometry::{verify, Point};
@@ -54,8 +57,19 @@ const MAX_COUNT: usize = (u32::MAX / 3) as usize;
 ///
 /// # Errors
 /// The first defect found, with the numbers of its points and triangles.
-pub fn verify(points: &[Point], triangles: &[[u32; 3]]) -> Result<VerifySummary, VerifyError> {
-    check_sizes(points, triangles)?;
+pub fn verify<P: PlanePoint>(points: &[P], triangles: &[[u32; 3]]) -> Result<VerifySummary, VerifyError> {
+    check_sizes(points.len(), triangles)?;
+    match P::numbers(points) {
+        Numbers::Grid(points) => verify_exactly(&points, triangles),
+        Numbers::Whole(points) => verify_exactly(&points, triangles),
+        Numbers::Doubles(points) => {
+            check_finite(&points)?;
+            verify_exactly(&points, triangles)
+        }
+    }
+}
+
+fn verify_exactly<P: ExactPoint>(points: &[P], triangles: &[[u32; 3]]) -> Result<VerifySummary, VerifyError> {
     let sites = Sites::of(points);
     let mut summary = VerifySummary {
         points: points.len(),
@@ -80,28 +94,32 @@ pub fn verify(points: &[Point], triangles: &[[u32; 3]]) -> Result<VerifySummary,
     Ok(summary)
 }
 
-fn check_sizes(points: &[Point], triangles: &[[u32; 3]]) -> Result<(), VerifyError> {
-    let count = points.len().max(triangles.len());
+fn check_sizes(points: usize, triangles: &[[u32; 3]]) -> Result<(), VerifyError> {
+    let count = points.max(triangles.len());
     if count > MAX_COUNT {
         return Err(VerifyError::TooLarge { count, max: MAX_COUNT });
     }
-    let too_large = |point: &Point| point.x.max(point.y) >= COORDINATE_LIMIT;
-    match points.iter().position(too_large) {
-        Some(index) => Err(VerifyError::CoordinateTooLarge { index, point: points[index] }),
+    Ok(())
+}
+
+fn check_finite(points: &[[f64; 2]]) -> Result<(), VerifyError> {
+    match points.iter().position(|point| !point.iter().all(|value| value.is_finite())) {
+        Some(index) => Err(VerifyError::NotFinite { index }),
         None => Ok(()),
     }
 }
 
-/// Checks each triangle by itself and the order of the list; returns twice the sum of the areas.
-fn check_triangles(sites: &Sites<'_>, triangles: &[[u32; 3]]) -> Result<i128, VerifyError> {
-    let mut covered = 0;
+/// Checks each triangle by itself and the order of the list; returns twice the sum of the areas, if
+/// the numbers allow it.
+fn check_triangles<P: ExactPoint>(sites: &Sites<'_, P>, triangles: &[[u32; 3]]) -> Result<Option<i128>, VerifyError> {
+    let mut covered = Some(0);
     for (triangle, &corners) in triangles.iter().enumerate() {
         check_corners(sites, triangle, corners)?;
-        let area = exact::orient2d(sites.at(corners[0]), sites.at(corners[1]), sites.at(corners[2]));
-        if area <= 0 {
+        let [a, b, c] = corners.map(|corner| sites.at(corner));
+        if P::orient2d(a, b, c).is_le() {
             return Err(VerifyError::NotCounterClockwise { triangle, corners });
         }
-        covered += area;
+        covered = covered.zip(P::doubled_area(Some(a), b, c)).map(|(sum, area)| sum + area);
         if corners[0] > corners[1] || corners[0] > corners[2] {
             return Err(VerifyError::NotRotated { triangle, corners });
         }
@@ -116,7 +134,7 @@ fn check_triangles(sites: &Sites<'_>, triangles: &[[u32; 3]]) -> Result<i128, Ve
 }
 
 /// Checks that the corners of a triangle exist, each under the lowest index of its coordinates.
-fn check_corners(sites: &Sites<'_>, triangle: usize, corners: [u32; 3]) -> Result<(), VerifyError> {
+fn check_corners<P: ExactPoint>(sites: &Sites<'_, P>, triangle: usize, corners: [u32; 3]) -> Result<(), VerifyError> {
     for index in corners {
         match sites.lowest.get(index as usize) {
             None => return Err(VerifyError::IndexOutOfRange { triangle, index, points: sites.points.len() }),
@@ -141,7 +159,7 @@ fn check_count(summary: &VerifySummary) -> Result<(), VerifyError> {
     })
 }
 
-fn check_all_used(sites: &Sites<'_>, triangles: &[[u32; 3]]) -> Result<(), VerifyError> {
+fn check_all_used<P: ExactPoint>(sites: &Sites<'_, P>, triangles: &[[u32; 3]]) -> Result<(), VerifyError> {
     let mut used = vec![false; sites.points.len()];
     for &index in triangles.as_flattened() {
         used[index as usize] = true;
@@ -153,11 +171,14 @@ fn check_all_used(sites: &Sites<'_>, triangles: &[[u32; 3]]) -> Result<(), Verif
     }
 }
 
-fn check_area(sites: &Sites<'_>, hull: &[u32], triangles: i128) -> Result<(), VerifyError> {
-    let origin = Point::new(0, 0);
+/// Checks that the triangles sum to the area of the hull, if the numbers allow sums.
+fn check_area<P: ExactPoint>(sites: &Sites<'_, P>, hull: &[u32], triangles: Option<i128>) -> Result<(), VerifyError> {
+    let Some(triangles) = triangles else {
+        return Ok(());
+    };
     let following = hull.iter().skip(1).chain(hull.first());
     let sectors = hull.iter().zip(following);
-    let hull = sectors.map(|(&from, &to)| exact::orient2d(origin, sites.at(from), sites.at(to))).sum();
+    let hull = sectors.filter_map(|(&from, &to)| P::doubled_area(None, sites.at(from), sites.at(to))).sum();
     if triangles == hull {
         Ok(())
     } else {
@@ -178,8 +199,12 @@ pub(crate) fn check_hull(hull: &[u32], summary: &VerifySummary) -> Result<(), Ve
 }
 
 /// Checks that the duplicates of a mesh are those of its points.
-pub(crate) fn check_duplicates(points: &[Point], duplicates: &[Duplicate]) -> Result<(), VerifyError> {
-    let expected: Vec<Duplicate> = Sites::of(points).duplicates().collect();
+pub(crate) fn check_duplicates<P: PlanePoint>(points: &[P], duplicates: &[Duplicate]) -> Result<(), VerifyError> {
+    let expected: Vec<Duplicate> = match P::numbers(points) {
+        Numbers::Grid(points) => Sites::of(&points).duplicates().collect(),
+        Numbers::Whole(points) => Sites::of(&points).duplicates().collect(),
+        Numbers::Doubles(points) => Sites::of(&points).duplicates().collect(),
+    };
     match first_difference(duplicates, &expected) {
         Some(place) => Err(VerifyError::Duplicates { place }),
         None => Ok(()),

@@ -4,27 +4,27 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use crate::point::Duplicate;
-use crate::point::Point;
 
-use super::exact::orient2d;
+use super::exact::ExactPoint;
 
 /// The points of an input, sorted, with the lowest index of each place.
-pub(super) struct Sites<'a> {
-    pub(super) points: &'a [Point],
+pub(super) struct Sites<'a, P> {
+    pub(super) points: &'a [P],
     /// Lowest index of each distinct point, in lexicographic order of the points.
     pub(super) distinct: Vec<u32>,
     /// For each input index, the lowest index of the same coordinates.
     pub(super) lowest: Vec<u32>,
 }
 
-impl<'a> Sites<'a> {
+impl<'a, P: ExactPoint> Sites<'a, P> {
     /// Sorts the points and finds the lowest index of each place. O(n log n).
-    pub(super) fn of(points: &'a [Point]) -> Self {
+    pub(super) fn of(points: &'a [P]) -> Self {
         let mut distinct: Vec<u32> = (0..points.len() as u32).collect();
-        distinct.sort_unstable_by_key(|&index| (points[index as usize], index));
+        let compare = |one: u32, other: u32| points[one as usize].compare(&points[other as usize]);
+        distinct.sort_unstable_by(|&one, &other| compare(one, other).then(one.cmp(&other)));
         let mut lowest = vec![0; points.len()];
         distinct.dedup_by(|later, kept| {
-            let equal = points[*later as usize] == points[*kept as usize];
+            let equal = compare(*later, *kept).is_eq();
             lowest[*later as usize] = if equal { *kept } else { *later };
             equal
         });
@@ -34,7 +34,7 @@ impl<'a> Sites<'a> {
         Self { points, distinct, lowest }
     }
 
-    pub(super) fn at(&self, index: u32) -> Point {
+    pub(super) fn at(&self, index: u32) -> P {
         self.points[index as usize]
     }
 
@@ -44,7 +44,7 @@ impl<'a> Sites<'a> {
             return true;
         };
         let (a, b) = (self.at(*first), self.at(*second));
-        rest.iter().all(|&index| orient2d(a, b, self.at(index)) == 0)
+        rest.iter().all(|&index| P::orient2d(a, b, self.at(index)).is_eq())
     }
 
     /// The hull by Andrew's monotone chain, counter-clockwise from its lowest index, with the points in the middle of
@@ -65,7 +65,7 @@ impl<'a> Sites<'a> {
         let mut chain: Vec<u32> = Vec::new();
         for next in sorted {
             while let [.., before, last] = chain[..] {
-                if orient2d(self.at(before), self.at(last), self.at(next)) >= 0 {
+                if P::orient2d(self.at(before), self.at(last), self.at(next)).is_ge() {
                     break;
                 }
                 chain.pop();
@@ -86,6 +86,7 @@ impl<'a> Sites<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::point::Point;
 
     fn points(raw: &[(u32, u32)]) -> Vec<Point> {
         raw.iter().map(|&pair| pair.into()).collect()

@@ -2,9 +2,9 @@
 //!
 //! A small mesh has no room for many insertions at once. A device with several contexts therefore gets a *group* of
 //! small jobs, one mesh for each context. A job that is too large for that, or left over, is an *exclusive job*: it has
-//! the whole memory to itself ([`plan`] decides). If the transport takes commands ahead, the commands of the next
-//! group or exclusive job are sent before the answers to the current one are received ([`super::flight`]), so that the
-//! device never waits for the host.
+//! the whole memory to itself ([`plan`] decides). If the transport takes commands ahead, the commands of the next group
+//! or exclusive job are sent before the answers to the current one are received ([`super::flight`]), so that the device
+//! never waits for the host.
 
 mod plan;
 
@@ -99,8 +99,8 @@ impl<'b> Batch<'b> {
         for part in plan.divide(&lengths) {
             match part {
                 Part::Group(jobs) => groups.push(Group::sharing(rest.by_ref().take(jobs).collect())),
-                // The order at hand is for one context. The job is put in order again, for
-                // several, when its turn comes.
+                // The order at hand is for one context. The job is put in order again, for several,
+                // when its turn comes.
                 Part::Exclusive => {
                     if let Some(own) = rest.next() {
                         self.add_exclusive(plan, own.job, exclusive);

@@ -6,9 +6,9 @@
 //! long as its longest job, and each of its jobs takes the memory of the longest. Only few large jobs fit side by side,
 //! and few together are slower than one after another.
 //!
-//! Both formulas are fitted to the clocks that the model by clock counts for uniform points, and are within an
-//! eighth of them (`plan/tests.rs`). For other sets and devices they are a guess. A wrong guess costs clocks; the
-//! meshes do not depend on it.
+//! Both formulas are fitted to the clocks that the model by clock counts for uniform points, and are within an eighth
+//! of them (`plan/tests.rs`). For other sets and devices they are a guess. A wrong guess costs clocks; the meshes do
+//! not depend on it.
 
 #[cfg(test)]
 mod tests;
@@ -22,15 +22,15 @@ const UNDISTURBED_INSERTION: u64 = 155 * CLOCK;
 const EXTRA_JOB: u64 = 230;
 /// Jobs of a group, as a count, up to which the read port has room.
 const UNCROWDED_JOBS: u64 = 8;
-/// Growth of the cost of one more job, for each job beyond [`UNCROWDED_JOBS`]. Fitted to the table at
-/// [`rounds`], from 10 jobs on.
+/// Growth of the cost of one more job, for each job beyond [`UNCROWDED_JOBS`]. Fitted to the table at [`rounds`],
+/// from 10 jobs on.
 const EXTRA_JOB_GROWTH: u64 = 120;
-/// Upper bound on the cost of one more job: the 13 visits of an insertion, a clock of the read port
-/// each, once nothing hides them.
+/// Upper bound on the cost of one more job: the 13 visits of an insertion, a clock of the read port each,
+/// once nothing hides them.
 const MOST_EXTRA_JOB: u64 = 13 * CLOCK;
-/// Factor of the contention in an exclusive job, in whole clocks. A small mesh has no room for many
-/// insertions at once, which costs `CONTENTION * (min(points, CONTENTION_POINTS) * contexts^3)^(1/4)` clocks.
-/// Fitted to the table at [`Plan::exclusive_with`].
+/// Factor of the contention in an exclusive job, in whole clocks. A small mesh has no room for many insertions at once,
+/// which costs `CONTENTION * (min(points, CONTENTION_POINTS) * contexts^3)^(1/4)` clocks. Fitted to
+/// the table at [`Plan::exclusive_with`].
 const CONTENTION: u64 = 300;
 /// Points of a mesh, as a count, from which on contention does not grow.
 const CONTENTION_POINTS: u64 = 1024;
@@ -130,8 +130,8 @@ impl Plan {
         first_parts.take_while(|&first| first < lengths.len()).map(|first| best[first].1).collect()
     }
 
-    /// The groups that fit and begin with the first of these jobs: the number of jobs, from 1 on, and
-    /// the cost without the read-out.
+    /// The groups that fit and begin with the first of these jobs: the number of jobs, from 1 on, and the
+    /// cost without the read-out.
     fn groups<'a>(&self, lengths: &'a [usize]) -> impl Iterator<Item = (usize, u64)> + use<'a> {
         let (capacity, longest) = (self.capacity, lengths.first().map_or(0, |&first| first));
         let (mut clocks, mut full) = (COMMANDS, 0);

@@ -97,8 +97,8 @@ pub struct CardInfo {
     pub what: String,
 }
 
-/// Lists the cards that the driver XDMA has found, by number. Only its registers say whether a
-/// card is an incircle card.
+/// Lists the cards that the driver XDMA has found, by number. Only its registers say whether a card
+/// is an incircle card.
 pub fn cards() -> Vec<CardInfo> {
     cards_in(Path::new(DEVICES))
 }

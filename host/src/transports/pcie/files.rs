@@ -45,8 +45,8 @@ mod system {
     /// Errors of the driver for a card that has left the bus, or was never there.
     const NO_CARD: [i32; 3] = [libc::ENODEV, libc::ENXIO, libc::EIO];
 
-    /// A file of the card. The lock on the card ends with the last of its files, so a call that does not
-    /// return keeps other programs away.
+    /// A file of the card. The lock on the card ends with the last of its files, so a call that does not return
+    /// keeps other programs away.
     struct Locked {
         file: File,
         _lock: Arc<File>,

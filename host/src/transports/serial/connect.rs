@@ -106,8 +106,8 @@ pub(super) struct Connect {
 }
 
 impl Connect {
-    /// Begins to connect. The number of the session will be the one after `session`, and the rates
-    /// are tried in their order.
+    /// Begins to connect. The number of the session will be the one after `session`, and the rates are
+    /// tried in their order.
     pub fn new(now: Duration, session: u8, rates: &[u32], only_greet: bool) -> Self {
         Self {
             step: Step::Greet,
@@ -124,8 +124,8 @@ impl Connect {
         }
     }
 
-    /// The rates to try for a wanted rate, the highest first. The first rate, at which every link
-    /// begins, is not among them.
+    /// The rates to try for a wanted rate, the highest first. The first rate, at which every link begins,
+    /// is not among them.
     pub fn ladder(wanted: u32) -> Vec<u32> {
         let lower = LADDER.into_iter().filter(|&rate| rate < wanted);
         std::iter::once(wanted).filter(|&rate| rate > FIRST_RATE).chain(lower).take(LADDER.len()).collect()
@@ -146,8 +146,8 @@ impl Connect {
         self.only_greet
     }
 
-    /// The device's silence: the time without a frame from the host after which it forgets the session. A
-    /// claim outside [`SILENCES`] is clamped.
+    /// The device's silence: the time without a frame from the host after which it forgets the session. A claim
+    /// outside [`SILENCES`] is clamped.
     pub fn silence(&self) -> Duration {
         let claimed = self.greeting.map_or(SILENCE_MS, |greeting| greeting.silence_ms);
         ms(u64::from(claimed.clamp(SILENCES.0, SILENCES.1)))
@@ -262,8 +262,8 @@ impl Connect {
         }
     }
 
-    /// Takes a frame of the device. Returns true if the frame opened the session, which
-    /// begins with nothing from before.
+    /// Takes a frame of the device. Returns true if the frame opened the session, which begins
+    /// with nothing from before.
     pub fn hear(&mut self, message: &Message<'_>, now: Duration, line: &mut Line) -> Result<bool, SerialFault> {
         let is_ours = message.session == self.session;
         match (self.step, message.kind) {

@@ -1,8 +1,8 @@
 //! The setting that makes a USB adapter pass bytes on at once, on systems that have it.
 //!
-//! Adapters collect bytes for a while before they pass them on, 16 ms by default with FTDI's. For short answers
-//! that is half of all time. On Linux a flag of the driver brings it down to a millisecond, but the library for
-//! ports has no call for it.
+//! Adapters collect bytes for a while before they pass them on, 16 ms by default with FTDI's. For short answers that is
+//! half of all time. On Linux a flag of the driver brings it down to a millisecond, but the library for ports has
+//! no call for it.
 
 /// Sets the port to low latency. A failure is ignored, since only speed is at stake.
 #[cfg(target_os = "linux")]
@@ -48,9 +48,9 @@ mod linux {
 
     pub fn set(port: RawFd) {
         let mut settings = std::mem::MaybeUninit::<SerialStruct>::zeroed();
-        // SAFETY: the descriptor is open for as long as the borrowed port, and the call writes at
-        // most a `serial_struct`, for which there is room. All bits zero are a valid one, so it may
-        // be read whatever the call did.
+        // SAFETY: the descriptor is open for as long as the borrowed port, and the call writes at most a
+        // `serial_struct`, for which there is room. All bits zero are a valid one, so it may be read
+        // whatever the call did.
         let (result, settings) = unsafe {
             let result = libc::ioctl(port, libc::TIOCGSERIAL, settings.as_mut_ptr());
             (result, settings.assume_init_mut())

@@ -10,8 +10,8 @@ use serialport::{ClearBuffer, DataBits, FlowControl, Parity, SerialPort, SerialP
 use super::fault::SerialFault;
 use super::low_latency;
 
-/// Most bytes of one write. A port that is ready takes this many without blocking, even when nobody
-/// reads at its other end.
+/// Most bytes of one write. A port that is ready takes this many without blocking, even when nobody reads
+/// at its other end.
 const MOST_WRITTEN: usize = 1024;
 /// Empty reads in a row, from a port that was ready to be read, that show that the port is gone.
 const EMPTY_READS: u32 = 3;

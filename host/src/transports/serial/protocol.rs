@@ -1,5 +1,5 @@
-//! The host's half of the serial link, without a port and without a clock: bytes and times go in,
-//! bytes and times come out.
+//! The host's half of the serial link, without a port and without a clock: bytes and times go in, bytes
+//! and times come out.
 
 mod receive;
 mod transmit;
@@ -173,8 +173,8 @@ impl SerialProtocol {
         }
         let needs_nothing = matches!(command, Command::Hello | Command::Clear { .. });
         match self.stage {
-            // Either the device still knows the session, or the memory that the command needs is lost anyway.
-            // The first answer will tell.
+            // Either the device still knows the session, or the memory that the command needs is lost anyway. The
+            // first answer will tell.
             Stage::Open if !needs_nothing || now.saturating_sub(self.last_said) < self.silence * 3 / 4 => {
                 self.last_heard = now;
                 return self.reader.begin(&command, &mut self.sender);
@@ -253,8 +253,8 @@ impl SerialProtocol {
         matches!(self.stage, Stage::Idle)
     }
 
-    /// The rate, in bits per second, that the port must have for the next bytes. A call that changes the
-    /// rate hands out no bytes.
+    /// The rate, in bits per second, that the port must have for the next bytes. A call that changes the rate
+    /// hands out no bytes.
     pub fn rate(&self) -> u32 {
         self.line.rate()
     }

@@ -164,8 +164,8 @@ impl Reader {
         Ok(is_news)
     }
 
-    /// Hears that the device has sent `answers` answers to their end, modulo 256. Those among them that
-    /// have not come are lost.
+    /// Hears that the device has sent `answers` answers to their end, modulo 256. Those among them that have
+    /// not come are lost.
     pub fn passed(&mut self, answers: u8, sender: &mut Sender) -> Result<(), SerialFault> {
         let passed = usize::from(answers.wrapping_sub(self.number));
         if passed <= self.asked.len() {

@@ -177,9 +177,9 @@ impl Sender {
         Some((number, &frame.payload))
     }
 
-    /// Takes an acknowledgement: the device awaits frame `expected`, has room for `free` bytes, and may report
-    /// the check sum of everything that it took. `None` if the acknowledgement is not up to date: it was
-    /// overtaken, or doubled on the way.
+    /// Takes an acknowledgement: the device awaits frame `expected`, has room for `free` bytes, and may report the
+    /// check sum of everything that it took. `None` if the acknowledgement is not up to date: it was overtaken, or
+    /// doubled on the way.
     pub fn acknowledge(&mut self, expected: u8, free: usize, digest: Option<u32>) -> Result<Option<News>, SerialFault> {
         let taken = usize::from(expected.wrapping_sub(self.base as u8));
         if taken > self.sent.len() {

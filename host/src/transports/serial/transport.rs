@@ -208,8 +208,8 @@ impl Transport for SerialTransport {
         self.protocol.ask(*command, self.now())?;
         self.answer.clear();
         self.taken = 0;
-        // Only the answer tells that a command is through, and its lost parts are asked for again. So the
-        // whole answer is received here.
+        // Only the answer tells that a command is through, and its lost parts are asked for again. So the whole
+        // answer is received here.
         self.answer = self.drive(deadline, command.words(), SerialProtocol::take_answer)?;
         Ok(())
     }
@@ -246,12 +246,12 @@ impl Drop for SerialTransport {
 
 /// Asks which device is at a port, at the first rate and without opening a session.
 ///
-/// Use it to list devices: the device keeps its state. `timeout` bounds the wait for the answer, in
-/// the time of the link.
+/// Use it to list devices: the device keeps its state. `timeout` bounds the wait for the answer, in the
+/// time of the link.
 ///
 /// # Errors
-/// [`Error::Open`] if the system refuses to open the port, and [`Error::Link`] or [`Error::Timeout`]
-/// if no sound device answers.
+/// [`Error::Open`] if the system refuses to open the port, and [`Error::Link`] or [`Error::Timeout`] if
+/// no sound device answers.
 pub fn greet(address: &Address, timeout: Duration) -> Result<Greeting, Error> {
     let mut transport = SerialTransport::open(&Address { baud: FIRST_RATE, ..address.clone() })?;
     let now = transport.now();

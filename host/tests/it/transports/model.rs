@@ -128,7 +128,9 @@ fn coordinates_beyond_the_device_are_named() {
     let error = session.triangulate(&[(0, 0), (255, 255), (3, 256)]).expect_err("too wide");
     assert!(matches!(error, Error::CoordinateOutOfRange { index: 2, y: 256, coord_bits: 8, .. }));
     assert_eq!(error.kind(), ErrorKind::BadInput);
-    let wide = triangulate(&[(0, 0), (u32::MAX, 0), (0, 1)]).expect_err("beyond 31 bits");
+    let mut device = Device::open("model?coord-bits=31").expect("the model");
+    let mut session = device.session().expect("a session");
+    let wide = session.triangulate(&[(0, 0), (u32::MAX, 0), (0, 1)]).expect_err("beyond 31 bits");
     assert!(matches!(wide, Error::CoordinateOutOfRange { index: 1, coord_bits: 31, .. }));
 }
 

@@ -1,9 +1,9 @@
 //! Sets that are samples of a distribution.
 //!
 //! The first five are those of G. E. Blelloch, G. L. Miller, D. Talmor, "Developing a practical projection-based
-//! parallel Delaunay algorithm", SCG 1996 (uniform, normal, Kuzmin, line singularity), and of K. Buchin,
-//! "Constructing Delaunay triangulations along space-filling curves", ESA 2009, and O. Schrijvers, F. van
-//! Bommel, K. Buchin, EuroCG 2012 (checkers).
+//! parallel Delaunay algorithm", SCG 1996 (uniform, normal, Kuzmin, line singularity), and of K. Buchin, "Constructing
+//! Delaunay triangulations along space-filling curves", ESA 2009, and O. Schrijvers, F. van Bommel, K.
+//! Buchin, EuroCG 2012 (checkers).
 
 use super::grid::{room, Grid, Points};
 use crate::random::SplitMix64;
@@ -26,8 +26,8 @@ pub fn uniform(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     repeat(n, || Some(anywhere(grid, random)))
 }
 
-/// Independent Gaussian coordinates around the centre; the sides are four standard deviations away.
-/// A point outside is drawn anew.
+/// Independent Gaussian coordinates around the centre; the sides are four standard deviations away. A point
+/// outside is drawn anew.
 pub fn normal(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     let deviation = grid.half() / NORMAL_DEVIATIONS;
     repeat(n, || {
@@ -36,8 +36,8 @@ pub fn normal(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     })
 }
 
-/// Kuzmin's disc, a model of flat galaxies: the share of points within radius r is 1 - 1 / sqrt(1 + r²), so
-/// r = sqrt(1 / (1 - u)² - 1) for uniform u. The sides are 32 units away; the few points outside are drawn anew.
+/// Kuzmin's disc, a model of flat galaxies: the share of points within radius r is 1 - 1 / sqrt(1 + r²), so r = sqrt(1
+/// / (1 - u)² - 1) for uniform u. The sides are 32 units away; the few points outside are drawn anew.
 pub fn kuzmin(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     let unit = grid.half() / KUZMIN_UNITS;
     repeat(n, || {
@@ -75,8 +75,8 @@ pub fn checkers(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     repeat(n, || Some(one(random)))
 }
 
-/// The grid points next to random places of the circle that touches the sides: they are nearly cocircular,
-/// so `incircle` is near zero everywhere.
+/// The grid points next to random places of the circle that touches the sides: they are nearly cocircular, so
+/// `incircle` is near zero everywhere.
 pub fn circle(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     let centre = grid.half() - 0.5;
     let one = |random: &mut SplitMix64| {
@@ -103,8 +103,8 @@ fn anywhere(grid: Grid, random: &mut SplitMix64) -> [u32; 2] {
     [random.below(grid.size) as u32, random.below(grid.size) as u32]
 }
 
-/// Draws until `n` points lie inside the grid. Every distribution here has at least a quarter of its
-/// mass inside, so the loop ends.
+/// Draws until `n` points lie inside the grid. Every distribution here has at least a quarter of its mass inside,
+/// so the loop ends.
 fn repeat(n: usize, mut draw: impl FnMut() -> Option<[u32; 2]>) -> Points {
     let mut points = room(n)?;
     points.extend(std::iter::from_fn(|| Some(draw())).flatten().take(n));

@@ -16,9 +16,9 @@ pub fn lattice(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     shuffled(n, place, random)
 }
 
-/// A square lattice turned by the Gaussian integer 2 + i, times the largest step that fits: (i, j) becomes
-/// (2 i - j, i + 2 j). The turn is exact, so every square of neighbours is cocircular, but no two of its corners share
-/// a coordinate. Where the grid is too small for n points they repeat.
+/// A square lattice turned by the Gaussian integer 2 + i, times the largest step that fits: (i, j) becomes (2 i - j,
+/// i + 2 j). The turn is exact, so every square of neighbours is cocircular, but no two of its corners share a
+/// coordinate. Where the grid is too small for n points they repeat.
 pub fn rotated_lattice(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     // A lattice of c columns spans 3 (c - 1) steps in both directions.
     let columns = side_of(n).min((grid.size - 1) / 3 + 1);
@@ -31,8 +31,8 @@ pub fn rotated_lattice(n: usize, grid: Grid, random: &mut SplitMix64) -> Points 
     shuffled(n, place, random)
 }
 
-/// On y = x² / (2^bits - 1), x evenly spaced: every point is on the hull (up to rounding),
-/// and triangles are long and thin.
+/// On y = x² / (2^bits - 1), x evenly spaced: every point is on the hull (up to rounding), and triangles
+/// are long and thin.
 pub fn parabola(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     let last = grid.size - 1;
     let place = |index: u64| {

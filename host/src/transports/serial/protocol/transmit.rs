@@ -9,8 +9,8 @@ use crate::transports::serial::codec::{encode, MOST_OVERHEAD};
 use crate::transports::serial::fault::SerialFault;
 use crate::transports::serial::timing::POLL_EVERY;
 
-/// Time by which bytes are handed out ahead of the line: enough to keep it busy, but little to wait for when
-/// frames must be sent again.
+/// Time by which bytes are handed out ahead of the line: enough to keep it busy, but little to wait for when frames
+/// must be sent again.
 const AHEAD: Duration = Duration::from_millis(4);
 /// Time beyond the device's silence after which the host believes that the device has forgotten the session.
 const SILENCE_SLACK: Duration = Duration::from_millis(300);
@@ -40,8 +40,8 @@ impl SerialProtocol {
         self.statistics.bytes_sent += (out.len() - before) as u64;
     }
 
-    /// Time at which to call [`SerialProtocol::transmit`] again if nothing comes; `None` if there
-    /// is nothing to wait for.
+    /// Time at which to call [`SerialProtocol::transmit`] again if nothing comes; `None` if there is
+    /// nothing to wait for.
     pub fn next_wake(&self) -> Option<Duration> {
         match &self.stage {
             Stage::Closing { due, .. } => Some(*due),
@@ -115,9 +115,9 @@ impl SerialProtocol {
     fn say_poll(&mut self, now: Duration, out: &mut Vec<u8>) {
         encode(self.session, HostFrame::Poll, 0, &[], out);
         let left_at = self.line.carry(FRAME_BYTES, now);
-        // An earlier `Poll` without an answer is kept. An answer that comes before the latest `Poll` has left
-        // the line, as from a simulated board, may belong to the earlier one, and frames that were out then
-        // are lost all the same.
+        // An earlier `Poll` without an answer is kept. An answer that comes before the latest `Poll` has left the line,
+        // as from a simulated board, may belong to the earlier one, and frames that were out then are
+        // lost all the same.
         let base = self.sender.base();
         if self.polled.as_ref().is_none_or(|polled| polled.base != base) {
             self.polled = Some(Polled { base, cut: self.sender.cut(), left_at });

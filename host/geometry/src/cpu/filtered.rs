@@ -1,0 +1,111 @@
+//! The kernel of points whose predicates a floating-point filter decides before exact integers do: doubles, and
+//! integers of more than 32 bits.
+
+use core::cmp::Ordering;
+use core::marker::PhantomData;
+
+use bytemuck::Zeroable;
+
+use super::kernel::Kernel;
+use super::view::level;
+use crate::double::{incircle_of_views, side, Coordinate, View};
+
+/// The kernel of points with such coordinates.
+#[derive(Clone, Copy)]
+pub(super) struct Filtered<C>(PhantomData<C>);
+
+/// A point without minus zeros and numbers that are none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Zeroable)]
+pub(super) struct FilteredSite<C>(pub(super) [C; 2]);
+
+impl<C: Coordinate> FilteredSite<C> {
+    /// The site of a point with finite coordinates.
+    #[inline(always)]
+    pub(super) fn of(point: [C; 2]) -> Self {
+        Self(point.map(C::positive_zero))
+    }
+}
+
+impl<C: Coordinate> Eq for FilteredSite<C> {}
+
+impl<C: Coordinate> PartialOrd for FilteredSite<C> {
+    #[inline(always)]
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl<C: Coordinate> Ord for FilteredSite<C> {
+    #[inline(always)]
+    fn cmp(&self, other: &Self) -> Ordering {
+        // All coordinates are finite, so all are comparable.
+        self.0.partial_cmp(&other.0).unwrap_or(Ordering::Equal)
+    }
+}
+
+/// The place of a site in the tree of cuts: a cell of a grid over all points, and the rank among the points of that
+/// cell in lexicographic order.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Zeroable)]
+pub(super) struct Place {
+    pub(super) cell: [u32; 2],
+    pub(super) rank: u32,
+}
+
+/// The levels below those of the grid's cuts: an odd one for each bit of a rank.
+const RANK_LEVELS: u32 = 2 * (u32::BITS + 1);
+
+/// A site, the base edge seen from it, and the side of the edge on which it lies.
+#[derive(Clone, Copy)]
+pub(super) struct Seen<C> {
+    site: FilteredSite<C>,
+    view: View,
+    side: Ordering,
+}
+
+impl<C: Coordinate> Kernel for Filtered<C> {
+    type Site = FilteredSite<C>;
+    type Seen = Seen<C>;
+    type Place = Place;
+
+    #[inline(always)]
+    fn swapped(site: FilteredSite<C>) -> FilteredSite<C> {
+        FilteredSite([site.0[1], site.0[0]])
+    }
+
+    #[inline(always)]
+    fn orient2d(a: FilteredSite<C>, b: FilteredSite<C>, c: FilteredSite<C>) -> Ordering {
+        side(View::of(a.0, b.0, c.0), a.0, b.0, c.0)
+    }
+
+    #[inline(always)]
+    fn see(a: FilteredSite<C>, b: FilteredSite<C>, site: FilteredSite<C>) -> Seen<C> {
+        let view = View::of(a.0, b.0, site.0);
+        Seen { site, view, side: side(view, a.0, b.0, site.0) }
+    }
+
+    #[inline(always)]
+    fn site(seen: Seen<C>) -> FilteredSite<C> {
+        seen.site
+    }
+
+    #[inline(always)]
+    fn is_left(seen: Seen<C>) -> bool {
+        seen.side.is_gt()
+    }
+
+    #[inline(always)]
+    fn incircle(a: FilteredSite<C>, b: FilteredSite<C>, c: Seen<C>, q: Seen<C>) -> Ordering {
+        incircle_of_views([a.0, b.0], (c.view, c.site.0), (q.view, q.site.0))
+    }
+
+    #[inline(always)]
+    fn level(one: Place, other: Place) -> u32 {
+        let [x, y] = [one.cell[0] ^ other.cell[0], one.cell[1] ^ other.cell[1]];
+        // Points of one cell are cut in lexicographic order, which is a vertical cut.
+        if x | y == 0 {
+            level(one.rank ^ other.rank, 0)
+        } else {
+            RANK_LEVELS + level(x, y)
+        }
+    }
+}

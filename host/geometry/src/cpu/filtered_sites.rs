@@ -1,0 +1,137 @@
+//! The distinct points of doubles or long integers along a Z-curve.
+//!
+//! A grid of up to 2^31 cells a side lies over all points, and the points stand along the Z-curve through its cells.
+//! Points of one cell stand in lexicographic order. Rounding decides in which cell a point is, and never more than
+//! that: a cell's number rises with the coordinate, so that cuts between cells separate points.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::filtered::{FilteredSite, Place};
+use super::parallel::in_parallel;
+use super::sites::{self, Sites};
+use crate::double::Coordinate;
+use crate::point::{Duplicate, Point};
+
+/// Cells a side, as a double.
+const CELLS: f64 = (1u32 << 31) as f64;
+
+/// The distinct points, in the order of the tree of cuts.
+pub(super) struct FilteredSites<C> {
+    pub(super) sites: Vec<FilteredSite<C>>,
+    /// The place of each in the tree of cuts.
+    pub(super) places: Vec<Place>,
+    /// The input index of each: the lowest of its place in the plane.
+    pub(super) ids: Vec<u32>,
+    /// Points that fell onto an earlier one, in any order.
+    pub(super) duplicates: Vec<Duplicate>,
+}
+
+/// The grid over all points: the lower left corner, and cells for each unit, both for halved coordinates.
+#[derive(Clone, Copy)]
+struct Grid {
+    corner: [f64; 2],
+    scale: f64,
+}
+
+impl Grid {
+    fn over<C: Coordinate>(points: &[[C; 2]]) -> Self {
+        let none = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        let (corner, far) = points.iter().fold(none, |(low, high), point| {
+            let half = point.map(C::half);
+            ([low[0].min(half[0]), low[1].min(half[1])], [high[0].max(half[0]), high[1].max(half[1])])
+        });
+        let extent = (far[0] - corner[0]).max(far[1] - corner[1]);
+        Self { corner, scale: CELLS / extent }
+    }
+
+    /// The cell of a point. The conversion of a double to an integer saturates, and makes 0 of what is not a number: so
+    /// an extent of zero, or one so small that the scale is infinite, is right too.
+    #[inline(always)]
+    fn cell<C: Coordinate>(&self, point: [C; 2]) -> Point {
+        let [x, y] = [0, 1].map(|axis| ((point[axis].half() - self.corner[axis]) * self.scale) as u32);
+        let last = CELLS as u32 - 1;
+        Point::new(x.min(last), y.min(last))
+    }
+}
+
+/// Sorts the points and takes duplicates out, on up to `threads` threads. O(n) where few points share a cell, O(n
+/// log n) at worst.
+pub(super) fn sort<C: Coordinate>(points: &[[C; 2]], threads: usize) -> FilteredSites<C> {
+    let grid = Grid::over(points);
+    let mut cells = vec![Point::default(); points.len()];
+    let share = points.len().div_ceil(threads).max(1);
+    in_parallel(cells.chunks_mut(share).zip(points.chunks(share)), |(cells, points)| {
+        cells.iter_mut().zip(points).for_each(|(cell, &point)| *cell = grid.cell(point));
+    });
+    let Sites { sites: distinct, ids: firsts, duplicates: sharing, .. } = sites::sort(&cells, threads);
+    drop(cells);
+    let groups = Groups::of(sharing, points.len());
+    let mut all = FilteredSites {
+        sites: Vec::with_capacity(points.len()),
+        places: Vec::with_capacity(points.len()),
+        ids: Vec::with_capacity(points.len()),
+        duplicates: Vec::new(),
+    };
+    for (cell, first) in distinct.into_iter().zip(firsts) {
+        let cell = [cell.x, cell.y];
+        let others = groups.of_first(first);
+        if others.is_empty() {
+            all.keep(points, first, Place { cell, rank: 0 });
+        } else {
+            all.take_cell(points, first, others, cell);
+        }
+    }
+    all
+}
+
+/// Points that share a cell with one of a lower index.
+struct Groups {
+    /// Sorted by the first index of the cell, then by index.
+    sharing: Vec<Duplicate>,
+    /// A bit for each input index: set for the first of a cell with several points. Nearly all cells have one, and
+    /// one bit says so.
+    is_shared: Vec<u64>,
+}
+
+impl Groups {
+    fn of(mut sharing: Vec<Duplicate>, points: usize) -> Self {
+        sharing.sort_unstable_by_key(|&Duplicate { index, of }| (of, index));
+        let mut is_shared = vec![0; points.div_ceil(64)];
+        sharing.iter().for_each(|&Duplicate { of, .. }| is_shared[of as usize / 64] |= 1 << (of % 64));
+        Self { sharing, is_shared }
+    }
+
+    /// The points that share the cell of its first point, without that one.
+    #[inline(always)]
+    fn of_first(&self, first: u32) -> &[Duplicate] {
+        if self.is_shared[first as usize / 64] >> (first % 64) & 1 == 0 {
+            return &[];
+        }
+        let start = self.sharing.partition_point(|other| other.of < first);
+        let count = self.sharing[start..].partition_point(|other| other.of == first);
+        &self.sharing[start..start + count]
+    }
+}
+
+impl<C: Coordinate> FilteredSites<C> {
+    #[inline(always)]
+    fn keep(&mut self, points: &[[C; 2]], id: u32, place: Place) {
+        self.sites.push(FilteredSite::of(points[id as usize]));
+        self.places.push(place);
+        self.ids.push(id);
+    }
+
+    /// Takes all points of a cell, in lexicographic order.
+    fn take_cell(&mut self, points: &[[C; 2]], first: u32, others: &[Duplicate], cell: [u32; 2]) {
+        let all = core::iter::once(first).chain(others.iter().map(|other| other.index));
+        let mut sorted: Vec<(FilteredSite<C>, u32)> =
+            all.map(|id| (FilteredSite::of(points[id as usize]), id)).collect();
+        sorted.sort_unstable();
+        for (rank, group) in sorted.chunk_by(|one, other| one.0 == other.0).enumerate() {
+            let id = group[0].1;
+            self.keep(points, id, Place { cell, rank: rank as u32 });
+            self.duplicates.extend(group[1..].iter().map(|&(_, index)| Duplicate { index, of: id }));
+        }
+    }
+}

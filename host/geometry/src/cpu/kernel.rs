@@ -1,0 +1,75 @@
+//! The arithmetic that the CPU triangulator needs for one kind of coordinates.
+
+use core::cmp::Ordering;
+
+use bytemuck::Zeroable;
+
+/// Exact arithmetic for one kind of coordinates.
+///
+/// Divide and conquer knows points only through these functions: [`Integers`](super::view::Integers) of up to 32 bits,
+/// and [`Filtered`](super::filtered::Filtered) numbers, which a floating-point filter decides before exact integers do.
+pub(super) trait Kernel: Copy + Sync + 'static {
+    /// A point. The order is lexicographic, x before y, as the tie rule wants.
+    type Site: Copy + Ord + Send + Sync + Zeroable;
+    /// A point, with a base edge as seen from the point.
+    type Seen: Copy;
+    /// The place of a point in the tree of cuts.
+    type Place: Copy + Send + Sync;
+
+    /// Swaps the axes of a point, so that points compare by y, then x.
+    fn swapped(site: Self::Site) -> Self::Site;
+
+    /// The turn from `a` over `b` to `c`: `Greater` if it is counter-clockwise, `Equal` if the three lie on a line.
+    fn orient2d(a: Self::Site, b: Self::Site, c: Self::Site) -> Ordering;
+
+    /// Views the base edge from `a` to `b` from a point.
+    fn see(a: Self::Site, b: Self::Site, site: Self::Site) -> Self::Seen;
+
+    /// The point of a view.
+    fn site(seen: Self::Seen) -> Self::Site;
+
+    /// Whether the point lies strictly to the left of the base edge.
+    fn is_left(seen: Self::Seen) -> bool;
+
+    /// The sign of the determinant of incircle of the base edge `a`, `b` and the points of two views, of which that of
+    /// `c` lies to the left: `Greater` if `q` lies inside the circle through `a`, `b` and `c`.
+    fn incircle(a: Self::Site, b: Self::Site, c: Self::Seen, q: Self::Seen) -> Ordering;
+
+    /// The level of the cut that separates two places: odd if all x of the first are at most those of the second and
+    /// equal only with smaller y, even if the same holds with the axes swapped. Of three places in a row, the outer two
+    /// are separated at the higher of the two levels.
+    fn level(one: Self::Place, other: Self::Place) -> u32;
+}
+
+/// Whether `q` lies inside the circle through `a`, `b` and `c`. If `q` lies on the circle, the tie rule decides: the
+/// lexicographically smallest of the four points is lowered on the lifted paraboloid.
+///
+/// `c` must lie to the left of the edge from `a` to `b`. The answer is `false` for a `q` that does not lie to the left:
+/// the merge asks only where no such point can be inside the circle, and a tie with such a point is refused.
+#[inline(always)]
+pub(super) fn is_inside<K: Kernel>(a: K::Site, b: K::Site, c: K::Seen, q: K::Seen) -> bool {
+    match K::incircle(a, b, c, q) {
+        Ordering::Greater => true,
+        Ordering::Less => false,
+        Ordering::Equal => tie_is_inside::<K>(a, b, K::site(c), q),
+    }
+}
+
+/// Decides a tie: `a`, `b`, `c`, `q` lie on one circle, or `q` is on the line of `a` and `b`.
+#[inline(never)]
+fn tie_is_inside<K: Kernel>(a: K::Site, b: K::Site, c: K::Site, q: K::Seen) -> bool {
+    if !K::is_left(q) {
+        return false;
+    }
+    let q = K::site(q);
+    let smallest = a.min(b).min(c).min(q);
+    // Lowering a corner moves `q` inside iff the other three turn right around that corner. Lowering `q` always moves
+    // it inside, and lowering `c` never does, because `c` and `q` lie on one side of the edge.
+    if smallest == a {
+        K::orient2d(q, b, c).is_lt()
+    } else if smallest == b {
+        K::orient2d(q, c, a).is_lt()
+    } else {
+        smallest == q
+    }
+}

@@ -1,0 +1,125 @@
+//! The last stage of the predicates: doubles as whole multiples of one power of two, and integers that hold all that
+//! is made of them.
+//!
+//! A double is `m * 2^e` with an integer `m` of 53 bits. The smallest `e` of the points at hand makes all coordinates
+//! whole. Where these have at most 61 bits, which is so unless the exponents of neighbours differ much, differences
+//! have 62 bits, cross and dot products fit 126 bits, and the determinant of incircle is compared as two products of
+//! 256 bits. All others take [`Big`] integers: at most 2098 bits for a coordinate, and thousands of times as long.
+
+use core::cmp::Ordering;
+
+use super::big::Big;
+use super::coordinate::Coordinate;
+
+/// Most bits of a coordinate for which the products are worked out in machine integers.
+const NARROW_BITS: i32 = 61;
+/// Coordinates of some points as whole multiples of one power of two.
+enum Whole<const N: usize> {
+    Narrow([[i64; 2]; N]),
+    Wide([[Big; 2]; N]),
+}
+
+fn whole<C: Coordinate, const N: usize>(points: [[C; 2]; N]) -> Whole<N> {
+    let parts = points.map(|point| point.map(C::parts));
+    let all = parts.iter().flatten();
+    let least = all.clone().map(|&(_, exponent)| exponent).min().unwrap_or(0);
+    let bits = |&(odd, exponent): &(i64, i32)| match odd {
+        0 => 0,
+        odd => (u64::BITS - odd.unsigned_abs().leading_zeros()) as i32 + exponent - least,
+    };
+    let shift = |exponent: i32| if exponent == i32::MAX { 0 } else { (exponent - least) as u32 };
+    if all.map(bits).max().unwrap_or(0) <= NARROW_BITS {
+        Whole::Narrow(parts.map(|point| point.map(|(odd, exponent)| odd << shift(exponent))))
+    } else {
+        Whole::Wide(parts.map(|point| point.map(|(odd, exponent)| Big::shifted(odd, shift(exponent)))))
+    }
+}
+
+/// `orient2d(a, b, c)` compared with zero, of coordinates that are finite.
+#[cold]
+pub(super) fn orient2d<C: Coordinate>(a: [C; 2], b: [C; 2], c: [C; 2]) -> Ordering {
+    match whole([a, b, c]) {
+        Whole::Narrow([a, b, c]) => View::of(a, b, c).cross.cmp(&0),
+        Whole::Wide([a, b, c]) => WideView::of(&a, &b, &c).cross.sign(),
+    }
+}
+
+/// `incircle(a, b, c, d)` compared with zero, of coordinates that are finite.
+#[cold]
+pub(super) fn incircle<C: Coordinate>(a: [C; 2], b: [C; 2], c: [C; 2], d: [C; 2]) -> Ordering {
+    match whole([a, b, c, d]) {
+        Whole::Narrow([a, b, c, d]) => {
+            let (c, d) = (View::of(a, b, c), View::of(a, b, d));
+            product(c.dot, d.cross).cmp(&product(d.dot, c.cross))
+        }
+        Whole::Wide([a, b, c, d]) => {
+            let (c, d) = (WideView::of(&a, &b, &c), WideView::of(&a, &b, &d));
+            c.dot.times(&d.cross).minus(&d.dot.times(&c.cross)).sign()
+        }
+    }
+}
+
+/// Cross and dot product of the vectors from a point to `a` and `b`; see `cpu/view.rs`.
+struct View {
+    cross: i128,
+    dot: i128,
+}
+
+impl View {
+    fn of(a: [i64; 2], b: [i64; 2], p: [i64; 2]) -> Self {
+        // Differences of 61 bits have 62 bits, their products 124.
+        let vector = |to: [i64; 2]| [i128::from(to[0] - p[0]), i128::from(to[1] - p[1])];
+        let ([ax, ay], [bx, by]) = (vector(a), vector(b));
+        Self { cross: ax * by - ay * bx, dot: ax * bx + ay * by }
+    }
+}
+
+/// A [`View`] in integers of any size.
+struct WideView {
+    cross: Big,
+    dot: Big,
+}
+
+impl WideView {
+    fn of(a: &[Big; 2], b: &[Big; 2], p: &[Big; 2]) -> Self {
+        let vector = |to: &[Big; 2]| [to[0].minus(&p[0]), to[1].minus(&p[1])];
+        let ([ax, ay], [bx, by]) = (vector(a), vector(b));
+        Self { cross: ax.times(&by).minus(&ay.times(&bx)), dot: ax.times(&bx).plus(&ay.times(&by)) }
+    }
+}
+
+/// The product as a number of 256 bits in two's complement, the upper half first, so that the order is that of numbers.
+fn product(one: i128, other: i128) -> (i128, u128) {
+    const LOW: u128 = u64::MAX as u128;
+    let (a, b) = (one.unsigned_abs(), other.unsigned_abs());
+    let (a1, a0, b1, b0) = (a >> 64, a & LOW, b >> 64, b & LOW);
+    let (middle, carry) = (a1 * b0).overflowing_add(a0 * b1);
+    let (low, carry_of_low) = (a0 * b0).overflowing_add(middle << 64);
+    let high = a1 * b1 + (middle >> 64) + (u128::from(carry) << 64) + u128::from(carry_of_low);
+    if (one < 0) == (other < 0) {
+        return (high as i128, low);
+    }
+    ((!high).wrapping_add(u128::from(low == 0)) as i128, low.wrapping_neg())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn products_of_256_bits_are_ordered_like_those_of_any_size(
+            values in prop::array::uniform4(any::<i64>()),
+            shifts in prop::array::uniform4(0u32..62),
+        ) {
+            let [a, b, c, d] =
+                [0, 1, 2, 3].map(|k| (values[k], shifts[k], i128::from(values[k]) << shifts[k]));
+            let big = |(value, shift, _): (i64, u32, i128)| Big::shifted(value, shift);
+            let expected = big(a).times(&big(b)).minus(&big(c).times(&big(d))).sign();
+            prop_assert_eq!(product(a.2, b.2).cmp(&product(c.2, d.2)), expected);
+            prop_assert_eq!(product(a.2, b.2).cmp(&product(b.2, a.2)), Ordering::Equal);
+            prop_assert_eq!(product(a.2, b.2).cmp(&(0, 0)), big(a).times(&big(b)).sign());
+        }
+    }
+}

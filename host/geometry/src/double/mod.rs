@@ -1,0 +1,147 @@
+//! The two predicates for points of doubles: exact signs for all finite coordinates, whatever their exponents.
+//!
+//! A filter in floating-point arithmetic decides nearly all cases; what it leaves open is decided by integers that hold
+//! the whole determinant (`exact`). There is no epsilon: the filter's bound is proved, and beyond
+//! it nothing is rounded.
+//!
+//! **The filter's bounds.** Let `u = 2^-53`. A rounded difference, product or sum is the true one times `1 + d` with
+//! `|d| <= u`, if nothing overflows or underflows. So `cross = ax by - ay bx`, worked out from rounded differences,
+//! errs by at most `(4 u + O(u²)) (|ax by| + |ay bx|)`, and the dot product alike. In `dot(c) cross(d) - dot(d)
+//! cross(c)` the error of each product is at most `9 u + O(u²)` times the product of the two sizes, and the last
+//! subtraction adds `u` times the result. The bounds below are 6 u and 16 u, which leaves room for the rounding
+//! of the sizes themselves.
+//!
+//! **Overflow** makes a size infinite or not a number, and no comparison with such a bound is true: the exact stage
+//! decides. **Underflow** adds at most `2^-1075` to each product: where a size is at least `2^-960` that is less than
+//! `2^-115` of it, and hidden in the room above; below it the exact stage decides.
+
+mod big;
+mod coordinate;
+mod exact;
+
+use core::cmp::Ordering;
+
+pub(crate) use coordinate::Coordinate;
+
+/// The unit of rounding of a double.
+const UNIT: f64 = f64::EPSILON / 2.0;
+/// Error of a cross or dot product, by its size.
+const PRODUCT_BOUND: f64 = 6.0 * UNIT;
+/// Error of the determinant of incircle, by its size.
+const DETERMINANT_BOUND: f64 = 16.0 * UNIT;
+/// The smallest size of a cross or dot product for which underflow can be neglected: `2^-960`.
+const LEAST_SIZE: f64 = f64::from_bits((1023 - 960) << 52);
+
+/// The edge from `a` to `b`, seen from a point: rounded cross and dot product of the vectors from the point to both
+/// ends (`cpu/view.rs` says what they are good for).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct View {
+    cross: f64,
+    dot: f64,
+    /// `|ax by| + |ay bx|` and `|ax bx| + |ay by|`, which bound the errors.
+    cross_size: f64,
+    dot_size: f64,
+}
+
+impl View {
+    /// The edge from `a` to `b`, seen from `p`.
+    #[inline(always)]
+    pub(crate) fn of<C: Coordinate>(a: [C; 2], b: [C; 2], p: [C; 2]) -> Self {
+        let (ax, ay, bx, by) = (a[0].minus(p[0]), a[1].minus(p[1]), b[0].minus(p[0]), b[1].minus(p[1]));
+        let (axby, aybx, axbx, ayby) = (ax * by, ay * bx, ax * bx, ay * by);
+        Self {
+            cross: axby - aybx,
+            dot: axbx + ayby,
+            cross_size: axby.abs() + aybx.abs(),
+            dot_size: axbx.abs() + ayby.abs(),
+        }
+    }
+
+    /// The sign of the cross product, if the filter can tell.
+    #[inline(always)]
+    fn side(self) -> Option<Ordering> {
+        if self.cross_size >= LEAST_SIZE && self.cross.abs() > PRODUCT_BOUND * self.cross_size {
+            return Some(sign(self.cross));
+        }
+        None
+    }
+
+    /// Whether underflow can be neglected.
+    #[inline(always)]
+    fn is_large(self) -> bool {
+        self.cross_size >= LEAST_SIZE && self.dot_size >= LEAST_SIZE
+    }
+}
+
+#[inline(always)]
+fn sign(value: f64) -> Ordering {
+    if value > 0.0 {
+        Ordering::Greater
+    } else {
+        Ordering::Less
+    }
+}
+
+/// The side of the edge from `a` to `b` on which `p` lies, given its view: `Greater` is left.
+#[inline(always)]
+pub(crate) fn side<C: Coordinate>(view: View, a: [C; 2], b: [C; 2], p: [C; 2]) -> Ordering {
+    match view.side() {
+        Some(side) => side,
+        None => exact::orient2d(a, b, p),
+    }
+}
+
+/// The sign of `incircle(a, b, c, d)`, given the views of the edge from `a` to `b` from `c` and from `d`.
+#[inline(always)]
+pub(crate) fn incircle_of_views<C: Coordinate>(
+    [a, b]: [[C; 2]; 2],
+    (c_view, c): (View, [C; 2]),
+    (d_view, d): (View, [C; 2]),
+) -> Ordering {
+    let determinant = c_view.dot * d_view.cross - d_view.dot * c_view.cross;
+    let size = c_view.dot_size * d_view.cross_size + d_view.dot_size * c_view.cross_size;
+    // A product of two small sizes may underflow, too.
+    if size >= LEAST_SIZE && determinant.abs() > DETERMINANT_BOUND * size && c_view.is_large() && d_view.is_large() {
+        return sign(determinant);
+    }
+    exact::incircle(a, b, c, d)
+}
+
+/// Returns on which side of the line from `a` to `b` the point `c` lies: `Greater` to the left, so that `a`, `b`, `c`
+/// turn counter-clockwise; `Less` to the right; `Equal` on the line. Exact for all finite coordinates.
+///
+/// The time is constant where the filter decides, which it nearly always does. Near a line the exact stage takes some
+/// ten times as long, and up to thousands of times if in addition the exponents differ by hundreds.
+///
+/// ```
+/// use core::cmp::Ordering;
+/// use incircle_geometry::double::orient2d;
+/// assert_eq!(orient2d([0.0, 0.0], [0.3, 0.3], [0.1, 0.1]), Ordering::Equal);
+/// assert_eq!(orient2d([0.0, 0.0], [0.3, 0.3], [0.1, 0.1f64.next_up()]), Ordering::Greater);
+/// ```
+///
+/// # Panics
+/// Never. For coordinates that are infinite or not a number the answer means nothing.
+#[inline]
+pub fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Ordering {
+    side(View::of(a, b, c), a, b, c)
+}
+
+/// Returns on which side of the circle through the counter-clockwise triangle `a`, `b`, `c` the point `d` lies:
+/// `Greater` inside, `Equal` on the circle, `Less` outside. The answer is the other way round for a clockwise triangle.
+/// Exact for all finite coordinates; the time is that of [`orient2d`], twice.
+///
+/// ```
+/// use core::cmp::Ordering;
+/// use incircle_geometry::double::incircle;
+/// let [a, b, c] = [[0.0, 0.0], [0.1, 0.0], [0.1, 0.1]];
+/// assert_eq!(incircle(a, b, c, [0.0, 0.1]), Ordering::Equal);
+/// assert_eq!(incircle(a, b, c, [0.0, 0.1f64.next_down()]), Ordering::Greater);
+/// ```
+#[inline]
+pub fn incircle(a: [f64; 2], b: [f64; 2], c: [f64; 2], d: [f64; 2]) -> Ordering {
+    incircle_of_views([a, b], (View::of(a, b, c), c), (View::of(a, b, d), d))
+}
+
+#[cfg(test)]
+mod tests;

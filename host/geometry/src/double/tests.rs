@@ -1,0 +1,69 @@
+//! The predicates beside integers of any size, on points that sit near the edge of every stage.
+
+use incircle_testkit::{incircle_of_doubles, orient2d_of_doubles, SplitMix64};
+
+use super::{incircle, orient2d};
+
+/// Coordinates of many kinds: small and large, near one another, with few bits and with all, denormals and the widest.
+fn coordinate(random: &mut SplitMix64, kind: u64) -> f64 {
+    let small = |random: &mut SplitMix64| random.below(5) as f64;
+    let unit = |random: &mut SplitMix64| random.below(1 << 53) as f64 / (1u64 << 53) as f64;
+    let near = |random: &mut SplitMix64, value: f64| (0..random.below(3)).fold(value, |value, _| value.next_up());
+    match kind {
+        0 => small(random) - 2.0,
+        1 => {
+            let value = small(random) * 0.1;
+            near(random, value)
+        }
+        2 => unit(random),
+        3 => small(random) * 5e-324,
+        4 => (small(random) - 2.0) * 8e307,
+        5 => (unit(random) - 0.5) * 2f64.powi(random.below(2000) as i32 - 1000),
+        6 => 1e15 + small(random) / 8.0,
+        _ => {
+            let value = small(random);
+            if random.below(2) == 0 {
+                near(random, value)
+            } else {
+                -near(random, value)
+            }
+        }
+    }
+}
+
+fn point(random: &mut SplitMix64, kind: u64) -> [f64; 2] {
+    [coordinate(random, kind), coordinate(random, kind)]
+}
+
+#[test]
+fn signs_are_those_of_integers_of_any_size() {
+    let mut random = SplitMix64::new(21);
+    let mut ties = [0; 9];
+    for round in 0..40_000 {
+        let kind = round % 9;
+        let own = |random: &mut SplitMix64| if kind == 8 { random.below(8) } else { kind };
+        let [a, b, c, d] = [(); 4].map(|()| {
+            let kind = own(&mut random);
+            point(&mut random, kind)
+        });
+        assert_eq!(orient2d(a, b, c), orient2d_of_doubles(a, b, c), "{a:?} {b:?} {c:?}");
+        let side = incircle_of_doubles(a, b, c, d);
+        assert_eq!(incircle(a, b, c, d), side, "{a:?} {b:?} {c:?} {d:?}");
+        ties[kind as usize] += usize::from(side.is_eq());
+    }
+    assert!(ties[0] > 100 && ties[3] > 100 && ties[4] > 100, "{ties:?}");
+}
+
+#[test]
+fn the_corners_of_a_rotated_square_are_on_one_circle_up_to_their_last_bit() {
+    let mut random = SplitMix64::new(22);
+    for _ in 0..4000 {
+        let angle = random.below(1 << 53) as f64 / (1u64 << 50) as f64;
+        let at = |turns: f64| [libm::cos(angle + turns), libm::sin(angle + turns)];
+        let [a, b, c, d] = [0.0, 1.5, 3.0, 4.5].map(at);
+        assert_eq!(incircle(a, b, c, d), incircle_of_doubles(a, b, c, d));
+        // A line through three points of a chord.
+        let middle = [(a[0] + c[0]) / 2.0, (a[1] + c[1]) / 2.0];
+        assert_eq!(orient2d(a, c, middle), orient2d_of_doubles(a, c, middle));
+    }
+}

@@ -1,0 +1,255 @@
+//! The lattice of a point set: whole steps of one length in which all its coordinates are integers.
+//!
+//! Triangulation by integers is exact and quick, so the numbers that people have are looked at first: are they whole,
+//! are they decimals, do they share a binary grid? The first lattice that fits is taken. A set without one is
+//! triangulated on its doubles, exactly as well.
+
+use alloc::borrow::Cow;
+use alloc::vec::Vec;
+use core::fmt;
+
+use crate::point::Point;
+
+/// The length of the steps of a [`Lattice`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Step {
+    /// Steps of 1: the coordinates are whole numbers.
+    Whole,
+    /// Steps of `10^-digits`: the coordinates are decimals with up to so many digits behind the point.
+    Decimal {
+        /// Digits behind the point; negative if the coordinates are multiples of a power of ten.
+        digits: i32,
+    },
+    /// Steps of `2^exponent`: the coordinates are doubles that share a grid.
+    Binary {
+        /// The exponent of the step.
+        exponent: i32,
+    },
+}
+
+impl fmt::Display for Step {
+    /// `1`, `1e-6` or `2^-20`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Whole => write!(f, "1"),
+            Self::Decimal { digits } => write!(f, "1e{}", -digits),
+            Self::Binary { exponent } => write!(f, "2^{exponent}"),
+        }
+    }
+}
+
+/// The lattice of a set of points. A grid point `p` stands for the coordinates `offset + p`, times the step.
+///
+/// ```
+/// use incircle_geometry::lattice::{Lattice, Step};
+///
+/// let (lattice, grid) = Lattice::of_doubles(&[[-3.0, 0.5], [1.25, 7.0]]).expect("a binary grid");
+/// assert_eq!(lattice.step, Step::Binary { exponent: -2 });
+/// assert_eq!((lattice.offset, lattice.bits), ([-12, 2], 5));
+/// assert_eq!((grid[1].x, grid[1].y), (17, 26));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub struct Lattice {
+    /// The length of a step.
+    pub step: Step,
+    /// The smallest x and the smallest y of the points, in steps.
+    pub offset: [i64; 2],
+    /// Bits of the largest coordinate of the grid points, at most 32.
+    pub bits: u32,
+}
+
+/// The smallest x and y, and the bits of the larger span.
+struct Extent {
+    offset: [i64; 2],
+    bits: u32,
+}
+
+impl Extent {
+    fn of(points: impl Iterator<Item = [i64; 2]>) -> Self {
+        let none = ([i64::MAX; 2], [i64::MIN; 2]);
+        let (low, high) =
+            points.fold(none, |(low, high), [x, y]| ([low[0].min(x), low[1].min(y)], [high[0].max(x), high[1].max(y)]));
+        if low[0] > high[0] {
+            return Self { offset: [0; 2], bits: 0 };
+        }
+        let spans = high[0].abs_diff(low[0]) | high[1].abs_diff(low[1]);
+        Self { offset: low, bits: u64::BITS - spans.leading_zeros() }
+    }
+}
+
+impl Lattice {
+    /// The lattice of points that are on the grid already.
+    pub fn of_grid(points: &[Point]) -> Self {
+        let all = points.iter().fold(0, |all, point| all | point.x | point.y);
+        Self { step: Step::Whole, offset: [0; 2], bits: u32::BITS - all.leading_zeros() }
+    }
+
+    /// The lattice of whole numbers times a step, and the points on it. `None` if a span is 2^32 or more.
+    pub fn of_integers(points: &[[i64; 2]], step: Step) -> Option<(Self, Vec<Point>)> {
+        let Extent { offset, bits } = Extent::of(points.iter().copied());
+        let grid = |&[x, y]: &[i64; 2]| Point::new((x - offset[0]) as u32, (y - offset[1]) as u32);
+        (bits <= u32::BITS).then(|| (Self { step, offset, bits }, points.iter().map(grid).collect()))
+    }
+
+    /// The lattice of doubles, and the points on it: whole numbers if all are, else multiples of the largest power of
+    /// two that makes all whole. `None` if a coordinate is infinite or not a number, or if a span is
+    /// 2^32 steps or more.
+    pub fn of_doubles(points: &[[f64; 2]]) -> Option<(Self, Vec<Point>)> {
+        let exponent =
+            points.iter().flatten().map(|&value| trailing_exponent(value)).try_fold(i32::MAX, |least, one| {
+                // Below 2^31 of the smallest double, nothing but that double's grid fits: no power is out of reach.
+                one.map(|exponent| least.min(exponent))
+            })?;
+        let exponent = if exponent >= 0 { 0 } else { exponent };
+        let step = if exponent == 0 { Step::Whole } else { Step::Binary { exponent } };
+        let whole = |value: f64| {
+            let steps = scaled(value, -exponent);
+            (steps.abs() < 9.2e18).then_some(steps as i64)
+        };
+        let points: Option<Vec<[i64; 2]>> = points.iter().map(|&[x, y]| Some([whole(x)?, whole(y)?])).collect();
+        Self::of_integers(&points?, step)
+    }
+
+    /// The coordinates of a grid point, as the nearest doubles.
+    pub fn restore(&self, point: Point) -> [f64; 2] {
+        self.steps(point).map(|steps| match self.step {
+            Step::Whole => steps as f64,
+            // Both operands are exact for up to 22 digits and 2^53 steps, so the quotient is rounded once.
+            Step::Decimal { digits } if digits >= 0 => steps as f64 / power_of_ten(digits),
+            Step::Decimal { digits } => steps as f64 * power_of_ten(-digits),
+            Step::Binary { exponent } => scaled(steps as f64, exponent),
+        })
+    }
+
+    /// The coordinates of a grid point in steps.
+    pub fn steps(&self, point: Point) -> [i64; 2] {
+        [self.offset[0] + i64::from(point.x), self.offset[1] + i64::from(point.y)]
+    }
+}
+
+/// `10^digits`, for no negative `digits`; exact up to 22.
+fn power_of_ten(digits: i32) -> f64 {
+    (0..digits).fold(1.0, |power, _| power * 10.0)
+}
+
+/// The exponent of the lowest bit that is set in a double; `None` for infinities and what is not a number, the
+/// largest exponent for zero.
+fn trailing_exponent(value: f64) -> Option<i32> {
+    let bits = value.to_bits();
+    let (fraction, biased) = (bits & ((1 << 52) - 1), (bits >> 52 & 0x7ff) as i32);
+    match (biased, fraction) {
+        (0x7ff, _) => None,
+        (0, 0) => Some(i32::MAX),
+        (0, _) => Some(fraction.trailing_zeros() as i32 - 1074),
+        _ => Some((fraction | 1 << 52).trailing_zeros() as i32 + biased - 1075),
+    }
+}
+
+/// `value * 2^exponent`, in two exact steps: a power beyond the range of doubles is the product of two within it.
+fn scaled(value: f64, exponent: i32) -> f64 {
+    let half = exponent / 2;
+    value * power_of_two(half) * power_of_two(exponent - half)
+}
+
+/// `2^exponent`, for exponents of normal doubles.
+fn power_of_two(exponent: i32) -> f64 {
+    f64::from_bits(((1023 + exponent) as u64) << 52)
+}
+
+/// A set of points in the numbers in which it is triangulated.
+#[derive(Clone, Debug)]
+pub enum Numbers<'a> {
+    /// Points of the grid.
+    Grid(Cow<'a, [Point]>),
+    /// Points with whole coordinates of up to 64 bits.
+    Whole(Cow<'a, [[i64; 2]]>),
+    /// Points with doubles as coordinates, which must be finite.
+    Doubles(Cow<'a, [[f64; 2]]>),
+}
+
+impl<'a> Numbers<'a> {
+    /// Finds the lattice of the points and lays them onto the grid; returns them as they are, and `None`,
+    /// if there is none.
+    pub fn on_lattice(self) -> (Self, Option<Lattice>) {
+        let found = match &self {
+            Self::Grid(points) => {
+                let lattice = Lattice::of_grid(points);
+                return (self, Some(lattice));
+            }
+            Self::Whole(points) => Lattice::of_integers(points, Step::Whole),
+            Self::Doubles(points) => Lattice::of_doubles(points),
+        };
+        match found {
+            Some((lattice, grid)) => (Self::Grid(Cow::Owned(grid)), Some(lattice)),
+            None => (self, None),
+        }
+    }
+
+    /// The number of points.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Grid(points) => points.len(),
+            Self::Whole(points) => points.len(),
+            Self::Doubles(points) => points.len(),
+        }
+    }
+
+    /// Whether there are no points.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use incircle_testkit::SplitMix64;
+
+    fn lattice(points: &[[f64; 2]]) -> Option<(Step, [i64; 2], u32)> {
+        Lattice::of_doubles(points).map(|(lattice, _)| (lattice.step, lattice.offset, lattice.bits))
+    }
+
+    #[test]
+    fn the_first_lattice_that_fits_is_found() {
+        assert_eq!(lattice(&[]), Some((Step::Whole, [0, 0], 0)));
+        assert_eq!(lattice(&[[-363.0, 4.0], [0.0, -0.0]]), Some((Step::Whole, [-363, 0], 9)));
+        assert_eq!(lattice(&[[1e18, 0.0], [1e18 + 1024.0, 5.0]]), Some((Step::Whole, [10i64.pow(18), 0], 11)));
+        let wide = [[0.0, 0.0], [4_294_967_295.0, 1.0]];
+        assert_eq!(lattice(&wide), Some((Step::Whole, [0, 0], 32)));
+        assert_eq!(lattice(&[wide[0], [4_294_967_296.0, 1.0]]), None);
+        assert_eq!(lattice(&[[0.5, 0.25], [3.0, 1.0]]), Some((Step::Binary { exponent: -2 }, [2, 1], 4)));
+        assert_eq!(lattice(&[[5e-324, 0.0], [1.5e-323, 0.0]]), Some((Step::Binary { exponent: -1074 }, [1, 0], 2)));
+        assert_eq!(lattice(&[[0.1, 0.0], [1.0, 0.0]]), None);
+        assert_eq!(lattice(&[[f64::NAN, 0.0]]), None);
+        assert_eq!(lattice(&[[f64::INFINITY, 0.0]]), None);
+        assert_eq!(lattice(&[[1e300, 0.0]]), None);
+    }
+
+    #[test]
+    fn grid_points_restore_the_doubles_they_came_from() {
+        let mut random = SplitMix64::new(31);
+        for exponent in [-1074, -1040, -30, -3, 0, 20, 900] {
+            let value = |random: &mut SplitMix64| scaled((random.below(1 << 31) as f64) - 2f64.powi(30), exponent);
+            let points: Vec<[f64; 2]> = (0..50).map(|_| [value(&mut random), value(&mut random)]).collect();
+            match Lattice::of_doubles(&points) {
+                Some((lattice, grid)) => {
+                    let back: Vec<[f64; 2]> = grid.iter().map(|&point| lattice.restore(point)).collect();
+                    assert_eq!(back, points);
+                }
+                None => assert!(exponent > 0, "2^{exponent}"),
+            }
+        }
+    }
+
+    #[test]
+    fn decimals_restore_the_nearest_doubles() {
+        let steps = [[-101_473_911, 33_000_001], [5, 0]];
+        let (lattice, grid) = Lattice::of_integers(&steps, Step::Decimal { digits: 6 }).expect("a narrow span");
+        assert_eq!(lattice.restore(grid[0]), [-101.473911, 33.000001]);
+        assert_eq!((lattice.restore(grid[1]), lattice.bits), ([0.000005, 0.0], 27));
+        assert_eq!(lattice.steps(grid[0]), steps[0]);
+        assert_eq!(lattice.step.to_string(), "1e-6");
+    }
+}

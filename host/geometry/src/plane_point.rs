@@ -1,0 +1,81 @@
+//! The point types that can be triangulated.
+
+use alloc::borrow::Cow;
+
+use crate::lattice::Numbers;
+use crate::point::Point;
+
+mod sealed {
+    /// Keeps the trait to this crate: another implementation could not promise exactness.
+    pub trait Sealed {}
+}
+
+/// A type of points that can be triangulated: pairs, arrays and vectors of numbers.
+///
+/// The type decides how exact the points are read, and nothing is ever rounded. [`Point`], `u32`, `i32` and `i64` are
+/// whole numbers; `f32` and `f64` are the binary numbers that they are. Which numbers the triangulation then computes
+/// in is said by the [`Lattice`](crate::lattice::Lattice) of the points.
+///
+/// Implemented for `[T; 2]` and `(T, T)` with these `T`, for [`Point`], and with the feature `glam` for `UVec2`,
+/// `IVec2`, `I64Vec2`, `Vec2` and `DVec2`. The trait is sealed.
+pub trait PlanePoint: Copy + sealed::Sealed {
+    /// The points in the numbers that they are made of.
+    fn numbers(points: &[Self]) -> Numbers<'_>;
+}
+
+impl sealed::Sealed for Point {}
+
+impl PlanePoint for Point {
+    fn numbers(points: &[Self]) -> Numbers<'_> {
+        Numbers::Grid(Cow::Borrowed(points))
+    }
+}
+
+/// Implements the trait for types of points, given how a point becomes one of the numbers.
+macro_rules! plane_points {
+    ($($kind:ident: $point:ty, $pattern:pat => $value:expr;)*) => {$(
+        impl sealed::Sealed for $point {}
+
+        impl PlanePoint for $point {
+            fn numbers(points: &[Self]) -> Numbers<'_> {
+                Numbers::$kind(points.iter().map(|&$pattern| $value).collect())
+            }
+        }
+    )*};
+}
+
+plane_points! {
+    Grid: [u32; 2], [x, y] => Point::new(x, y);
+    Grid: (u32, u32), (x, y) => Point::new(x, y);
+    Whole: [i32; 2], [x, y] => [x.into(), y.into()];
+    Whole: (i32, i32), (x, y) => [x.into(), y.into()];
+    Whole: (i64, i64), (x, y) => [x, y];
+    Doubles: [f32; 2], [x, y] => [x.into(), y.into()];
+    Doubles: (f32, f32), (x, y) => [x.into(), y.into()];
+    Doubles: (f64, f64), (x, y) => [x, y];
+}
+
+impl sealed::Sealed for [i64; 2] {}
+
+impl PlanePoint for [i64; 2] {
+    fn numbers(points: &[Self]) -> Numbers<'_> {
+        Numbers::Whole(Cow::Borrowed(points))
+    }
+}
+
+impl sealed::Sealed for [f64; 2] {}
+
+impl PlanePoint for [f64; 2] {
+    fn numbers(points: &[Self]) -> Numbers<'_> {
+        Numbers::Doubles(Cow::Borrowed(points))
+    }
+}
+
+#[cfg(feature = "glam")]
+plane_points! {
+    Grid: glam::UVec2, v => Point::new(v.x, v.y);
+    Whole: glam::IVec2, v => [v.x.into(), v.y.into()];
+    Whole: glam::I64Vec2, v => [v.x, v.y];
+    Doubles: glam::Vec2, v => [v.x.into(), v.y.into()];
+    Doubles: glam::DVec2, v => [v.x, v.y];
+}
