@@ -196,7 +196,10 @@ pub enum Error {
         source: TransportError,
     },
     /// The device did not answer in time.
-    #[error("{device} did not finish {during} within {} s: allow a longer time, or check the device", timeout.as_secs_f64())]
+    #[error(
+        "{device} did not finish {during} within {} s: allow a longer time, or check the device",
+        timeout.as_secs_f64()
+    )]
     Timeout {
         /// Name of the device.
         device: String,

@@ -148,10 +148,12 @@ fn connect_grid(points: &[Point], threads: NonZeroUsize, watch: Watch<'_>) -> Re
     let threads = threads_for(points.len(), threads).get();
     tell(watch, Stage::Order, 0, points.len())?;
     let sites = sort(points, threads);
-    match sites.bits {
-        ..=NARROW_BITS => connect_sites::<Narrow>(points, sites, threads, watch),
-        ..=WIDE_BITS => connect_sites::<Wide>(points, sites, threads, watch),
-        _ => connect_sites::<Widest>(points, sites, threads, watch),
+    if sites.bits <= NARROW_BITS {
+        connect_sites::<Narrow>(points, sites, threads, watch)
+    } else if sites.bits <= WIDE_BITS {
+        connect_sites::<Wide>(points, sites, threads, watch)
+    } else {
+        connect_sites::<Widest>(points, sites, threads, watch)
     }
 }
 
