@@ -76,7 +76,8 @@ pub fn integers(points: &[[f64; 2]], coord_bits: u32) -> Result<Vec<Point>, Erro
     Ok(points.iter().map(|&[x, y]| Point::new(x as u32, y as u32)).collect())
 }
 
-/// Lays values onto the grid, and reports scale, offset, largest error and how many points fell together. O(n log n).
+/// Lays values onto the grid, and reports scale, offset, largest error and how many points fell onto another. The time
+/// is O(n log n).
 ///
 /// ```
 /// use incircle::quantize::{quantize, Quantize};

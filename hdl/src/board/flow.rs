@@ -88,8 +88,7 @@ pub fn build(request: &Request) -> Result<Report, BoardError> {
             // Not reached: the list of clocks is never empty, and the loop ends with its last clock.
             return Err(BoardError::form(&work, "no clock is left to try"));
         };
-        // Each clock has its own folder, so that a file a tool did not write is missing and not that
-        // of the clock before.
+        // Each clock has its own folder, so that no file of another clock stands in for one that is missing.
         let work = work.join(format!("{clock_mhz}-mhz"));
         std::fs::create_dir(&work).map_err(BoardError::file(&work))?;
         let placed = place(request, &tools, &work, *clock_mhz)?;

@@ -108,8 +108,7 @@ impl Logic for VisitPredicates {
         self.r0_to_r2.from.next = self.corners.val().r0;
         self.r0_to_r2.to.next = self.corners.val().r2;
 
-        // `cross_0` is orient2d of an edge and a factor of incircle as well, so incircle needs only one cross
-        // product of its own.
+        // `cross_0` is orient2d and a factor of incircle as well, so incircle needs one cross product of its own.
         self.cross_0.a_x.next = self.p_to_r1.x.val();
         self.cross_0.a_y.next = self.p_to_r1.y.val();
         self.cross_0.b_x.next = self.p_to_r2.x.val();

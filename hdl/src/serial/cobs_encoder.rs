@@ -2,8 +2,8 @@
 //! buffer for a piece.
 //!
 //! 1. A byte other than zero goes out as it comes. A zero, and the end of the frame, become a length byte: one more
-//!    than the number of bytes since the last length byte. After 254 bytes without a zero the length byte 255
-//!    goes out and stands for no zero.
+//!    than the number of bytes since the last length byte. After 254 bytes without a zero the length byte 255 goes out
+//!    and stands for no zero.
 //! 2. A frame that is cut ends with a zero at once, without a length byte. The host drops the frame, because its
 //!    check sum is missing.
 //! 3. `byte_valid` and `byte_data` depend combinationally on the frame's ports, and `data_ready` on `byte_ready`.

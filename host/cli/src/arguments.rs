@@ -14,7 +14,7 @@ use crate::formats::{MeshFormat, PointFormat};
 use crate::help;
 use crate::values::{
     backend_parser, distribution_parser, mhz_from, order_parser, port_from, quantize_from, readable_format_parser,
-    seconds_from,
+    seconds_from, threads_from, whole_number,
 };
 
 /// Exact Delaunay triangulation: one canonical answer, in software or hardware
@@ -72,10 +72,11 @@ pub enum Command {
 /// The grid that the points lie on.
 #[derive(Debug, Args)]
 pub struct GridArguments {
-    /// Bits of a coordinate; the grid is 0 to 2^BITS - 1 (default: 16)
+    /// Bits of a coordinate, 8 to 31; the grid is 0 to 2^BITS - 1 (default: 16)
     ///
-    /// More bits round points with fractions less. The back ends 'cpu' and 'model' take up to 31, a core 16.
-    #[arg(long, value_name = "BITS", value_parser = clap::value_parser!(u32).range(8..=31))]
+    /// More bits round points with fractions less. The back ends 'cpu' and 'model' take up to 31,
+    /// a core 16.
+    #[arg(long, value_name = "BITS", value_parser = whole_number(8, 31), verbatim_doc_comment)]
     pub coord_bits: Option<u32>,
     /// Lay the points onto the grid: 'fit', 'SCALE' or 'SCALE,X0,Y0'
     ///
@@ -115,7 +116,7 @@ pub struct BackendArguments {
     /// Threads of the back end 'cpu' (default: one per processor)
     ///
     /// A small set takes fewer: one thread, and one more for every full 16,384 points.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = threads_from)]
     pub threads: Option<NonZeroU32>,
     /// Core of 'clock' and 'sim'
     ///
@@ -138,7 +139,7 @@ pub struct JobArguments {
     /// Insertions in flight at once (default: all contexts of the back end)
     ///
     /// The number changes the time, never the mesh.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = whole_number(1, u32::MAX))]
     pub contexts: Option<u32>,
     /// Insertion order
     ///
@@ -197,8 +198,9 @@ pub struct TriangulateArguments {
     pub job: JobArguments,
     /// Record a waveform of the back end 'sim' in this file, for small sets
     ///
-    /// The file has every signal of the simulated core at every clock, so it is large and slow to write.
-    #[arg(long, value_name = "FILE.vcd")]
+    /// The file has every signal of the simulated core at every clock, so it is large and slow to
+    /// write.
+    #[arg(long, value_name = "FILE.vcd", verbatim_doc_comment)]
     pub trace: Option<PathBuf>,
     /// Print a report of the run as one JSON object on standard output
     #[arg(long)]
@@ -245,10 +247,10 @@ pub struct GenerateArguments {
     #[arg(value_parser = distribution_parser())]
     pub distribution: Distribution,
     /// Number of points, up to 536870911
-    #[arg(short, value_name = "N")]
+    #[arg(short, value_name = "N", value_parser = whole_number(0, u32::MAX))]
     pub n: u32,
-    /// Bits of a coordinate
-    #[arg(long, default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=31))]
+    /// Bits of a coordinate, 1 to 31
+    #[arg(long, default_value_t = 16, value_parser = whole_number(1, 31))]
     pub bits: u32,
     /// Seed; one seed gives the same points on every machine
     #[arg(long, default_value_t = 1)]
@@ -272,7 +274,7 @@ pub struct BenchArguments {
     #[arg(value_name = "SET", value_parser = distribution_parser())]
     pub sets: Vec<Distribution>,
     /// Points of a set, including duplicates, which are then removed
-    #[arg(short, value_name = "N", default_value_t = 4096, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(short, value_name = "N", default_value_t = 4096, value_parser = whole_number(1, u32::MAX))]
     pub n: u32,
     /// Triangulate JOBS generated sets, each with its own seed, as one batch
     ///
@@ -281,12 +283,12 @@ pub struct BenchArguments {
     #[arg(
         long,
         value_name = "JOBS",
-        value_parser = clap::value_parser!(u32).range(1..=1_000_000),
+        value_parser = whole_number(1, 1_000_000),
         verbatim_doc_comment
     )]
     pub batch: Option<u32>,
-    /// Bits of a coordinate (default: 16)
-    #[arg(long, value_name = "BITS", value_parser = clap::value_parser!(u32).range(1..=31))]
+    /// Bits of a coordinate, 1 to 31 (default: 16)
+    #[arg(long, value_name = "BITS", value_parser = whole_number(1, 31))]
     pub coord_bits: Option<u32>,
     /// Seed; one seed gives the same points on every machine
     #[arg(long, default_value_t = 1)]

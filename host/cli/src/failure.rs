@@ -36,9 +36,10 @@ pub struct Failure {
 }
 
 impl Failure {
-    /// Makes a failure of an exit code and a sentence.
+    /// Makes a failure of an exit code and a sentence. Control characters are escaped, because a sentence may quote a
+    /// file: names in the header of a PLY file must not control the terminal.
     pub fn new(exit: Exit, message: impl Into<String>) -> Self {
-        Self { exit, message: message.into() }
+        Self { exit, message: printable(&message.into()) }
     }
 
     /// Makes a failure of wrong input, with exit code 3.

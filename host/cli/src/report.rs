@@ -81,7 +81,7 @@ impl<'a> RunReport<'a> {
         if let Some(q) = self.quantization {
             let ([x, y], merged) = (q.offset, counted(q.merged, "point"));
             lines.push(format!(
-                "quantised to {} bits: scale {}, offset ({}, {}), largest error {:.3e}, {merged} fell together",
+                "quantised to {} bits: scale {}, offset ({}, {}), largest error {:.3e}, {merged} fell onto another",
                 q.coord_bits,
                 Shown(q.scale),
                 Shown(x),

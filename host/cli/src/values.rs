@@ -1,5 +1,6 @@
 //! Parsers of the values of arguments. The error of a wrong value is a sentence for the user.
 
+use std::num::NonZeroU32;
 use std::time::Duration;
 
 use clap::ValueEnum;
@@ -107,12 +108,25 @@ pub fn quantize_from(text: &str) -> Result<Quantize, String> {
     }
 }
 
+/// A parser of whole numbers from `least` to `most`.
+pub fn whole_number(least: u32, most: u32) -> impl Fn(&str) -> Result<u32, String> + Clone + Send + Sync + 'static {
+    move |text| {
+        let number = text.parse().ok().filter(|number| (least..=most).contains(number));
+        number.ok_or_else(|| format!("give a whole number from {least} to {most}"))
+    }
+}
+
+/// Parses a number of threads.
+pub fn threads_from(text: &str) -> Result<NonZeroU32, String> {
+    text.parse().map_err(|_| format!("give a whole number from 1 to {}", u32::MAX))
+}
+
 /// Parses a positive number of seconds.
 pub fn seconds_from(text: &str) -> Result<Duration, String> {
     let seconds: f64 = text.parse().map_err(|_| "give seconds, such as 2.5".to_owned())?;
     match Duration::try_from_secs_f64(seconds) {
         Ok(duration) if !duration.is_zero() => Ok(duration),
-        _ => Err("give a positive number of seconds".to_owned()),
+        _ => Err("give a positive number of seconds, up to 1e19".to_owned()),
     }
 }
 
@@ -161,6 +175,19 @@ mod tests {
             "clock?config=9",
         ] {
             assert!(backend_from(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn whole_numbers_have_bounds() {
+        let bits = whole_number(8, 31);
+        assert_eq!((bits("8"), bits("31")), (Ok(8), Ok(31)));
+        for bad in ["", "7", "32", "-1", "1e1", "99999999999999999999"] {
+            assert_eq!(bits(bad), Err("give a whole number from 8 to 31".to_owned()), "{bad}");
+        }
+        assert_eq!(threads_from("3").map(NonZeroU32::get), Ok(3));
+        for bad in ["", "0", "-1", "many", "4294967296"] {
+            assert!(threads_from(bad).is_err(), "{bad}");
         }
     }
 

@@ -143,7 +143,7 @@ pub enum Error {
     /// More distinct points than the device holds.
     #[error(
         "{distinct} distinct points are more than the {capacity} that {device} holds: \
-         use a larger device or the back end \"model\""
+         use a larger device or the back end \"cpu\""
     )]
     Capacity {
         /// Distinct points of the job.
@@ -196,7 +196,10 @@ pub enum Error {
         source: TransportError,
     },
     /// The device did not answer in time.
-    #[error("{device} did not finish {during} within {} s: check it, or allow a longer time", timeout.as_secs_f64())]
+    #[error(
+        "{device} did not finish {during} within {} s: allow a longer time, or check the device",
+        timeout.as_secs_f64()
+    )]
     Timeout {
         /// Name of the device.
         device: String,

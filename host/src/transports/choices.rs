@@ -41,11 +41,8 @@ impl Choice<'_> {
     pub(crate) fn number(self, range: RangeInclusive<u32>) -> Result<u32, String> {
         let Self { key, value } = self;
         let parsed = value.parse().ok().filter(|number| range.contains(number));
-        parsed.ok_or_else(|| match (range.start(), *range.end()) {
-            (0, u32::MAX) => format!("\"{key}\" must be a whole number, not \"{value}\""),
-            (least, u32::MAX) => format!("\"{key}\" must be a whole number from {least} on, not \"{value}\""),
-            (least, most) => format!("\"{key}\" must be a whole number from {least} to {most}, not \"{value}\""),
-        })
+        let (least, most) = range.into_inner();
+        parsed.ok_or_else(|| format!("\"{key}\" must be a whole number from {least} to {most}, not \"{value}\""))
     }
 
     /// The sentence of an error for a key that is not one of `known`.

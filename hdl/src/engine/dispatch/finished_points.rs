@@ -1,8 +1,8 @@
 //! Counts the points that are finished, and says when nothing is left to do.
 //!
 //! 1. Two points may be finished in one clock: one by a commit or a solo insertion, and a duplicate.
-//! 2. Fewer than three points, or three collinear ones, are never finished. Then nothing is left to do as soon as
-//!    no visit is in flight.
+//! 2. Fewer than three points, or three collinear ones, are never finished. Then nothing is left to do as soon as no
+//!    visit is in flight.
 //! 3. A finished point is noted at its edge, counted at the next and compared at the third, but `arrived` is compared
 //!    at once. In the clock after a point has come `is_quiet` may be out of date, but no command reads `is_quiet` then.
 //!

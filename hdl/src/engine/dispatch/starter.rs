@@ -17,8 +17,8 @@
 //!
 //! Latency: 2 clocks from the pointer to `starts`.
 //!
-//! There are two contexts. Context 0 takes vertex 2 when that has come, the first round is over and the queue is
-//! free. Then context 0 falls asleep, keeps its point, and retries from record 9 in the next fourth round:
+//! There are two contexts. Context 0 takes vertex 2 when that has come, the first round is over and the queue is free.
+//! Then context 0 falls asleep, keeps its point, and retries from record 9 in the next fourth round:
 //! ```text
 //! arrived           2  3  3  3  3  3  3  3  3  3  3  3  3  3  3  3
 //! came            ___/^^\_________________________________________

@@ -24,8 +24,7 @@ crate::packed! {
         /// The number of locks in the log of the context.
         pub logged: LockCount,
         /// Bit `y` belongs to the cavity record that allocated entry `y` and so brought two new edges: one of them has
-        /// been passed, that is, the record behind the edge has joined the cavity too. The root brought three edges and
-        /// uses bits 0 and 1.
+        /// been passed, that is, the record behind the edge has joined the cavity too. The root uses bits 0 and 1.
         pub half_open: Bits<64>,
     }
 

@@ -5,8 +5,8 @@
 //! 2. The queue has a place for every ring entry of every context. A context never has more visits in flight than its
 //!    ring has entries, so the queue never overflows.
 //! 3. The id of the record goes to all block RAMs of the triangle memory. Three registers hold the id, so that each can
-//!    lie near the RAMs that it drives. Reset clears one, sets all bits of another and does not act on
-//!    the third, because synthesis would merge equal registers.
+//!    lie near the RAMs that it drives. Reset clears one, sets all bits of another and does not act on the third,
+//!    because synthesis would merge equal registers.
 //!
 //! Latency: 1 clock from `push` to `visit` if the queue is empty.
 //!

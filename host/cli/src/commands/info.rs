@@ -20,12 +20,13 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
     let protocol = identity.protocol_version;
     let protocol = format!("protocol {}.{}", protocol >> 16, protocol & 0xffff);
     let holds = format!("coordinates of {} bits\n{} points", identity.coord_bits, identity.capacity);
-    let contexts = identity.contexts;
+    let contexts = identity.contexts as usize;
     output::print(&if backend.name == "cpu" {
-        format!("back end cpu\nversion {major}.{minor}.{patch}\n{holds}\n{}\n", counted(contexts as usize, "thread"))
+        format!("back end cpu\nversion {major}.{minor}.{patch}\n{holds}\n{}\n", counted(contexts, "thread"))
     } else {
+        let insertions = counted(contexts, "insertion");
         format!(
-            "back end {}\nversion {major}.{minor}.{patch}, {protocol}\n{holds}\n{contexts} insertions at once\n\
+            "back end {}\nversion {major}.{minor}.{patch}, {protocol}\n{holds}\n{insertions} at once\n\
              cavities of up to {} boundary edges\n{board}{card}",
             backend.name, identity.ring_capacity
         )

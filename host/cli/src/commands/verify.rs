@@ -12,6 +12,11 @@ use crate::{grid, output, source};
 
 /// Runs the subcommand. A wrong mesh leads to exit code 1.
 pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
+    if source::is_standard(&arguments.points) && source::is_standard(&arguments.mesh) {
+        return Err(Failure::usage(
+            "points and mesh cannot both come from standard input: name a file for one of them",
+        ));
+    }
     let table = source::read_points(&arguments.points, arguments.from)?;
     let points_name = source::name(&arguments.points);
     let GridArguments { coord_bits, quantize } = arguments.grid;

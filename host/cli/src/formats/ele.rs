@@ -31,7 +31,8 @@ pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
     }
     if triangles.len() as u64 != u64::from(promised) {
         let (found, promised) = (triangles.len(), counted(promised as usize, "triangle"));
-        return Err(Failure::new(Exit::Rejected, format!("the first row promises {promised}, the file holds {found}")));
+        let message = format!("the first row promises {promised}, but the file holds {found}");
+        return Err(Failure::new(Exit::Rejected, message));
     }
     if first_id == 1 && triangles.iter().flatten().all(|&vertex| vertex > 0) {
         triangles.iter_mut().flatten().for_each(|vertex| *vertex -= 1);

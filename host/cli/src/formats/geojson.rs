@@ -11,6 +11,9 @@ use crate::failure::{one_line, Failure};
 use crate::formats::mesh_view::MeshView;
 use crate::points::PointTable;
 
+/// The beginning of the message about a text that is no GeoJSON.
+pub const REFUSED: &str = "not GeoJSON: ";
+
 /// Reads the points of a file.
 pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     let bytes = crate::text::without_mark(bytes)?;
@@ -20,9 +23,11 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     let Ok(text) = std::str::from_utf8(bytes) else {
         return Err(Failure::input("the file is not UTF-8 text"));
     };
-    let document: GeoJson = text
-        .parse()
-        .map_err(|error: geojson::Error| Failure::input(format!("not GeoJSON: {}", one_line(&error.to_string()))))?;
+    let document: GeoJson = text.parse().map_err(|error: geojson::Error| {
+        let message = error.to_string();
+        let message = message.strip_prefix("Error while deserializing GeoJSON: ").unwrap_or(&message);
+        Failure::input(format!("{REFUSED}{}", one_line(message)))
+    })?;
     let mut table = PointTable::of_items("point");
     match &document {
         GeoJson::Geometry(geometry) => add_geometry(geometry, &mut table, "the geometry")?,

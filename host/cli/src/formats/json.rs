@@ -15,11 +15,16 @@ use crate::points::PointTable;
 /// Reads the list `points`, which has pairs of finite numbers, and ignores everything else in the object. An object
 /// without that list, or with the key `type` of GeoJSON, is read as GeoJSON.
 pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
-    let object: Option<Value> = serde_json::from_slice(crate::text::without_mark(bytes)?).ok();
-    let own = object.as_ref().filter(|object| object.get("type").is_none());
+    let object: Result<Value, _> = serde_json::from_slice(crate::text::without_mark(bytes)?);
+    let own = object.as_ref().ok().filter(|object| object.get("type").is_none());
     let Some(list) = own.and_then(|object| object.get("points")?.as_array()) else {
-        drop(object);
-        return geojson::read_points(bytes);
+        let fault = object.err();
+        return geojson::read_points(bytes).map_err(|failure| match fault {
+            Some(error) if failure.message.starts_with(geojson::REFUSED) => {
+                Failure::input(format!("not JSON: {error}"))
+            }
+            _ => failure,
+        });
     };
     let mut table = PointTable::of_items("point");
     for (index, value) in list.iter().enumerate() {

@@ -40,7 +40,7 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     let found = table.points.len();
     if found as u64 != u64::from(promised) {
         let promised = counted(promised as usize, "point");
-        return Err(Failure::input(format!("the first row promises {promised}, the file holds {found}")));
+        return Err(Failure::input(format!("the first row promises {promised}, but the file holds {found}")));
     }
     Ok(table)
 }

@@ -120,8 +120,7 @@ fn read_element(
 ) -> Result<(), Failure> {
     let mut reader = Reader::new(bytes);
     let header = Parser::<Item>::new().read_header(&mut reader);
-    let header =
-        header.map_err(|error| Failure::input(format!("not a PLY header: {}", one_line(&error.to_string()))))?;
+    let header = header.map_err(|error| Failure::input(format!("not a PLY header: {}", header_fault(&error))))?;
     if !header.elements.contains_key(wanted) {
         return Err(Failure::input(format!("the header has no element '{wanted}'")));
     }
@@ -135,6 +134,12 @@ fn read_element(
         }
     }
     refuse_remainder(&header, rest)
+}
+
+/// The message of a header that cannot be read, without the parser's dump of its own state.
+fn header_fault(error: &ply_rs_bw::parser::ParseError) -> String {
+    let message = error.to_string();
+    one_line(message.split("Error: ParseError").next().unwrap_or_default())
 }
 
 /// Refuses data after the last element, which a count that is too small would lose silently.
@@ -167,7 +172,7 @@ fn refuse_false_count(element: &ElementDef, header: &Header, rest: &[u8]) -> Res
     };
     if element.count > room {
         return Err(Failure::input(format!(
-            "the header promises {} of element '{name}', the file ends after {room} at most",
+            "the header promises {} of element '{name}', but the file ends after {room} at most",
             element.count
         )));
     }
@@ -194,7 +199,7 @@ fn binary(
 ) -> Result<Item, Failure> {
     item.map_err(|error| match error.kind() {
         io::ErrorKind::UnexpectedEof => Failure::input(format!(
-            "the header promises {} of element '{}', the file ends in number {}",
+            "the header promises {} of element '{}', but the file ends in number {}",
             element.count,
             element.name,
             index + 1

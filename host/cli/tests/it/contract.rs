@@ -95,7 +95,7 @@ fn the_processor_is_the_default() {
         assert_eq!(scratch.read("m.ele"), scratch.read("model.ele"));
     }
     let info = scratch.run("info --backend cpu --threads 3").ok();
-    assert!(info.stdout.contains("31 bits") && info.stdout.contains("3 threads"), "{info:?}");
+    assert!(info.stdout.contains("32 bits") && info.stdout.contains("3 threads"), "{info:?}");
     scratch.run("triangulate p.csv -o m.ele --backend cpu --order hilbert").fails(2, &["--order", "--backend model"]);
     scratch.run("triangulate p.csv -o m.ele --backend model --threads 2").fails(2, &["--threads", "--backend cpu"]);
     scratch.run("triangulate p.csv -o m.ele --backend cpu --config tiny").fails(2, &["--config", "--backend clock"]);
@@ -222,6 +222,7 @@ fn wrong_use_ends_with_two() {
         ("bench -n 600000000", "536870911"),
         ("generate uniform -n 5 -o x.ply", "x.ply"),
         ("verify p.csv m.svg", "m.svg"),
+        ("verify - - --format csv", "points and mesh cannot both come from standard input"),
     ];
     scratch.write("m.svg", "<svg/>");
     for (arguments, part) in one_sentence {

@@ -81,13 +81,13 @@ pub enum VerifyError {
         index: u32,
     },
     /// There are triangles, although all points are on one line.
-    #[error("{triangles} triangles are given, but all points are on one line")]
+    #[error("the number of triangles is {triangles}, but all points are on one line")]
     TrianglesOfCollinearPoints {
         /// Number of triangles given.
         triangles: usize,
     },
     /// The number of triangles is not the one of Euler's formula.
-    #[error("{found} triangles are given, but {distinct} points with {hull} on the hull have {expected}")]
+    #[error("the number of triangles is {found}, but {distinct} points with {hull} on the hull have {expected}")]
     TriangleCount {
         /// Number of triangles given.
         found: usize,

@@ -20,7 +20,7 @@ pub(super) trait ExactPoint: Copy {
 
     /// Twice the signed area of a triangle, or of the sector from the origin to `b` and `c` if `a` is `None`, where
     /// integers of 128 bits can sum all areas of a mesh.
-    fn doubled_area(a: Option<Self>, b: Self, c: Self) -> Option<i128>;
+    fn orient2d_value(a: Option<Self>, b: Self, c: Self) -> Option<i128>;
 }
 
 /// The vector from `from` to `to`.
@@ -50,7 +50,7 @@ impl ExactPoint for Point {
         term(a, b, c).wrapping_add(term(b, c, a)).wrapping_add(term(c, a, b)).cmp(&0)
     }
 
-    fn doubled_area(a: Option<Self>, b: Self, c: Self) -> Option<i128> {
+    fn orient2d_value(a: Option<Self>, b: Self, c: Self) -> Option<i128> {
         let a = a.unwrap_or_default();
         Some(minor(vector(a, b), vector(a, c)))
     }
@@ -146,7 +146,7 @@ impl<C: ExactNumber> ExactPoint for [C; 2] {
         })
     }
 
-    fn doubled_area(_: Option<Self>, _: Self, _: Self) -> Option<i128> {
+    fn orient2d_value(_: Option<Self>, _: Self, _: Self) -> Option<i128> {
         None
     }
 }
@@ -180,7 +180,7 @@ mod tests {
 
     #[test]
     fn area_is_positive_to_the_left() {
-        let area = |a, b, c| Point::doubled_area(Some(a), b, c).expect("integers have one");
+        let area = |a, b, c| Point::orient2d_value(Some(a), b, c).expect("integers have one");
         assert_eq!(area(p(0, 0), p(MAX, 0), p(0, MAX)), i128::from(MAX) * i128::from(MAX));
         assert_eq!(area(p(0, 0), p(5, 5), p(9, 9)), 0);
         assert_eq!(area(p(0, 0), p(0, 2), p(2, 0)), -4);

@@ -119,7 +119,7 @@ fn check_triangles<P: ExactPoint>(sites: &Sites<'_, P>, triangles: &[[u32; 3]]) 
         if P::orient2d(a, b, c).is_le() {
             return Err(VerifyError::NotCounterClockwise { triangle, corners });
         }
-        covered = covered.zip(P::doubled_area(Some(a), b, c)).map(|(sum, area)| sum + area);
+        covered = covered.zip(P::orient2d_value(Some(a), b, c)).map(|(sum, area)| sum + area);
         if corners[0] > corners[1] || corners[0] > corners[2] {
             return Err(VerifyError::NotRotated { triangle, corners });
         }
@@ -178,7 +178,7 @@ fn check_area<P: ExactPoint>(sites: &Sites<'_, P>, hull: &[u32], triangles: Opti
     };
     let following = hull.iter().skip(1).chain(hull.first());
     let sectors = hull.iter().zip(following);
-    let hull = sectors.filter_map(|(&from, &to)| P::doubled_area(None, sites.at(from), sites.at(to))).sum();
+    let hull = sectors.filter_map(|(&from, &to)| P::orient2d_value(None, sites.at(from), sites.at(to))).sum();
     if triangles == hull {
         Ok(())
     } else {

@@ -12,7 +12,7 @@ pub enum SerialFault {
     /// No byte came back.
     #[error(
         "nothing answers: check that this is the right port (`incircle devices` lists all), \
-         that the board has power and its configuration, and that its transmit line is our receive line"
+         that the board has power and its configuration, and that its transmit line leads to the receive line here"
     )]
     Silent,
     /// Bytes came back, but no frame of an incircle device.

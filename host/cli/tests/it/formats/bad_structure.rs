@@ -17,8 +17,11 @@ fn ply_that_is_cut_or_lies() {
     refuse("p.ply", ascii("18446744073709551615") + "0 0\n", &["promises 18446744073709551615"]);
     refuse("p.ply", ascii("99999999999999999999") + "0 0\n", &["PLY header"]);
     refuse("p.ply", "ply\nformat ascii 1.0\n", &["PLY header"]);
-    refuse("p.ply", "solid\n", &["PLY header"]);
+    refuse("p.ply", "solid\n", &["PLY header", "Expected magic number 'ply'"]);
     refuse("p.ply", "ply\nformat ascii 1.0\nelement face 0\nend_header\n", &["no element 'vertex'"]);
+    refuse("p.ply", "ply\n\u{1b}[31m\n", &["PLY header", r"'\u{1b}[31m"]);
+    let named = "ply\nformat ascii 1.0\nelement \u{1b}x 9\nproperty float x\nelement vertex 0\nend_header\n";
+    refuse("p.ply", named, &[r"\u{1b}x"]);
     let no_y = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n";
     refuse("p.ply", no_y, &["vertex 1, y", "missing"]);
     let no_properties = "ply\nformat binary_little_endian 1.0\nelement vertex 9999999999999\nend_header\n";
@@ -72,7 +75,7 @@ fn geojson_of_wrong_form() {
 fn json_points_of_wrong_form() {
     refuse("p.json", r#"{"points":[[0,0],[1,2,3]]}"#, &["points[1]", "'[1,2,3]'"]);
     refuse("p.json", r#"{"points":[[0,null]]}"#, &["points[0]"]);
-    refuse("p.json", r#"{"points":[[0,1e999]]}"#, &["GeoJSON"]);
+    refuse("p.json", r#"{"points":[[0,1e999]]}"#, &["not JSON", "out of range"]);
     refuse("p.json", r#"{"points":[[0,0],[1,70000]]}"#, &["point 2, y", "70000"]);
     // An object with a `type` is read as GeoJSON.
     let named = r#"{"type":"LineString","coordinates":[[1,2],[3,4]],"points":[[0,0]]}"#;
