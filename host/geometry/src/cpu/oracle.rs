@@ -184,6 +184,29 @@ fn a_crowd_beside_a_far_point_has_the_mesh_of_the_crowd() {
         let near: Vec<[u32; 3]> = found.triangles.iter().copied().filter(|t| !t.contains(&far)).collect();
         assert!(near == expected.triangles);
         assert_eq!(found.duplicates, expected.duplicates);
+        let mesh = Mesh::new(doubles.clone(), found.triangles, found.hull, found.duplicates);
+        mesh.verify().expect("the canonical mesh");
+    }
+}
+
+/// A cut that leaves a vertex alone in its subtree, beside one that is large enough to be cut further.
+#[test]
+fn lonely_points_around_a_crowd_have_the_canonical_mesh() {
+    const LAST: u32 = (1 << 31) - 1;
+    let crowd: Vec<Point> = SplitMix64::new(78).points(23_000, 1 << 12);
+    let corners = [(0, 0), (LAST, 0), (0, LAST), (LAST, LAST)].map(|(x, y)| Point::new(x, y));
+    let middle = |point: &Point| Point::new(point.x + (1 << 29), point.y + (1 << 28));
+    for lonely in 0..16 {
+        let chosen = (0..4).filter(|corner| lonely >> corner & 1 == 1).map(|corner| corners[corner]);
+        let points: Vec<Point> = crowd.iter().map(middle).chain(chosen).collect();
+        let one = mesh_of(&points, 1);
+        one.verify().unwrap_or_else(|error| panic!("{error}, with the corners {lonely:04b}"));
+        assert!(mesh_of(&points, 2) == one, "with the corners {lonely:04b}");
+        let doubles: Vec<[f64; 2]> = points.iter().map(|p| [f64::from(p.x), f64::from(p.y)]).collect();
+        for count in [1, 2] {
+            let found = connected(&doubles, count);
+            assert!((&found.triangles, &found.hull) == (&one.triangles, &one.hull), "with the corners {lonely:04b}");
+        }
     }
 }
 

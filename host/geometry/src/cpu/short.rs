@@ -98,6 +98,12 @@ impl ShortHalves {
         let (part, unused) = self.conquer::<K>(&sites[range.clone()], &places[range.clone()], waiting, go_on)?;
         self.copy_to(halves, range.start as u32);
         let by = (HALVES * range.start) as u32;
+        if range.len() == 1 {
+            // The pair of a single vertex begins and ends at the vertex, as unused pairs do, so it was copied as one.
+            for (e, half) in (by..).zip(&mut halves[..2]) {
+                *half = Half { next: e, previous: e, end: range.start as u32 };
+            }
+        }
         Some((part.moved(by), unused + by))
     }
 
