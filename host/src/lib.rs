@@ -25,8 +25,9 @@
 //!
 //! # Floating-point values
 //!
-//! [`quantize()`] lays values onto the integer grid and reports what rounding did. The mesh has the indices of the
-//! values, so a program can draw it with the values themselves.
+//! [`triangulate`] takes floating-point values as the exact numbers that they are. For a device, [`quantize()`] lays
+//! values onto the integer grid and reports what rounding did. The mesh has the indices of the values, so a program can
+//! draw it with the values themselves.
 //!
 //! ```
 //! use incircle::{quantize, triangulate, Quantize};
@@ -117,9 +118,9 @@ pub mod order {
 
 /// Triangulates a set of points with the CPU triangulator, on all processors if the set is large.
 ///
-/// Points may be [`Point`]s, pairs `(u32, u32)`, or anything else that converts into a [`Point`]; coordinates have up
-/// to 31 bits. For another number of threads, a time limit or progress, open a [`Device`] instead. O(n) on even sets,
-/// O(n w) at worst with coordinates of `w` bits.
+/// Points may be [`Point`]s, or pairs and arrays of `u32`, `i32`, `i64`, `f32` or `f64`: [`PlanePoint`] lists all
+/// types. Each coordinate is taken as the exact number that it is. For another number of threads, a time limit or
+/// progress, open a [`Device`] instead. O(n) on even sets, O(n w) at worst with coordinates of `w` bits.
 ///
 /// ```
 /// let mesh = incircle::triangulate(&[(0, 0), (9, 0), (3, 5), (9, 9)])?;

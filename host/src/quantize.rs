@@ -1,8 +1,9 @@
 //! From floating-point values to grid points, in one step that reports what it did.
 //!
-//! The triangulation itself never rounds, so values with fractions must be laid onto the integer grid first.
-//! [`integers`] takes values that already are grid coordinates and refuses all others; [`quantize`] scales and rounds,
-//! and says by how much. Nothing is rounded silently.
+//! The triangulation itself never rounds. A device takes only points whose lattice fits its grid, so all other values
+//! must be laid onto that grid first; the CPU triangulator takes every finite value as it is. [`integers`] takes values
+//! that already are grid coordinates and refuses all others; [`quantize`] scales and rounds, and says by how much.
+//! Nothing is rounded silently.
 
 use crate::error::Error;
 use crate::limit::check_coord_bits;

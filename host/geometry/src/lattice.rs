@@ -1,8 +1,9 @@
 //! The lattice of a point set: whole steps of one length in which all its coordinates are integers.
 //!
-//! Triangulation by integers is exact and quick, so the numbers that people have are looked at first: are they whole,
-//! are they decimals, do they share a binary grid? The first lattice that fits is taken. A set without one is
-//! triangulated on its doubles, exactly as well.
+//! Triangulation in integers of up to 32 bits is the fastest, so a lattice is looked for first: the coordinates are
+//! whole numbers, or else multiples of a power of two. Decimals are not recognised by themselves; a caller who has them
+//! as integers passes their step to [`Lattice::of_integers`]. A set without a lattice is triangulated on its doubles or
+//! long integers, exactly as well.
 
 use alloc::borrow::Cow;
 use alloc::vec::Vec;
@@ -54,7 +55,7 @@ impl fmt::Display for Step {
 pub struct Lattice {
     /// The length of a step.
     pub step: Step,
-    /// The smallest x and the smallest y of the points, in steps.
+    /// The smallest x and the smallest y of the points, in steps; 0 for points that are on the grid already.
     pub offset: [i64; 2],
     /// Bits of the largest coordinate of the grid points, at most 32.
     pub bits: u32,
@@ -94,12 +95,12 @@ impl Lattice {
     }
 
     /// The lattice of doubles, and the points on it: whole numbers if all are, else multiples of the largest power of
-    /// two that makes all whole. `None` if a coordinate is infinite or not a number, or if a span is
-    /// 2^32 steps or more.
+    /// two that makes all whole. `None` if a coordinate is infinite or not a number, or 9.2e18 steps or more in
+    /// magnitude, or if a span is 2^32 steps or more.
     pub fn of_doubles(points: &[[f64; 2]]) -> Option<(Self, Vec<Point>)> {
         let exponent =
             points.iter().flatten().map(|&value| trailing_exponent(value)).try_fold(i32::MAX, |least, one| {
-                // Below 2^31 of the smallest double, nothing but that double's grid fits: no power is out of reach.
+                // A set with an infinity, or with a value that is not a number, has no lattice.
                 one.map(|exponent| least.min(exponent))
             })?;
         let exponent = if exponent >= 0 { 0 } else { exponent };

@@ -1,9 +1,9 @@
-//! Exact geometry of integer points: predicates, the canonical Delaunay triangulation in software, orders of
+//! Exact geometry of points in the plane: predicates, the canonical Delaunay triangulation in software, orders of
 //! insertion, and a validator.
 //!
-//! Use this crate if you have integer points and want their triangulation without a device, a link or a file. The
-//! library `incircle` is built on it, adds devices and points with fractions, and re-exports what its users need
-//! under the same paths.
+//! Use this crate if you have points of integers or doubles and want their triangulation without a device, a link or a
+//! file. The library `incircle` is built on it, adds devices and the rounding of values onto a grid, and re-exports
+//! what its users need under the same paths.
 //!
 //! | you want | call | cost |
 //! |---|---|---|
@@ -15,8 +15,9 @@
 //! | whether a point is inside a circle | [`incircle`] | ten multiplications |
 //! | a good order of insertion | [`Order::order`] | O(n), about 20 ns a point |
 //!
-//! Nothing is rounded: coordinates are unsigned integers below 2^31, and a proof bounds the width
-//! of every intermediate result.
+//! No point is rounded, and every predicate is exact. [`orient2d`] and [`incircle`] take grid points with coordinates
+//! below 2^31, and the functions of the same names in [`double`] take all finite doubles. [`cpu::triangulate`] takes
+//! points of any type that is a [`PlanePoint`].
 //!
 //! ```
 //! use core::num::NonZeroUsize;
@@ -33,7 +34,7 @@
 //! # Features
 //! - `std`, on by default: threads, and large pages on Linux. Without this feature the crate needs only `alloc`, and
 //!   the CPU triangulator works on one thread.
-//! - `glam`: conversions between [`Point`] and `glam::UVec2`.
+//! - `glam`: conversions between [`Point`] and `glam::UVec2`, and vectors of `glam` as points.
 #![cfg_attr(not(any(feature = "std", test)), no_std)]
 #![warn(missing_docs)]
 

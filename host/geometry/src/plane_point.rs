@@ -12,9 +12,9 @@ mod sealed {
 
 /// A type of points that can be triangulated: pairs, arrays and vectors of numbers.
 ///
-/// The type decides how exact the points are read, and nothing is ever rounded. [`Point`], `u32`, `i32` and `i64` are
-/// whole numbers; `f32` and `f64` are the binary numbers that they are. Which numbers the triangulation then computes
-/// in is said by the [`Lattice`](crate::lattice::Lattice) of the points.
+/// No coordinate is ever rounded: those of [`Point`], `u32`, `i32` and `i64` are whole numbers, and `f32` and `f64` are
+/// the binary numbers that they hold. If the points have a [`Lattice`](crate::lattice::Lattice), the triangulation
+/// computes in its integers, else in the numbers as they were given.
 ///
 /// Implemented for `[T; 2]` and `(T, T)` with these `T`, for [`Point`], and with the feature `glam` for `UVec2`,
 /// `IVec2`, `I64Vec2`, `Vec2` and `DVec2`. The trait is sealed.

@@ -2,7 +2,8 @@
 
 use core::fmt;
 
-/// The most bits of a coordinate. Coordinates lie below 2^31, so differences fit 32 bits with their sign.
+/// The most bits of a coordinate for the predicates of grid points and for the software model: differences then fit 32
+/// bits with their sign. The CPU triangulator takes all 32 bits of a coordinate.
 pub const MAX_COORD_BITS: u32 = 31;
 /// The most points of one set. With this limit the numbers of all half-edges fit 32 bits.
 pub const MAX_POINTS: usize = (1 << 29) - 1;
@@ -12,8 +13,8 @@ pub const MAX_POINTS: usize = (1 << 29) - 1;
 /// Points are plain values of 8 bytes. Pairs and arrays of `u32` convert both ways, as do vectors of the crate `glam`
 /// with the feature `glam`. Points compare lexicographically, `x` before `y`; the tie rule uses the same order.
 ///
-/// The type accepts any `u32`. Triangulation needs coordinates below 2^31, and a device may take fewer bits: 16 in the
-/// standard core. Points with fractions come onto the grid by `incircle::quantize`.
+/// The type accepts any `u32`, and so does the CPU triangulator. The software model takes coordinates below 2^31, and
+/// the standard core takes 16 bits. `incircle::quantize` lays points with fractions onto the grid of a device.
 ///
 /// ```
 /// use incircle_geometry::Point;

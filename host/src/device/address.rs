@@ -18,7 +18,7 @@ use crate::transports::serial;
 ///
 /// | address | device | when |
 /// |---|---|---|
-/// | `cpu` | the CPU triangulator with a thread for each processor; coordinates up to 31 bits | for speed |
+/// | `cpu` | the CPU triangulator with a thread for each processor; takes all numbers | for speed |
 /// | `cpu?threads=N` | the same with at most `N` threads | |
 /// | `model` | the software model with 16-bit coordinates; memory grows as points arrive | to test without hardware |
 /// | `model?coord-bits=B` | the same with `B` bits, 1 to 31 | |

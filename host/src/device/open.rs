@@ -83,8 +83,8 @@ impl Device {
 
     /// Makes a device of the CPU triangulator, the fastest without hardware.
     ///
-    /// Coordinates have up to 31 bits. `threads` is an upper bound, from 1 to 256; `None` allows one thread a
-    /// processor. Small jobs use fewer. In [`Identity`](crate::Identity) and
+    /// Points may be of any type that is a [`PlanePoint`](crate::PlanePoint). `threads` is an upper bound, from 1 to
+    /// 256; `None` allows one thread a processor. Small jobs use fewer. In [`Identity`](crate::Identity) and
     /// [`Options::contexts`](crate::Options::contexts) the threads stand in the place of contexts.
     /// [`Options::order`](crate::Options::order) has no effect: the order of insertion is for devices that insert
     /// points one after the other.

@@ -66,9 +66,9 @@ impl<'d> Session<'d> {
     /// points of the caller.
     ///
     /// # Errors
-    /// - [`Error::CoordinateOutOfRange`], [`Error::TooManyPoints`], [`Error::Capacity`] and [`Error::Contexts`] for
-    ///   input and options that the device cannot take; [`Error::Cancelled`] if the listener says so. The session
-    ///   can be used again.
+    /// - [`Error::NotFinite`], [`Error::CoordinateOutOfRange`], [`Error::LatticeTooWide`], [`Error::NoLattice`],
+    ///   [`Error::TooManyPoints`], [`Error::Capacity`] and [`Error::Contexts`] for input and options that the device
+    ///   cannot take; [`Error::Cancelled`] if the listener says so. The session can be used again.
     /// - [`Error::Link`] and [`Error::Device`] for a link that fails and an answer that no sound device gives;
     ///   [`Error::Timeout`] if the deadline passes while the device works. The session is then out of step and refuses
     ///   further work: open the device again.
@@ -92,7 +92,7 @@ impl<'d> Session<'d> {
         let terms = self.terms(points.len(), options);
         let (numbers, lattice) = self.on_lattice(&points, terms)?;
         let mut solution = match numbers {
-            // A device takes points as its own. `on_lattice` has refused all that is not on its grid.
+            // The job of a device owns its grid points. `on_lattice` has refused all that is not on the device's grid.
             Numbers::Grid(grid) if !self.backend.takes_all_numbers() => {
                 let grid = grid.into_owned();
                 self.backend.triangulate(grid, terms)?.with_points(points)

@@ -81,7 +81,7 @@ pub struct Capabilities {
     /// meanwhile, up to the answers of two jobs.
     pub takes_ahead: bool,
     /// Whether meshes are read with `Triangles`, which leaves out the neighbours and so half of the words. Clear it for
-    /// a transport that only knows `Read`, as one that asks again for parts of an answer.
+    /// a transport that only knows `Read`, such as one that asks again for parts of an answer.
     pub packs_records: bool,
     /// Speed of the transport.
     pub pace: Pace,

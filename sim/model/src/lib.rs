@@ -1,8 +1,9 @@
 //! Bit-exact software model of the incircle core.
 //!
-//! The model comes in two forms. [`CommandModel`] takes whole commands and is fast; it is the default back end of the
-//! host library. [`ClockModel`] predicts every root port of the core at every clock, and lock-step tests compare it
-//! with the Verilog. Both hold the same records under the same ids, written in the same order.
+//! The model comes in two forms. [`CommandModel`] takes whole commands and is fast; the back end `model` of the host
+//! library runs it. [`ClockModel`] predicts every root port of the core at every clock, and lock-step tests compare it
+//! with the Verilog. Both give the same mesh, but the ids of its records may differ, because several contexts finish
+//! their insertions in another order.
 //!
 //! The algorithm is incremental insertion: a visibility walk, a Bowyer-Watson cavity whose boundary is a ring
 //! that is split in place, and a commit that reuses the ids of the removed triangles. Ties follow the tie rule (see

@@ -10,11 +10,11 @@ use super::kernel::Kernel;
 use super::view::level;
 use crate::double::{incircle_of_views, side, Coordinate, View};
 
-/// The kernel of points with such coordinates.
+/// The kernel of points with coordinates of type `C`.
 #[derive(Clone, Copy)]
 pub(super) struct Filtered<C>(PhantomData<C>);
 
-/// A point without minus zeros and numbers that are none.
+/// A point whose coordinates are finite and never minus zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Zeroable)]
 pub(super) struct FilteredSite<C>(pub(super) [C; 2]);
 

@@ -89,8 +89,8 @@ pub(super) fn sort<C: Coordinate>(points: &[[C; 2]], threads: usize) -> Filtered
 struct Groups {
     /// Sorted by the first index of the cell, then by index.
     sharing: Vec<Duplicate>,
-    /// A bit for each input index: set for the first of a cell with several points. Nearly all cells have one, and
-    /// one bit says so.
+    /// A bit for each input index, set for the first point of a cell with several. Nearly all cells have a single
+    /// point, and the bit saves them the search in `sharing`.
     is_shared: Vec<u64>,
 }
 
@@ -102,7 +102,7 @@ impl Groups {
         Self { sharing, is_shared }
     }
 
-    /// The points that share the cell of its first point, without that one.
+    /// The other points of the cell whose first point is `first`.
     #[inline(always)]
     fn of_first(&self, first: u32) -> &[Duplicate] {
         if self.is_shared[first as usize / 64] >> (first % 64) & 1 == 0 {

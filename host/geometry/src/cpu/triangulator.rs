@@ -60,7 +60,8 @@ pub enum Error {
     /// The watch ended the work at this point.
     #[error("the triangulation was cancelled after {} of {} points in the stage {:?}", .0.done, .0.total, .0.stage)]
     Cancelled(Progress),
-    /// A coordinate has more than 31 bits.
+    /// A coordinate has more than 31 bits, which is too wide for the software model. [`triangulate`] itself takes all
+    /// 32 and never returns this error.
     #[error("point {index} is {point}, but coordinates end at 2147483647")]
     CoordinateOutOfRange {
         /// Input index of the point.
@@ -91,9 +92,9 @@ pub fn threads_for(points: usize, allowed: NonZeroUsize) -> NonZeroUsize {
 
 /// Computes the canonical Delaunay triangulation of a set of points, on at most `threads` threads; see [`threads_for`].
 ///
-/// Coordinates may have all 32 bits. Duplicates collapse onto their lowest index and are listed in the mesh. Fewer than
-/// three distinct points, or points on one line, give a mesh without triangles. The function calls `watch` with its
-/// progress, on the caller's thread, and ends early if `watch` asks for it.
+/// Points may be of any type that is a [`PlanePoint`]. Duplicates collapse onto their lowest index and are listed in
+/// the mesh. Fewer than three distinct points, or points on one line, give a mesh without triangles. The function calls
+/// `watch` with its progress, on the caller's thread, and ends early if `watch` asks for it.
 ///
 /// Cost: O(n w) at worst for coordinates of `w` bits, because the tree of cuts has at most `2 w` levels, and O(n) on
 /// even sets, 0.2 to 0.3 µs a point on one thread. The peak of memory is below 200 bytes a point at a million points of
@@ -113,7 +114,7 @@ pub fn threads_for(points: usize, allowed: NonZeroUsize) -> NonZeroUsize {
 /// ```
 ///
 /// # Errors
-/// There are more than [`MAX_POINTS`] points, or the watch ends the work.
+/// There are more than [`MAX_POINTS`] points, a coordinate is infinite or not a number, or the watch ends the work.
 pub fn triangulate<P: PlanePoint>(points: Vec<P>, threads: NonZeroUsize, watch: Watch<'_>) -> Result<Mesh<P>, Error> {
     let (numbers, _) = P::numbers(&points).on_lattice();
     let Connectivity { triangles, hull, duplicates } = connect(&numbers, threads, watch)?;

@@ -4,7 +4,8 @@
 //! A double is `m * 2^e` with an integer `m` of 53 bits. The smallest `e` of the points at hand makes all coordinates
 //! whole. Where these have at most 61 bits, which is so unless the exponents of neighbours differ much, differences
 //! have 62 bits, cross and dot products fit 126 bits, and the determinant of incircle is compared as two products of
-//! 256 bits. All others take [`Big`] integers: at most 2098 bits for a coordinate, and thousands of times as long.
+//! 256 bits. All others take [`Big`] integers: a coordinate then has up to 2098 bits, and a predicate may take
+//! thousands of times as long.
 
 use core::cmp::Ordering;
 
@@ -67,7 +68,7 @@ struct View {
 
 impl View {
     fn of(a: [i64; 2], b: [i64; 2], p: [i64; 2]) -> Self {
-        // Differences of 61 bits have 62 bits, their products 124.
+        // Coordinates have 61 bits, their differences 62, and products of two differences 124.
         let vector = |to: [i64; 2]| [i128::from(to[0] - p[0]), i128::from(to[1] - p[1])];
         let ([ax, ay], [bx, by]) = (vector(a), vector(b));
         Self { cross: ax * by - ay * bx, dot: ax * bx + ay * by }
