@@ -3,43 +3,13 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-#[cfg(not(feature = "std"))]
-use super::conquer::conquer;
-use super::conquer::{level_after, GoOn, Waiting};
+use super::conquer::{level_after, Waiting};
 use super::edges::{Edges, Half, Halves, HALVES};
 use super::kernel::Kernel;
 use super::merge::Part;
-#[cfg(feature = "std")]
-use super::segments;
 
 /// The part of a subtree, and its first unused pair, both numbered from the start of all half-edges.
 pub(super) type Own = (Part, u32);
-
-/// Triangulates distinct sites, which stand along the curve, on up to `threads` threads. Returns `None` if there are no
-/// sites, or if `go_on` ends the work.
-#[cfg(feature = "std")]
-pub(super) fn whole<K: Kernel>(
-    sites: &[K::Site],
-    places: &[K::Place],
-    halves: &mut [Half],
-    threads: usize,
-    go_on: GoOn<'_>,
-) -> Option<Part> {
-    segments::triangulate::<K>(sites, places, halves, threads, go_on)
-}
-
-/// Triangulates distinct sites, which stand along the curve, on this thread. Returns `None` if there are no sites, or
-/// if `go_on` ends the work.
-#[cfg(not(feature = "std"))]
-pub(super) fn whole<K: Kernel>(
-    sites: &[K::Site],
-    places: &[K::Place],
-    halves: &mut [Half],
-    _threads: usize,
-    go_on: GoOn<'_>,
-) -> Option<Part> {
-    conquer(&mut Edges::<K, _> { sites, halves, unused: 0 }, places, &mut Waiting::new(), go_on)
-}
 
 /// Cuts a subtree into smaller ones of up to `most` vertices.
 pub(super) fn divide<K: Kernel>(

@@ -4,14 +4,19 @@ use alloc::vec::Vec;
 use core::num::NonZeroUsize;
 use core::ops::ControlFlow;
 
+#[cfg(not(feature = "std"))]
+use super::conquer::{conquer, Waiting};
+#[cfg(not(feature = "std"))]
+use super::edges::Edges;
 use super::edges::{Half, HALVES};
 use super::filtered::{Filtered, FilteredSite};
 use super::filtered_sites::{self, FilteredSites};
 use super::kernel::Kernel;
+#[cfg(feature = "std")]
+use super::segments;
 use super::sites::{sort, Sites};
-use super::subtrees::whole;
 use super::view::{Integers, Narrow, Wide, Widest, Width, NARROW_BITS, WIDE_BITS};
-use super::{collect, merge::Part};
+use super::{collect, conquer::GoOn, merge::Part};
 use crate::double::Coordinate;
 use crate::lattice::Numbers;
 use crate::mesh::Mesh;
@@ -260,6 +265,32 @@ fn assemble(
     let count = 2 * ids.len() - 2 - hull.len();
     let triangles = collect::triangles(halves, ids, points, count, threads);
     Ok((triangles, hull))
+}
+
+/// Triangulates distinct sites, which stand along the curve, on up to `threads` threads. Returns `None` if there are no
+/// sites, or if `go_on` ends the work.
+#[cfg(feature = "std")]
+fn whole<K: Kernel>(
+    sites: &[K::Site],
+    places: &[K::Place],
+    halves: &mut [Half],
+    threads: usize,
+    go_on: GoOn<'_>,
+) -> Option<Part> {
+    segments::triangulate::<K>(sites, places, halves, threads, go_on)
+}
+
+/// Triangulates distinct sites, which stand along the curve, on this thread. Returns `None` if there are no sites, or
+/// if `go_on` ends the work.
+#[cfg(not(feature = "std"))]
+fn whole<K: Kernel>(
+    sites: &[K::Site],
+    places: &[K::Place],
+    halves: &mut [Half],
+    _threads: usize,
+    go_on: GoOn<'_>,
+) -> Option<Part> {
+    conquer(&mut Edges::<K, _> { sites, halves, unused: 0 }, places, &mut Waiting::new(), go_on)
 }
 
 /// Whether there are fewer than three sites, or all lie on one line.
