@@ -36,7 +36,7 @@ pub enum Command {
     ///
     /// Only the triangles are checked, as indices into POINTS. Everything else in the mesh file is
     /// ignored: the vertices of OBJ and PLY; the points, hull and duplicates of JSON.
-    /// Give the same --coord-bits and --quantize as for 'triangulate'.
+    /// If 'triangulate' had --quantize or --coord-bits, give the same here.
     #[command(verbatim_doc_comment, after_help = help::VERIFY, after_long_help = help::VERIFY_LONG)]
     Verify(VerifyArguments),
     /// Make a set of points
@@ -70,20 +70,20 @@ pub enum Command {
 }
 
 /// The grid that the points lie on.
-#[derive(Debug, Args)]
+#[derive(Clone, Copy, Debug, Args)]
 pub struct GridArguments {
-    /// Bits of a coordinate, 8 to 31; the grid is 0 to 2^BITS - 1 (default: 16)
+    /// Bits of a coordinate of the grid of --quantize, 8 to 31 (default: 31, or 16 for a core)
     ///
-    /// More bits round points with fractions less. The back ends 'cpu' and 'model' take up to 31,
-    /// a core 16.
+    /// The grid is 0 to 2^BITS - 1. More bits round less. The back ends 'cpu' and 'model' take up
+    /// to 31, a core 16.
     #[arg(long, value_name = "BITS", value_parser = whole_number(8, 31), verbatim_doc_comment)]
     pub coord_bits: Option<u32>,
-    /// Lay the points onto the grid: 'fit', 'SCALE' or 'SCALE,X0,Y0'
+    /// Round the points onto a grid: 'fit', 'SCALE' or 'SCALE,X0,Y0'
     ///
     /// 'fit' scales the bounding box to fill the grid, both axes alike. 'SCALE,X0,Y0' computes
     /// (x - X0) * SCALE and (y - Y0) * SCALE; 'SCALE' alone takes 0 for X0 and Y0.
-    /// Without this option, integers on the grid stay as they are, and a set with a fraction is
-    /// laid onto the grid by 'fit'.
+    /// Without this option no number is rounded: the points are triangulated as they stand in the
+    /// file, and what the back end cannot hold is an error.
     #[arg(
         long,
         value_name = "HOW",
@@ -92,6 +92,18 @@ pub struct GridArguments {
         verbatim_doc_comment
     )]
     pub quantize: Option<Quantize>,
+}
+
+impl GridArguments {
+    /// The arguments, unless they size a grid that is not asked for.
+    pub fn checked(&self) -> Result<Self, Failure> {
+        if self.coord_bits.is_some() && self.quantize.is_none() {
+            return Err(Failure::usage(
+                "--coord-bits sizes the grid of --quantize: give --quantize fit as well, or leave --coord-bits out",
+            ));
+        }
+        Ok(*self)
+    }
 }
 
 /// The back end that does the work.

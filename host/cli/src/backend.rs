@@ -6,13 +6,15 @@ use std::time::Duration;
 
 use incircle::pcie::{CardAddress, CardRegisters, PcieTransport};
 use incircle::serial::{Address, SerialTransport};
-use incircle::{Device, DeviceAddress, Error, Point, Quantize, MAX_POINTS};
+use incircle::{Device, DeviceAddress, Error, MAX_POINTS};
 use incircle_protocol::{Config, Greeting, CORE_COORD_BITS, LARGE, NAMED};
 
-use crate::arguments::{BackendArguments, ConfigName, JobArguments};
+use crate::arguments::{BackendArguments, ConfigName, GridArguments, JobArguments};
 use crate::failure::{failure_of, Exit, Failure};
-use crate::grid::Grid;
+use crate::lattice::{Laid, Numbers};
 
+/// Bits of a coordinate of a model, unless its address says otherwise; the most that it can have.
+pub const MODEL_COORD_BITS: u32 = 31;
 /// The smallest capacity that a model is made with.
 const LEAST_CAPACITY: usize = 4;
 
@@ -57,6 +59,11 @@ impl Backend {
     /// Whether the back end counts clock cycles.
     pub fn has_clock(&self) -> bool {
         self.config.is_some() || self.board.is_some() || self.card.is_some_and(|card| card.clocks > 0)
+    }
+
+    /// Whether the back end takes whole numbers of 64 bits and doubles as they are.
+    pub fn takes_all_numbers(&self) -> bool {
+        self.name == "cpu"
     }
 
     /// Rejects options that the back end cannot honour: more contexts than the core has, and `--order` or `--contexts`
@@ -128,9 +135,32 @@ impl Choice {
         Ok(choice)
     }
 
-    /// The grid of this back end, onto which `quantize` lays the points.
-    pub fn grid(&self, quantize: Option<Quantize>) -> Grid {
-        Grid { coord_bits: self.coord_bits, is_addressed: bits_in(&self.address).is_some(), quantize }
+    /// The back end for points of a file. Coordinates have the bits of `--coord-bits` or of the address, or else the most
+    /// that the software takes, and [`CORE_COORD_BITS`] for a core.
+    pub fn for_points(arguments: &BackendArguments, grid: &GridArguments, default: &str) -> Result<Self, Failure> {
+        let mut choice = Self::of(arguments, grid.checked()?.coord_bits, default)?;
+        if choice.is_software() && bits_in(&choice.address).or(grid.coord_bits).is_none() {
+            choice.coord_bits = MODEL_COORD_BITS;
+        }
+        Ok(choice)
+    }
+
+    /// Refuses points whose lattice the back end cannot hold. Boards and cards are asked only once they are open.
+    pub fn check_lattice(&self, laid: &Laid<'_>) -> Result<(), Failure> {
+        let is_known = self.is_core() || matches!(self.address, DeviceAddress::Model { .. });
+        if is_known {
+            laid.check_bits(self.coord_bits, self.address.name())
+        } else {
+            Ok(())
+        }
+    }
+
+    /// The points that the back end must hold for a job. A core counts distinct points, because it is small.
+    pub fn room_for(&self, numbers: &Numbers<'_>) -> usize {
+        match numbers {
+            Numbers::Grid(points) if self.is_core() => count_distinct(points),
+            _ => numbers.len(),
+        }
     }
 
     /// Whether the back end is a core in simulation, whose configuration we choose.
@@ -160,22 +190,11 @@ fn once<T>(in_address: Option<T>, argument: Option<T>, name: &str) -> Result<Opt
     Ok(in_address.or(argument))
 }
 
-/// Opens the back end for these points, or, without points, as large as possible.
+/// Opens the back end for jobs of up to `room` points, or, without that number, as large as possible.
 ///
-/// A core in simulation has the chosen configuration, or else the smallest one that holds the distinct points. The
-/// waveform of the back end `sim` goes to the file `trace`. Greeting a board takes no longer than `timeout`.
-pub fn open(
-    choice: &Choice,
-    points: Option<&[Point]>,
-    trace: Option<&Path>,
-    timeout: Option<Duration>,
-) -> Result<Backend, Failure> {
-    let room = points.map(|points| if choice.is_core() { count_distinct(points) } else { points.len() });
-    open_with_room(choice, room, trace, timeout)
-}
-
-/// Opens the back end as [`open`] does, for jobs of up to `room` points. A model counts all points,
-/// a core distinct ones.
+/// A model counts all points, a core distinct ones. A core in simulation has the chosen configuration, or else the
+/// smallest one that holds the points. The waveform of the back end `sim` goes to the file `trace`. Greeting a board
+/// takes no longer than `timeout`.
 pub fn open_with_room(
     choice: &Choice,
     room: Option<usize>,
@@ -283,7 +302,7 @@ fn config_for(choice: &Choice, distinct: Option<usize>) -> Result<Config, Failur
 }
 
 /// The number of distinct points in a list.
-pub fn count_distinct(points: &[Point]) -> usize {
+pub fn count_distinct(points: &[incircle::Point]) -> usize {
     let mut sorted = points.to_vec();
     sorted.sort_unstable();
     sorted.dedup();

@@ -39,7 +39,7 @@ Example:
 pub const TRIANGULATE_LONG: &str = "\
 Examples:
   incircle triangulate points.csv -o mesh.obj
-  incircle triangulate cities.geojson -o picture.svg --coord-bits 24
+  incircle triangulate cities.geojson -o picture.svg
   incircle triangulate - -o - --format csv < points.csv
   incircle triangulate points.csv -o mesh.ply --backend clock --config full --json
   incircle triangulate points.csv -o mesh.ply --backend serial:/dev/ttyUSB0";
@@ -53,7 +53,7 @@ Example:
 pub const VERIFY_LONG: &str = "\
 Examples:
   incircle verify points.csv mesh.obj
-  incircle verify points.csv mesh.ele --coord-bits 20 --json";
+  incircle verify points.csv mesh.ele --json";
 
 /// End of `incircle generate -h`.
 pub const GENERATE: &str = "\

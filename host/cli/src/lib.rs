@@ -11,9 +11,10 @@ mod commands;
 mod failure;
 mod fit;
 pub mod formats;
-mod grid;
 mod help;
 mod interrupt;
+mod lattice;
+mod number;
 mod output;
 mod points;
 mod progress;
@@ -31,7 +32,8 @@ use clap::Parser;
 
 pub use failure::{Exit, Failure};
 pub use incircle_testkit as generate;
-pub use points::{Place, PointTable};
+pub use number::Coordinate;
+pub use points::{Coordinates, Place, PointTable, Unit};
 
 use arguments::{Cli, Command};
 

@@ -2,11 +2,12 @@
 
 use std::time::Duration;
 
-use incircle::{Counters, Latencies, Quantization, Report, Shown};
+use incircle::{Counters, Latencies, Quantization, Report};
 use serde_json::{json, Map, Value};
 
 use crate::backend::Backend;
 use crate::failure::counted;
+use crate::lattice::Laid;
 
 /// The report of one triangulation by the command.
 pub struct RunReport<'a> {
@@ -16,23 +17,20 @@ pub struct RunReport<'a> {
     pub backend: (&'static str, Option<&'static str>),
     /// Whether the back end counts cycles.
     pub has_clock: bool,
-    /// Bits of a coordinate of the grid; a core may have more.
-    pub coord_bits: u32,
-    /// The quantisation of the points, if there was one.
-    pub quantization: Option<&'a Quantization>,
+    /// The points with their lattice.
+    pub laid: &'a Laid<'a>,
     /// Seconds of the stages of the command, in the order in which they ran.
     pub stages: Vec<(&'static str, Duration)>,
 }
 
 impl<'a> RunReport<'a> {
     /// Makes the report of a job on this back end, with the list of stages still empty.
-    pub fn new(job: &'a Report, backend: &Backend, coord_bits: u32, quantization: Option<&'a Quantization>) -> Self {
+    pub fn new(job: &'a Report, backend: &Backend, laid: &'a Laid<'a>) -> Self {
         Self {
             job,
             backend: (backend.name, backend.config.map(|config| config.name)),
             has_clock: backend.has_clock(),
-            coord_bits,
-            quantization,
+            laid,
             stages: Vec::new(),
         }
     }
@@ -51,11 +49,12 @@ impl<'a> RunReport<'a> {
             "backend": backend,
             "config": config,
             "order": job.order,
-            "coord_bits": self.coord_bits,
+            "lattice": self.laid.to_json(),
+            "coord_bits": job.coord_bits,
             "capacity": job.capacity,
             "contexts": job.contexts,
             "seconds": self.seconds(),
-            "quantisation": self.quantization.map(quantization_json),
+            "quantisation": self.laid.quantization().map(quantization_json),
             "counters": job.counters.as_ref().map(counters_json),
             "latency": job.latencies.as_ref().map(latencies_json),
         });
@@ -77,18 +76,7 @@ impl<'a> RunReport<'a> {
     /// The lines for people: the counts, and with `verbose` also times and counters.
     pub fn lines(&self, verbose: bool) -> Vec<String> {
         let job = self.job;
-        let mut lines = Vec::new();
-        if let Some(q) = self.quantization {
-            let ([x, y], merged) = (q.offset, counted(q.merged, "point"));
-            lines.push(format!(
-                "quantised to {} bits: scale {}, offset ({}, {}), largest error {:.3e}, {merged} fell onto another",
-                q.coord_bits,
-                Shown(q.scale),
-                Shown(x),
-                Shown(y),
-                q.largest_error
-            ));
-        }
+        let mut lines = vec![self.laid.line()];
         lines.push(self.counts_line());
         if job.collinear {
             let why = if job.distinct < 3 { "fewer than three distinct points" } else { "all points lie on one line" };

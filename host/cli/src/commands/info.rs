@@ -11,7 +11,7 @@ use crate::output;
 pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
     let port = arguments.port.clone().map(DeviceAddress::Serial);
     let asked = BackendArguments { backend: port.or(arguments.backend.backend.clone()), ..arguments.backend.clone() };
-    let mut backend = backend::open(&Choice::of(&asked, None, "model")?, None, None, None)?;
+    let mut backend = backend::open_with_room(&Choice::of(&asked, None, "model")?, None, None, None)?;
     let card = backend.card.map_or(String::new(), |registers| registers.to_string());
     let board = backend.board.map_or(String::new(), about_board);
     let session = backend.device.session().map_err(|error| failure_of(&error))?;

@@ -3,13 +3,13 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use incircle::{DeviceAddress, Mesh, Solution};
+use incircle::{DeviceAddress, Options, PlanePoint, Report, Session};
 
 use crate::arguments::TriangulateArguments;
 use crate::backend::{self, Backend, Choice};
 use crate::failure::{counted, failure_of, Failure};
 use crate::formats::{extension, MeshFormat, MeshView};
-use crate::grid::{self, Laid};
+use crate::lattice::{self, Laid, Numbers};
 use crate::output::{self, Output, Written};
 use crate::points::PointTable;
 use crate::progress::Meter;
@@ -21,28 +21,31 @@ pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
     let format = format_of(arguments)?;
     let output = prepare_mesh(arguments)?;
     let default = if arguments.job.wants_insertion() { "model" } else { "cpu" };
-    let choice = Choice::of(&arguments.backend, arguments.grid.coord_bits, default)?;
+    let choice = Choice::for_points(&arguments.backend, &arguments.grid, default)?;
     let trace = prepare_trace(arguments, &choice, &output)?;
     let mut watch = Watch::start();
     let table = source::read_points(&arguments.points, arguments.from)?;
     watch.ended("load");
     interrupt::check()?;
-    let Laid { points, quantization } = grid::lay(&table, &choice.grid(arguments.grid.quantize))
-        .map_err(|failure| failure.in_file(source::name(&arguments.points)))?;
+    let how = arguments.grid.quantize.map(|how| (how, choice.coord_bits));
+    let in_file = |failure: Failure| failure.in_file(source::name(&arguments.points));
+    let laid = lattice::lay(&table, how).map_err(in_file)?;
+    choice.check_lattice(&laid).map_err(in_file)?;
     watch.ended("quantise");
     let trace = trace.map(Output::reserve).transpose()?;
-    let mut backend =
-        backend::open(&choice, Some(&points), trace.as_ref().and_then(Written::part), arguments.job.timeout)?;
+    let room = choice.room_for(&laid.numbers);
+    let trace_part = trace.as_ref().and_then(Written::part);
+    let mut backend = backend::open_with_room(&choice, Some(room), trace_part, arguments.job.timeout)?;
     backend.check_job(&arguments.job)?;
-    tell_if_long(&backend, points.len(), arguments);
+    tell_if_long(&backend, laid.numbers.len(), arguments);
     watch.ended("open");
-    let Solution { mesh, report: about, .. } = triangulate(&mut backend, points, arguments)?;
+    let (mesh, about) = triangulate(&mut backend, &laid, arguments).map_err(in_file)?;
     watch.stages.extend(&about.stages);
-    let mut report = RunReport::new(&about, &backend, choice.coord_bits, quantization.as_ref());
+    let mut report = RunReport::new(&about, &backend, &laid);
     // Dropping the back end ends a simulation, which completes its waveform.
     drop(backend);
     watch.since = Instant::now();
-    let written = output.write(|out| write(&table, &mesh, format, out))?;
+    let written = output.write(|out| mesh.write(&table, format, out))?;
     watch.ended("write");
     report.stages = watch.stages;
     output::finish(trace.into_iter().chain([written]), || tell(&report, arguments))
@@ -114,29 +117,55 @@ fn format_of(arguments: &TriangulateArguments) -> Result<MeshFormat, Failure> {
     })
 }
 
+/// The mesh without its points, which the table of the file has.
+struct Connections {
+    triangles: Vec<[u32; 3]>,
+    hull: Vec<u32>,
+    duplicates: Vec<[u32; 2]>,
+}
+
+impl Connections {
+    /// Writes the mesh with the coordinates of the input file, not with those of the lattice.
+    fn write(&self, points: &PointTable, format: MeshFormat, out: &mut dyn std::io::Write) -> std::io::Result<()> {
+        let Self { triangles, hull, duplicates } = self;
+        format.write(&MeshView { points, triangles, hull, duplicates }, out)
+    }
+}
+
 fn triangulate(
     backend: &mut Backend,
-    points: Vec<incircle::Point>,
+    laid: &Laid<'_>,
     arguments: &TriangulateArguments,
-) -> Result<Solution, Failure> {
+) -> Result<(Connections, Report), Failure> {
     let meter = Meter::new(arguments.quiet);
     let listener = |progress| meter.hear(progress);
     let options = arguments.job.options(&listener);
+    let (name, takes_all) = (backend.name, backend.takes_all_numbers());
     let solution = interrupt::working(|| {
-        let session = backend.device.session();
-        session.and_then(|mut session| session.triangulate_owned(points, &options))
+        let mut session = backend.device.session().map_err(|error| failure_of(&error))?;
+        if !takes_all {
+            laid.check_bits(session.identity().coord_bits, name)?;
+        }
+        match &laid.numbers {
+            Numbers::Grid(points) => connect(&mut session, points, &options),
+            Numbers::Whole(points) => connect(&mut session, points, &options),
+            Numbers::Doubles(points) => connect(&mut session, points, &options),
+        }
     });
     // The check comes first, because an interrupt may surface as any error.
     interrupt::check()?;
-    solution.map_err(|error| failure_of(&error))
+    solution
 }
 
-/// Writes the mesh with the coordinates of the input file, not with those of the grid.
-fn write(table: &PointTable, mesh: &Mesh, format: MeshFormat, out: &mut dyn std::io::Write) -> std::io::Result<()> {
-    let duplicates: Vec<_> = mesh.duplicates.iter().map(|duplicate| [duplicate.index, duplicate.of]).collect();
-    let view =
-        MeshView { points: &table.points, triangles: &mesh.triangles, hull: &mesh.hull, duplicates: &duplicates };
-    format.write(&view, out)
+/// Triangulates points of one type of numbers.
+fn connect<P: PlanePoint>(
+    session: &mut Session<'_>,
+    points: &[P],
+    options: &Options<'_>,
+) -> Result<(Connections, Report), Failure> {
+    let solution = session.triangulate_with(points, options).map_err(|error| failure_of(&error))?;
+    let duplicates = solution.mesh.duplicates.iter().map(|duplicate| [duplicate.index, duplicate.of]).collect();
+    Ok((Connections { triangles: solution.mesh.triangles, hull: solution.mesh.hull, duplicates }, solution.report))
 }
 
 /// A stopwatch for the stages of the command.

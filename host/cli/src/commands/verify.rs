@@ -1,14 +1,14 @@
 //! `incircle verify`: checks that a mesh is the canonical Delaunay triangulation of its points.
 
-use incircle::{Quantization, VerifySummary};
-use incircle_protocol::CORE_COORD_BITS;
+use incircle::{VerifyError, VerifySummary};
 use serde_json::{json, Value};
 
 use crate::arguments::{GridArguments, VerifyArguments};
+use crate::backend::MODEL_COORD_BITS;
 use crate::failure::{counted, Exit, Failure};
-use crate::grid::Grid;
+use crate::lattice::{Laid, Numbers};
 use crate::report::quantization_json;
-use crate::{grid, output, source};
+use crate::{lattice, output, source};
 
 /// Runs the subcommand. A wrong mesh leads to exit code 1.
 pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
@@ -19,12 +19,12 @@ pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
     }
     let table = source::read_points(&arguments.points, arguments.from)?;
     let points_name = source::name(&arguments.points);
-    let GridArguments { coord_bits, quantize } = arguments.grid;
-    let grid = Grid { coord_bits: coord_bits.unwrap_or(CORE_COORD_BITS), is_addressed: false, quantize };
-    let laid = grid::lay(&table, &grid).map_err(|failure| failure.in_file(&points_name))?;
+    let GridArguments { coord_bits, quantize } = arguments.grid.checked()?;
+    let how = quantize.map(|how| (how, coord_bits.unwrap_or(MODEL_COORD_BITS)));
+    let laid = lattice::lay(&table, how).map_err(|failure| failure.in_file(&points_name))?;
     let mesh_name = source::name(&arguments.mesh);
     let checked = source::read_mesh(&arguments.mesh, arguments.format).and_then(|triangles| {
-        incircle::verify(&laid.points, &triangles).map_err(|error| {
+        check(&laid.numbers, &triangles).map_err(|error| {
             Failure::new(
                 Exit::Rejected,
                 format!(
@@ -44,7 +44,7 @@ pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
         }
     };
     if arguments.json {
-        output::print(&format!("{}\n", to_json(&summary, laid.quantization.as_ref())))
+        output::print(&format!("{}\n", to_json(&summary, &laid)))
     } else if arguments.quiet {
         Ok(())
     } else {
@@ -59,7 +59,16 @@ pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
     }
 }
 
-fn to_json(summary: &VerifySummary, quantization: Option<&Quantization>) -> Value {
+/// Verifies triangles in the numbers of their points.
+fn check(numbers: &Numbers<'_>, triangles: &[[u32; 3]]) -> Result<VerifySummary, VerifyError> {
+    match numbers {
+        Numbers::Grid(points) => incircle::verify(points, triangles),
+        Numbers::Whole(points) => incircle::verify(points, triangles),
+        Numbers::Doubles(points) => incircle::verify(points, triangles),
+    }
+}
+
+fn to_json(summary: &VerifySummary, laid: &Laid<'_>) -> Value {
     json!({
         "valid": true,
         "points": summary.points,
@@ -70,6 +79,7 @@ fn to_json(summary: &VerifySummary, quantization: Option<&Quantization>) -> Valu
         "ties": summary.ties,
         "hull": summary.hull.len(),
         "collinear": summary.collinear,
-        "quantisation": quantization.map(quantization_json),
+        "lattice": laid.to_json(),
+        "quantisation": laid.quantization().map(quantization_json),
     })
 }

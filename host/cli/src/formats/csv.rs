@@ -1,7 +1,7 @@
 //! Comma-separated values: points as rows `x,y`, meshes as rows `a,b,c`.
 //!
 //! A first row without numbers is a header. Names such as `x`, `y` or `lon`, `lat` choose the columns; otherwise the
-//! first two columns count. The separator is a comma, or the semicolon or tab that the first row has instead. Further
+//! first two columns count. A column named `z` is kept. The separator is a comma, or the semicolon or tab that the first row has instead. Further
 //! columns are not read, but every row must have as many as the first one, because a short row is a lost point. Empty
 //! rows and rows that start with `#` are ignored. An empty file is an empty list of points.
 
@@ -11,7 +11,7 @@ use csv::{ByteRecord, Reader, ReaderBuilder};
 
 use crate::failure::{counted, Failure};
 use crate::formats::mesh_view::MeshView;
-use crate::points::{Place, PointTable};
+use crate::points::{self, Place, PointTable};
 use crate::text;
 
 /// Names of the two columns in a header, in lower case.
@@ -25,6 +25,7 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     let mut record = ByteRecord::new();
     let mut table = PointTable::of_rows([1, 2]);
     let mut columns = [0, 1];
+    let mut z = None;
     let mut width = 0;
     while next(&mut reader, &mut record)? {
         let row = row_of(&record, bytes);
@@ -33,19 +34,16 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
             refuse_one_column(&record, row)?;
             if !record.iter().any(text::looks_like_number) {
                 columns = named_columns(&record);
+                z = named_column(&record, "z");
                 table = PointTable::of_rows(columns.map(|column| column + 1));
                 continue;
             }
         }
         refuse_other_width(&record, width, row)?;
-        let value = |axis: usize| {
-            let column = columns[axis];
-            let place = Place::Cell { row, column: column + 1 };
-            text::coordinate(record.get(column).unwrap_or_default(), place)
-        };
-        table.push([value(0)?, value(1)?], row);
+        table.push(columns.map(|column| record.get(column).unwrap_or_default()), row)?;
+        table.push_height(z.and_then(|column| record.get(column)).and_then(points::height));
     }
-    Ok(table)
+    table.complete()
 }
 
 /// Reads the triangles of a mesh.
@@ -148,9 +146,13 @@ fn row_of(record: &ByteRecord, bytes: &[u8]) -> usize {
 }
 
 fn named_columns(header: &ByteRecord) -> [usize; 2] {
-    let find = |name: &str| header.iter().position(|field| field.trim_ascii().eq_ignore_ascii_case(name.as_bytes()));
-    let mut pairs = NAMES.iter().filter_map(|(x, y)| Some([find(x)?, find(y)?]));
+    let mut pairs = NAMES.iter().filter_map(|(x, y)| Some([named_column(header, x)?, named_column(header, y)?]));
     pairs.next().unwrap_or([0, 1])
+}
+
+/// The column with this name, counted from 0.
+fn named_column(header: &ByteRecord, name: &str) -> Option<usize> {
+    header.iter().position(|field| field.trim_ascii().eq_ignore_ascii_case(name.as_bytes()))
 }
 
 fn refuse_one_column(record: &ByteRecord, row: usize) -> Result<(), Failure> {

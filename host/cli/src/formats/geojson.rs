@@ -1,7 +1,7 @@
 //! GeoJSON (RFC 7946). Points are read; meshes are written with a polygon for each triangle.
 //!
 //! Points come from `Point` and `MultiPoint` geometries, bare or in features and collections, in the order of the file;
-//! heights are not read. Any other geometry is refused, because its corners would be lost silently.
+//! heights are kept as z. Any other geometry is refused, because its corners would be lost silently.
 
 use std::io::{self, Write};
 
@@ -38,7 +38,7 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
             }
         }
     }
-    Ok(table)
+    table.complete()
 }
 
 fn add_feature(feature: &Feature, table: &mut PointTable, number: usize) -> Result<(), Failure> {
@@ -65,14 +65,28 @@ fn add_geometry(geometry: &Geometry, table: &mut PointTable, place: &str) -> Res
 fn add_position(position: &Position, table: &mut PointTable, place: &str) -> Result<(), Failure> {
     match position.as_slice() {
         // All numbers are finite: JSON has no NaN or infinity, and its parser refuses numbers too large for a double.
-        [x, y, ..] if x.is_finite() && y.is_finite() => {
-            table.push([*x, *y], 0);
+        [x, y, rest @ ..] if x.is_finite() && y.is_finite() => {
+            push(table, [*x, *y])?;
+            table.push_height(rest.first().copied());
             Ok(())
         }
         other => {
             Err(Failure::input(format!("{place} has {} coordinates: a point needs two finite numbers", other.len())))
         }
     }
+}
+
+/// Whole doubles from here on may stand for other numbers that were written.
+const LAST_EXACT: f64 = 9_007_199_254_740_992.0;
+
+/// Adds a point. The numbers of GeoJSON are doubles, and the shortest text of a double is the decimal that was written,
+/// if that had up to 15 digits.
+fn push(table: &mut PointTable, point: [f64; 2]) -> Result<(), Failure> {
+    if point.iter().any(|value| value.abs() >= LAST_EXACT) {
+        return table.push_doubles(point, 0);
+    }
+    let texts = point.map(|value| format!("{value:e}"));
+    table.push([texts[0].as_bytes(), texts[1].as_bytes()], 0)
 }
 
 /// Writes a feature for each triangle, with its number as `id` and its corners as the property `vertices`.

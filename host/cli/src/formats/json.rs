@@ -28,18 +28,15 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     };
     let mut table = PointTable::of_items("point");
     for (index, value) in list.iter().enumerate() {
-        let point = match value.as_array().map(Vec::as_slice) {
-            Some([x, y]) => x.as_f64().zip(y.as_f64()),
-            _ => None,
-        };
-        let Some((x, y)) = point else {
+        let Some([Value::Number(x), Value::Number(y)]) = value.as_array().map(Vec::as_slice) else {
             let shown = quoted(value.to_string().as_bytes());
             return Err(Failure::input(format!("points[{index}] is {shown}, not two numbers")));
         };
-        // All numbers are finite: JSON has no NaN or infinity, and its parser refuses numbers too large for a double.
-        table.push([x, y], 0);
+        // The parser keeps whole numbers of 64 bits, and the shortest text of a double is the decimal that was written,
+        // if that had up to 15 digits.
+        table.push([x.to_string().as_bytes(), y.to_string().as_bytes()], 0)?;
     }
-    Ok(table)
+    table.complete()
 }
 
 /// Reads the list `triangles` and ignores everything else in the object.
@@ -69,7 +66,7 @@ fn read_triangle(value: &Value, index: usize) -> Result<[u32; 3], Failure> {
 /// Writes the object with one item per row.
 pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
     write!(out, "{{\"points\":")?;
-    write_list(out, mesh.points.iter().map(|[x, y]| format!("[{x},{y}]")))?;
+    write_list(out, mesh.positions().map(|([x, y], _)| format!("[{x},{y}]")))?;
     write!(out, ",\n\"triangles\":")?;
     write_list(out, mesh.triangles.iter().map(|[a, b, c]| format!("[{a},{b},{c}]")))?;
     write!(out, ",\n\"hull\":")?;

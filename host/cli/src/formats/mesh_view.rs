@@ -1,10 +1,13 @@
 //! The form in which writers get a mesh.
 
+use crate::number::Coordinate;
+use crate::points::PointTable;
+
 /// A mesh with the coordinates of its input file, for writers.
 #[derive(Clone, Copy, Debug)]
 pub struct MeshView<'a> {
     /// All input points, with the coordinates of the input file.
-    pub points: &'a [[f64; 2]],
+    pub points: &'a PointTable,
     /// Counter-clockwise triples of indices into `points`.
     pub triangles: &'a [[u32; 3]],
     /// The hull, counter-clockwise; without triangles the distinct points along their line.
@@ -14,8 +17,16 @@ pub struct MeshView<'a> {
 }
 
 impl MeshView<'_> {
-    /// The coordinates of a vertex. A vertex that does not exist, which no mesh of the library has, is at the origin.
-    pub fn position(&self, vertex: u32) -> [f64; 2] {
-        self.points.get(vertex as usize).copied().unwrap_or_default()
+    /// The coordinates of a vertex, in the numbers of the file. A vertex that does not exist, which no mesh of the
+    /// library has, is at the origin.
+    pub fn position(&self, vertex: u32) -> [Coordinate; 2] {
+        [0, 1].map(|axis| self.points.coordinate(vertex as usize, axis))
+    }
+
+    /// The coordinates of all points in the numbers of the file, and the z, which is 0 if the file has none.
+    pub fn positions(&self) -> impl Iterator<Item = ([Coordinate; 2], f64)> + '_ {
+        let heights = self.points.heights();
+        let position = |index| [0, 1].map(|axis| self.points.coordinate(index, axis));
+        (0..self.points.len()).map(move |index| (position(index), heights.get(index).copied().unwrap_or(0.0)))
     }
 }

@@ -24,7 +24,7 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     let mut table = PointTable::of_rows([2, 3]);
     let mut base = 0;
     for (row, content) in rows {
-        let count = table.points.len();
+        let count = table.len();
         if count as u64 == u64::from(promised) {
             return Err(Failure::input(format!(
                 "row {row} is one point more than the {promised} that the first row promises"
@@ -35,14 +35,14 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
             base = id;
         }
         check_id(id, base, count, row)?;
-        table.push(point, row);
+        table.push(point, row)?;
     }
-    let found = table.points.len();
+    let found = table.len();
     if found as u64 != u64::from(promised) {
         let promised = counted(promised as usize, "point");
         return Err(Failure::input(format!("the first row promises {promised}, but the file holds {found}")));
     }
-    Ok(table)
+    table.complete()
 }
 
 /// Checks an id: ids start at `base`, which must be 0 or 1, and rise by one.
@@ -57,7 +57,7 @@ fn check_id(id: u32, base: u32, count: usize, row: usize) -> Result<(), Failure>
     )))
 }
 
-fn read_point(content: &[u8], row: usize) -> Result<(u32, [f64; 2]), Failure> {
+fn read_point(content: &[u8], row: usize) -> Result<(u32, [&[u8]; 2]), Failure> {
     let mut values = [&[][..]; FIXED];
     let mut count = 0;
     for (slot, value) in values.iter_mut().zip(text::words(content)) {
@@ -67,11 +67,8 @@ fn read_point(content: &[u8], row: usize) -> Result<(u32, [f64; 2]), Failure> {
     if count < FIXED {
         return Err(Failure::input(format!("row {row} has {}: a point is a row 'id x y'", counted(count, "value"))));
     }
-    let cell = |column| Place::Cell { row, column };
-    let id = text::whole(values[0], "an id", cell(1))?;
-    let x = text::coordinate(values[1], cell(2))?;
-    let y = text::coordinate(values[2], cell(3))?;
-    Ok((id, [x, y]))
+    let id = text::whole(values[0], "an id", Place::Cell { row, column: 1 })?;
+    Ok((id, [values[1], values[2]]))
 }
 
 /// Writes points with ids from 0.

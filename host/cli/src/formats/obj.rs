@@ -1,14 +1,14 @@
 //! Wavefront OBJ: rows `v x y z` and `f a b c`, with indices from 1.
 //!
-//! Points are the x and y of the vertices; all other statements are ignored. Rows that do not start with a word of the
+//! Points are the x and y of the vertices, and their z is kept; all other statements are ignored. Rows that do not start with a word of the
 //! format are refused, because a file of another kind must not pass for one without points. Meshes hold every input
-//! point as a vertex at height 0, so indices stay those of the input.
+//! point as a vertex, at height 0 if the input has no z, so indices stay those of the input.
 
 use std::io::{self, Write};
 
 use crate::failure::{counted, quoted, Failure};
 use crate::formats::mesh_view::MeshView;
-use crate::points::{Place, PointTable};
+use crate::points::{self, Place, PointTable};
 use crate::text;
 
 /// The words that a statement can start with, including those of older versions. Source: Wavefront, Advanced
@@ -62,14 +62,11 @@ const KEYWORDS: [&str; 42] = [
 pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     let mut table = PointTable::of_rows([2, 3]);
     for (row, mut values) in statements(bytes, b"v")? {
-        let mut point = [0.0; 2];
-        for (axis, coordinate) in point.iter_mut().enumerate() {
-            let place = Place::Cell { row, column: axis + 2 };
-            *coordinate = text::coordinate(values.next().unwrap_or_default(), place)?;
-        }
-        table.push(point, row);
+        let point = [values.next().unwrap_or_default(), values.next().unwrap_or_default()];
+        table.push(point, row)?;
+        table.push_height(values.next().and_then(points::height));
     }
-    Ok(table)
+    table.complete()
 }
 
 /// Reads the faces, which must be triangles.
@@ -140,8 +137,8 @@ fn read_corner(value: &[u8], row: usize, column: usize) -> Result<u32, Failure> 
 
 /// Writes all input points and the triangles.
 pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
-    for [x, y] in mesh.points {
-        writeln!(out, "v {x} {y} 0")?;
+    for ([x, y], z) in mesh.positions() {
+        writeln!(out, "v {x} {y} {z}")?;
     }
     for triangle in mesh.triangles {
         let [a, b, c] = triangle.map(|vertex| u64::from(vertex) + 1);

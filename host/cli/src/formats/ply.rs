@@ -1,8 +1,8 @@
 //! PLY, the Stanford polygon format. Ascii and both binary forms are read; ascii is written.
 //!
-//! Points are `x` and `y` of the element `vertex`, triangles the list `vertex_indices` or `vertex_index` of `face`;
+//! Points are `x`, `y` and `z` of the element `vertex`, triangles the list `vertex_indices` or `vertex_index` of `face`;
 //! everything else is ignored. `ply-rs-bw` decodes headers and binary elements, one element at a time, so the claims of
-//! a header alone allocate nothing. Meshes hold every input point at height 0, so indices stay those of the input.
+//! a header alone allocate nothing. Meshes hold every input point, at height 0 if it has no z, so indices stay those of the input.
 
 use std::io::{self, Write};
 
@@ -12,26 +12,25 @@ use ply_rs_bw::ply::{ElementDef, Encoding, Header, Property, PropertyAccess, Pro
 
 use crate::failure::{counted, one_line, quoted, Failure};
 use crate::formats::mesh_view::MeshView;
-use crate::points::PointTable;
+use crate::points::{self, PointTable};
 use crate::text;
 
 /// Reads the vertices of a file as points.
 pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     let mut table = PointTable::of_items("vertex");
-    read_element(bytes, "vertex", |item, index| {
-        let mut point = [0.0; 2];
-        for (axis, coordinate) in point.iter_mut().enumerate() {
-            let place = table.place(index, axis);
-            *coordinate = match item.point[axis] {
-                Some(value) if value.is_finite() => value,
-                Some(value) => return Err(text::not_finite(&format!("'{value}'"), place)),
-                None => return Err(Failure::input(format!("{place}: the value is missing"))),
-            };
+    read_element(bytes, "vertex", |item, _| {
+        let [x, y, z] = item.position;
+        match [x, y] {
+            [Some(Value::Double(x)), Some(Value::Double(y))] => table.push_doubles([x, y], 0)?,
+            texts => {
+                let texts = texts.map(|value| value.map(Value::into_text).unwrap_or_default());
+                table.push([&texts[0], &texts[1]], 0)?;
+            }
         }
-        table.push(point, 0);
+        table.push_height(z.and_then(|z| points::height(&z.into_text())));
         Ok(())
     })?;
-    Ok(table)
+    table.complete()
 }
 
 /// Reads the faces, which must be triangles.
@@ -56,31 +55,57 @@ pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
     Ok(triangles)
 }
 
+/// A coordinate of a vertex.
+enum Value {
+    /// A number of a binary file.
+    Double(f64),
+    /// A number of an ascii file, as written.
+    Text(Vec<u8>),
+}
+
+impl Value {
+    /// The number as a text from which it can be read again.
+    fn into_text(self) -> Vec<u8> {
+        match self {
+            Self::Double(value) => format!("{value:e}").into_bytes(),
+            Self::Text(text) => text,
+        }
+    }
+}
+
 /// The properties that are taken from an element.
 struct Item {
-    point: [Option<f64>; 2],
+    /// The properties `x`, `y` and `z`.
+    position: [Option<Value>; 3],
     corners: Vec<f64>,
 }
 
 impl Item {
-    /// Keeps the numbers of a property if the property is one of those that are read.
-    fn keep(&mut self, name: &str, values: Vec<f64>) {
-        match name {
-            "x" => self.point[0] = values.first().copied(),
-            "y" => self.point[1] = values.first().copied(),
-            "vertex_indices" | "vertex_index" => self.corners = values,
-            _ => {}
+    /// The place for a coordinate of this name, if there is one.
+    fn coordinate(&mut self, name: &str) -> Option<&mut Option<Value>> {
+        let axis = ["x", "y", "z"].iter().position(|axis| *axis == name)?;
+        Some(&mut self.position[axis])
+    }
+
+    /// Keeps the numbers of a property if they are the corners of a face.
+    fn keep_corners(&mut self, name: &str, values: Vec<f64>) {
+        if matches!(name, "vertex_indices" | "vertex_index") {
+            self.corners = values;
         }
     }
 }
 
 impl PropertyAccess for Item {
     fn new() -> Self {
-        Self { point: [None; 2], corners: Vec::new() }
+        Self { position: [None, None, None], corners: Vec::new() }
     }
 
     fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
-        self.keep(name, numbers(property));
+        let values = numbers(property);
+        match self.coordinate(name) {
+            Some(coordinate) => *coordinate = values.first().copied().map(Value::Double),
+            None => self.keep_corners(name, values),
+        }
         PropertyAccessResult::Set
     }
 }
@@ -222,6 +247,11 @@ fn read_row(element: &ElementDef, rest: &mut &[u8], index: usize) -> Result<Item
     };
     let mut item = Item::new();
     for (name, property) in &element.properties {
+        if let (PropertyType::Scalar(_), Some(coordinate)) = (&property.data_type, item.coordinate(name)) {
+            let word = words.next().ok_or_else(|| Failure::input(format!("{}: the value is missing", place(name))))?;
+            *coordinate = Some(Value::Text(word.to_vec()));
+            continue;
+        }
         let count = match property.data_type {
             PropertyType::Scalar(_) => 1,
             // A count that is not a whole number turns into zero, or into one that the row cannot hold.
@@ -231,7 +261,7 @@ fn read_row(element: &ElementDef, rest: &mut &[u8], index: usize) -> Result<Item
         for _ in 0..count {
             values.push(number(words.next(), name)?);
         }
-        item.keep(name, values);
+        item.keep_corners(name, values);
     }
     if words.next().is_some() {
         return Err(Failure::input(format!("{} {} has more values than the header promises", element.name, index + 1)));
@@ -246,8 +276,8 @@ pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "property double x\nproperty double y\nproperty double z")?;
     writeln!(out, "element face {}", mesh.triangles.len())?;
     writeln!(out, "property list uchar int vertex_indices\nend_header")?;
-    for [x, y] in mesh.points {
-        writeln!(out, "{x} {y} 0")?;
+    for ([x, y], z) in mesh.positions() {
+        writeln!(out, "{x} {y} {z}")?;
     }
     for [a, b, c] in mesh.triangles {
         writeln!(out, "3 {a} {b} {c}")?;

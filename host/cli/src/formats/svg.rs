@@ -32,7 +32,8 @@ const RAMP: [[u8; 3]; 6] = [
 
 /// Writes the picture of a mesh.
 pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
-    let canvas = Canvas::around(mesh.points);
+    let doubles = mesh.points.doubles();
+    let canvas = Canvas::around(&doubles);
     let [width, height] = canvas.size;
     let shown = PIXELS * height / width;
     writeln!(
@@ -50,15 +51,16 @@ pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
 }
 
 /// The map from input coordinates to whole canvas units.
-struct Canvas {
+struct Canvas<'a> {
+    points: &'a [[f64; 2]],
     low: [f64; 2],
     scale: f64,
     shrink: f64,
     size: [f64; 2],
 }
 
-impl Canvas {
-    fn around(points: &[[f64; 2]]) -> Self {
+impl<'a> Canvas<'a> {
+    fn around(points: &'a [[f64; 2]]) -> Self {
         let largest = points.iter().flatten().fold(0.0, |most: f64, value| most.max(value.abs()));
         // Differences of huge doubles would overflow.
         let shrink = if largest > 1e150 { 1e-200 } else { 1.0 };
@@ -73,7 +75,7 @@ impl Canvas {
         let scale = Some(CANVAS / longer).filter(|scale| scale.is_finite());
         let scale = scale.unwrap_or(0.0);
         let size = extent.map(|side| (side * scale).round() + 2.0 * MARGIN);
-        Self { low, scale, shrink, size }
+        Self { points, low, scale, shrink, size }
     }
 
     /// The place of a point on the canvas, with y downwards as in SVG.
@@ -84,8 +86,13 @@ impl Canvas {
         [x as i64, y as i64]
     }
 
-    fn corners(&self, mesh: &MeshView<'_>, triangle: [u32; 3]) -> [[i64; 2]; 3] {
-        triangle.map(|vertex| self.place(mesh.position(vertex)))
+    /// The place of a vertex on the canvas.
+    fn vertex(&self, vertex: u32) -> [i64; 2] {
+        self.place(self.points.get(vertex as usize).copied().unwrap_or_default())
+    }
+
+    fn corners(&self, triangle: [u32; 3]) -> [[i64; 2]; 3] {
+        triangle.map(|vertex| self.vertex(vertex))
     }
 }
 
@@ -128,12 +135,12 @@ impl Classes {
     }
 }
 
-fn write_triangles(mesh: &MeshView<'_>, canvas: &Canvas, out: &mut dyn Write) -> io::Result<()> {
-    let sides = mesh.triangles.iter().map(|&triangle| side(canvas.corners(mesh, triangle)));
+fn write_triangles(mesh: &MeshView<'_>, canvas: &Canvas<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let sides = mesh.triangles.iter().map(|&triangle| side(canvas.corners(triangle)));
     let classes = Classes::of(sides.collect());
     let mut members = vec![Vec::new(); CLASSES];
     for &triangle in mesh.triangles {
-        let corners = canvas.corners(mesh, triangle);
+        let corners = canvas.corners(triangle);
         members[classes.class(side(corners))].push(corners);
     }
     writeln!(out, "<g stroke=\"#12304a\" stroke-opacity=\".45\" stroke-linejoin=\"round\">")?;
@@ -165,10 +172,10 @@ fn colour(class: usize) -> String {
 }
 
 /// Draws the hull as a closed line, or without triangles the line through the points.
-fn write_hull(mesh: &MeshView<'_>, canvas: &Canvas, out: &mut dyn Write) -> io::Result<()> {
+fn write_hull(mesh: &MeshView<'_>, canvas: &Canvas<'_>, out: &mut dyn Write) -> io::Result<()> {
     let mut d = String::new();
     for (index, &vertex) in mesh.hull.iter().enumerate() {
-        let [x, y] = canvas.place(mesh.position(vertex));
+        let [x, y] = canvas.vertex(vertex);
         let command = if index == 0 { "M" } else { "L" };
         d.push_str(&format!("{command}{x} {y}"));
     }
@@ -183,14 +190,14 @@ fn write_hull(mesh: &MeshView<'_>, canvas: &Canvas, out: &mut dyn Write) -> io::
 }
 
 /// Draws a dot for each point, as a subpath of no length with round ends.
-fn write_dots(mesh: &MeshView<'_>, canvas: &Canvas, out: &mut dyn Write) -> io::Result<()> {
+fn write_dots(mesh: &MeshView<'_>, canvas: &Canvas<'_>, out: &mut dyn Write) -> io::Result<()> {
     let count = mesh.points.len();
     if count == 0 || count > MOST_DOTS {
         return Ok(());
     }
     let width = (CANVAS * 0.15 / (count as f64).sqrt()).clamp(60.0, 280.0);
     write!(out, "<path fill=\"none\" stroke=\"#1d2b53\" stroke-width=\"{width:.0}\" stroke-linecap=\"round\" d=\"")?;
-    for &point in mesh.points {
+    for &point in canvas.points {
         let [x, y] = canvas.place(point);
         write!(out, "M{x} {y}h0")?;
     }

@@ -9,15 +9,15 @@ use crate::formats::mesh_view::MeshView;
 /// The number of the cell type triangle in VTK.
 const VTK_TRIANGLE: u8 = 5;
 
-/// Writes all input points, at height 0, and the triangles.
+/// Writes all input points, at height 0 if they have no z, and the triangles.
 pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
     let triangles = mesh.triangles.len();
     writeln!(out, "# vtk DataFile Version 3.0")?;
     writeln!(out, "Delaunay triangulation by incircle")?;
     writeln!(out, "ASCII\nDATASET UNSTRUCTURED_GRID")?;
     writeln!(out, "POINTS {} double", mesh.points.len())?;
-    for [x, y] in mesh.points {
-        writeln!(out, "{x} {y} 0")?;
+    for ([x, y], z) in mesh.positions() {
+        writeln!(out, "{x} {y} {z}")?;
     }
     // A cell takes four numbers: the number of its corners and the corners.
     writeln!(out, "CELLS {triangles} {}", 4 * triangles)?;

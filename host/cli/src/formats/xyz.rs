@@ -1,12 +1,12 @@
 //! XYZ: one point per row, two or more numbers separated by spaces or tabs.
 //!
-//! The first two numbers are x and y. Further numbers, such as height or colour, are not read, but every row must have
-//! as many as the first. A first row without numbers is a header. `#` starts a comment; empty rows are ignored.
+//! The first three numbers are x, y and z. Further numbers, such as a colour, are not read, but every row must have as
+//! many as the first. A first row without numbers is a header. `#` starts a comment; empty rows are ignored.
 
 use std::io::{self, Write};
 
 use crate::failure::{counted, quoted, Failure};
-use crate::points::{Place, PointTable};
+use crate::points::{self, PointTable};
 use crate::text;
 
 /// Reads the points of a file.
@@ -36,14 +36,11 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
                 counted(count, "value")
             )));
         }
-        let mut point = [0.0; 2];
-        for (axis, (coordinate, value)) in point.iter_mut().zip(text::words(content)).enumerate() {
-            let place = Place::Cell { row, column: axis + 1 };
-            *coordinate = text::coordinate(value, place)?;
-        }
-        table.push(point, row);
+        let mut words = text::words(content);
+        table.push([words.next().unwrap_or_default(), words.next().unwrap_or_default()], row)?;
+        table.push_height(words.next().and_then(points::height));
     }
-    Ok(table)
+    table.complete()
 }
 
 /// Writes points, one per row.

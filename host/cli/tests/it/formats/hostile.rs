@@ -73,14 +73,14 @@ fn spoilt_point_files_never_panic() {
     let mut random = SplitMix64::new(1);
     for (format, sample) in POINT_FILES {
         let right = format.read(sample).unwrap_or_else(|failure| panic!("{format:?}: {failure}"));
-        assert!(!right.points.is_empty());
+        assert!(!right.is_empty());
         let mut refused = 0;
         for _ in 0..3000 {
             let bytes = spoil(sample, &mut random);
             match format.read(&bytes) {
                 Ok(table) => {
-                    assert!(table.points.iter().flatten().all(|value| value.is_finite()));
-                    assert!(table.points.len() <= bytes.len());
+                    assert!(table.doubles().iter().flatten().all(|value| value.is_finite()));
+                    assert!(table.len() <= bytes.len());
                 }
                 Err(failure) => {
                     refused += 1;

@@ -1,0 +1,262 @@
+//! The step from the numbers of a file to those that are triangulated, without rounding unless the user asks.
+
+use std::borrow::Cow;
+
+use incircle::quantize::quantize;
+use incircle::{Error, Lattice, Point, Quantization, Quantize, Shown, Step};
+use serde_json::{json, Value};
+
+use crate::failure::{failure_of, Exit, Failure};
+use crate::points::{Coordinates, PointTable, Unit};
+
+/// Points in the numbers in which they are triangulated.
+pub enum Numbers<'a> {
+    /// Points on a lattice.
+    Grid(Vec<Point>),
+    /// Whole numbers of up to 64 bits.
+    Whole(Cow<'a, [[i64; 2]]>),
+    /// Doubles.
+    Doubles(Cow<'a, [[f64; 2]]>),
+}
+
+impl Numbers<'_> {
+    /// The number of points.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Grid(points) => points.len(),
+            Self::Whole(points) => points.len(),
+            Self::Doubles(points) => points.len(),
+        }
+    }
+}
+
+/// The points of a file in the numbers in which they are triangulated.
+pub struct Laid<'a> {
+    /// All points, in input order.
+    pub numbers: Numbers<'a>,
+    /// What the numbers are.
+    pub kind: Kind,
+    /// Bits of the larger span, in steps; `None` for doubles, which have no steps.
+    pub bits: Option<u32>,
+    /// The coordinates of the place from which steps are counted, for the report; `null` for doubles.
+    pub offset: Value,
+}
+
+/// The kind of numbers in which points are triangulated.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Kind {
+    /// Whole numbers.
+    Whole,
+    /// Whole numbers of steps of this length, which is a decimal: a factor, and digits behind the point.
+    Decimal(i64, u32),
+    /// Whole numbers of steps of a power of two with this exponent.
+    Binary(i32),
+    /// The doubles of the file, or those that are nearest to its decimals.
+    Doubles,
+    /// Points of a grid onto which the user had the points laid, with rounding.
+    Quantized(Quantization),
+}
+
+impl Laid<'_> {
+    /// The quantisation that was done, if the user asked for one.
+    pub fn quantization(&self) -> Option<&Quantization> {
+        match &self.kind {
+            Kind::Quantized(quantization) => Some(quantization),
+            _ => None,
+        }
+    }
+
+    /// The lattice as a JSON object: a grid point `p` stands for `offset + scale * p`.
+    pub fn to_json(&self) -> Value {
+        let (kind, scale) = match &self.kind {
+            Kind::Whole => ("whole", json!(1)),
+            &Kind::Decimal(factor, digits) => ("decimal", json!(crate::number::nearest(factor.into(), digits))),
+            &Kind::Binary(exponent) => ("binary", json!(2f64.powi(exponent))),
+            Kind::Doubles => ("doubles", Value::Null),
+            Kind::Quantized(quantization) => ("quantized", json!(1.0 / quantization.scale)),
+        };
+        json!({ "kind": kind, "scale": scale, "offset": self.offset, "bits": self.bits })
+    }
+
+    /// The line of the report for people.
+    pub fn line(&self) -> String {
+        let steps = match &self.kind {
+            Kind::Whole => "lattice: whole numbers".to_owned(),
+            &Kind::Decimal(1, digits) => format!("lattice: decimals, steps of 1e-{digits}"),
+            &Kind::Decimal(factor, digits) => format!("lattice: decimals, steps of {factor}e-{digits}"),
+            Kind::Binary(exponent) => format!("lattice: steps of 2^{exponent}"),
+            Kind::Doubles => return "lattice: none of up to 32 bits; exact on the doubles".to_owned(),
+            Kind::Quantized(q) => {
+                let ([x, y], merged) = (q.offset, crate::failure::counted(q.merged, "point"));
+                return format!(
+                    "quantised to {} bits: scale {}, offset ({}, {}), largest error {:.3e}, {merged} fell onto another",
+                    q.coord_bits,
+                    Shown(q.scale),
+                    Shown(x),
+                    Shown(y),
+                    q.largest_error
+                );
+            }
+        };
+        format!("{steps}, {} bits", self.bits.unwrap_or_default())
+    }
+
+    /// Refuses points that a device with coordinates of `coord_bits` bits cannot take, with both ways out.
+    pub fn check_bits(&self, coord_bits: u32, device: &str) -> Result<(), Failure> {
+        let have = match (&self.numbers, self.bits) {
+            (Numbers::Grid(_), Some(bits)) if bits <= coord_bits => return Ok(()),
+            (_, Some(bits)) => format!("the {} need {bits} bits", self.noun()),
+            (_, None) => "the points lie on no lattice of up to 32 bits".to_owned(),
+        };
+        Err(Failure::input(format!(
+            "{have}, but {device} has coordinates of {coord_bits} bits: give --backend cpu, which takes them exactly, \
+             or --quantize fit, which rounds them"
+        )))
+    }
+
+    fn noun(&self) -> String {
+        match &self.kind {
+            Kind::Whole => "whole numbers of the points".to_owned(),
+            &Kind::Decimal(1, digits) => format!("steps of 1e-{digits} in which the points lie"),
+            &Kind::Decimal(factor, digits) => format!("steps of {factor}e-{digits} in which the points lie"),
+            Kind::Binary(exponent) => format!("steps of 2^{exponent} in which the points lie"),
+            Kind::Doubles | Kind::Quantized(_) => "points".to_owned(),
+        }
+    }
+}
+
+/// Finds the lattice of the points. The first that fits is taken: whole numbers, steps of a power of ten, steps of a
+/// power of two, each with spans below 2^32; else whole numbers of 64 bits, or doubles. With `how` the points are laid
+/// onto a grid of that many bits instead.
+pub fn lay(table: &PointTable, how: Option<(Quantize, u32)>) -> Result<Laid<'_>, Failure> {
+    if let Some((how, coord_bits)) = how {
+        return lay_onto_grid(table, how, coord_bits);
+    }
+    match table.coordinates() {
+        Coordinates::Steps { steps, unit } => {
+            let kind = if unit.is_whole() { Kind::Whole } else { Kind::Decimal(unit.factor, unit.digits) };
+            if let Some((lattice, grid)) = Lattice::of_integers(steps, Step::Whole) {
+                return Ok(on_lattice(grid, &lattice, kind, |steps, axis| decimal_json(unit, steps, axis)));
+            }
+            if is_taken_wide(unit) {
+                let numbers = Numbers::Whole(Cow::Borrowed(steps));
+                let offset = json!([decimal_json(unit, 0, 0), decimal_json(unit, 0, 1)]);
+                return Ok(Laid { numbers, kind, bits: Some(wide_bits(steps)), offset });
+            }
+        }
+        Coordinates::Doubles(_) => {}
+    }
+    let doubles = table.doubles();
+    let Some((lattice, grid)) = Lattice::of_doubles(&doubles) else {
+        return Ok(Laid { numbers: Numbers::Doubles(doubles), kind: Kind::Doubles, bits: None, offset: Value::Null });
+    };
+    let (kind, scale) = match lattice.step {
+        Step::Binary { exponent } => (Kind::Binary(exponent), 2f64.powi(exponent)),
+        _ => (Kind::Whole, 1.0),
+    };
+    Ok(on_lattice(grid, &lattice, kind, |steps, _| json!(steps as f64 * scale)))
+}
+
+/// Points on a lattice of up to 32 bits; `value` gives the coordinate of a number of steps on an axis.
+fn on_lattice(grid: Vec<Point>, lattice: &Lattice, kind: Kind, value: impl Fn(i64, usize) -> Value) -> Laid<'static> {
+    let [x, y] = lattice.offset;
+    let offset = json!([value(x, 0), value(y, 1)]);
+    Laid { numbers: Numbers::Grid(grid), kind, bits: Some(lattice.bits), offset }
+}
+
+/// Whether steps are taken as they are even if their span is 2^32 or more. Decimals of a text are not: the nearest
+/// doubles, which usually were printed there, are quicker.
+fn is_taken_wide(unit: &Unit) -> bool {
+    unit.is_whole() || *unit != Unit::of_digits(unit.digits)
+}
+
+/// Bits of the larger span of points with at least one axis.
+fn wide_bits(steps: &[[i64; 2]]) -> u32 {
+    let span = |axis: usize| {
+        let values = || steps.iter().map(|point| point[axis]);
+        values().max().unwrap_or(0).abs_diff(values().min().unwrap_or(0))
+    };
+    u64::BITS - (span(0) | span(1)).leading_zeros()
+}
+
+/// A coordinate as a JSON number: a whole number exactly, any other as the nearest double.
+fn decimal_json(unit: &Unit, steps: i64, axis: usize) -> Value {
+    if unit.is_whole() {
+        json!(steps)
+    } else {
+        json!(unit.nearest(steps, axis))
+    }
+}
+
+/// Lays points onto a grid, because the user asked for it.
+fn lay_onto_grid(table: &PointTable, how: Quantize, coord_bits: u32) -> Result<Laid<'static>, Failure> {
+    let (points, quantization) = quantize(&table.doubles(), coord_bits, how).map_err(|error| refuse(&error, table))?;
+    let offset = json!(quantization.offset);
+    let bits = Some(Lattice::of_grid(&points).bits);
+    Ok(Laid { numbers: Numbers::Grid(points), kind: Kind::Quantized(quantization), bits, offset })
+}
+
+/// Turns an error of the library into a failure that names the place of the point in the file.
+fn refuse(error: &Error, table: &PointTable) -> Failure {
+    let Error::OutOfGrid { index, axis, value, coord_bits } = error else {
+        return failure_of(error);
+    };
+    let place = table.place(*index, usize::from(*axis == 'y'));
+    let last = (1u64 << coord_bits) - 1;
+    Failure::new(
+        Exit::Input,
+        format!(
+            "{place}: the value falls on {}, outside 0 to {last} ({coord_bits} bits): \
+             choose another scale or --quantize fit",
+            Shown(*value)
+        ),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(points: &[[&str; 2]]) -> PointTable {
+        let mut table = PointTable::of_rows([1, 2]);
+        for (index, point) in points.iter().enumerate() {
+            table.push(point.map(str::as_bytes), index + 1).expect("numbers");
+        }
+        table
+    }
+
+    fn lattice(points: &[[&str; 2]]) -> Value {
+        lay(&table(points), None).expect("finite numbers").to_json()
+    }
+
+    #[test]
+    fn the_first_lattice_that_fits_is_taken() {
+        let lattice_of = |points: &[[&str; 2]]| {
+            let found = lattice(points);
+            (found["kind"].clone(), found["scale"].clone(), found["offset"].clone(), found["bits"].clone())
+        };
+        let whole = lattice_of(&[["-363", "4"], ["7.0", "5"]]);
+        assert_eq!(whole, ("whole".into(), 1.into(), json!([-363, 4]), 9.into()));
+        let decimal = lattice_of(&[["-101.473911", "33"], ["5", "0.1"]]);
+        assert_eq!(decimal, ("decimal".into(), 1e-6.into(), json!([-101.473911, 0.1]), 27.into()));
+        // Seventeen digits are too many for 32 bits, but a sixteenth part of a millionth is a power of two.
+        let binary = lattice_of(&[["0.0000000298023223876953125", "1"], ["0.5", "2"]]);
+        assert_eq!(binary, ("binary".into(), 2f64.powi(-25).into(), json!([2f64.powi(-25), 1.0]), 25.into()));
+        let doubles = lattice_of(&[["0.12345678901234567", "1e-5"], ["3", "2"]]);
+        assert_eq!(doubles, ("doubles".into(), Value::Null, Value::Null, Value::Null));
+        let wide = lattice_of(&[["9007199254740993", "0"], ["-4", "0"]]);
+        assert_eq!(wide, ("whole".into(), 1.into(), json!([0, 0]), 54.into()));
+    }
+
+    #[test]
+    fn a_device_refuses_what_it_cannot_hold() {
+        let table = table(&[["0", "0.5"], ["70000", "1"]]);
+        let laid = lay(&table, None).expect("decimals");
+        assert!(laid.check_bits(20, "model").is_ok());
+        let failure = laid.check_bits(16, "clock").expect_err("20 bits");
+        assert_eq!(failure.exit, Exit::Input);
+        for part in ["20 bits", "clock", "16 bits", "--backend cpu", "--quantize"] {
+            assert!(failure.message.contains(part), "{failure}");
+        }
+    }
+}

@@ -1,0 +1,262 @@
+//! Numbers as they are written in a text, without rounding where that is possible.
+//!
+//! A text such as `-101.473911` is a decimal, and most decimals are no double. So a number is read as a whole number of
+//! steps of a power of ten, which is exact. Only numbers of more than 18 digits or so become the nearest double.
+
+use std::fmt;
+
+/// Decimals with more digits behind the point than this are read as doubles, whose smallest has 324.
+const MOST_DIGITS: u32 = 400;
+/// Numbers with more digits behind the point than this are shown with an exponent.
+const MOST_DIGITS_SHOWN: u32 = 25;
+/// The number of decimal digits that always fit 64 bits.
+const SAFE_LEN: usize = 18;
+
+/// A number as it is written in a text.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Number {
+    /// A decimal, exactly.
+    Decimal(Decimal),
+    /// The nearest double of a whole number that is written without an exponent and is beyond 64 bits.
+    Beyond(f64),
+    /// The nearest double of any other number. Infinities and NaN are among them.
+    Double(f64),
+}
+
+/// The decimal `steps * 10^-digits`. The number of digits is the smallest possible one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Decimal {
+    /// The decimal in steps.
+    pub steps: i64,
+    /// Digits behind the point.
+    pub digits: u32,
+}
+
+impl Decimal {
+    /// The decimal with as few digits behind the point as it needs.
+    fn shortest(mut steps: i64, mut digits: u32) -> Self {
+        while digits > 0 && steps % 10 == 0 {
+            if steps == 0 {
+                return Self { steps, digits: 0 };
+            }
+            steps /= 10;
+            digits -= 1;
+        }
+        Self { steps, digits }
+    }
+}
+
+/// Reads a number, without spaces around it; `None` if the text is none. Every text that the standard library reads as
+/// a double is a number.
+pub fn parse(text: &[u8]) -> Option<Number> {
+    short(text).map(Number::Decimal).or_else(|| long(text))
+}
+
+/// Reads a decimal without an exponent that has at most 18 digits, which is the usual case.
+fn short(text: &[u8]) -> Option<Decimal> {
+    let (is_negative, unsigned) = match text {
+        [b'-', rest @ ..] => (true, rest),
+        _ => (false, text),
+    };
+    let mut steps = 0i64;
+    let mut point = None;
+    if unsigned.len() > SAFE_LEN {
+        return None;
+    }
+    for (index, &byte) in unsigned.iter().enumerate() {
+        match byte {
+            b'0'..=b'9' => steps = steps * 10 + i64::from(byte - b'0'),
+            b'.' if point.is_none() => point = Some(index),
+            _ => return None,
+        }
+    }
+    if unsigned.len() == usize::from(point.is_some()) {
+        return None;
+    }
+    let steps = if is_negative { -steps } else { steps };
+    Some(match point {
+        Some(index) => Decimal::shortest(steps, (unsigned.len() - index - 1) as u32),
+        None => Decimal { steps, digits: 0 },
+    })
+}
+
+/// Reads any number. The standard library decides what is a number.
+fn long(text: &[u8]) -> Option<Number> {
+    let double: f64 = std::str::from_utf8(text).ok()?.parse().ok()?;
+    if !double.is_finite() {
+        return Some(if is_whole(text) { Number::Beyond(double) } else { Number::Double(double) });
+    }
+    Some(match exact(text) {
+        Some(decimal) => Number::Decimal(decimal),
+        None if is_whole(text) => Number::Beyond(double),
+        None => Number::Double(double),
+    })
+}
+
+/// Whether a number is written as digits alone, perhaps with a sign.
+fn is_whole(text: &[u8]) -> bool {
+    text.strip_prefix(b"-").or(text.strip_prefix(b"+")).unwrap_or(text).iter().all(u8::is_ascii_digit)
+}
+
+/// The decimal of a valid number, if its steps fit 64 bits.
+fn exact(text: &[u8]) -> Option<Decimal> {
+    let is_negative = text.starts_with(b"-");
+    let unsigned = text.strip_prefix(b"-").or(text.strip_prefix(b"+")).unwrap_or(text);
+    let mut parts = unsigned.splitn(2, |byte| byte.eq_ignore_ascii_case(&b'e'));
+    let mut mantissa = parts.next()?.splitn(2, |&byte| byte == b'.');
+    let exponent: i64 = parts.next().map_or(Some(0), |text| std::str::from_utf8(text).ok()?.parse().ok())?;
+    let whole = mantissa.next()?;
+    let fraction = mantissa.next().unwrap_or_default();
+    let fraction = &fraction[..fraction.len() - fraction.iter().rev().take_while(|&&byte| byte == b'0').count()];
+    let mut steps = 0i64;
+    for byte in whole.iter().chain(fraction) {
+        let digit = i64::from(byte - b'0');
+        // Negative numbers are counted down, because the smallest one has no positive counterpart.
+        let digit = if is_negative { -digit } else { digit };
+        steps = steps.checked_mul(10)?.checked_add(digit)?;
+    }
+    if steps == 0 {
+        return Some(Decimal { steps: 0, digits: 0 });
+    }
+    let digits = i64::try_from(fraction.len()).ok()?.checked_sub(exponent)?;
+    if digits >= 0 {
+        let decimal = Decimal::shortest(steps, u32::try_from(digits).ok()?);
+        return (decimal.digits <= MOST_DIGITS).then_some(decimal);
+    }
+    let power = 10i64.checked_pow(u32::try_from(-digits).ok()?)?;
+    Some(Decimal { steps: steps.checked_mul(power)?, digits: 0 })
+}
+
+/// The double that is nearest to `steps * 10^-digits`.
+pub fn nearest(steps: i128, digits: u32) -> f64 {
+    const EXACT: i128 = 1 << 53;
+    if (-EXACT..=EXACT).contains(&steps) && digits <= 22 {
+        // Both operands are exact, so the quotient is rounded once.
+        return steps as f64 / 10f64.powi(digits as i32);
+    }
+    // The standard library rounds every text correctly.
+    format!("{steps}e-{digits}").parse().unwrap_or_default()
+}
+
+/// A coordinate in the numbers of its file, to be shown or written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Coordinate {
+    /// The decimal `steps * 10^-digits`.
+    Decimal {
+        /// The decimal in steps.
+        steps: i128,
+        /// Digits behind the point.
+        digits: u32,
+    },
+    /// A double, shown in the fewest digits that tell it from all others.
+    Double(f64),
+}
+
+impl fmt::Display for Coordinate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Double(value) if value == 0.0 || (1e-7..1e17).contains(&value.abs()) => write!(f, "{value}"),
+            Self::Double(value) => write!(f, "{value:e}"),
+            Self::Decimal { steps, digits: 0 } => write!(f, "{steps}"),
+            Self::Decimal { steps, digits } if digits > MOST_DIGITS_SHOWN => write!(f, "{steps}e-{digits}"),
+            Self::Decimal { mut steps, mut digits } => {
+                while digits > 0 && steps % 10 == 0 {
+                    steps /= 10;
+                    digits -= 1;
+                }
+                let power = 10u128.pow(digits);
+                let (whole, fraction) = (steps.unsigned_abs() / power, steps.unsigned_abs() % power);
+                let sign = if steps < 0 { "-" } else { "" };
+                match digits {
+                    0 => write!(f, "{sign}{whole}"),
+                    _ => write!(f, "{sign}{whole}.{fraction:0width$}", width = digits as usize),
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use incircle_testkit::SplitMix64;
+
+    fn decimal(text: &str) -> Option<(i64, u32)> {
+        match parse(text.as_bytes()) {
+            Some(Number::Decimal(Decimal { steps, digits })) => Some((steps, digits)),
+            _ => None,
+        }
+    }
+
+    #[test]
+    fn decimals_are_read_as_written() {
+        for (text, expected) in [
+            ("0", (0, 0)),
+            ("-0.000", (0, 0)),
+            ("-363", (-363, 0)),
+            ("+7", (7, 0)),
+            ("-101.473911", (-101_473_911, 6)),
+            ("1.50", (15, 1)),
+            (".5", (5, 1)),
+            ("5.", (5, 0)),
+            ("2.5e3", (2500, 0)),
+            ("25E-4", (25, 4)),
+            ("10e-4", (1, 3)),
+            ("1e-300", (1, 300)),
+            ("0e999999999999", (0, 0)),
+            ("9223372036854775807", (i64::MAX, 0)),
+            ("-9223372036854775808", (i64::MIN, 0)),
+            ("000000000000000000000000012.5000000000000000000000000", (125, 1)),
+        ] {
+            assert_eq!(decimal(text), Some(expected), "{text}");
+        }
+    }
+
+    #[test]
+    fn other_numbers_are_the_nearest_doubles() {
+        assert_eq!(parse(b"1e300"), Some(Number::Double(1e300)));
+        assert_eq!(parse(b"0.12345678901234567890123"), Some(Number::Double(0.123_456_789_012_345_678_9)));
+        assert_eq!(parse(b"9223372036854775808"), Some(Number::Beyond(9.223_372_036_854_775_807e18)));
+        assert_eq!(parse(b"1e-999"), Some(Number::Double(0.0)));
+        assert!(matches!(parse(b"-inf"), Some(Number::Double(value)) if value.is_infinite()));
+        assert!(matches!(parse(b"nan"), Some(Number::Double(value)) if value.is_nan()));
+        for bad in ["", "-", "+", ".", "1,5", "0x10", "1e", "--1", "1.2.3", "1_000", "e5", " 1"] {
+            assert_eq!(parse(bad.as_bytes()), None, "{bad}");
+        }
+    }
+
+    #[test]
+    fn the_standard_library_reads_the_same_numbers() {
+        let mut random = SplitMix64::new(7);
+        let alphabet = b"0123456789.-+eE0019.";
+        for _ in 0..200_000 {
+            let len = 1 + random.below(24) as usize;
+            let text: Vec<u8> = (0..len).map(|_| alphabet[random.below(alphabet.len() as u64) as usize]).collect();
+            let library = std::str::from_utf8(&text).expect("ASCII").parse::<f64>().ok();
+            let own = parse(&text).map(|number| match number {
+                Number::Decimal(Decimal { steps, digits }) => nearest(i128::from(steps), digits),
+                Number::Beyond(value) | Number::Double(value) => value,
+            });
+            // Minus zero is read as zero.
+            assert_eq!(
+                own.map(|value| value + 0.0),
+                library.map(|value| value + 0.0),
+                "{}",
+                String::from_utf8_lossy(&text)
+            );
+        }
+    }
+
+    #[test]
+    fn coordinates_are_shown_exactly() {
+        let shown = |steps, digits| Coordinate::Decimal { steps, digits }.to_string();
+        assert_eq!(shown(-101_473_911, 6), "-101.473911");
+        assert_eq!(shown(-5, 1), "-0.5");
+        assert_eq!(shown(1_050, 3), "1.05");
+        assert_eq!(shown(2_000, 3), "2");
+        assert_eq!(shown(9_007_199_254_740_993, 0), "9007199254740993");
+        assert_eq!(shown(12, 300), "12e-300");
+        assert_eq!(Coordinate::Double(0.1).to_string(), "0.1");
+        assert_eq!(Coordinate::Double(1e300).to_string(), "1e300");
+    }
+}

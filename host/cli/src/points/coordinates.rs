@@ -1,0 +1,169 @@
+//! The coordinates of a file, in numbers that hold them without rounding where there are such.
+
+use std::borrow::Cow;
+
+use crate::number::{self, Coordinate, Decimal, Number};
+
+/// The meaning of steps: a coordinate is `(steps * factor + offset) * 10^-digits`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Unit {
+    /// Digits behind the point.
+    pub digits: u32,
+    /// The length of a step, in the last digit; positive.
+    pub factor: i64,
+    /// The coordinates of the place at step 0, in the last digit.
+    pub offset: [i128; 2],
+}
+
+impl Unit {
+    /// The unit of decimals with so many digits behind the point.
+    pub fn of_digits(digits: u32) -> Self {
+        Self { digits, factor: 1, offset: [0; 2] }
+    }
+
+    /// Whether steps are whole numbers.
+    pub fn is_whole(&self) -> bool {
+        *self == Self::of_digits(0)
+    }
+
+    /// The coordinate of a step on an axis.
+    pub fn coordinate(&self, steps: i64, axis: usize) -> Coordinate {
+        let steps = i128::from(steps) * i128::from(self.factor) + self.offset[axis];
+        Coordinate::Decimal { steps, digits: self.digits }
+    }
+
+    /// The double that is nearest to the coordinate of a step on an axis.
+    pub fn nearest(&self, steps: i64, axis: usize) -> f64 {
+        number::nearest(i128::from(steps) * i128::from(self.factor) + self.offset[axis], self.digits)
+    }
+}
+
+/// The coordinates of all points of a file.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Coordinates {
+    /// Whole numbers of steps of one length: whole numbers, decimals as written, or the integers of a scanner.
+    Steps {
+        /// The coordinates of each point, in steps.
+        steps: Vec<[i64; 2]>,
+        /// The meaning of the steps.
+        unit: Unit,
+    },
+    /// Doubles.
+    Doubles(Vec<[f64; 2]>),
+}
+
+impl Coordinates {
+    /// An empty list, to which numbers as written are added.
+    pub fn new() -> Self {
+        Self::Steps { steps: Vec::new(), unit: Unit::of_digits(0) }
+    }
+
+    /// The number of points.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Steps { steps, .. } => steps.len(),
+            Self::Doubles(points) => points.len(),
+        }
+    }
+
+    /// Adds a point as it is written. As long as all coordinates are decimals of one length of step whose steps fit 64
+    /// bits, they stay exact; otherwise all become the nearest doubles.
+    pub fn push(&mut self, point: [Number; 2]) {
+        if let [Number::Decimal(x), Number::Decimal(y)] = point {
+            if self.push_decimals(x, y).is_some() {
+                return;
+            }
+        }
+        let point = point.map(|number| match number {
+            Number::Decimal(Decimal { steps, digits }) => number::nearest(i128::from(steps), digits),
+            Number::Beyond(value) | Number::Double(value) => value,
+        });
+        self.push_doubles(point);
+    }
+
+    /// Adds a point of doubles. All earlier coordinates become doubles, too.
+    pub fn push_doubles(&mut self, point: [f64; 2]) {
+        if let Self::Steps { .. } = self {
+            *self = Self::Doubles(self.doubles().into_owned());
+        }
+        if let Self::Doubles(points) = self {
+            // Adding zero turns minus zero into zero.
+            points.push(point.map(|value| value + 0.0));
+        }
+    }
+
+    /// Adds a point of decimals; `None` if the steps of any point would not fit 64 bits.
+    fn push_decimals(&mut self, x: Decimal, y: Decimal) -> Option<()> {
+        let Self::Steps { steps, unit } = self else {
+            return None;
+        };
+        let digits = x.digits.max(y.digits);
+        if digits > unit.digits {
+            let power = 10i64.checked_pow(digits - unit.digits);
+            let fits = |value: i64| value == 0 || power.is_some_and(|power| value.checked_mul(power).is_some());
+            if !steps.iter().flatten().all(|&value| fits(value)) {
+                return None;
+            }
+            let power = power.unwrap_or(0);
+            steps.iter_mut().flatten().for_each(|value| *value *= power);
+            unit.digits = digits;
+        }
+        let scaled = |decimal: Decimal| match decimal.digits {
+            digits if digits == unit.digits || decimal.steps == 0 => Some(decimal.steps),
+            digits => decimal.steps.checked_mul(10i64.checked_pow(unit.digits - digits)?),
+        };
+        steps.push([scaled(x)?, scaled(y)?]);
+        Some(())
+    }
+
+    /// The doubles that are nearest to the coordinates.
+    pub fn doubles(&self) -> Cow<'_, [[f64; 2]]> {
+        match self {
+            Self::Steps { steps, unit } => {
+                Cow::Owned(steps.iter().map(|&[x, y]| [unit.nearest(x, 0), unit.nearest(y, 1)]).collect())
+            }
+            Self::Doubles(points) => Cow::Borrowed(points),
+        }
+    }
+
+    /// The coordinate of the point at `index` on an axis, in the numbers of the file; zero if there is no such point.
+    pub fn coordinate(&self, index: usize, axis: usize) -> Coordinate {
+        match self {
+            Self::Steps { steps, unit } => unit.coordinate(steps.get(index).map_or(0, |point| point[axis]), axis),
+            Self::Doubles(points) => Coordinate::Double(points.get(index).map_or(0.0, |point| point[axis])),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(points: &[[&str; 2]]) -> Coordinates {
+        let mut all = Coordinates::new();
+        for point in points {
+            all.push(point.map(|text| number::parse(text.as_bytes()).expect("a number")));
+        }
+        all
+    }
+
+    #[test]
+    fn one_power_of_ten_makes_decimals_whole() {
+        let all = read(&[["1", "-2.5"], ["0.125", "3"]]);
+        let unit = Unit::of_digits(3);
+        assert_eq!(all, Coordinates::Steps { steps: vec![[1000, -2500], [125, 3000]], unit });
+        assert_eq!(all.coordinate(0, 1).to_string(), "-2.5");
+        assert_eq!(all.doubles()[1], [0.125, 3.0]);
+    }
+
+    #[test]
+    fn numbers_without_a_common_step_become_doubles() {
+        let all = read(&[["9007199254740993", "-0"], ["1e-10", "0.1"]]);
+        assert_eq!(all, Coordinates::Doubles(vec![[9_007_199_254_740_992.0, 0.0], [1e-10, 0.1]]));
+        let all = read(&[["0.1", "0"], ["1e300", "9223372036854775807"]]);
+        assert_eq!(all, Coordinates::Doubles(vec![[0.1, 0.0], [1e300, 9.223_372_036_854_775_807e18]]));
+        // Zeros have every step.
+        let all = read(&[["0", "0"], ["1e-30", "2e-29"]]);
+        assert_eq!(all, Coordinates::Steps { steps: vec![[0, 0], [1, 20]], unit: Unit::of_digits(30) });
+    }
+}

@@ -1,0 +1,212 @@
+//! The points of a file, with their places in the file.
+
+mod coordinates;
+mod place;
+
+use std::borrow::Cow;
+
+use crate::failure::{quoted, Failure};
+use crate::number::{self, Coordinate, Number};
+use crate::text;
+
+pub use coordinates::{Coordinates, Unit};
+pub use place::Place;
+use place::{Origin, Rows};
+
+/// The points of a file, each with its place for messages.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointTable {
+    coordinates: Coordinates,
+    /// The z of the first points, up to the first one that has none.
+    heights: Vec<f64>,
+    origin: Origin,
+    columns: [usize; 2],
+    /// The message about the first whole number beyond 64 bits. Such a number is an error if all numbers are whole.
+    beyond: Option<String>,
+    has_fraction: bool,
+}
+
+impl PointTable {
+    /// Makes an empty table of text rows whose coordinates stand in these columns, counted from 1.
+    pub fn of_rows(columns: [usize; 2]) -> Self {
+        Self::new(Coordinates::new(), Origin::Rows(Rows::default()), columns)
+    }
+
+    /// Makes an empty table of items of this name, such as `vertex` or `feature`.
+    pub fn of_items(name: &'static str) -> Self {
+        Self::of_coordinates(name, Coordinates::new())
+    }
+
+    /// Makes a table of items of this name with these coordinates, which must be finite.
+    pub fn of_coordinates(name: &'static str, coordinates: Coordinates) -> Self {
+        Self::new(coordinates, Origin::Items(name), [1, 2])
+    }
+
+    fn new(coordinates: Coordinates, origin: Origin, columns: [usize; 2]) -> Self {
+        Self { coordinates, heights: Vec::new(), origin, columns, beyond: None, has_fraction: false }
+    }
+
+    /// Adds a point as it is written. Rows are counted from 1; a table of items ignores them. Anything but two finite
+    /// numbers is refused with its place.
+    pub fn push(&mut self, point: [&[u8]; 2], row: usize) -> Result<(), Failure> {
+        let number = |axis: usize| number_at(point[axis], || self.next_place(axis, row));
+        let numbers = [number(0)?, number(1)?];
+        for (axis, number) in numbers.iter().enumerate() {
+            match number {
+                Number::Decimal(decimal) => self.has_fraction |= decimal.digits > 0,
+                Number::Beyond(_) if self.beyond.is_none() => self.beyond = Some(self.beyond_at(point, axis, row)),
+                Number::Beyond(_) => {}
+                Number::Double(_) => self.has_fraction = true,
+            }
+        }
+        self.add_row(row);
+        self.coordinates.push(numbers);
+        Ok(())
+    }
+
+    /// Adds a point of doubles, from a file that stores doubles. Values that are not finite are refused.
+    pub fn push_doubles(&mut self, point: [f64; 2], row: usize) -> Result<(), Failure> {
+        if let Some(axis) = point.iter().position(|value| !value.is_finite()) {
+            return Err(text::not_finite(&format!("'{}'", point[axis]), self.next_place(axis, row)));
+        }
+        self.has_fraction = true;
+        self.add_row(row);
+        self.coordinates.push_doubles(point);
+        Ok(())
+    }
+
+    /// Gives the last point a z. If one point has none, or one that is not finite, no point of the table has one.
+    pub fn push_height(&mut self, z: Option<f64>) {
+        if let Some(z) = z.filter(|z| z.is_finite() && self.heights.len() + 1 == self.len()) {
+            self.heights.push(z);
+        }
+    }
+
+    /// The table, once all points are in it. Whole numbers beyond 64 bits are refused unless the set has fractions.
+    pub fn complete(self) -> Result<Self, Failure> {
+        match &self.beyond {
+            Some(message) if !self.has_fraction => Err(Failure::input(message)),
+            _ => Ok(self),
+        }
+    }
+
+    fn add_row(&mut self, row: usize) {
+        let index = self.len();
+        if let Origin::Rows(rows) = &mut self.origin {
+            rows.push(index, row);
+        }
+    }
+
+    fn beyond_at(&self, point: [&[u8]; 2], axis: usize, row: usize) -> String {
+        format!(
+            "{}: {} is beyond 64 bits: whole numbers go from {} to {}; with an exponent, as in 1e20, numbers are doubles",
+            self.next_place(axis, row),
+            quoted(point[axis]),
+            i64::MIN,
+            i64::MAX
+        )
+    }
+
+    /// The number of points.
+    pub fn len(&self) -> usize {
+        self.coordinates.len()
+    }
+
+    /// Whether there are no points.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The coordinates of all points, in the order of the file.
+    pub fn coordinates(&self) -> &Coordinates {
+        &self.coordinates
+    }
+
+    /// The coordinate of the point at `index` on axis 0 or 1, in the numbers of the file.
+    pub fn coordinate(&self, index: usize, axis: usize) -> Coordinate {
+        self.coordinates.coordinate(index, axis)
+    }
+
+    /// The coordinates of all points as the nearest doubles.
+    pub fn doubles(&self) -> Cow<'_, [[f64; 2]]> {
+        self.coordinates.doubles()
+    }
+
+    /// The z of the points; empty if they have none.
+    pub fn heights(&self) -> &[f64] {
+        if self.heights.len() == self.len() {
+            &self.heights
+        } else {
+            &[]
+        }
+    }
+
+    /// The place of coordinate `axis`, 0 or 1, of the point at `index`, for messages.
+    pub fn place(&self, index: usize, axis: usize) -> Place {
+        let row = match &self.origin {
+            Origin::Rows(rows) => rows.of(index),
+            Origin::Items(_) => 0,
+        };
+        self.place_in(row, index, axis)
+    }
+
+    /// The place of a coordinate of the next point, which stands in this row.
+    fn next_place(&self, axis: usize, row: usize) -> Place {
+        self.place_in(row, self.len(), axis)
+    }
+
+    fn place_in(&self, row: usize, index: usize, axis: usize) -> Place {
+        match self.origin {
+            Origin::Rows(_) => Place::Cell { row, column: self.columns[axis.min(1)] },
+            Origin::Items(name) => Place::Item { name, number: index + 1, axis: if axis == 0 { 'x' } else { 'y' } },
+        }
+    }
+}
+
+/// Reads a number at a place, which is any finite one, with spaces around it or without.
+fn number_at(value: &[u8], place: impl Fn() -> Place) -> Result<Number, Failure> {
+    let trimmed = value.trim_ascii();
+    match number::parse(trimmed) {
+        Some(Number::Double(double) | Number::Beyond(double)) if !double.is_finite() => {
+            Err(text::not_finite(&quoted(trimmed), place()))
+        }
+        Some(number) => Ok(number),
+        None => Err(text::not_a_number(trimmed, place())),
+    }
+}
+
+/// Reads a z as the nearest double; `None` if the value is no number.
+pub fn height(value: &[u8]) -> Option<f64> {
+    std::str::from_utf8(value.trim_ascii()).ok()?.parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(points: &[[&str; 2]]) -> Result<PointTable, Failure> {
+        let mut table = PointTable::of_rows([1, 2]);
+        for (index, point) in points.iter().enumerate() {
+            table.push(point.map(str::as_bytes), index + 1)?;
+        }
+        table.complete()
+    }
+
+    #[test]
+    fn coordinates_are_finite_numbers() {
+        assert!(table(&[[" 2147483647 ", "1e300"]]).is_ok());
+        for bad in ["nan", "-inf", "1e999", "", "1,5", "0x10"] {
+            let failure = table(&[["1", "2"], ["3", bad]]).expect_err(bad);
+            assert!(failure.message.starts_with("row 2, column 2: "), "{failure}");
+        }
+    }
+
+    #[test]
+    fn whole_numbers_end_at_64_bits() {
+        let beyond = "9223372036854775808";
+        let failure = table(&[["1", "2"], [beyond, "4"]]).expect_err("beyond 64 bits");
+        assert!(failure.message.starts_with("row 2, column 1: '9223372036854775808' is beyond 64 bits"), "{failure}");
+        // A fraction makes the set one of doubles.
+        assert!(table(&[["0.5", "2"], [beyond, "4"]]).is_ok());
+    }
+}
