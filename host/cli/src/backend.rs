@@ -135,8 +135,8 @@ impl Choice {
         Ok(choice)
     }
 
-    /// The back end for points of a file. Coordinates have the bits of `--coord-bits` or of the address, or else the most
-    /// that the software takes, and [`CORE_COORD_BITS`] for a core.
+    /// The back end for points of a file. Coordinates have the bits of `--coord-bits` or of the address, or else the
+    /// most that the software takes, and [`CORE_COORD_BITS`] for a core.
     pub fn for_points(arguments: &BackendArguments, grid: &GridArguments, default: &str) -> Result<Self, Failure> {
         let mut choice = Self::of(arguments, grid.checked()?.coord_bits, default)?;
         if choice.is_software() && bits_in(&choice.address).or(grid.coord_bits).is_none() {

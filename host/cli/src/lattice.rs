@@ -6,7 +6,7 @@ use incircle::quantize::quantize;
 use incircle::{Error, Lattice, Point, Quantization, Quantize, Shown, Step};
 use serde_json::{json, Value};
 
-use crate::failure::{failure_of, Exit, Failure};
+use crate::failure::{counted, failure_of, Exit, Failure};
 use crate::points::{Coordinates, PointTable, Unit};
 
 /// Points in the numbers in which they are triangulated.
@@ -87,7 +87,7 @@ impl Laid<'_> {
             Kind::Binary(exponent) => format!("lattice: steps of 2^{exponent}"),
             Kind::Doubles => return "lattice: none of up to 32 bits; exact on the doubles".to_owned(),
             Kind::Quantized(q) => {
-                let ([x, y], merged) = (q.offset, crate::failure::counted(q.merged, "point"));
+                let ([x, y], merged) = (q.offset, counted(q.merged, "point"));
                 return format!(
                     "quantised to {} bits: scale {}, offset ({}, {}), largest error {:.3e}, {merged} fell onto another",
                     q.coord_bits,
@@ -98,14 +98,14 @@ impl Laid<'_> {
                 );
             }
         };
-        format!("{steps}, {} bits", self.bits.unwrap_or_default())
+        format!("{steps}, {}", counted(self.bits.unwrap_or_default() as usize, "bit"))
     }
 
     /// Refuses points that a device with coordinates of `coord_bits` bits cannot take, with both ways out.
     pub fn check_bits(&self, coord_bits: u32, device: &str) -> Result<(), Failure> {
         let have = match (&self.numbers, self.bits) {
             (Numbers::Grid(_), Some(bits)) if bits <= coord_bits => return Ok(()),
-            (_, Some(bits)) => format!("the {} need {bits} bits", self.noun()),
+            (_, Some(bits)) => format!("the {} need {}", self.noun(), counted(bits as usize, "bit")),
             (_, None) => "the points lie on no lattice of up to 32 bits".to_owned(),
         };
         Err(Failure::input(format!(
@@ -239,9 +239,9 @@ mod tests {
         assert_eq!(whole, ("whole".into(), 1.into(), json!([-363, 4]), 9.into()));
         let decimal = lattice_of(&[["-101.473911", "33"], ["5", "0.1"]]);
         assert_eq!(decimal, ("decimal".into(), 1e-6.into(), json!([-101.473911, 0.1]), 27.into()));
-        // Seventeen digits are too many for 32 bits, but a sixteenth part of a millionth is a power of two.
+        // So many digits are too long for steps of a power of ten, but the number is 2^-25.
         let binary = lattice_of(&[["0.0000000298023223876953125", "1"], ["0.5", "2"]]);
-        assert_eq!(binary, ("binary".into(), 2f64.powi(-25).into(), json!([2f64.powi(-25), 1.0]), 25.into()));
+        assert_eq!(binary, ("binary".into(), 2f64.powi(-25).into(), json!([2f64.powi(-25), 1.0]), 26.into()));
         let doubles = lattice_of(&[["0.12345678901234567", "1e-5"], ["3", "2"]]);
         assert_eq!(doubles, ("doubles".into(), Value::Null, Value::Null, Value::Null));
         let wide = lattice_of(&[["9007199254740993", "0"], ["-4", "0"]]);

@@ -1,9 +1,10 @@
 //! Comma-separated values: points as rows `x,y`, meshes as rows `a,b,c`.
 //!
 //! A first row without numbers is a header. Names such as `x`, `y` or `lon`, `lat` choose the columns; otherwise the
-//! first two columns count. A column named `z` is kept. The separator is a comma, or the semicolon or tab that the first row has instead. Further
-//! columns are not read, but every row must have as many as the first one, because a short row is a lost point. Empty
-//! rows and rows that start with `#` are ignored. An empty file is an empty list of points.
+//! first two columns count. A column named `z` is kept. The separator is a comma, or the semicolon or tab that the
+//! first row has instead. Further columns are not read, but every row must have as many as the first one, because a
+//! short row is a lost point. Empty rows and rows that start with `#` are ignored. An empty file is an empty list of
+//! points.
 
 use std::io::{self, Write};
 

@@ -1,8 +1,8 @@
 //! Wavefront OBJ: rows `v x y z` and `f a b c`, with indices from 1.
 //!
-//! Points are the x and y of the vertices, and their z is kept; all other statements are ignored. Rows that do not start with a word of the
-//! format are refused, because a file of another kind must not pass for one without points. Meshes hold every input
-//! point as a vertex, at height 0 if the input has no z, so indices stay those of the input.
+//! Points are the x and y of the vertices, and their z is kept; all other statements are ignored. Rows that do not
+//! start with a word of the format are refused, because a file of another kind must not pass for one without points.
+//! Meshes hold every input point as a vertex, at height 0 if the input has no z, so indices stay those of the input.
 
 use std::io::{self, Write};
 

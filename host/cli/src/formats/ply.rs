@@ -1,8 +1,9 @@
 //! PLY, the Stanford polygon format. Ascii and both binary forms are read; ascii is written.
 //!
-//! Points are `x`, `y` and `z` of the element `vertex`, triangles the list `vertex_indices` or `vertex_index` of `face`;
-//! everything else is ignored. `ply-rs-bw` decodes headers and binary elements, one element at a time, so the claims of
-//! a header alone allocate nothing. Meshes hold every input point, at height 0 if it has no z, so indices stay those of the input.
+//! Points are `x`, `y` and `z` of the element `vertex`, triangles the list `vertex_indices` or `vertex_index` of
+//! `face`; everything else is ignored. `ply-rs-bw` decodes headers and binary elements, one element at a time, so the
+//! claims of a header alone allocate nothing. Meshes hold every input point, at height 0 if it has no z, so indices
+//! stay those of the input.
 
 use std::io::{self, Write};
 

@@ -52,14 +52,16 @@ pub enum Coordinates {
     Doubles(Vec<[f64; 2]>),
 }
 
-impl Coordinates {
-    /// An empty list, to which numbers as written are added.
-    pub fn new() -> Self {
+/// An empty list, to which numbers as written are added.
+impl Default for Coordinates {
+    fn default() -> Self {
         Self::Steps { steps: Vec::new(), unit: Unit::of_digits(0) }
     }
+}
 
+impl Coordinates {
     /// The number of points.
-    pub fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         match self {
             Self::Steps { steps, .. } => steps.len(),
             Self::Doubles(points) => points.len(),
@@ -140,7 +142,7 @@ mod tests {
     use super::*;
 
     fn read(points: &[[&str; 2]]) -> Coordinates {
-        let mut all = Coordinates::new();
+        let mut all = Coordinates::default();
         for point in points {
             all.push(point.map(|text| number::parse(text.as_bytes()).expect("a number")));
         }
@@ -161,7 +163,7 @@ mod tests {
         let all = read(&[["9007199254740993", "-0"], ["1e-10", "0.1"]]);
         assert_eq!(all, Coordinates::Doubles(vec![[9_007_199_254_740_992.0, 0.0], [1e-10, 0.1]]));
         let all = read(&[["0.1", "0"], ["1e300", "9223372036854775807"]]);
-        assert_eq!(all, Coordinates::Doubles(vec![[0.1, 0.0], [1e300, 9.223_372_036_854_775_807e18]]));
+        assert_eq!(all, Coordinates::Doubles(vec![[0.1, 0.0], [1e300, 9.223_372_036_854_776e18]]));
         // Zeros have every step.
         let all = read(&[["0", "0"], ["1e-30", "2e-29"]]);
         assert_eq!(all, Coordinates::Steps { steps: vec![[0, 0], [1, 20]], unit: Unit::of_digits(30) });

@@ -29,12 +29,12 @@ pub struct PointTable {
 impl PointTable {
     /// Makes an empty table of text rows whose coordinates stand in these columns, counted from 1.
     pub fn of_rows(columns: [usize; 2]) -> Self {
-        Self::new(Coordinates::new(), Origin::Rows(Rows::default()), columns)
+        Self::new(Coordinates::default(), Origin::Rows(Rows::default()), columns)
     }
 
     /// Makes an empty table of items of this name, such as `vertex` or `feature`.
     pub fn of_items(name: &'static str) -> Self {
-        Self::of_coordinates(name, Coordinates::new())
+        Self::of_coordinates(name, Coordinates::default())
     }
 
     /// Makes a table of items of this name with these coordinates, which must be finite.
@@ -99,7 +99,8 @@ impl PointTable {
 
     fn beyond_at(&self, point: [&[u8]; 2], axis: usize, row: usize) -> String {
         format!(
-            "{}: {} is beyond 64 bits: whole numbers go from {} to {}; with an exponent, as in 1e20, numbers are doubles",
+            "{}: {} is beyond 64 bits: whole numbers go from {} to {}; with an exponent, as in 1e20, numbers are \
+             doubles",
             self.next_place(axis, row),
             quoted(point[axis]),
             i64::MIN,

@@ -67,7 +67,9 @@ fn json_report_has_all_keys() {
     assert_eq!(report["order"], "brio-hilbert");
     assert_eq!(report["quantisation"], Value::Null);
     assert_eq!(report["counters"]["insertions"], 5);
-    assert_eq!(report["coord_bits"], 16);
+    assert_eq!(report["coord_bits"], 31);
+    let lattice = serde_json::json!({ "kind": "whole", "scale": 1, "offset": [0, 0], "bits": 4 });
+    assert_eq!(report["lattice"], lattice);
     assert_eq!((&report["contexts"], &report["latency"]), (&Value::from(1), &Value::Null));
     // The software model has no clock, and one context: these are there, and 0.
     for counter in ["insert_cycles", "root_visits", "aborts", "priorities_taken", "issue_cycles", "latency_max"] {
@@ -103,18 +105,28 @@ fn the_processor_is_the_default() {
 }
 
 #[test]
-fn integers_are_untouched_and_fractions_are_fitted() {
+fn numbers_are_taken_as_they_are_written() {
     let scratch = Scratch::new();
-    scratch.write("i.csv", "0,0\n65535,0\n0,65535\n");
-    let run = scratch.run("triangulate i.csv -o m.ele --json").ok();
-    assert_eq!(report(&run.stdout)["quantisation"], Value::Null);
+    let sets = [
+        ("0,0\n-65536,0\n0,65535\n", "whole", 17),
+        ("0,0\n4294967295,0\n0,7\n", "whole", 32),
+        ("0,0\n4294967296,0\n0,7\n", "whole", 33),
+        ("9223372036854775807,0\n-9223372036854775808,1\n0,7\n", "whole", 64),
+        ("-101.473911,0\n1,0.1\n0,7\n", "decimal", 27),
+    ];
+    for (points, kind, bits) in sets {
+        scratch.write("i.csv", points);
+        let run = scratch.run("triangulate i.csv -o m.ele --json").ok();
+        let report = report(&run.stdout);
+        assert_eq!((&report["lattice"]["kind"], &report["lattice"]["bits"]), (&kind.into(), &bits.into()), "{points}");
+        assert_eq!((&report["quantisation"], &report["triangles"]), (&Value::Null, &1.into()), "{points}");
+        scratch.run("verify i.csv m.ele").ok();
+    }
 
     scratch.write("f.csv", "-1.5,0\n1.5,0\n0,1\n0,0.5\n");
     let run = scratch.run("triangulate f.csv -o f.obj --json").ok();
-    let quantisation = &report(&run.stdout)["quantisation"];
-    assert_eq!(quantisation["scale"], 65535.0 / 3.0);
-    assert_eq!(quantisation["offset"], serde_json::json!([-1.5, 0.0]));
-    assert_eq!(quantisation["merged"], 0);
+    let lattice = serde_json::json!({ "kind": "decimal", "scale": 0.1, "offset": [-1.5, 0.0], "bits": 5 });
+    assert_eq!(report(&run.stdout)["lattice"], lattice);
     // The mesh has the coordinates of the file.
     assert!(scratch.read("f.obj").starts_with("v -1.5 0 0\nv 1.5 0 0\nv 0 1 0\nv 0 0.5 0\nf "));
     scratch.run("verify f.csv f.obj").ok();
@@ -124,26 +136,40 @@ fn integers_are_untouched_and_fractions_are_fitted() {
 fn quantisation_can_be_asked_for() {
     let scratch = Scratch::new();
     scratch.write("p.csv", "-70000,0\n70000,0\n0,140000\n3,5\n");
-    scratch.run("triangulate p.csv -o m.ele").fails(3, &["row 1, column 1", "-70000", "--quantize fit"]);
     let run = scratch.run("triangulate p.csv -o m.ele --quantize fit --json").ok();
-    assert_eq!(report(&run.stdout)["quantisation"]["scale"], 65535.0 / 140_000.0);
+    assert_eq!(report(&run.stdout)["quantisation"]["scale"], 2_147_483_647.0 / 140_000.0);
     scratch.run("verify p.csv m.ele --quantize fit").ok();
+    let run = scratch.run("triangulate p.csv -o m.ele --quantize fit --coord-bits 16 --json").ok();
+    let about = report(&run.stdout);
+    assert_eq!(about["quantisation"]["scale"], 65535.0 / 140_000.0);
+    assert_eq!((&about["lattice"]["kind"], &about["lattice"]["bits"]), (&"quantized".into(), &16.into()));
+    scratch.run("verify p.csv m.ele --quantize fit --coord-bits 16").ok();
     scratch.run("triangulate p.csv -o m.ele --quantize 0.25,-70000,0").ok();
     scratch.run("verify p.csv m.ele --quantize 0.25,-70000,0").ok();
-    scratch.run("triangulate p.csv -o m.ele --quantize 1,-70000,0").fails(3, &["row 2, column 1", "140000"]);
+    scratch
+        .run("triangulate p.csv -o m.ele --quantize 1,-70000,0 --coord-bits 16")
+        .fails(3, &["row 2, column 1", "140000"]);
 }
 
 #[test]
-fn coordinate_bits_bound_the_grid() {
+fn coordinate_bits_bound_what_a_back_end_takes() {
     let scratch = Scratch::new();
     scratch.write("p.csv", "0,0\n2147483647,0\n0,2147483647\n2147483646,2147483646\n");
-    scratch.run("triangulate p.csv -o m.ele").fails(3, &["row 2, column 1", "2147483647", "65535", "--coord-bits 31"]);
-    scratch.run("triangulate p.csv -o m.ele --coord-bits 31").ok();
-    scratch.run("verify p.csv m.ele --coord-bits 31").ok();
-    scratch.write("small.csv", "0,0\n255,0\n0,256\n");
-    scratch
-        .run("triangulate small.csv -o s.ele --coord-bits 8")
-        .fails(3, &["row 3, column 2", "256", "--coord-bits 9"]);
+    scratch.run("triangulate p.csv -o m.ele").ok();
+    scratch.run("triangulate p.csv -o model.ele --backend model").ok();
+    assert_eq!(scratch.read("m.ele"), scratch.read("model.ele"));
+    let both_ways_out = ["--backend cpu", "--quantize fit"];
+    let run = scratch.run("triangulate p.csv -o c.ele --backend clock");
+    run.fails(3, &["p.csv: ", "31 bits", "16 bits", "clock", both_ways_out[0], both_ways_out[1]]);
+    scratch.write("wide.csv", "0,0\n2147483648,0\n0,7\n");
+    scratch.run("triangulate wide.csv -o c.ele --backend model").fails(3, &["32 bits", "31 bits", both_ways_out[0]]);
+    scratch.write("doubles.csv", "0,0\n0.12345678901234567,0\n0,7\n");
+    let run = scratch.run("triangulate doubles.csv -o c.ele --backend model");
+    run.fails(3, &["no lattice", both_ways_out[0], both_ways_out[1]]);
+    for command in ["triangulate p.csv -o c.ele", "verify p.csv m.ele"] {
+        scratch.run(&format!("{command} --coord-bits 16")).fails(2, &["--coord-bits", "--quantize fit"]);
+    }
+    assert_eq!(scratch.files(), ["doubles.csv", "m.ele", "model.ele", "p.csv", "wide.csv"]);
 }
 
 #[test]
@@ -292,7 +318,7 @@ fn quiet_is_quiet_and_verbose_says_more() {
     let quiet = scratch.run("triangulate p.csv -o m.ele -q").ok();
     assert_eq!((quiet.stdout.as_str(), quiet.stderr.as_str()), ("", ""));
     let plain = scratch.run("triangulate p.csv -o m.ele").ok();
-    assert!(plain.stderr.starts_with("quantised to 16 bits"), "{plain:?}");
+    assert!(plain.stderr.starts_with("lattice: decimals, steps of 1e-1, 4 bits\n"), "{plain:?}");
     let verbose = scratch.run("triangulate p.csv -o m.ele --backend model -v").ok();
     assert!(verbose.stderr.contains("  insertions                   3      1.000 per insertion\n"), "{verbose:?}");
     assert!(verbose.stderr.contains("  walk visits"), "{verbose:?}");
@@ -305,10 +331,10 @@ fn one_is_told_in_the_singular() {
     let scratch = Scratch::new();
     scratch.write("p.csv", "0,0\n1,0\n0,1\n");
     let run = scratch.run("triangulate p.csv -o m.ele").ok();
-    assert!(run.stderr.starts_with("3 points, 1 triangle, 3 points on the hull; "), "{run:?}");
+    assert!(run.stderr.contains("\n3 points, 1 triangle, 3 points on the hull; "), "{run:?}");
     scratch.write("p.csv", "7,7\n");
     let run = scratch.run("triangulate p.csv -o m.ele").ok();
-    assert!(run.stderr.starts_with("1 point, 0 triangles, 1 point on the hull; "), "{run:?}");
+    assert!(run.stderr.contains("\n1 point, 0 triangles, 1 point on the hull; "), "{run:?}");
 }
 
 #[cfg(unix)]
@@ -329,9 +355,9 @@ fn file_names_have_no_power_over_the_terminal() {
 fn extreme_values_stay_short_in_messages() {
     let scratch = Scratch::new();
     scratch.write("p.csv", "1e300,0.5\n2e300,0\n1e300,1e300\n");
-    let run = scratch.run("triangulate p.csv -o m.ele").ok();
+    let run = scratch.run("triangulate p.csv -o m.ele --quantize fit").ok();
     assert!(run.stderr.contains("offset (1e300, 0)"), "{run:?}");
     assert!(run.stderr.lines().all(|line| line.len() < 200), "{run:?}");
     scratch.write("p.csv", "0,0\n1e-310,0\n0,0.0\n");
-    scratch.run("triangulate p.csv -o n.ele").fails(3, &["span 1e-310 units"]);
+    scratch.run("triangulate p.csv -o n.ele --quantize fit").fails(3, &["span 1e-310 units"]);
 }

@@ -210,10 +210,10 @@ fn an_interrupt_leaves_a_sentence_and_no_file() {
         (vec!["-INT"], "triangulate - -o m.ele"),
         (vec!["-TERM"], "triangulate - -o m.ele"),
         (vec!["-TERM"], "verify - none.ele"),
-        (vec!["-INT"], "verify big.csv none.ele --coord-bits 31"),
+        (vec!["-INT"], "verify big.csv none.ele"),
         (vec!["-INT"], "generate uniform -n 50000000 --bits 31 -o g.csv"),
-        (vec!["-INT"], "triangulate big.csv -o m.ele --coord-bits 31"),
-        (vec!["-INT", "-TERM"], "triangulate big.csv -o m.ele --coord-bits 31"),
+        (vec!["-INT"], "triangulate big.csv -o m.ele"),
+        (vec!["-INT", "-TERM"], "triangulate big.csv -o m.ele"),
         (vec!["-INT"], "bench uniform -n 16000 --backend clock --contexts 1 --order input"),
     ];
     for (signals, arguments) in runs {

@@ -102,8 +102,9 @@ fn a_batch_and_its_longest_job_take_the_same_clocks() {
 fn the_report_says_the_bits_of_the_grid() {
     let scratch = Scratch::new();
     scratch.write("p.csv", "0,0\n255,0\n0,255\n");
-    let report = compare(&scratch, "--coord-bits 8", "");
-    assert_eq!(report["coord_bits"], 8);
+    let report = compare(&scratch, "--quantize fit --coord-bits 8", "");
+    assert_eq!(report["quantisation"]["coord_bits"], 8);
+    assert_eq!(report["coord_bits"], 16, "the bits of the core");
 }
 
 #[test]
@@ -139,7 +140,7 @@ fn what_no_core_holds_ends_with_seven() {
     scratch.run("generate parabola -n 9 -o p.csv").ok();
     let run = scratch.run("triangulate p.csv -o m.ele --backend sim --config tiny");
     run.fails(7, &["9 distinct points", "tiny", all, "use --config small or --backend model"]);
-    scratch.run("triangulate p.csv -o m.ele --backend sim --coord-bits 17").fails(7, &["16 bits", "17"]);
+    scratch.run("triangulate p.csv -o m.ele --backend sim --quantize fit --coord-bits 17").fails(7, &["16 bits", "17"]);
     assert_eq!(scratch.files(), ["p.csv"]);
 }
 

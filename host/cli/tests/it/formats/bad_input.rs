@@ -17,14 +17,16 @@ fn csv_values_that_are_no_finite_numbers() {
 
 #[test]
 fn values_out_of_range() {
-    refuse("p.csv", "x,y\n0,0\n70000,1\n", &["row 3, column 1", "70000", "65535", "--coord-bits 17"]);
-    refuse("p.csv", "0,0\n\n5,-1\n", &["row 3, column 2", "-1", "--quantize fit"]);
-    refuse("p.csv", "# a\r\n\r\n0,0\r\n\r\n# b\r\n  \r\n5,-1\r\n", &["row 7, column 2"]);
-    refuse("p.csv", "lat,name,lon\n1,a,2\n3,b,99999\n", &["row 3, column 3", "99999"]);
-    refuse("p.csv", "0,0\n1e300,1\n", &["row 2, column 1", "1e300"]);
-    refuse("p.node", "2 2 0 0\n1 0 0\n2 0 65536\n", &["row 3, column 3", "65536"]);
-    refuse("p.obj", "v 0 0 0\nvn 1 1 1\nv -3 0 0\n", &["row 3, column 2", "-3"]);
-    refuse("p.csv", "1e308,0\n-1e308,0.5\n", &["p.csv"]);
+    let beyond = "9223372036854775808";
+    refuse("p.csv", format!("x,y\n0,0\n{beyond},1\n"), &["row 3, column 1", beyond, "64 bits", "9223372036854775807"]);
+    refuse("p.csv", format!("0,0\n\n5,-{beyond}0\n"), &["row 3, column 2", "beyond 64 bits"]);
+    let rows = format!("# a\r\n\r\n0,0\r\n\r\n# b\r\n  \r\n5,{beyond}\r\n");
+    refuse("p.csv", rows, &["row 7, column 2"]);
+    refuse("p.csv", format!("lat,name,lon\n1,a,2\n3,b,{beyond}\n"), &["row 3, column 3", beyond]);
+    refuse("p.node", format!("2 2 0 0\n1 0 0\n2 0 {beyond}\n"), &["row 3, column 3", beyond]);
+    refuse("p.obj", format!("v 0 0 0\nvn 1 1 1\nv {beyond} 0 0\n"), &["row 3, column 2", beyond]);
+    accept("p.csv", "0,0\n1e300,1\n-1e308,0.5\n5e-324,-0\n", 2);
+    accept("p.csv", "-363,0\n70000,1\n5,-1\n", 1);
 }
 
 #[test]
