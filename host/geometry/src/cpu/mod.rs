@@ -35,6 +35,8 @@ mod conquer;
 mod edges;
 mod filtered;
 mod filtered_sites;
+#[cfg(test)]
+mod hostile;
 mod kernel;
 mod leaf;
 mod merge;
