@@ -43,6 +43,8 @@ mod merge;
 #[cfg(test)]
 mod oracle;
 mod parallel;
+#[cfg(test)]
+mod published;
 #[cfg(feature = "std")]
 mod segments;
 mod short;
