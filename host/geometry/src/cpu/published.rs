@@ -85,7 +85,8 @@ fn reported_points_have_the_mesh_of_the_definition() {
 }
 
 /// The grid of L. Kettner, K. Mehlhorn, S. Pion, S. Schirra and C. Yap, "Classroom examples of robustness problems in
-/// geometric computations", 2008: a point moves in units in the last place around (0.5, 0.5), beside (12, 12) and (24, 24).
+/// geometric computations", 2008: a point moves in units in the last place from (0.5, 0.5) on, beside (12, 12) and
+/// (24, 24).
 #[test]
 fn the_classroom_grid_has_exact_signs_and_meshes() {
     let at = |steps: u32| 0.5 + f64::from(steps) * 2f64.powi(-53);
