@@ -35,12 +35,16 @@ mod conquer;
 mod edges;
 mod filtered;
 mod filtered_sites;
+#[cfg(test)]
+mod hostile;
 mod kernel;
 mod leaf;
 mod merge;
 #[cfg(test)]
 mod oracle;
 mod parallel;
+#[cfg(test)]
+mod published;
 #[cfg(feature = "std")]
 mod segments;
 mod short;

@@ -1,0 +1,105 @@
+//! Published inputs on which triangulators with rounded predicates fail. Each test cites its source.
+
+use std::cmp::Ordering;
+use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
+
+use incircle_testkit::{delaunay_of_doubles, hull_of_doubles, orient2d_of_doubles};
+
+use super::triangulator::{connect, triangulate};
+use crate::double::orient2d;
+use crate::plane_point::PlanePoint;
+
+/// The most points for which the slow definition is compared.
+const FEW: usize = 20;
+
+fn check(name: &str, points: &[[f64; 2]]) {
+    let mesh = triangulate(points.to_vec(), NonZeroUsize::MIN, &mut |_| ControlFlow::Continue(())).expect("a mesh");
+    mesh.verify().unwrap_or_else(|error| panic!("{name}: {error}"));
+    let numbers = <[f64; 2]>::numbers(points);
+    let found = connect(&numbers, NonZeroUsize::MIN, &mut |_| ControlFlow::Continue(())).expect("finite coordinates");
+    assert!((&found.triangles, &found.hull) == (&mesh.triangles, &mesh.hull), "{name}");
+    if points.len() <= FEW {
+        assert_eq!(mesh.triangles, delaunay_of_doubles(points), "{name}");
+        assert_eq!(mesh.hull, hull_of_doubles(points), "{name}");
+    }
+}
+
+/// The pairs of numbers of a JSON list of points.
+fn pairs(json: &str) -> Vec<[f64; 2]> {
+    let is_separator = |c: char| c.is_whitespace() || "[],".contains(c);
+    let words = json.split(is_separator).filter(|word| !word.is_empty());
+    let values: Vec<f64> = words.map(|word| word.parse().expect("a number")).collect();
+    values.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect()
+}
+
+/// The fixtures of delaunator; `testbench/data/README.md` names their source and licence.
+#[test]
+fn fixtures_of_delaunator_have_the_canonical_mesh() {
+    macro_rules! fixture {
+        ($name:literal, $points:literal) => {
+            let points = pairs(include_str!(concat!("../../../../testbench/data/delaunator/", $name, ".json")));
+            assert_eq!(points.len(), $points, $name);
+            check($name, &points);
+        };
+    }
+    fixture!("robustness1", 79);
+    fixture!("robustness2", 1000);
+    fixture!("robustness3", 70);
+    fixture!("robustness4", 36);
+    fixture!("issue13", 17);
+    fixture!("issue43", 5);
+}
+
+/// Coordinates from the reports 94 of mapbox/delaunator, 109 of Stoeoef/spade and 8 of ironwallaby/delaunay on GitHub.
+#[test]
+fn reported_points_have_the_mesh_of_the_definition() {
+    let near_duplicates = [
+        [0.0, 0.0],
+        [0.05626429153399996, 0.0],
+        [0.024093852080076722, 4.80267923973791e-18],
+        [0.01379050745122589, 0.1463775332929564],
+        [0.05177587092034522, 0.015468457826306506],
+        [0.024093852080076705, -5.204170927430921e-18],
+    ];
+    check("delaunator 94", &near_duplicates);
+    let contacts: [[f32; 2]; 8] = [
+        [17.064112, -17.96008],
+        [16.249594, -17.145563],
+        [-25.290726, -24.435482],
+        [-5.6608872, -24.435482],
+        [17.878626, -18.774595],
+        [15.435078, -16.331045],
+        [16.331045, -21.951208],
+        [-3.29879, -24.435482],
+    ];
+    check("spade 109", &contacts.map(|point| point.map(f64::from)));
+    let degrees = [
+        [50.726723, 7.057675],
+        [50.726886, 7.056291],
+        [50.727253, 7.05776],
+        [50.727518, 7.056366],
+        [50.727885, 7.057632],
+    ];
+    check("ironwallaby 8", &degrees);
+}
+
+/// The grid of L. Kettner, K. Mehlhorn, S. Pion, S. Schirra and C. Yap, "Classroom examples of robustness problems in
+/// geometric computations", 2008: a point moves in units in the last place from (0.5, 0.5) on, beside (12, 12) and
+/// (24, 24).
+#[test]
+fn the_classroom_grid_has_exact_signs_and_meshes() {
+    let at = |steps: u32| 0.5 + f64::from(steps) * 2f64.powi(-53);
+    let mut on_line = 0;
+    for (i, j) in (0..256).flat_map(|i| (0..256).map(move |j| (i, j))) {
+        let p = [at(i), at(j)];
+        let side = orient2d(p, [12.0; 2], [24.0; 2]);
+        assert_eq!(side, orient2d_of_doubles(p, [12.0; 2], [24.0; 2]), "{p:?}");
+        on_line += usize::from(side == Ordering::Equal);
+        if i % 16 == 0 && j % 16 < 2 {
+            check("classroom", &[p, [12.0; 2], [24.0; 2], [at(j), at(i)], [at(0), at(1)]]);
+        }
+    }
+    // All 65,536 places are doubles, and those with i = j lie on the line.
+    assert_eq!(on_line, 256);
+}
