@@ -42,6 +42,26 @@
 //! # Ok::<(), incircle::Error>(())
 //! ```
 //!
+//! # Many small sets
+//!
+//! A [`Triangulator`] computes one small set after the other on the calling thread. The triangulator and the mesh keep
+//! their memory, so a set that has no more points than an earlier one allocates nothing.
+//!
+//! ```
+//! use incircle::{Mesh, Point, Triangulator};
+//!
+//! let mut points: Vec<Point> = (0..200).map(|k| Point::new(k * k % 83, k * 7 % 89)).collect();
+//! let (mut triangulator, mut mesh) = (Triangulator::new(), Mesh::default());
+//! for step in 0..3 {
+//!     for point in &mut points {
+//!         point.x += step * point.y;
+//!     }
+//!     triangulator.triangulate_into(&points, &mut mesh)?;
+//!     assert_eq!(mesh, incircle::triangulate(&points)?);
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! # With a device
 //!
 //! Open a [`Device`] when you want hardware, a model of it, another number of threads, or figures about the job. A
@@ -70,7 +90,8 @@
 //! | floating-point values that a device is to take | [`quantize()`] first; its report says what rounding did |
 //! | a board, a card or a model | [`Device::open`] with an address from [`DeviceAddress`], then [`Device::session`] |
 //! | a time limit, a progress bar, a cancel button | [`Options`] with [`Session::triangulate_with`] |
-//! | many small sets | [`Session::triangulate_batch`]: a device works on them side by side |
+//! | small sets one after the other, such as points that move | [`Triangulator`], which keeps its memory |
+//! | many small sets at once | [`Session::triangulate_batch`]: a device works on them side by side |
 //! | a `Vec` of points that you can hand over | [`Session::triangulate_owned`], which does not copy it |
 //! | a mesh from elsewhere, to check | [`verify()`] |
 //! | a simulator or a link of your own | [`Transport`] with [`Device::from_transport`] |
@@ -98,6 +119,7 @@ pub mod transports;
 
 pub use device::{Device, DeviceAddress, Session};
 pub use error::{DeviceFault, Error, ErrorKind, Shown, TransportError};
+pub use incircle_geometry::cpu::{Error as TriangulatorError, Triangulator};
 pub use incircle_geometry::lattice::{Lattice, Step};
 pub use incircle_geometry::verify::{self, verify, VerifyError, VerifySummary};
 pub use incircle_geometry::{double, orient2d, predicate, Duplicate, Mesh, Order, PlanePoint, Point};
