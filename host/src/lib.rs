@@ -107,6 +107,10 @@
 //!
 //! No set of points and no faulty device makes a call panic: every failure is an [`Error`], whose [`ErrorKind`] says
 //! whose fault it is. Only the predicates of integers, called by themselves, need coordinates below 2^31.
+//!
+//! # Features
+//!
+//! - `geo-types`, off by default: [`triangulate`] and sessions also take points and coordinates of `geo-types` 0.7.
 #![warn(missing_docs)]
 
 mod commands;
@@ -141,8 +145,9 @@ pub mod order {
 /// Triangulates a set of points with the CPU triangulator, on all processors if the set is large.
 ///
 /// Points may be [`Point`]s, or pairs and arrays of `u32`, `i32`, `i64`, `f32` or `f64`: [`PlanePoint`] lists all
-/// types. Each coordinate is taken as the exact number that it is. For another number of threads, a time limit or
-/// progress, open a [`Device`] instead. O(n) on even sets, O(n w) at worst with coordinates of `w` bits.
+/// types, among them those of the crate `glam` and, with the feature `geo-types`, of that crate. Each coordinate is
+/// taken as the exact number that it is. For another number of threads, a time limit or progress, open a [`Device`]
+/// instead. O(n) on even sets, O(n w) at worst with coordinates of `w` bits.
 ///
 /// ```
 /// let mesh = incircle::triangulate(&[(0, 0), (9, 0), (3, 5), (9, 9)])?;
