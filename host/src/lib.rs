@@ -42,6 +42,26 @@
 //! # Ok::<(), incircle::Error>(())
 //! ```
 //!
+//! # Many small sets
+//!
+//! A [`Triangulator`] computes one small set after the other on the calling thread. The triangulator and the mesh keep
+//! their memory, so a set that has no more points than an earlier one allocates nothing.
+//!
+//! ```
+//! use incircle::{Mesh, Point, Triangulator};
+//!
+//! let mut points: Vec<Point> = (0..200).map(|k| Point::new(k * k % 83, k * 7 % 89)).collect();
+//! let (mut triangulator, mut mesh) = (Triangulator::new(), Mesh::default());
+//! for step in 0..3 {
+//!     for point in &mut points {
+//!         point.x += step * point.y;
+//!     }
+//!     triangulator.triangulate_into(&points, &mut mesh)?;
+//!     assert_eq!(mesh, incircle::triangulate(&points)?);
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! # With a device
 //!
 //! Open a [`Device`] when you want hardware, a model of it, another number of threads, or figures about the job. A
@@ -70,7 +90,8 @@
 //! | floating-point values that a device is to take | [`quantize()`] first; its report says what rounding did |
 //! | a board, a card or a model | [`Device::open`] with an address from [`DeviceAddress`], then [`Device::session`] |
 //! | a time limit, a progress bar, a cancel button | [`Options`] with [`Session::triangulate_with`] |
-//! | many small sets | [`Session::triangulate_batch`]: a device works on them side by side |
+//! | small sets one after the other, such as points that move | [`Triangulator`], which keeps its memory |
+//! | many small sets at once | [`Session::triangulate_batch`]: a device works on them side by side |
 //! | a `Vec` of points that you can hand over | [`Session::triangulate_owned`], which does not copy it |
 //! | a mesh from elsewhere, to check | [`verify()`] |
 //! | a simulator or a link of your own | [`Transport`] with [`Device::from_transport`] |
@@ -86,6 +107,10 @@
 //!
 //! No set of points and no faulty device makes a call panic: every failure is an [`Error`], whose [`ErrorKind`] says
 //! whose fault it is. Only the predicates of integers, called by themselves, need coordinates below 2^31.
+//!
+//! # Features
+//!
+//! - `geo-types`, off by default: [`triangulate`] and sessions also take points and coordinates of `geo-types` 0.7.
 #![warn(missing_docs)]
 
 mod commands;
@@ -98,6 +123,7 @@ pub mod transports;
 
 pub use device::{Device, DeviceAddress, Session};
 pub use error::{DeviceFault, Error, ErrorKind, Shown, TransportError};
+pub use incircle_geometry::cpu::{Error as TriangulatorError, Triangulator};
 pub use incircle_geometry::lattice::{Lattice, Step};
 pub use incircle_geometry::verify::{self, verify, VerifyError, VerifySummary};
 pub use incircle_geometry::{double, orient2d, predicate, Duplicate, Mesh, Order, PlanePoint, Point};
@@ -119,8 +145,9 @@ pub mod order {
 /// Triangulates a set of points with the CPU triangulator, on all processors if the set is large.
 ///
 /// Points may be [`Point`]s, or pairs and arrays of `u32`, `i32`, `i64`, `f32` or `f64`: [`PlanePoint`] lists all
-/// types. Each coordinate is taken as the exact number that it is. For another number of threads, a time limit or
-/// progress, open a [`Device`] instead. O(n) on even sets, O(n w) at worst with coordinates of `w` bits.
+/// types, among them those of the crate `glam` and, with the feature `geo-types`, of that crate. Each coordinate is
+/// taken as the exact number that it is. For another number of threads, a time limit or progress, open a [`Device`]
+/// instead. O(n) on even sets, O(n w) at worst with coordinates of `w` bits.
 ///
 /// ```
 /// let mesh = incircle::triangulate(&[(0, 0), (9, 0), (3, 5), (9, 9)])?;

@@ -35,6 +35,7 @@
 //! - `std`, on by default: threads, and large pages on Linux. Without this feature the crate needs only `alloc`, and
 //!   the CPU triangulator works on one thread.
 //! - `glam`: conversions between [`Point`] and `glam::UVec2`, and vectors of `glam` as points.
+//! - `geo-types`: points and coordinates of `geo-types` 0.7 as points.
 #![cfg_attr(not(any(feature = "std", test)), no_std)]
 #![warn(missing_docs)]
 

@@ -16,8 +16,9 @@ mod sealed {
 /// the binary numbers that they hold. If the points have a [`Lattice`](crate::lattice::Lattice), the triangulation
 /// computes in its integers, else in the numbers as they were given.
 ///
-/// Implemented for `[T; 2]` and `(T, T)` with these `T`, for [`Point`], and with the feature `glam` for `UVec2`,
-/// `IVec2`, `I64Vec2`, `Vec2` and `DVec2`. The trait is sealed.
+/// Implemented for `[T; 2]` and `(T, T)` with these `T`, and for [`Point`]. With the feature `glam` also for `UVec2`,
+/// `IVec2`, `I64Vec2`, `Vec2` and `DVec2` of that crate, and with the feature `geo-types` for `Point<T>` and `Coord<T>`
+/// of that crate with these `T`. The trait is sealed.
 pub trait PlanePoint: Copy + sealed::Sealed {
     /// The points in the numbers that they are made of.
     fn numbers(points: &[Self]) -> Numbers<'_>;
@@ -78,4 +79,18 @@ plane_points! {
     Whole: glam::I64Vec2, v => [v.x, v.y];
     Doubles: glam::Vec2, v => [v.x.into(), v.y.into()];
     Doubles: glam::DVec2, v => [v.x, v.y];
+}
+
+#[cfg(feature = "geo-types")]
+plane_points! {
+    Grid: geo_types::Coord<u32>, v => Point::new(v.x, v.y);
+    Grid: geo_types::Point<u32>, v => Point::new(v.x(), v.y());
+    Whole: geo_types::Coord<i32>, v => [v.x.into(), v.y.into()];
+    Whole: geo_types::Point<i32>, v => [v.x().into(), v.y().into()];
+    Whole: geo_types::Coord<i64>, v => [v.x, v.y];
+    Whole: geo_types::Point<i64>, v => [v.x(), v.y()];
+    Doubles: geo_types::Coord<f32>, v => [v.x.into(), v.y.into()];
+    Doubles: geo_types::Point<f32>, v => [v.x().into(), v.y().into()];
+    Doubles: geo_types::Coord<f64>, v => [v.x, v.y];
+    Doubles: geo_types::Point<f64>, v => [v.x(), v.y()];
 }

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::time::Duration;
 
 use crate::common::{by, by_model, Random};
-use incircle::{Device, Error, ErrorKind, Options, Point, Solution, Stage};
+use incircle::{Device, Error, ErrorKind, Mesh, Options, Point, Solution, Stage, Triangulator, TriangulatorError};
 
 /// Largest coordinate.
 const MAX: u32 = (1 << 31) - 1;
@@ -26,6 +26,18 @@ fn small_sets_of_every_shape_are_the_models() {
             (0..count).map(|_| Point::new(random.below(wide) * step, random.below(high) * step)).collect();
         same(&by("cpu", &points), &by_model(&points));
     }
+}
+
+#[test]
+fn a_triangulator_that_is_used_again_makes_the_models_meshes() -> Result<(), TriangulatorError> {
+    let mut random = Random(26);
+    let (mut triangulator, mut mesh) = (Triangulator::new(), Mesh::default());
+    for count in [0, 200, 3, 40, 1, 90] {
+        let points: Vec<Point> = (0..count).map(|_| Point::new(random.below(30), random.below(MAX))).collect();
+        triangulator.triangulate_into(&points, &mut mesh)?;
+        assert!(mesh == by_model(&points).mesh, "the meshes of {count} points differ");
+    }
+    Ok(())
 }
 
 #[test]

@@ -1,7 +1,10 @@
 //! Points in all numbers that people have: each type is triangulated exactly as it is, on the back ends
 //! that can hold it.
 
-use incircle::{Device, Error, ErrorKind, Options, Point, Step};
+use std::fmt::Debug;
+
+use geo_types::Coord;
+use incircle::{Device, Error, ErrorKind, Options, PlanePoint, Point, Step};
 use incircle_testkit::{delaunay_of_doubles, SplitMix64};
 
 #[test]
@@ -28,6 +31,41 @@ fn all_types_of_points_at_the_same_places_have_one_mesh() {
         raw.map(|[x, y]| glam::IVec2::new(x as i32 - 5, y as i32)),
         raw.map(|[x, y]| glam::Vec2::new(x as f32, y as f32)),
         raw.map(|[x, y]| glam::DVec2::new(f64::from(x), f64::from(y)))
+    );
+}
+
+/// Checks that a type of points has the mesh of the pairs with the same coordinates. `high` is the number beside
+/// `almost_high`, so the two become one if any digit is lost.
+fn has_the_mesh_of_pairs<N: Copy, P: PlanePoint + Debug + PartialEq>(
+    [low, almost_high, high]: [N; 3],
+    point: impl Fn(N, N) -> P,
+) where
+    (N, N): PlanePoint,
+{
+    let pairs = [(low, high), (high, low), (almost_high, low), (high, high), (high, almost_high), (low, almost_high)];
+    let expected = incircle::triangulate(&pairs).expect("a mesh");
+    let points = pairs.map(|(x, y)| point(x, y));
+    let mesh = incircle::triangulate(&points).expect("a mesh");
+    mesh.verify().expect("the canonical mesh");
+    assert_eq!(mesh.points, points);
+    assert_eq!((mesh.triangles, mesh.hull), (expected.triangles, expected.hull));
+    assert_eq!((mesh.duplicates, expected.duplicates), (vec![], vec![]));
+}
+
+#[test]
+fn types_of_geo_types_are_taken_as_they_are() {
+    macro_rules! compare {
+        ($($numbers:expr),*) => {$(
+            has_the_mesh_of_pairs($numbers, geo_types::Point::new);
+            has_the_mesh_of_pairs($numbers, |x, y| Coord { x, y });
+        )*};
+    }
+    compare!(
+        [0, u32::MAX - 1, u32::MAX],
+        [i32::MIN, i32::MAX - 1, i32::MAX],
+        [i64::MIN, i64::MAX - 1, i64::MAX],
+        [-0.1f32, 0.7f32.next_down(), 0.7],
+        [-0.1f64, 0.7f64.next_down(), 0.7]
     );
 }
 
