@@ -10,8 +10,9 @@ use incircle::{DeviceAddress, Options, Order, ProgressListener, Quantize};
 use incircle_testkit::Distribution;
 
 use crate::failure::{failure_of, Failure};
-use crate::formats::{MeshFormat, PointFormat};
+use crate::formats::{MeshFormat, PointFormat, SetFormat};
 use crate::help;
+use crate::numbers::NumberKind;
 use crate::values::{
     backend_parser, distribution_parser, mhz_from, order_parser, port_from, quantize_from, readable_format_parser,
     seconds_from, threads_from, whole_number,
@@ -261,9 +262,14 @@ pub struct GenerateArguments {
     /// Number of points, up to 536870911
     #[arg(short, value_name = "N", value_parser = whole_number(0, u32::MAX))]
     pub n: u32,
-    /// Bits of a coordinate, 1 to 31
-    #[arg(long, default_value_t = 16, value_parser = whole_number(1, 31))]
-    pub bits: u32,
+    /// Kind of numbers that the coordinates are
+    #[arg(long, value_enum, default_value_t = NumberKind::Whole)]
+    pub numbers: NumberKind,
+    /// Bits of a coordinate in steps, 1 to 31 (default: 16; decimal 28, f32 24)
+    ///
+    /// An f32 has up to 24. A double has no steps, so --bits is refused there.
+    #[arg(long, value_parser = whole_number(1, 31))]
+    pub bits: Option<u32>,
     /// Seed; one seed gives the same points on every machine
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
@@ -272,11 +278,16 @@ pub struct GenerateArguments {
     /// The file has the points in this order. Default: as generated.
     #[arg(long, value_parser = order_parser())]
     pub order: Option<Order>,
-    /// File for the points: .csv, .xyz or .node; '-' is CSV on standard output
+    /// File for the points: .csv, .xyz, .node or .npy; '-' is CSV on standard output
     ///
     /// With --order, a file .svg is a drawing of the order: a line from each point to the next.
     #[arg(short, long, value_name = "POINTS")]
     pub output: PathBuf,
+    /// Point format
+    ///
+    /// Without this option the extension of the file chooses the format.
+    #[arg(long, value_enum)]
+    pub format: Option<SetFormat>,
 }
 
 /// The arguments of `incircle bench`.

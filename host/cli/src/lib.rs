@@ -15,6 +15,7 @@ mod help;
 mod interrupt;
 mod lattice;
 mod number;
+mod numbers;
 mod output;
 mod points;
 mod progress;

@@ -1,54 +1,85 @@
 //! `incircle generate`: writes a point set that is chosen by name.
 
+use std::io::{self, Write};
+
 use incircle::{Order, Point, MAX_POINTS};
 use incircle_testkit::{generate, Distribution, GenerateError};
 
 use crate::arguments::GenerateArguments;
 use crate::failure::{Exit, Failure};
-use crate::formats::{csv, curve, extension, node, xyz, PointFormat};
+use crate::formats::{curve, extension, SetFormat};
+use crate::numbers::doubles::DoubleSet;
+use crate::numbers::{signed, Double, NumberKind, Single, SixDigits};
 use crate::output::{self, Output};
 use crate::source;
 
 /// Makes the set and writes it, as points or as a drawing of an order.
 pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
     let path = arguments.output.as_path();
-    if extension(path) == "svg" {
+    let extension = extension(path);
+    if arguments.format.is_none() && extension == "svg" {
         return draw(arguments);
     }
     // Outputs without an extension, such as standard output or a device, take CSV.
-    let format = match extension(path) {
-        "" => Some(PointFormat::Csv),
-        extension => PointFormat::of_extension(extension),
+    let by_name = if extension.is_empty() { Some(SetFormat::Csv) } else { SetFormat::of_extension(extension) };
+    let Some(format) = arguments.format.or(by_name) else {
+        return Err(Failure::usage(format!(
+            "{}: points are written as .csv, .xyz, .node or .npy, and their --order as .svg",
+            source::name(path)
+        )));
     };
-    let write_points = match format {
-        Some(PointFormat::Csv) => csv::write_points,
-        Some(PointFormat::Xyz) => xyz::write_points,
-        Some(PointFormat::Node) => node::write_points,
-        _ => {
-            return Err(Failure::usage(format!(
-                "{}: points are written as .csv, .xyz or .node, and their --order as .svg",
-                source::name(path)
-            )));
-        }
-    };
+    let bits = arguments.numbers.bits(arguments.bits)?;
     check_count(arguments.n)?;
     let output = Output::prepare(path, None)?;
-    let mut points = make(arguments.distribution, arguments.n, arguments.bits, arguments.seed)?;
+    let mut points = make(arguments.distribution, arguments.n, bits, arguments.seed)?;
     if let Some(order) = arguments.order {
         points = ordered(&points, order);
     }
-    let written = output.write(|out| write_points(&points, out))?;
+    let written = output.write(|out| write(&points, bits, arguments, format, out))?;
     output::finish([written], || Ok(()))
+}
+
+/// Writes points of the grid of `bits` bits in the numbers that the user has chosen.
+fn write(
+    points: &[[u32; 2]],
+    bits: u32,
+    arguments: &GenerateArguments,
+    format: SetFormat,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let points = points.iter().copied();
+    match arguments.numbers {
+        NumberKind::Whole => format.write_points(points, out),
+        NumberKind::Signed => format.write_points(points.map(|point| signed(point, bits)), out),
+        NumberKind::Decimal => format.write_points(points.map(|point| signed(point, bits).map(SixDigits)), out),
+        NumberKind::Double => {
+            let set = DoubleSet::new(arguments.distribution, arguments.seed);
+            format.write_points(points.map(|point| set.place(point).map(Double)), out)
+        }
+        NumberKind::F32 => {
+            let single = |steps| Single::new(steps, bits);
+            format.write_points(points.map(|point| signed(point, bits).map(single)), out)
+        }
+    }
 }
 
 /// Draws an order of insertion instead of writing points.
 fn draw(arguments: &GenerateArguments) -> Result<(), Failure> {
     let Some(order) = arguments.order else {
-        return Err(Failure::usage("an .svg shows an order of the points: add --order, or write .csv, .xyz or .node"));
+        return Err(Failure::usage(
+            "an .svg shows an order of the points: add --order, or write .csv, .xyz, .node or .npy",
+        ));
     };
+    if arguments.numbers != NumberKind::Whole {
+        return Err(Failure::usage(
+            "an .svg shows an order of the points and no numbers: leave --numbers out, or write .csv, .xyz, .node or \
+             .npy",
+        ));
+    }
+    let bits = arguments.numbers.bits(arguments.bits)?;
     check_count(arguments.n)?;
     let output = Output::prepare(&arguments.output, None)?;
-    let points = ordered(&make(arguments.distribution, arguments.n, arguments.bits, arguments.seed)?, order);
+    let points = ordered(&make(arguments.distribution, arguments.n, bits, arguments.seed)?, order);
     let title = format!("{} points, {}, in the order {}", arguments.n, arguments.distribution, order.name());
     let written = output.write(|out| curve::write(&points, &title, out))?;
     output::finish([written], || Ok(()))

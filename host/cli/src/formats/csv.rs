@@ -6,6 +6,7 @@
 //! short row is a lost point. Empty rows and rows that start with `#` are ignored. An empty file is an empty list of
 //! points.
 
+use std::fmt::Display;
 use std::io::{self, Write};
 
 use csv::{ByteRecord, Reader, ReaderBuilder};
@@ -86,7 +87,7 @@ pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
 }
 
 /// Writes points, without a header.
-pub fn write_points(points: &[[u32; 2]], out: &mut dyn Write) -> io::Result<()> {
+pub fn write_points<N: Display>(points: impl Iterator<Item = [N; 2]>, out: &mut dyn Write) -> io::Result<()> {
     for [x, y] in points {
         writeln!(out, "{x},{y}")?;
     }

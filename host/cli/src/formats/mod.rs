@@ -7,8 +7,10 @@ pub mod geojson;
 pub mod json;
 mod mesh_view;
 pub mod node;
+pub mod npy;
 pub mod obj;
 pub mod ply;
+mod set;
 pub mod svg;
 mod triangle;
 pub mod vtk;
@@ -22,6 +24,7 @@ use crate::failure::Failure;
 use crate::points::PointTable;
 
 pub use mesh_view::MeshView;
+pub use set::SetFormat;
 
 /// Formats that points are read from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -5,6 +5,7 @@
 //!
 //! Source: <https://www.cs.cmu.edu/~quake/triangle.node.html>.
 
+use std::fmt::Display;
 use std::io::{self, Write};
 
 use crate::failure::{counted, Failure};
@@ -72,9 +73,9 @@ fn read_point(content: &[u8], row: usize) -> Result<(u32, [&[u8]; 2]), Failure> 
 }
 
 /// Writes points with ids from 0.
-pub fn write_points(points: &[[u32; 2]], out: &mut dyn Write) -> io::Result<()> {
+pub fn write_points<N: Display>(points: impl ExactSizeIterator<Item = [N; 2]>, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "{} 2 0 0", points.len())?;
-    for (id, [x, y]) in points.iter().enumerate() {
+    for (id, [x, y]) in points.enumerate() {
         writeln!(out, "{id} {x} {y}")?;
     }
     Ok(())

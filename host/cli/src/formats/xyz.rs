@@ -3,6 +3,7 @@
 //! The first three numbers are x, y and z. Further numbers, such as a colour, are not read, but every row must have as
 //! many as the first. A first row without numbers is a header. `#` starts a comment; empty rows are ignored.
 
+use std::fmt::Display;
 use std::io::{self, Write};
 
 use crate::failure::{counted, quoted, Failure};
@@ -44,7 +45,7 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
 }
 
 /// Writes points, one per row.
-pub fn write_points(points: &[[u32; 2]], out: &mut dyn Write) -> io::Result<()> {
+pub fn write_points<N: Display>(points: impl Iterator<Item = [N; 2]>, out: &mut dyn Write) -> io::Result<()> {
     for [x, y] in points {
         writeln!(out, "{x} {y}")?;
     }

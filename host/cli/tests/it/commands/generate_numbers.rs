@@ -1,0 +1,203 @@
+//! Tests of `incircle generate --numbers`: the same points in every kind of numbers and every format.
+
+use crate::common::Scratch;
+use incircle_testkit::{generate, Distribution};
+use npyz::{Deserialize, NpyFile};
+use serde_json::{json, Value};
+
+/// The value of an option with which every kind of numbers is made, and the kind of lattice in text.
+const KINDS: [(&str, &str); 5] =
+    [("whole", "whole"), ("signed", "whole"), ("decimal", "decimal"), ("double", "doubles"), ("f32", "binary")];
+
+/// The lattice that `triangulate --json` reports for a file.
+fn lattice_of(scratch: &Scratch, file: &str) -> Value {
+    let run = scratch.run(&format!("triangulate {file} -o {file}.ele --json")).ok();
+    let report: Value = serde_json::from_str(&run.stdout).expect("one object");
+    report["lattice"].clone()
+}
+
+/// The numbers of a text, row by row.
+fn numbers_of(text: &str) -> Vec<f64> {
+    let number = |word: &str| word.parse().expect("a number");
+    text.lines().flat_map(|row| row.split([',', ' ']).map(number)).collect()
+}
+
+/// The values of an array with n rows and two columns, and the name of their type.
+fn values_of<T: Deserialize>(scratch: &Scratch, file: &str, n: u64) -> (Vec<T>, String) {
+    let bytes = std::fs::read(scratch.path(file)).expect("the file is there");
+    let array = NpyFile::new(&bytes[..]).expect("a header");
+    assert_eq!(array.shape(), [n, 2]);
+    let name = array.dtype().descr();
+    (array.into_vec().expect("the values are there"), name)
+}
+
+#[test]
+fn whole_numbers_are_the_default() {
+    let scratch = Scratch::new();
+    for format in ["csv", "xyz", "node"] {
+        scratch.run(&format!("generate normal -n 50 --bits 9 -o p.{format}")).ok();
+        scratch.run(&format!("generate normal -n 50 --bits 9 --numbers whole -o q.{format}")).ok();
+        assert_eq!(scratch.read(&format!("p.{format}")), scratch.read(&format!("q.{format}")));
+    }
+}
+
+#[test]
+fn every_kind_has_its_lattice() {
+    let scratch = Scratch::new();
+    for &distribution in Distribution::all() {
+        for (kind, lattice) in KINDS {
+            for format in ["csv", "xyz", "node"] {
+                let file = format!("{kind}.{format}");
+                scratch.run(&format!("generate {distribution} -n 300 --numbers {kind} -o {file}")).ok();
+                let found = lattice_of(&scratch, &file);
+                assert_eq!(found["kind"], lattice, "{distribution} {file}");
+            }
+        }
+    }
+}
+
+#[test]
+fn steps_are_those_of_the_grid() {
+    let scratch = Scratch::new();
+    // The corners of the lattice are those of the grid.
+    let lattice = |options: &str| {
+        scratch.run(&format!("generate lattice -n 25 {options} -o p.csv")).ok();
+        lattice_of(&scratch, "p.csv")
+    };
+    let whole = |offset: i64| json!({ "kind": "whole", "scale": 1, "offset": [offset, offset], "bits": 9 });
+    assert_eq!(lattice("--bits 9"), whole(0));
+    assert_eq!(lattice("--bits 9 --numbers signed"), whole(-256));
+    let decimal = json!({ "kind": "decimal", "scale": 1e-6, "offset": [-134.217728, -134.217728], "bits": 28 });
+    assert_eq!(lattice("--numbers decimal"), decimal);
+    let binary = lattice("--numbers f32");
+    assert_eq!((&binary["kind"], &binary["offset"]), (&json!("binary"), &json!([-1.0, -1.0])));
+    // Few bits are also few decimals, and those come first.
+    assert_eq!(lattice("--numbers f32 --bits 5")["kind"], "decimal");
+}
+
+#[test]
+fn all_kinds_are_the_same_points() {
+    let scratch = Scratch::new();
+    let points = generate(Distribution::Clusters, 200, 24, 6).expect("the bits are possible");
+    for (kind, text_of) in [
+        ("signed", (|steps| steps.to_string()) as fn(i64) -> String),
+        ("decimal", |steps| {
+            format!("{}{}.{:06}", if steps < 0 { "-" } else { "" }, steps.abs() / 1_000_000, steps.abs() % 1_000_000)
+        }),
+        ("f32", |steps| format!("{:.23}", steps as f64 / f64::from(1 << 23))),
+    ] {
+        scratch.run(&format!("generate clusters -n 200 --bits 24 --seed 6 --numbers {kind} -o p.csv")).ok();
+        let steps = |value: u32| text_of(i64::from(value) - (1 << 23));
+        let expected: String = points.iter().map(|&[x, y]| format!("{},{}\n", steps(x), steps(y))).collect();
+        assert_eq!(scratch.read("p.csv"), expected, "{kind}");
+    }
+}
+
+#[test]
+fn one_seed_gives_the_same_bytes_in_every_order() {
+    let scratch = Scratch::new();
+    for (kind, _) in KINDS {
+        for format in ["csv", "npy"] {
+            let bytes = |options: &str| {
+                scratch.run(&format!("generate uniform -n 99 --numbers {kind} {options} -o p.{format}")).ok();
+                std::fs::read(scratch.path(&format!("p.{format}"))).expect("the file is there")
+            };
+            assert_eq!(bytes("--seed 8"), bytes("--seed 8"), "{kind}");
+            assert_ne!(bytes("--seed 8"), bytes("--seed 9"), "{kind}");
+        }
+        let rows = |options: &str| {
+            let run = scratch.run(&format!("generate uniform -n 99 --numbers {kind} {options} -o -")).ok();
+            let mut rows: Vec<String> = run.stdout.lines().map(str::to_owned).collect();
+            rows.sort();
+            rows
+        };
+        assert_eq!(rows(""), rows("--order hilbert"), "{kind}");
+    }
+}
+
+#[test]
+fn doubles_are_known_and_take_all_their_bits() {
+    let scratch = Scratch::new();
+    let run = scratch.run("generate uniform -n 2000 --numbers double --seed 1234567 -o -").ok();
+    assert_eq!(run.stdout.lines().next(), Some("-0.2998409163457431,-0.6527118062207219"));
+    let numbers = numbers_of(&run.stdout);
+    assert!(numbers.iter().all(|number| (-1.0..=1.0).contains(number)));
+    // The last bit of a mantissa is 0 or 1 with equal chance.
+    let odd = numbers.iter().filter(|number| number.to_bits() % 2 == 1).count();
+    assert!((1800..2200).contains(&odd), "{odd}");
+}
+
+#[test]
+fn lattices_keep_their_ties() {
+    let scratch = Scratch::new();
+    // The rounded columns and rows cross in rectangles, and the corners of a rectangle are on one circle.
+    for kind in ["whole", "signed", "decimal", "double", "f32"] {
+        scratch.run(&format!("generate lattice -n 400 --order input --numbers {kind} -o p.csv")).ok();
+        scratch.run("triangulate p.csv -o m.ele").ok();
+        scratch.run("verify p.csv m.ele").ok();
+        let mesh = scratch.read("m.ele");
+        assert_eq!(mesh.lines().next(), Some("722 3 0"), "{kind}");
+    }
+}
+
+#[test]
+fn arrays_hold_the_numbers_of_the_text() {
+    let scratch = Scratch::new();
+    for (kind, _) in KINDS {
+        scratch.run(&format!("generate kuzmin -n 300 --numbers {kind} -o p.csv")).ok();
+        scratch.run(&format!("generate kuzmin -n 300 --numbers {kind} -o p.npy")).ok();
+        let doubles = |values: Vec<f64>, name: String| (values, name);
+        let (values, name) = match kind {
+            "whole" => {
+                let (values, name) = values_of::<u32>(&scratch, "p.npy", 300);
+                doubles(values.into_iter().map(f64::from).collect(), name)
+            }
+            "signed" => {
+                let (values, name) = values_of::<i32>(&scratch, "p.npy", 300);
+                doubles(values.into_iter().map(f64::from).collect(), name)
+            }
+            "f32" => {
+                let (values, name) = values_of::<f32>(&scratch, "p.npy", 300);
+                doubles(values.into_iter().map(f64::from).collect(), name)
+            }
+            _ => values_of::<f64>(&scratch, "p.npy", 300),
+        };
+        assert_eq!(values, numbers_of(&scratch.read("p.csv")), "{kind}");
+        let expected = match kind {
+            "whole" => "'<u4'",
+            "signed" => "'<i4'",
+            "f32" => "'<f4'",
+            _ => "'<f8'",
+        };
+        assert_eq!(name, expected, "{kind}");
+    }
+}
+
+#[test]
+fn the_format_is_chosen_by_name_or_extension() {
+    let scratch = Scratch::new();
+    for format in ["csv", "xyz", "node", "npy"] {
+        scratch.run(&format!("generate box -n 40 -o by.{format}")).ok();
+        scratch.run(&format!("generate box -n 40 --format {format} -o by-name")).ok();
+        let bytes = |name: &str| std::fs::read(scratch.path(name)).expect("the file is there");
+        assert_eq!(bytes(&format!("by.{format}")), bytes("by-name"), "{format}");
+    }
+    scratch.run("generate uniform -n 0 --numbers double -o p.npy").ok();
+    assert!(values_of::<f64>(&scratch, "p.npy", 0).0.is_empty());
+    assert_eq!(scratch.run("generate uniform -n 3 --format svg -o p").code, Some(2));
+}
+
+#[test]
+fn combinations_without_meaning_are_refused() {
+    let scratch = Scratch::new();
+    for (call, parts) in [
+        ("--numbers double --bits 16 -o p.csv", ["--bits 16", "no steps"]),
+        ("--numbers f32 --bits 25 -o p.npy", ["--bits 25", "24 bits of an f32"]),
+        ("--numbers decimal --order hilbert -o p.svg", ["--numbers", ".npy"]),
+        ("--numbers double -o p.obj", ["p.obj", ".npy"]),
+    ] {
+        scratch.run(&format!("generate uniform -n 5 {call}")).fails(2, &parts);
+    }
+    assert_eq!(scratch.run("generate uniform -n 5 --numbers complex -o p.csv").code, Some(2));
+    assert!(scratch.files().is_empty());
+}
