@@ -265,10 +265,11 @@ pub struct GenerateArguments {
     /// Kind of numbers that the coordinates are
     #[arg(long, value_enum, default_value_t = NumberKind::Whole)]
     pub numbers: NumberKind,
-    /// Bits of a coordinate in steps, 1 to 31 (default: 16; decimal 28, f32 24)
+    /// Bits of a coordinate, counted in steps, 1 to 31 (default: 16; for decimal 28, for f32 24)
     ///
-    /// An f32 has up to 24. A double has no steps, so --bits is refused there.
-    #[arg(long, value_parser = whole_number(1, 31))]
+    /// The numbers of f32 have up to 24 bits. Doubles have no steps, so --numbers double refuses
+    /// --bits.
+    #[arg(long, value_parser = whole_number(1, 31), verbatim_doc_comment)]
     pub bits: Option<u32>,
     /// Seed; one seed gives the same points on every machine
     #[arg(long, default_value_t = 1)]

@@ -65,6 +65,8 @@ pub const GENERATE_LONG: &str = "\
 Examples:
   incircle generate kuzmin -n 1000 -o points.csv
   incircle generate uniform -n 1000000 --bits 20 --seed 7 -o points.node
+  incircle generate clusters -n 1000 --numbers decimal -o points.csv
+  incircle generate uniform -n 1000000 --numbers double -o points.npy
   incircle generate lattice -n 256 --order hilbert -o order.svg";
 
 /// End of `incircle bench -h`.

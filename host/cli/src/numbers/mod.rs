@@ -70,9 +70,8 @@ pub struct SixDigits(pub i32);
 impl fmt::Display for SixDigits {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let steps = self.0.unsigned_abs();
-        let sign = if self.0 < 0 { "-" } else { "" };
         let (whole, fraction) = (steps / STEPS_OF_DECIMALS, steps % STEPS_OF_DECIMALS);
-        write!(f, "{sign}{whole}.{fraction:0DECIMAL_DIGITS$}")
+        write_digits(f, self.0 < 0, whole, fraction.into(), DECIMAL_DIGITS)
     }
 }
 
@@ -82,6 +81,21 @@ impl Stored for SixDigits {
     /// The double that is nearest to the decimal. Both operands are exact, so the quotient is rounded once.
     fn stored(self) -> f64 {
         f64::from(self.0) / f64::from(STEPS_OF_DECIMALS)
+    }
+}
+
+/// Writes a decimal with so many digits behind the point, and without a point if there are none.
+fn write_digits(
+    f: &mut fmt::Formatter<'_>,
+    is_negative: bool,
+    whole: u32,
+    fraction: u128,
+    digits: usize,
+) -> fmt::Result {
+    let sign = if is_negative { "-" } else { "" };
+    match digits {
+        0 => write!(f, "{sign}{whole}"),
+        _ => write!(f, "{sign}{whole}.{fraction:0digits$}"),
     }
 }
 
@@ -104,33 +118,36 @@ impl Stored for Double {
 }
 
 /// A number that is exactly an f32, written with all its digits.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Single {
-    value: f32,
-    /// Digits behind the point, as many as steps of 2^-digits need.
+    steps: i32,
+    /// The exponent of a step 2^-digits, which is also the number of digits that a step has behind the point.
     digits: u32,
 }
 
 impl Single {
     /// The number of so many steps from the middle of a grid of `bits` bits, at most 24. The grid lies from -1 to 1.
     pub fn new(steps: i32, bits: u32) -> Self {
-        let digits = bits - 1;
-        // Both operands are exact, and the divisor is a power of two, so the quotient is exact.
-        Self { value: steps as f32 / (1u32 << digits) as f32, digits }
+        Self { steps, digits: bits - 1 }
     }
 }
 
 impl fmt::Display for Single {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:.*}", self.digits as usize, self.value)
+        let unit = 1 << self.digits;
+        let steps = self.steps.unsigned_abs();
+        // 2^-digits is 5^digits * 10^-digits.
+        let fraction = u128::from(steps % unit) * 5u128.pow(self.digits);
+        write_digits(f, self.steps < 0, steps / unit, fraction, self.digits as usize)
     }
 }
 
 impl Stored for Single {
     type Value = f32;
 
+    /// Both operands are exact, and the divisor is a power of two, so the quotient is exact.
     fn stored(self) -> f32 {
-        self.value
+        self.steps as f32 / (1u32 << self.digits) as f32
     }
 }
 
