@@ -22,22 +22,32 @@ fn numbers_of(text: &str) -> Vec<f64> {
     text.lines().flat_map(|row| row.split([',', ' ']).map(number)).collect()
 }
 
-/// The values of an array with n rows and two columns, and the name of their type.
-fn values_of<T: Deserialize>(scratch: &Scratch, file: &str, n: u64) -> (Vec<T>, String) {
+/// The values of an array with n rows and two columns as doubles, and the name of their type.
+fn doubles_of<T: Deserialize + Into<f64>>(scratch: &Scratch, file: &str, n: u64) -> (Vec<f64>, String) {
     let bytes = std::fs::read(scratch.path(file)).expect("the file is there");
     let array = NpyFile::new(&bytes[..]).expect("a header");
     assert_eq!(array.shape(), [n, 2]);
     let name = array.dtype().descr();
-    (array.into_vec().expect("the values are there"), name)
+    let values: Vec<T> = array.into_vec().expect("the values are there");
+    (values.into_iter().map(T::into).collect(), name)
 }
 
 #[test]
 fn whole_numbers_are_the_default() {
     let scratch = Scratch::new();
-    for format in ["csv", "xyz", "node"] {
-        scratch.run(&format!("generate normal -n 50 --bits 9 -o p.{format}")).ok();
-        scratch.run(&format!("generate normal -n 50 --bits 9 --numbers whole -o q.{format}")).ok();
-        assert_eq!(scratch.read(&format!("p.{format}")), scratch.read(&format!("q.{format}")));
+    let points = generate(Distribution::Normal, 50, 9, 1).expect("the bits are possible");
+    let rows = |row: &dyn Fn(usize, [u32; 2]) -> String| {
+        points.iter().enumerate().map(|(id, &point)| row(id, point)).collect::<String>()
+    };
+    for (format, expected) in [
+        ("csv", rows(&|_, [x, y]| format!("{x},{y}\n"))),
+        ("xyz", rows(&|_, [x, y]| format!("{x} {y}\n"))),
+        ("node", format!("50 2 0 0\n{}", rows(&|id, [x, y]| format!("{id} {x} {y}\n")))),
+    ] {
+        for options in ["", "--numbers whole"] {
+            scratch.run(&format!("generate normal -n 50 --bits 9 {options} -o p.{format}")).ok();
+            assert_eq!(scratch.read(&format!("p.{format}")), expected, "{format} {options}");
+        }
     }
 }
 
@@ -79,16 +89,18 @@ fn steps_are_those_of_the_grid() {
 fn all_kinds_are_the_same_points() {
     let scratch = Scratch::new();
     let points = generate(Distribution::Clusters, 200, 24, 6).expect("the bits are possible");
-    for (kind, text_of) in [
-        ("signed", (|steps| steps.to_string()) as fn(i64) -> String),
-        ("decimal", |steps| {
-            format!("{}{}.{:06}", if steps < 0 { "-" } else { "" }, steps.abs() / 1_000_000, steps.abs() % 1_000_000)
-        }),
-        ("f32", |steps| format!("{:.23}", steps as f64 / f64::from(1 << 23))),
-    ] {
+    let decimal = |steps: i64| {
+        let sign = if steps < 0 { "-" } else { "" };
+        format!("{sign}{}.{:06}", steps.abs() / 1_000_000, steps.abs() % 1_000_000)
+    };
+    // The standard library writes all digits of a double.
+    let binary = |steps: i64| format!("{:.23}", steps as f64 / f64::from(1 << 23));
+    let texts: [(&str, &dyn Fn(i64) -> String); 3] =
+        [("signed", &|steps| steps.to_string()), ("decimal", &decimal), ("f32", &binary)];
+    for (kind, text_of) in texts {
         scratch.run(&format!("generate clusters -n 200 --bits 24 --seed 6 --numbers {kind} -o p.csv")).ok();
-        let steps = |value: u32| text_of(i64::from(value) - (1 << 23));
-        let expected: String = points.iter().map(|&[x, y]| format!("{},{}\n", steps(x), steps(y))).collect();
+        let text = |value: u32| text_of(i64::from(value) - (1 << 23));
+        let expected: String = points.iter().map(|&[x, y]| format!("{},{}\n", text(x), text(y))).collect();
         assert_eq!(scratch.read("p.csv"), expected, "{kind}");
     }
 }
@@ -127,49 +139,40 @@ fn doubles_are_known_and_take_all_their_bits() {
     assert!((1800..2200).contains(&odd), "{odd}");
 }
 
+/// The rounded columns and rows of doubles cross in rectangles, and the corners of a rectangle are on one circle. So
+/// the tie rule decides every cell, and all kinds have the same mesh.
 #[test]
 fn lattices_keep_their_ties() {
     let scratch = Scratch::new();
-    // The rounded columns and rows cross in rectangles, and the corners of a rectangle are on one circle.
-    for kind in ["whole", "signed", "decimal", "double", "f32"] {
-        scratch.run(&format!("generate lattice -n 400 --order input --numbers {kind} -o p.csv")).ok();
+    let meshes = KINDS.map(|(kind, _)| {
+        scratch.run(&format!("generate lattice -n 400 --numbers {kind} -o p.csv")).ok();
         scratch.run("triangulate p.csv -o m.ele").ok();
         scratch.run("verify p.csv m.ele").ok();
-        let mesh = scratch.read("m.ele");
-        assert_eq!(mesh.lines().next(), Some("722 3 0"), "{kind}");
+        scratch.read("m.ele")
+    });
+    assert_eq!(meshes[0].lines().next(), Some("722 3 0"));
+    for (mesh, (kind, _)) in meshes.iter().zip(KINDS) {
+        assert_eq!(*mesh, meshes[0], "{kind}");
     }
 }
 
 #[test]
 fn arrays_hold_the_numbers_of_the_text() {
     let scratch = Scratch::new();
-    for (kind, _) in KINDS {
+    let array = |kind: &str| {
         scratch.run(&format!("generate kuzmin -n 300 --numbers {kind} -o p.csv")).ok();
         scratch.run(&format!("generate kuzmin -n 300 --numbers {kind} -o p.npy")).ok();
-        let doubles = |values: Vec<f64>, name: String| (values, name);
-        let (values, name) = match kind {
-            "whole" => {
-                let (values, name) = values_of::<u32>(&scratch, "p.npy", 300);
-                doubles(values.into_iter().map(f64::from).collect(), name)
-            }
-            "signed" => {
-                let (values, name) = values_of::<i32>(&scratch, "p.npy", 300);
-                doubles(values.into_iter().map(f64::from).collect(), name)
-            }
-            "f32" => {
-                let (values, name) = values_of::<f32>(&scratch, "p.npy", 300);
-                doubles(values.into_iter().map(f64::from).collect(), name)
-            }
-            _ => values_of::<f64>(&scratch, "p.npy", 300),
-        };
-        assert_eq!(values, numbers_of(&scratch.read("p.csv")), "{kind}");
-        let expected = match kind {
-            "whole" => "'<u4'",
-            "signed" => "'<i4'",
-            "f32" => "'<f4'",
-            _ => "'<f8'",
-        };
-        assert_eq!(name, expected, "{kind}");
+        match kind {
+            "whole" => doubles_of::<u32>(&scratch, "p.npy", 300),
+            "signed" => doubles_of::<i32>(&scratch, "p.npy", 300),
+            "f32" => doubles_of::<f32>(&scratch, "p.npy", 300),
+            _ => doubles_of::<f64>(&scratch, "p.npy", 300),
+        }
+    };
+    for (kind, name) in
+        [("whole", "'<u4'"), ("signed", "'<i4'"), ("decimal", "'<f8'"), ("double", "'<f8'"), ("f32", "'<f4'")]
+    {
+        assert_eq!(array(kind), (numbers_of(&scratch.read("p.csv")), name.to_owned()), "{kind}");
     }
 }
 
@@ -183,7 +186,7 @@ fn the_format_is_chosen_by_name_or_extension() {
         assert_eq!(bytes(&format!("by.{format}")), bytes("by-name"), "{format}");
     }
     scratch.run("generate uniform -n 0 --numbers double -o p.npy").ok();
-    assert!(values_of::<f64>(&scratch, "p.npy", 0).0.is_empty());
+    assert!(doubles_of::<f64>(&scratch, "p.npy", 0).0.is_empty());
     assert_eq!(scratch.run("generate uniform -n 3 --format svg -o p").code, Some(2));
 }
 
