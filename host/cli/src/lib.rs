@@ -12,10 +12,12 @@ mod failure;
 mod fit;
 pub mod formats;
 mod help;
+mod input;
 mod interrupt;
 mod lattice;
 mod number;
 mod output;
+mod path;
 mod points;
 mod progress;
 mod report;
@@ -32,6 +34,7 @@ use clap::Parser;
 
 pub use failure::{Exit, Failure};
 pub use incircle_testkit as generate;
+pub use input::Input;
 pub use number::Coordinate;
 pub use points::{Coordinates, Place, PointTable, Unit};
 

@@ -5,9 +5,9 @@ use incircle_testkit::{generate, Distribution, GenerateError};
 
 use crate::arguments::GenerateArguments;
 use crate::failure::{Exit, Failure};
-use crate::formats::{csv, curve, extension, node, xyz, PointFormat};
+use crate::formats::{csv, curve, node, xyz, PointFormat};
 use crate::output::{self, Output};
-use crate::source;
+use crate::path::{extension, name};
 
 /// Makes the set and writes it, as points or as a drawing of an order.
 pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
@@ -27,7 +27,7 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
         _ => {
             return Err(Failure::usage(format!(
                 "{}: points are written as .csv, .xyz or .node, and their --order as .svg",
-                source::name(path)
+                name(path)
             )));
         }
     };

@@ -23,4 +23,5 @@ mod formats {
     mod bad_structure;
     mod files;
     mod hostile;
+    mod packed;
 }
