@@ -12,11 +12,13 @@ mod failure;
 mod fit;
 pub mod formats;
 mod help;
+mod input;
 mod interrupt;
 mod lattice;
 mod number;
 mod numbers;
 mod output;
+mod path;
 mod points;
 mod progress;
 mod report;
@@ -33,6 +35,7 @@ use clap::Parser;
 
 pub use failure::{Exit, Failure};
 pub use incircle_testkit as generate;
+pub use input::Input;
 pub use number::Coordinate;
 pub use points::{Coordinates, Place, PointTable, Unit};
 

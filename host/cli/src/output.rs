@@ -7,9 +7,11 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
+use flate2::write::GzEncoder;
+
 use crate::failure::Failure;
 use crate::interrupt;
-use crate::source::{self, is_standard};
+use crate::path::{self, is_standard, Compression};
 
 /// The destination of an output.
 #[derive(Debug)]
@@ -24,6 +26,8 @@ enum Target {
 #[derive(Debug)]
 pub struct Output {
     target: Target,
+    /// How the bytes are packed.
+    compression: Compression,
     name: String,
 }
 
@@ -41,9 +45,13 @@ impl Output {
     /// file must be writable.
     pub fn prepare(path: &Path, input: Option<&Path>) -> Result<Self, Failure> {
         if is_standard(path) {
-            return Ok(Self { target: Target::Standard, name: "standard output".to_owned() });
+            return Ok(Self {
+                target: Target::Standard,
+                compression: Compression::None,
+                name: "standard output".to_owned(),
+            });
         }
-        let name = source::name(path);
+        let name = path::name(path);
         if input.is_some_and(|input| is_same(input, path)) {
             return Err(Failure::usage(format!("{name} is both the input and the output: choose another output")));
         }
@@ -69,7 +77,7 @@ impl Output {
             }
             Err(error) => return Err(cannot_write(&name, &error)),
         };
-        Ok(Self { target, name })
+        Ok(Self { target, compression: Compression::of(path), name })
     }
 
     /// Whether the output is standard output.
@@ -101,20 +109,20 @@ impl Output {
 
     /// Writes the output by calling `content`. A pipe whose reader has closed it is not a failure.
     pub fn write(self, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<Written, Failure> {
-        let Self { target, name } = self;
+        let Self { target, compression, name } = self;
         let done = |renaming| Written { renaming, name: name.clone() };
         let result = match target {
-            Target::Standard => ignore_closed(fill(io::stdout().lock(), content)).map(|()| done(None)),
+            Target::Standard => ignore_closed(fill(io::stdout().lock(), compression, content)).map(|()| done(None)),
             Target::Special(path) => {
                 let opened = OpenOptions::new().write(true).open(path);
-                opened.and_then(|file| ignore_closed(fill(file, content))).map(|()| done(None))
+                opened.and_then(|file| ignore_closed(fill(file, compression, content))).map(|()| done(None))
             }
             Target::Ordinary(path) => {
                 let part = part_beside(&path);
                 begin(&part).and_then(|file| {
                     // `written` exists before the content is written, so any later failure removes the part.
                     let written = done(Some((part, path)));
-                    fill(file, content).map(|()| written)
+                    fill(file, compression, content).map(|()| written)
                 })
             }
         };
@@ -180,7 +188,7 @@ pub fn finish(
 
 /// Prints text on standard output. A pipe whose reader has closed it is not a failure.
 pub fn print(text: &str) -> Result<(), Failure> {
-    let result = fill(io::stdout().lock(), |out| out.write_all(text.as_bytes()));
+    let result = fill(io::stdout().lock(), Compression::None, |out| out.write_all(text.as_bytes()));
     ignore_closed(result).map_err(|error| cannot_write("standard output", &error))
 }
 
@@ -196,9 +204,27 @@ fn begin(part: &Path) -> io::Result<File> {
     Ok(file)
 }
 
-fn fill(file: impl Write, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+/// Writes the content into a file, packed by `compression`.
+fn fill(
+    file: impl Write,
+    compression: Compression,
+    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
     let mut buffered = BufWriter::with_capacity(1 << 16, file);
-    content(&mut buffered)?;
+    match compression {
+        Compression::None => content(&mut buffered)?,
+        Compression::Gzip => {
+            let mut packed = BufWriter::with_capacity(1 << 16, GzEncoder::new(&mut buffered, Default::default()));
+            content(&mut packed)?;
+            packed.into_inner()?.finish()?;
+        }
+        Compression::Zstd => {
+            // Level 0 stands for the library's usual level.
+            let mut packed = BufWriter::with_capacity(1 << 16, zstd::Encoder::new(&mut buffered, 0)?);
+            content(&mut packed)?;
+            packed.into_inner()?.finish()?;
+        }
+    }
     buffered.flush()
 }
 

@@ -1,7 +1,7 @@
 //! The progress bar of long jobs, on standard error and only on a terminal.
 
 use std::cell::{Cell, OnceCell};
-use std::io::{stderr, IsTerminal};
+use std::io::{self, stderr, IsTerminal, Read};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
@@ -24,12 +24,7 @@ pub struct Meter {
 impl Meter {
     /// Makes a meter. With `quiet`, or if standard error is no terminal, the meter shows nothing.
     pub fn new(quiet: bool) -> Self {
-        Self {
-            shown: !quiet && stderr().is_terminal(),
-            since: Instant::now(),
-            bar: OnceCell::new(),
-            stage: Cell::new(None),
-        }
+        Self { shown: is_shown(quiet), since: Instant::now(), bar: OnceCell::new(), stage: Cell::new(None) }
     }
 
     /// Takes a progress report of the job.
@@ -38,7 +33,7 @@ impl Meter {
             return ControlFlow::Break(());
         }
         if self.shown && self.since.elapsed() >= PATIENCE {
-            let bar = self.bar.get_or_init(|| new_bar(progress.total));
+            let bar = self.bar.get_or_init(|| new_bar(progress.total as u64, OF_JOBS));
             if self.stage.replace(Some(progress.stage)) != Some(progress.stage) {
                 // Each stage has a speed of its own, so the estimate of the time left begins anew.
                 bar.reset();
@@ -60,10 +55,62 @@ impl Drop for Meter {
     }
 }
 
-fn new_bar(total: usize) -> ProgressBar {
-    let bar = ProgressBar::new(total as u64);
-    // The template is fixed and valid. If it were not, the library's own style would do.
-    if let Ok(style) = ProgressStyle::with_template("{msg:>10} {bar:40} {human_pos}/{human_len} {prefix}, {eta} left") {
+/// A reader that shows how much of a file has been read.
+pub struct ReadMeter<R> {
+    source: R,
+    shown: bool,
+    /// The number of bytes of the file; zero if that is unknown.
+    total: u64,
+    done: u64,
+    since: Instant,
+    bar: Option<ProgressBar>,
+}
+
+impl<R> ReadMeter<R> {
+    /// Makes a meter of a source with `total` bytes, or zero if the number is unknown. With `quiet`, or if standard
+    /// error is no terminal, the meter shows nothing.
+    pub fn new(source: R, total: u64, quiet: bool) -> Self {
+        Self { source, shown: is_shown(quiet), total, done: 0, since: Instant::now(), bar: None }
+    }
+}
+
+impl<R: Read> Read for ReadMeter<R> {
+    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+        let count = self.source.read(into)?;
+        self.done += count as u64;
+        if self.shown && self.since.elapsed() >= PATIENCE {
+            let (done, total) = (self.done, self.total);
+            let template = if total > 0 { OF_FILES } else { OF_PIPES };
+            let bar = self.bar.get_or_insert_with(|| new_bar(total, template));
+            bar.set_position(done);
+        }
+        Ok(count)
+    }
+}
+
+impl<R> Drop for ReadMeter<R> {
+    fn drop(&mut self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+/// The form of the bar of a job.
+const OF_JOBS: &str = "{msg:>10} {bar:40} {human_pos}/{human_len} {prefix}, {eta} left";
+/// The form of the bar of a file.
+const OF_FILES: &str = "   reading {bar:40} {bytes}/{total_bytes}, {eta} left";
+/// The form of the bar of a pipe, whose length is unknown.
+const OF_PIPES: &str = "   reading {bytes}, {bytes_per_sec}";
+
+fn is_shown(quiet: bool) -> bool {
+    !quiet && stderr().is_terminal()
+}
+
+fn new_bar(total: u64, template: &str) -> ProgressBar {
+    let bar = ProgressBar::new(total);
+    // The templates are fixed and valid. If one were not, the library's own style would do.
+    if let Ok(style) = ProgressStyle::with_template(template) {
         bar.set_style(style);
     }
     bar

@@ -7,11 +7,11 @@ use incircle_testkit::{generate, Distribution, GenerateError};
 
 use crate::arguments::GenerateArguments;
 use crate::failure::{Exit, Failure};
-use crate::formats::{curve, extension, SetFormat};
+use crate::formats::{curve, SetFormat};
 use crate::numbers::doubles::DoubleSet;
 use crate::numbers::{signed, Double, NumberKind, Single, SixDigits};
 use crate::output::{self, Output};
-use crate::source;
+use crate::path::{extension, name};
 
 /// Makes the set and writes it, as points or as a drawing of an order.
 pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
@@ -25,7 +25,7 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
     let Some(format) = arguments.format.or(by_name) else {
         return Err(Failure::usage(format!(
             "{}: points are written as .csv, .xyz, .node or .npy, and their --order as .svg",
-            source::name(path)
+            name(path)
         )));
     };
     let bits = arguments.numbers.bits(arguments.bits)?;

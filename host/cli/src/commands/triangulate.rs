@@ -8,13 +8,13 @@ use incircle::{DeviceAddress, Options, PlanePoint, Report, Session};
 use crate::arguments::TriangulateArguments;
 use crate::backend::{self, Backend, Choice};
 use crate::failure::{counted, failure_of, Failure};
-use crate::formats::{extension, MeshFormat, MeshView};
+use crate::formats::{MeshFormat, MeshView};
 use crate::lattice::{self, Laid, Numbers};
 use crate::output::{self, Output, Written};
 use crate::points::PointTable;
 use crate::progress::Meter;
 use crate::report::RunReport;
-use crate::{interrupt, source};
+use crate::{interrupt, path, source};
 
 /// Reads the points, triangulates them, writes the mesh, and prints the report.
 pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
@@ -24,11 +24,11 @@ pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
     let choice = Choice::for_points(&arguments.backend, &arguments.grid, default)?;
     let trace = prepare_trace(arguments, &choice, &output)?;
     let mut watch = Watch::start();
-    let table = source::read_points(&arguments.points, arguments.from)?;
+    let table = source::read_points(&arguments.points, &arguments.read, arguments.quiet)?;
     watch.ended("load");
     interrupt::check()?;
     let how = arguments.grid.quantize.map(|how| (how, choice.coord_bits));
-    let in_file = |failure: Failure| failure.in_file(source::name(&arguments.points));
+    let in_file = |failure: Failure| failure.in_file(path::name(&arguments.points));
     let laid = lattice::lay(&table, how).map_err(in_file)?;
     choice.check_lattice(&laid).map_err(in_file)?;
     watch.ended("quantise");
@@ -64,17 +64,17 @@ fn prepare_mesh(arguments: &TriangulateArguments) -> Result<Output, Failure> {
 
 /// The output for the waveform of `--trace`, checked before the work.
 fn prepare_trace(arguments: &TriangulateArguments, choice: &Choice, mesh: &Output) -> Result<Option<Output>, Failure> {
-    let Some(path) = &arguments.trace else {
+    let Some(file) = &arguments.trace else {
         return Ok(None);
     };
     if !matches!(choice.address, DeviceAddress::Sim { .. }) {
         return Err(Failure::usage("--trace records the simulated core: it needs --backend sim"));
     }
-    let trace = Output::prepare(path, Some(&arguments.points))?;
+    let trace = Output::prepare(file, Some(&arguments.points))?;
     if trace.is_same(mesh) {
         return Err(Failure::usage(format!(
             "{} is both the mesh and the waveform: choose another file for one",
-            source::name(path)
+            path::name(file)
         )));
     }
     Ok(Some(trace))
@@ -108,12 +108,12 @@ fn tell(report: &RunReport<'_>, arguments: &TriangulateArguments) -> Result<(), 
 }
 
 fn format_of(arguments: &TriangulateArguments) -> Result<MeshFormat, Failure> {
-    let path: &Path = &arguments.output;
-    let format = arguments.format.or_else(|| MeshFormat::of_extension(extension(path)));
+    let output: &Path = &arguments.output;
+    let format = arguments.format.or_else(|| MeshFormat::of_extension(path::extension(output)));
     format.ok_or_else(|| {
-        let name = if source::is_standard(path) { "standard output".to_owned() } else { source::name(path) };
-        let why = source::no_format(path);
-        Failure::usage(format!("{name}: {why}: add --format ele, obj, ply, vtk, geojson, json, csv or svg"))
+        let name = if path::is_standard(output) { "standard output".to_owned() } else { path::name(output) };
+        let (why, names) = (source::no_format(output), MeshFormat::names(|_| true));
+        Failure::usage(format!("{name}: {why}: add --format {names}"))
     })
 }
 

@@ -8,22 +8,22 @@ use crate::backend::MODEL_COORD_BITS;
 use crate::failure::{counted, Exit, Failure};
 use crate::lattice::{Laid, Numbers};
 use crate::report::quantization_json;
-use crate::{lattice, output, source};
+use crate::{lattice, output, path, source};
 
 /// Runs the subcommand. A wrong mesh leads to exit code 1.
 pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
-    if source::is_standard(&arguments.points) && source::is_standard(&arguments.mesh) {
+    if path::is_standard(&arguments.points) && path::is_standard(&arguments.mesh) {
         return Err(Failure::usage(
             "points and mesh cannot both come from standard input: name a file for one of them",
         ));
     }
-    let table = source::read_points(&arguments.points, arguments.from)?;
-    let points_name = source::name(&arguments.points);
+    let table = source::read_points(&arguments.points, &arguments.read, arguments.quiet)?;
+    let points_name = path::name(&arguments.points);
     let GridArguments { coord_bits, quantize } = arguments.grid.checked()?;
     let how = quantize.map(|how| (how, coord_bits.unwrap_or(MODEL_COORD_BITS)));
     let laid = lattice::lay(&table, how).map_err(|failure| failure.in_file(&points_name))?;
-    let mesh_name = source::name(&arguments.mesh);
-    let checked = source::read_mesh(&arguments.mesh, arguments.format).and_then(|triangles| {
+    let mesh_name = path::name(&arguments.mesh);
+    let checked = source::read_mesh(&arguments.mesh, arguments.format, arguments.quiet).and_then(|triangles| {
         check(&laid.numbers, &triangles).map_err(|error| {
             Failure::new(
                 Exit::Rejected,

@@ -10,6 +10,7 @@ pub mod node;
 pub mod npy;
 pub mod obj;
 pub mod ply;
+mod selection;
 mod set;
 pub mod svg;
 mod triangle;
@@ -21,9 +22,11 @@ use std::io::{self, Write};
 use clap::ValueEnum;
 
 use crate::failure::Failure;
+use crate::input::Input;
 use crate::points::PointTable;
 
 pub use mesh_view::MeshView;
+pub use selection::{Bounds, Selection};
 pub use set::SetFormat;
 
 /// Formats that points are read from.
@@ -60,16 +63,21 @@ impl PointFormat {
         })
     }
 
-    /// Reads all points from the bytes of a file. Every wrong value is refused with its place.
-    pub fn read(self, bytes: &[u8]) -> Result<PointTable, Failure> {
+    /// The names of all formats, for a message.
+    pub fn names() -> String {
+        names_of(Self::value_variants().iter())
+    }
+
+    /// Reads all points of an input that are selected. Every wrong value is refused with its place.
+    pub fn read(self, input: Input, _selection: &Selection) -> Result<PointTable, Failure> {
         match self {
-            Self::Csv => csv::read_points(bytes),
-            Self::Xyz => xyz::read_points(bytes),
-            Self::Node => node::read_points(bytes),
-            Self::Obj => obj::read_points(bytes),
-            Self::Ply => ply::read_points(bytes),
-            Self::Geojson => geojson::read_points(bytes),
-            Self::Json => json::read_points(bytes),
+            Self::Csv => csv::read_points(&input.into_bytes()?),
+            Self::Xyz => xyz::read_points(&input.into_bytes()?),
+            Self::Node => node::read_points(&input.into_bytes()?),
+            Self::Obj => obj::read_points(&input.into_bytes()?),
+            Self::Ply => ply::read_points(&input.into_bytes()?),
+            Self::Geojson => geojson::read_points(&input.into_bytes()?),
+            Self::Json => json::read_points(&input.into_bytes()?),
         }
     }
 }
@@ -111,6 +119,11 @@ impl MeshFormat {
         })
     }
 
+    /// The names of the formats for which `is_named` holds, for a message.
+    pub fn names(is_named: impl Fn(Self) -> bool) -> String {
+        names_of(Self::value_variants().iter().filter(|format| is_named(**format)))
+    }
+
     /// Whether a mesh can be read back from the format.
     pub fn is_readable(self) -> bool {
         !matches!(self, Self::Vtk | Self::Geojson | Self::Svg)
@@ -131,21 +144,27 @@ impl MeshFormat {
     }
 
     /// Reads the triangles of a mesh as they stand in the file. Only their form is checked.
-    pub fn read(self, bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
+    pub fn read(self, input: Input) -> Result<Vec<[u32; 3]>, Failure> {
         match self {
-            Self::Ele => ele::read_mesh(bytes),
-            Self::Obj => obj::read_mesh(bytes),
-            Self::Ply => ply::read_mesh(bytes),
-            Self::Json => json::read_mesh(bytes),
-            Self::Csv => csv::read_mesh(bytes),
-            Self::Vtk | Self::Geojson | Self::Svg => Err(Failure::usage(
-                "a mesh can be read back from ele, obj, ply, json and csv only: write it in one of them",
-            )),
+            Self::Ele => ele::read_mesh(&input.into_bytes()?),
+            Self::Obj => obj::read_mesh(&input.into_bytes()?),
+            Self::Ply => ply::read_mesh(&input.into_bytes()?),
+            Self::Json => json::read_mesh(&input.into_bytes()?),
+            Self::Csv => csv::read_mesh(&input.into_bytes()?),
+            Self::Vtk | Self::Geojson | Self::Svg => {
+                let readable = Self::names(Self::is_readable);
+                Err(Failure::usage(format!("a mesh can be read back only from {readable}: write one of them")))
+            }
         }
     }
 }
 
-/// The extension of a path; empty if there is none.
-pub fn extension(path: &std::path::Path) -> &str {
-    path.extension().and_then(|extension| extension.to_str()).unwrap_or_default()
+/// The names of formats as a list, such as `csv, xyz or node`.
+fn names_of<'a, F: ValueEnum + 'a>(formats: impl Iterator<Item = &'a F>) -> String {
+    let names: Vec<_> = formats.filter_map(F::to_possible_value).map(|value| value.get_name().to_owned()).collect();
+    match names.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, others)) => format!("{} or {last}", others.join(", ")),
+        None => String::new(),
+    }
 }

@@ -24,4 +24,5 @@ mod formats {
     mod bad_structure;
     mod files;
     mod hostile;
+    mod packed;
 }

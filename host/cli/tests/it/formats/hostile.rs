@@ -1,6 +1,7 @@
 //! Tests that no reader panics on any bytes, and that accepted coordinates are finite.
 
-use incircle_cli::formats::{MeshFormat, PointFormat};
+use incircle_cli::formats::{MeshFormat, PointFormat, Selection};
+use incircle_cli::Input;
 use incircle_testkit::SplitMix64;
 
 const POINT_FILES: [(PointFormat, &[u8]); 9] = [
@@ -72,12 +73,14 @@ fn spoil(sample: &[u8], random: &mut SplitMix64) -> Vec<u8> {
 fn spoilt_point_files_never_panic() {
     let mut random = SplitMix64::new(1);
     for (format, sample) in POINT_FILES {
-        let right = format.read(sample).unwrap_or_else(|failure| panic!("{format:?}: {failure}"));
+        let right = format
+            .read(Input::of_bytes(sample), &Selection::default())
+            .unwrap_or_else(|failure| panic!("{format:?}: {failure}"));
         assert!(!right.is_empty());
         let mut refused = 0;
         for _ in 0..3000 {
             let bytes = spoil(sample, &mut random);
-            match format.read(&bytes) {
+            match format.read(Input::of_bytes(&bytes), &Selection::default()) {
                 Ok(table) => {
                     assert!(table.doubles().iter().flatten().all(|value| value.is_finite()));
                     assert!(table.len() <= bytes.len());
@@ -97,10 +100,10 @@ fn spoilt_point_files_never_panic() {
 fn spoilt_mesh_files_never_panic() {
     let mut random = SplitMix64::new(2);
     for (format, sample) in MESH_FILES {
-        let right = format.read(sample).unwrap_or_else(|failure| panic!("{format:?}: {failure}"));
+        let right = format.read(Input::of_bytes(sample)).unwrap_or_else(|failure| panic!("{format:?}: {failure}"));
         assert_eq!(right, [[0, 1, 2], [1, 3, 2]], "{format:?}");
         for _ in 0..3000 {
-            if let Err(failure) = format.read(&spoil(sample, &mut random)) {
+            if let Err(failure) = format.read(Input::of_bytes(&spoil(sample, &mut random))) {
                 let sentence = failure.to_string();
                 assert!(!sentence.contains('\n') && sentence.len() < 400, "{sentence}");
             }

@@ -1,22 +1,25 @@
 //! The arguments of the command.
 
-use std::num::NonZeroU32;
+mod backend;
+mod points;
+
 use std::path::PathBuf;
 use std::time::Duration;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand};
 use incircle::serial::Address;
-use incircle::{DeviceAddress, Options, Order, ProgressListener, Quantize};
+use incircle::{Options, Order, ProgressListener};
 use incircle_testkit::Distribution;
 
-use crate::failure::{failure_of, Failure};
-use crate::formats::{MeshFormat, PointFormat, SetFormat};
+use crate::formats::{MeshFormat, SetFormat};
 use crate::help;
 use crate::numbers::NumberKind;
 use crate::values::{
-    backend_parser, distribution_parser, mhz_from, order_parser, port_from, quantize_from, readable_format_parser,
-    seconds_from, threads_from, whole_number,
+    distribution_parser, mhz_from, order_parser, port_from, readable_format_parser, seconds_from, whole_number,
 };
+
+pub use backend::{BackendArguments, ConfigName};
+pub use points::{GridArguments, ReadArguments};
 
 /// Exact Delaunay triangulation: one canonical answer, in software or hardware
 #[derive(Debug, Parser)]
@@ -68,82 +71,6 @@ pub enum Command {
     /// Print a completion script for a shell
     #[command(after_help = help::COMPLETIONS, after_long_help = help::COMPLETIONS_LONG)]
     Completions(CompletionsArguments),
-}
-
-/// The grid that the points lie on.
-#[derive(Clone, Copy, Debug, Args)]
-pub struct GridArguments {
-    /// Bits of a coordinate of the grid of --quantize, 8 to 31 (default: 31, or 16 for a core)
-    ///
-    /// The grid is 0 to 2^BITS - 1. More bits round less. The back ends 'cpu' and 'model' take up
-    /// to 31, a core 16.
-    #[arg(long, value_name = "BITS", value_parser = whole_number(8, 31), verbatim_doc_comment)]
-    pub coord_bits: Option<u32>,
-    /// Round the points onto a grid: 'fit', 'SCALE' or 'SCALE,X0,Y0'
-    ///
-    /// 'fit' scales the bounding box to fill the grid, both axes alike. 'SCALE,X0,Y0' computes
-    /// (x - X0) * SCALE and (y - Y0) * SCALE; 'SCALE' alone takes 0 for X0 and Y0.
-    /// Without this option no number is rounded: the points are triangulated as they stand in the
-    /// file, and what the back end cannot hold is an error.
-    #[arg(
-        long,
-        value_name = "HOW",
-        value_parser = quantize_from,
-        allow_hyphen_values = true,
-        verbatim_doc_comment
-    )]
-    pub quantize: Option<Quantize>,
-}
-
-impl GridArguments {
-    /// The arguments, unless they size a grid that is not asked for.
-    pub fn checked(&self) -> Result<Self, Failure> {
-        if self.coord_bits.is_some() && self.quantize.is_none() {
-            return Err(Failure::usage(
-                "--coord-bits sizes the grid of --quantize: give --quantize fit as well, or leave --coord-bits out",
-            ));
-        }
-        Ok(*self)
-    }
-}
-
-/// The back end that does the work.
-#[derive(Clone, Debug, Args)]
-pub struct BackendArguments {
-    /// Back end
-    ///
-    /// - cpu: the CPU triangulator, the fastest on a usual computer
-    /// - model: the software model of the core
-    /// - clock: the model of the core, clock by clock
-    /// - sim: the core's Verilog in Verilator; needs a build with `--features sim`
-    /// - serial:PORT: a board at a serial port, such as serial:/dev/ttyUSB0
-    /// - pcie:N: the card N in a PCIe slot; pcie:DIR is a card by the directory of its files
-    ///
-    /// Choices follow a question mark, as in cpu?threads=2, model?coord-bits=20&capacity=5000,
-    /// clock?config=full or serial:/dev/ttyUSB0?baud=12000000.
-    ///
-    /// Default: 'triangulate' takes 'cpu', or 'model' if --order or --contexts is given.
-    /// All other commands take 'model'.
-    #[arg(long, value_parser = backend_parser(), verbatim_doc_comment)]
-    pub backend: Option<DeviceAddress>,
-    /// Threads of the back end 'cpu' (default: one per processor)
-    ///
-    /// A small set takes fewer: one thread, and one more for every full 16,384 points.
-    #[arg(long, value_name = "N", value_parser = threads_from)]
-    pub threads: Option<NonZeroU32>,
-    /// Core of 'clock' and 'sim'
-    ///
-    /// Without this option the core is the smallest one that holds the points.
-    #[arg(long, value_enum)]
-    pub config: Option<ConfigName>,
-}
-
-impl BackendArguments {
-    /// The back end of the arguments, or else the one at the address `default`.
-    pub fn or(&self, default: &str) -> Result<DeviceAddress, Failure> {
-        let default = || default.parse().map_err(|error| failure_of(&error));
-        self.backend.clone().map_or_else(default, Ok)
-    }
 }
 
 /// The choices for a job that change its time and never the mesh.
@@ -198,11 +125,8 @@ pub struct TriangulateArguments {
     /// Without this option the extension of the file chooses the format.
     #[arg(long, value_enum)]
     pub format: Option<MeshFormat>,
-    /// Point format
-    ///
-    /// Without this option the extension of the file chooses the format.
-    #[arg(long, value_enum)]
-    pub from: Option<PointFormat>,
+    #[command(flatten)]
+    pub read: ReadArguments,
     #[command(flatten)]
     pub grid: GridArguments,
     #[command(flatten)]
@@ -233,11 +157,8 @@ pub struct VerifyArguments {
     pub points: PathBuf,
     /// File of the mesh; '-' is standard input and needs --format
     pub mesh: PathBuf,
-    /// Point format
-    ///
-    /// Without this option the extension of the file chooses the format.
-    #[arg(long, value_enum)]
-    pub from: Option<PointFormat>,
+    #[command(flatten)]
+    pub read: ReadArguments,
     /// Mesh format
     ///
     /// Without this option the extension of the file chooses the format.
@@ -360,31 +281,6 @@ pub struct CompletionsArguments {
     pub shell: clap_complete::Shell,
 }
 
-/// The named configurations of the core.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum ConfigName {
-    /// 8 points, 2 contexts
-    Tiny,
-    /// 1024 points, 4 contexts
-    Small,
-    /// 8192 points, 16 contexts
-    Full,
-    /// 16384 points, 24 contexts
-    Large,
-}
-
-impl ConfigName {
-    /// The configuration that has this name.
-    pub fn config(self) -> incircle_protocol::Config {
-        match self {
-            Self::Tiny => incircle_protocol::TINY,
-            Self::Small => incircle_protocol::SMALL,
-            Self::Full => incircle_protocol::FULL,
-            Self::Large => incircle_protocol::LARGE,
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -393,13 +289,5 @@ mod tests {
     fn arguments_are_consistent() {
         use clap::CommandFactory;
         Cli::command().debug_assert();
-    }
-
-    #[test]
-    fn every_configuration_has_its_name() {
-        for name in ConfigName::value_variants() {
-            let shown = name.to_possible_value().map(|value| value.get_name().to_owned());
-            assert_eq!(shown.as_deref(), Some(name.config().name));
-        }
     }
 }

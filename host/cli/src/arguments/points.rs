@@ -1,0 +1,62 @@
+//! The arguments that say how points are read, and onto which grid they are laid.
+
+use clap::Args;
+use incircle::Quantize;
+
+use crate::failure::Failure;
+use crate::formats::{PointFormat, Selection};
+use crate::values::{quantize_from, whole_number};
+
+/// The way in which points are read.
+#[derive(Clone, Debug, Args)]
+pub struct ReadArguments {
+    /// Point format
+    ///
+    /// Without this option the extension of the file chooses the format.
+    #[arg(long, value_enum)]
+    pub from: Option<PointFormat>,
+}
+
+impl ReadArguments {
+    /// Which points of a file of this format are taken. A choice that the format does not have is refused.
+    pub fn selection(&self, _format: PointFormat) -> Result<Selection, Failure> {
+        Ok(Selection::default())
+    }
+}
+
+/// The grid that the points lie on.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct GridArguments {
+    /// Bits of a coordinate of the grid of --quantize, 8 to 31 (default: 31, or 16 for a core)
+    ///
+    /// The grid is 0 to 2^BITS - 1. More bits round less. The back ends 'cpu' and 'model' take up
+    /// to 31, a core 16.
+    #[arg(long, value_name = "BITS", value_parser = whole_number(8, 31), verbatim_doc_comment)]
+    pub coord_bits: Option<u32>,
+    /// Round the points onto a grid: 'fit', 'SCALE' or 'SCALE,X0,Y0'
+    ///
+    /// 'fit' scales the bounding box to fill the grid, both axes alike. 'SCALE,X0,Y0' computes
+    /// (x - X0) * SCALE and (y - Y0) * SCALE; 'SCALE' alone takes 0 for X0 and Y0.
+    /// Without this option no number is rounded: the points are triangulated as they stand in the
+    /// file, and what the back end cannot hold is an error.
+    #[arg(
+        long,
+        value_name = "HOW",
+        value_parser = quantize_from,
+        allow_hyphen_values = true,
+        verbatim_doc_comment
+    )]
+    pub quantize: Option<Quantize>,
+}
+
+impl GridArguments {
+    /// The arguments, unless they size a grid that is not asked for.
+    pub fn checked(&self) -> Result<Self, Failure> {
+        if self.coord_bits.is_some() && self.quantize.is_none() {
+            return Err(Failure::usage(
+                "--coord-bits sizes the grid of --quantize: give --quantize fit as well, or leave --coord-bits out",
+            ));
+        }
+        Ok(*self)
+    }
+}

@@ -1,0 +1,70 @@
+//! The names of files: what they are called in messages, and which format and packing their extensions name.
+
+use std::path::Path;
+
+use crate::failure::printable;
+
+/// How the bytes of a file are packed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Compression {
+    /// The bytes stand in the file as they are.
+    None,
+    /// Gzip, by the extension `.gz`.
+    Gzip,
+    /// Zstandard, by the extension `.zst`.
+    Zstd,
+}
+
+impl Compression {
+    /// The packing that the last extension of a path names.
+    pub fn of(path: &Path) -> Self {
+        match last_extension(path).to_ascii_lowercase().as_str() {
+            "gz" => Self::Gzip,
+            "zst" => Self::Zstd,
+            _ => Self::None,
+        }
+    }
+}
+
+/// The extension that names the format of a file, without that of its packing: `csv` for `points.csv.gz`. The text is
+/// empty if there is none.
+pub fn extension(path: &Path) -> &str {
+    match Compression::of(path) {
+        Compression::None => last_extension(path),
+        Compression::Gzip | Compression::Zstd => path.file_stem().map_or("", |stem| last_extension(Path::new(stem))),
+    }
+}
+
+fn last_extension(path: &Path) -> &str {
+    path.extension().and_then(|extension| extension.to_str()).unwrap_or_default()
+}
+
+/// Whether the path is `-`, which stands for standard input or output.
+pub fn is_standard(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+/// The name of an input file for messages.
+pub fn name(path: &Path) -> String {
+    if is_standard(path) {
+        "standard input".to_owned()
+    } else {
+        printable(&path.display().to_string())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_extension_of_a_packed_file_is_that_of_its_content() {
+        let found = |path: &'static str| (extension(Path::new(path)), Compression::of(Path::new(path)));
+        assert_eq!(found("a/points.csv"), ("csv", Compression::None));
+        assert_eq!(found("a.b/points.CSV.GZ"), ("CSV", Compression::Gzip));
+        assert_eq!(found("points.xyz.zst"), ("xyz", Compression::Zstd));
+        assert_eq!(found("points.gz"), ("", Compression::Gzip));
+        assert_eq!(found(".gz"), ("", Compression::None));
+        assert_eq!(found("-"), ("", Compression::None));
+    }
+}
