@@ -22,6 +22,10 @@ use super::sieve::Sieve;
 const PLACE_BYTES: u64 = 8;
 /// Bytes of the head of the table: its version and the number of chunks.
 const TABLE_HEAD: u64 = 8;
+/// More bytes than the head and the end of a table take.
+const TABLE_ROOM: u64 = 64;
+/// More bytes than an entry of the table takes, with a number of bytes and one of points.
+const ENTRY_ROOM: u64 = 32;
 /// The records that are decoded at once.
 const BLOCK: usize = 1024;
 
@@ -45,8 +49,12 @@ pub fn read<R: Read + Seek + ?Sized>(
         bytes.clear();
         source.take(chunk.bytes).read_to_end(&mut bytes).map_err(|error| unreadable(&error))?;
         let at = |why: String| refuse(format!("chunk {} of {}: {why}", index + 1, chunks.len()));
-        if chunk.points == 0 {
+        if chunk.points == 0 && chunk.bytes < header.record_bytes as u64 {
+            // Some programs end with an empty chunk, of no bytes or of those that end the packing.
             continue;
+        }
+        if chunk.points == 0 {
+            return Err(at(format!("it has {} bytes, but by the header no points", chunk.bytes)));
         }
         if packing.is_layered {
             check_layers(&bytes, chunk, header, packing).map_err(at)?;
@@ -78,12 +86,12 @@ fn read_table<R: Read + Seek + ?Sized>(
         return Err(refuse("the table of chunks at the end of the points is missing: the file is cut off or damaged"));
     };
     let (count, room) = (u32::from_le_bytes(count), place - start);
-    // Every chunk begins with a point that is not packed.
-    if u64::from(count) > room / header.record_bytes as u64 {
+    // Every chunk but an empty last one begins with a point that is not packed.
+    if u64::from(count) > room / header.record_bytes as u64 + 1 {
         return Err(refuse(format!("the table promises {count} chunks, for which {room} bytes are too few")));
     }
     let has_points = packing.vlr.uses_variable_size_chunks();
-    let rest = read_at(source, place, header.file_bytes - place)?;
+    let rest = read_at(source, place, TABLE_ROOM + ENTRY_ROOM * u64::from(count))?;
     let table = guarded(|| ChunkTable::read(&mut Cursor::new(&rest[..]), has_points)).and_then(Result::ok);
     let Some(table) = table else {
         return Err(refuse(format!("the table of {count} chunks cannot be read: the file is cut off or damaged")));
@@ -113,12 +121,14 @@ fn place_at<R: Read + Seek + ?Sized>(source: &mut R, place: u64) -> Result<u64, 
     Ok(bytes.try_into().map_or(0, u64::from_le_bytes))
 }
 
-/// The points of chunks that all have `size` points but for the last; `None` if `total` is not that of so many chunks.
+/// The points of chunks that all have `size` points but for the last, behind which there may be an empty one; `None` if
+/// `total` is not that of so many chunks.
 fn shares(total: u64, size: u64, count: u64) -> Option<Vec<u64>> {
-    if total.div_ceil(size) != count {
+    let full = total.div_ceil(size);
+    if count != full && count != full + 1 {
         return None;
     }
-    Some((0..count).map(|index| size.min(total - index * size)).collect())
+    Some((0..count).map(|index| size.min(total.saturating_sub(index * size))).collect())
 }
 
 /// Refuses a chunk of layers whose own count is another, or whose layers do not fill it.

@@ -157,7 +157,9 @@ fn count(block: &Block, minor: usize, format: u8) -> Result<u64, Failure> {
     }
     let long = u64::from_le_bytes(block.at(247));
     if short != 0 && short != long {
-        return Err(refuse(format!("the header promises {long} points of format {format} in one place, {short} in another")));
+        return Err(refuse(format!(
+            "the header promises {long} points of format {format} in one place, {short} in another"
+        )));
     }
     Ok(long)
 }

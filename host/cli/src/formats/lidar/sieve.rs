@@ -116,7 +116,9 @@ fn finite(scale: &Scale, integers: [i32; 2], number: u64) -> Result<[f64; 2], Fa
     if point.iter().all(|value| value.is_finite()) {
         return Ok(point);
     }
-    Err(refuse(format!("point {number} is beyond the largest double: the scale or the offset in the header is too large")))
+    Err(refuse(format!(
+        "point {number} is beyond the largest double: the scale or the offset in the header is too large"
+    )))
 }
 
 /// The integers of an axis whose coordinates are within the bounds, as the lowest and the highest one.
