@@ -15,6 +15,9 @@ pub const AXES: [Axis; 3] = [(0.001, 500_000.0), (0.001, -4_100_000.5), (0.01, 1
 /// Every minor version and point format that is written here.
 const FORMATS: [(u8, u8); 7] = [(2, 0), (2, 1), (2, 2), (2, 3), (4, 6), (4, 7), (4, 8)];
 
+/// Whether a point is to be selected.
+type IsTaken = fn(&Stored) -> bool;
+
 /// Random points of the classes 0 to 9.
 pub fn points(count: u64, seed: u64) -> Vec<Stored> {
     let mut random = SplitMix64::new(seed);
@@ -131,13 +134,13 @@ fn points_are_selected_by_class_and_place() {
     let points = points(2000, 4);
     scratch.write("old.las", write(2, 1, false, AXES, &points));
     scratch.write("new.laz", write(4, 6, true, AXES, &points));
-    let is_within = |&([x, y, _], _): &Stored| (-30_000..=9999).contains(&x) && (0..=50_500).contains(&y);
+    let is_within: IsTaken = |&([x, y, _], _)| (-30_000..=9999).contains(&x) && (0..=50_500).contains(&y);
     let bounds = "--bounds 499970,-4100000.5,500009.999,-4099950";
-    let choices: [(&str, Box<dyn Fn(&Stored) -> bool>); 4] = [
-        ("--class 2,9", Box::new(|(_, class)| [2, 9].contains(class))),
-        ("--class 255 --class 0", Box::new(|&(_, class)| class == 0)),
-        (bounds, Box::new(is_within)),
-        ("--class 77", Box::new(|_| false)),
+    let choices: [(&str, IsTaken); 4] = [
+        ("--class 2,9", |(_, class)| [2, 9].contains(class)),
+        ("--class 255 --class 0", |&(_, class)| class == 0),
+        (bounds, is_within),
+        ("--class 77", |_| false),
     ];
     for (options, is_taken) in choices {
         let taken: Vec<Stored> = points.iter().copied().filter(|point| is_taken(point)).collect();
