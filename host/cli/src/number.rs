@@ -290,6 +290,22 @@ mod tests {
     }
 
     #[test]
+    fn coordinates_are_compared_exactly() {
+        let with = |coordinate, steps, digits| compare(coordinate, Decimal { steps, digits });
+        // The double 0.1 is a little more than the decimal, and 0.3 a little less.
+        assert_eq!(with(Coordinate::Double(0.1), 1, 1), Ordering::Greater);
+        assert_eq!(with(Coordinate::Double(0.3), 3, 1), Ordering::Less);
+        assert_eq!(with(Coordinate::Double(-0.3), -3, 1), Ordering::Greater);
+        assert_eq!(with(Coordinate::Double(0.5), 5, 1), Ordering::Equal);
+        assert_eq!(with(Coordinate::Double(0.0), 0, 0), Ordering::Equal);
+        assert_eq!(with(Coordinate::Double(5e-324), 1, 18), Ordering::Less);
+        assert_eq!(with(Coordinate::Double(9_223_372_036_854_775_808.0), i64::MAX, 0), Ordering::Greater);
+        assert_eq!(with(Coordinate::Double(1e300), i64::MAX, 0), Ordering::Greater);
+        assert_eq!(with(Coordinate::Decimal { steps: 15, digits: 1 }, 150, 2), Ordering::Equal);
+        assert_eq!(with(Coordinate::Decimal { steps: i128::MIN, digits: 0 }, i64::MIN, 18), Ordering::Less);
+    }
+
+    #[test]
     fn coordinates_are_shown_exactly() {
         let shown = |steps, digits| Coordinate::Decimal { steps, digits }.to_string();
         assert_eq!(shown(-101_473_911, 6), "-101.473911");

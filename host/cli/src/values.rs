@@ -180,6 +180,16 @@ mod tests {
     }
 
     #[test]
+    fn bounds_are_decimals_from_low_to_high() {
+        let decimal = |steps, digits| Decimal { steps, digits };
+        let bounds = Bounds { low: [decimal(-15, 1), decimal(0, 0)], high: [decimal(-15, 1), decimal(1, 18)] };
+        assert_eq!(bounds_from("-1.5, 0,-1.50,1e-18"), Ok(bounds));
+        for bad in ["", "0,0,1", "0,0,1,1,1", "1,0,0,1", "0,1e-18,1,0", "0,0,1,1e-19", "0,0,1,1e300", "nan,0,1,1"] {
+            assert!(bounds_from(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
     fn back_ends_are_names_or_addresses() {
         let serial = Address { port: "/dev/x".to_owned(), baud: 115_200, slow: 9 };
         assert_eq!(backend_from("clock"), Ok(DeviceAddress::Clock { config: None }));
