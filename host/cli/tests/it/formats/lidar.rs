@@ -143,7 +143,7 @@ fn points_are_selected_by_class_and_place() {
         ("--class 77", |_| false),
     ];
     for (options, is_taken) in choices {
-        let taken: Vec<Stored> = points.iter().copied().filter(|point| is_taken(point)).collect();
+        let taken: Vec<Stored> = points.iter().copied().filter(is_taken).collect();
         scratch.write("p.csv", csv(&taken));
         scratch.run("triangulate p.csv -o m.ply").ok();
         let expected = scratch.read("m.ply");
