@@ -29,6 +29,7 @@ pub struct Input {
     /// Bytes that may still be read.
     left: u64,
     bound: u64,
+    quiet: bool,
 }
 
 impl Input {
@@ -40,7 +41,7 @@ impl Input {
     fn open_bounded(path: &Path, quiet: bool, bound: u64) -> Result<Self, Failure> {
         if path::is_standard(path) {
             let source = Box::new(ReadMeter::new(io::stdin(), 0, quiet));
-            return Ok(Self { source, file: None, size: 0, left: bound, bound });
+            return Ok(Self { source, file: None, size: 0, left: bound, bound, quiet });
         }
         let file = File::open(path).map_err(|error| unreadable(&error))?;
         let found = file.metadata().map_err(|error| unreadable(&error))?;
@@ -57,18 +58,23 @@ impl Input {
         };
         let is_plain = compression == Compression::None && found.is_file();
         let size = if is_plain { found.len() } else { 0 };
-        Ok(Self { source, file: is_plain.then_some(own), size, left: bound, bound })
+        Ok(Self { source, file: is_plain.then_some(own), size, left: bound, bound, quiet })
     }
 
     /// An input of these bytes.
     pub fn of_bytes(bytes: &[u8]) -> Self {
         let source = Box::new(Cursor::new(bytes.to_vec()));
-        Self { source, file: None, size: bytes.len() as u64, left: u64::MAX, bound: u64::MAX }
+        Self { source, file: None, size: bytes.len() as u64, left: u64::MAX, bound: u64::MAX, quiet: true }
     }
 
     /// The number of bytes of the input, or zero if that is not known before it is read.
     pub fn size(&self) -> u64 {
         self.size
+    }
+
+    /// The most bytes that the input may have, and that may be made of it.
+    pub fn bound(&self) -> u64 {
+        self.bound
     }
 
     /// All bytes of the input.
@@ -87,7 +93,10 @@ impl Input {
     /// The input as a source that can be read from any place: the file itself, or else all its bytes in memory.
     pub fn into_seekable(self) -> Result<Box<dyn ReadSeek>, Failure> {
         match self.file {
-            Some(file) => Ok(Box::new(BufReader::with_capacity(1 << 20, file))),
+            Some(file) => {
+                let meter = ReadMeter::new(file, self.size, self.quiet);
+                Ok(Box::new(BufReader::with_capacity(1 << 20, meter)))
+            }
             None => Ok(Box::new(Cursor::new(self.into_bytes()?))),
         }
     }

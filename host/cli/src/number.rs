@@ -3,12 +3,15 @@
 //! A text such as `-101.473911` is a decimal, and most decimals are no double. So a number is read as a whole number of
 //! steps of a power of ten, which is exact. Only numbers of more than 18 digits or so become the nearest double.
 
+use std::cmp::Ordering;
 use std::fmt;
 
 /// Decimals with more digits behind the point than this are read as doubles, whose smallest has 324.
 const MOST_DIGITS: u32 = 400;
 /// Numbers with more digits behind the point than this are shown with an exponent.
 const MOST_DIGITS_SHOWN: u32 = 25;
+/// The most digits behind the point of a decimal with which coordinates are compared.
+pub const MOST_DIGITS_COMPARED: u32 = 18;
 /// The number of decimal digits that always fit 64 bits.
 const SAFE_LEN: usize = 18;
 
@@ -138,6 +141,39 @@ pub fn nearest(steps: i128, digits: u32) -> f64 {
     format!("{steps}e-{digits}").parse().unwrap_or_default()
 }
 
+/// Compares a coordinate, exactly, with a decimal of up to [`MOST_DIGITS_COMPARED`] digits behind the point.
+pub fn compare(coordinate: Coordinate, with: Decimal) -> Ordering {
+    match coordinate {
+        Coordinate::Double(value) => compare_double(value, with),
+        Coordinate::Decimal { steps, digits } => {
+            let common = digits.max(with.digits);
+            // The other decimal is below 2^63 * 10^18, so one that does not fit is beyond it.
+            let steps = 10i128.checked_pow(common - digits).and_then(|power| steps.checked_mul(power)).ok_or(steps);
+            let with = i128::from(with.steps) * 10i128.pow(common - with.digits);
+            steps.map_or_else(|beyond| beyond.cmp(&0), |steps| steps.cmp(&with))
+        }
+    }
+}
+
+/// Compares a double, exactly, with a decimal of up to [`MOST_DIGITS_COMPARED`] digits behind the point.
+fn compare_double(value: f64, with: Decimal) -> Ordering {
+    let nearest = nearest(i128::from(with.steps), with.digits);
+    if value != nearest || value == 0.0 {
+        // No double lies between a decimal and the double that is nearest to it.
+        return value.total_cmp(&nearest);
+    }
+    // The double is mantissa * 2^exponent. Both sides below are about steps * 2^53 at most.
+    let bits = value.to_bits();
+    let mantissa = i128::from(bits & ((1 << 52) - 1) | 1 << 52) * if value < 0.0 { -1 } else { 1 };
+    let exponent = ((bits >> 52) & 0x7ff) as i32 - 1075;
+    let (left, right) = (mantissa * 10i128.pow(with.digits), i128::from(with.steps));
+    if exponent < 0 {
+        left.cmp(&(right << -exponent))
+    } else {
+        (left << exponent).cmp(&right)
+    }
+}
+
 /// A coordinate in the numbers of its file, to be shown or written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Coordinate {
@@ -150,6 +186,12 @@ pub enum Coordinate {
     },
     /// A double, shown in the fewest digits that tell it from all others.
     Double(f64),
+}
+
+impl From<Decimal> for Coordinate {
+    fn from(Decimal { steps, digits }: Decimal) -> Self {
+        Self::Decimal { steps: steps.into(), digits }
+    }
 }
 
 impl fmt::Display for Coordinate {
@@ -245,6 +287,22 @@ mod tests {
                 String::from_utf8_lossy(&text)
             );
         }
+    }
+
+    #[test]
+    fn coordinates_are_compared_exactly() {
+        let with = |coordinate, steps, digits| compare(coordinate, Decimal { steps, digits });
+        // The double 0.1 is a little more than the decimal, and 0.3 a little less.
+        assert_eq!(with(Coordinate::Double(0.1), 1, 1), Ordering::Greater);
+        assert_eq!(with(Coordinate::Double(0.3), 3, 1), Ordering::Less);
+        assert_eq!(with(Coordinate::Double(-0.3), -3, 1), Ordering::Greater);
+        assert_eq!(with(Coordinate::Double(0.5), 5, 1), Ordering::Equal);
+        assert_eq!(with(Coordinate::Double(0.0), 0, 0), Ordering::Equal);
+        assert_eq!(with(Coordinate::Double(5e-324), 1, 18), Ordering::Less);
+        assert_eq!(with(Coordinate::Double(9_223_372_036_854_775_808.0), i64::MAX, 0), Ordering::Greater);
+        assert_eq!(with(Coordinate::Double(1e300), i64::MAX, 0), Ordering::Greater);
+        assert_eq!(with(Coordinate::Decimal { steps: 15, digits: 1 }, 150, 2), Ordering::Equal);
+        assert_eq!(with(Coordinate::Decimal { steps: i128::MIN, digits: 0 }, i64::MIN, 18), Ordering::Less);
     }
 
     #[test]

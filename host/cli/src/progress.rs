@@ -1,7 +1,7 @@
 //! The progress bar of long jobs, on standard error and only on a terminal.
 
 use std::cell::{Cell, OnceCell};
-use std::io::{self, stderr, IsTerminal, Read};
+use std::io::{self, stderr, IsTerminal, Read, Seek, SeekFrom};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
@@ -85,6 +85,14 @@ impl<R: Read> Read for ReadMeter<R> {
             bar.set_position(done);
         }
         Ok(count)
+    }
+}
+
+impl<R: Seek> Seek for ReadMeter<R> {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        // What counts is the place in the file, because a part may be read twice.
+        self.done = self.source.seek(to)?;
+        Ok(self.done)
     }
 }
 

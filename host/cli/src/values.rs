@@ -1,5 +1,6 @@
 //! Parsers of the values of arguments. The error of a wrong value is a sentence for the user.
 
+use std::cmp::Ordering;
 use std::num::NonZeroU32;
 use std::time::Duration;
 
@@ -8,7 +9,8 @@ use incircle::serial::Address;
 use incircle::{DeviceAddress, Error, Order, Quantize};
 use incircle_testkit::Distribution;
 
-use crate::formats::MeshFormat;
+use crate::formats::{Bounds, MeshFormat};
+use crate::number::{self, Decimal, Number, MOST_DIGITS_COMPARED};
 
 /// Parses the name of an order. Help and completions show the names.
 pub fn order_parser() -> impl clap::builder::TypedValueParser<Value = Order> {
@@ -108,6 +110,29 @@ pub fn quantize_from(text: &str) -> Result<Quantize, String> {
     }
 }
 
+/// Parses the value of `--class`: classes of LiDAR points, separated by commas.
+pub fn class_from(text: &str) -> Result<u8, String> {
+    text.trim().parse().map_err(|_| "give classes from 0 to 255, such as 2,9".to_owned())
+}
+
+/// Parses the value of `--bounds`: a rectangle in decimals, which stay as they are written.
+pub fn bounds_from(text: &str) -> Result<Bounds, String> {
+    let number = |part: &str| match number::parse(part.trim().as_bytes()) {
+        Some(Number::Decimal(decimal)) if decimal.digits <= MOST_DIGITS_COMPARED => Some(decimal),
+        _ => None,
+    };
+    let numbers: Option<Vec<Decimal>> = text.split(',').map(number).collect();
+    let Some(&[x0, y0, x1, y1]) = numbers.as_deref() else {
+        return Err("give four decimals of up to 18 digits 'X0,Y0,X1,Y1'".to_owned());
+    };
+    let is_low = |low: Decimal, high| number::compare(low.into(), high) != Ordering::Greater;
+    if is_low(x0, x1) && is_low(y0, y1) {
+        Ok(Bounds { low: [x0, y0], high: [x1, y1] })
+    } else {
+        Err("the first two numbers are the lowest x and y, the last two the highest".to_owned())
+    }
+}
+
 /// A parser of whole numbers from `least` to `most`.
 pub fn whole_number(least: u32, most: u32) -> impl Fn(&str) -> Result<u32, String> + Clone + Send + Sync + 'static {
     move |text| {
@@ -151,6 +176,16 @@ mod tests {
         assert_eq!(quantize_from("2,-1.5,0"), Ok(scale));
         for bad in ["", "0", "-1", "nan", "1,2", "fill", "1,inf,0"] {
             assert!(quantize_from(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn bounds_are_decimals_from_low_to_high() {
+        let decimal = |steps, digits| Decimal { steps, digits };
+        let bounds = Bounds { low: [decimal(-15, 1), decimal(0, 0)], high: [decimal(-15, 1), decimal(1, 18)] };
+        assert_eq!(bounds_from("-1.5, 0,-1.50,1e-18"), Ok(bounds));
+        for bad in ["", "0,0,1", "0,0,1,1,1", "1,0,0,1", "0,1e-18,1,0", "0,0,1,1e-19", "0,0,1,1e300", "nan,0,1,1"] {
+            assert!(bounds_from(bad).is_err(), "{bad}");
         }
     }
 

@@ -4,8 +4,8 @@ use clap::Args;
 use incircle::Quantize;
 
 use crate::failure::Failure;
-use crate::formats::{PointFormat, Selection};
-use crate::values::{quantize_from, whole_number};
+use crate::formats::{Bounds, PointFormat, Selection};
+use crate::values::{bounds_from, class_from, quantize_from, whole_number};
 
 /// The way in which points are read.
 #[derive(Clone, Debug, Args)]
@@ -15,12 +15,44 @@ pub struct ReadArguments {
     /// Without this option the extension of the file chooses the format.
     #[arg(long, value_enum)]
     pub from: Option<PointFormat>,
+    /// Take only LiDAR points of these classes, such as 2,9: whole numbers from 0 to 255
+    ///
+    /// For LAS, LAZ and COPC. Class 2 is ground. Indices in the mesh count the points that were
+    /// taken, in the order of the file.
+    #[arg(
+        long = "class",
+        value_name = "CLASSES",
+        value_delimiter = ',',
+        value_parser = class_from,
+        verbatim_doc_comment
+    )]
+    pub classes: Vec<u8>,
+    /// Take only LiDAR points in this rectangle, edges included: 'X0,Y0,X1,Y1'
+    ///
+    /// For LAS, LAZ and COPC. The numbers are coordinates of the file, the lowest x and y first.
+    /// Indices in the mesh count the points that were taken, in the order of the file.
+    #[arg(
+        long,
+        value_name = "RECTANGLE",
+        value_parser = bounds_from,
+        allow_hyphen_values = true,
+        verbatim_doc_comment
+    )]
+    pub bounds: Option<Bounds>,
 }
 
 impl ReadArguments {
     /// Which points of a file of this format are taken. A choice that the format does not have is refused.
-    pub fn selection(&self, _format: PointFormat) -> Result<Selection, Failure> {
-        Ok(Selection::default())
+    pub fn selection(&self, format: PointFormat) -> Result<Selection, Failure> {
+        let option = if self.bounds.is_some() { "--bounds" } else { "--class" };
+        let is_given = self.bounds.is_some() || !self.classes.is_empty();
+        if is_given && format != PointFormat::Las {
+            return Err(Failure::usage(format!(
+                "{option} selects points of LAS, LAZ and COPC files alone: select the points of this file before, or \
+                 leave {option} out"
+            )));
+        }
+        Ok(Selection { array: None, classes: self.classes.clone(), bounds: self.bounds })
     }
 }
 

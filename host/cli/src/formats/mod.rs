@@ -5,6 +5,7 @@ pub mod curve;
 pub mod ele;
 pub mod geojson;
 pub mod json;
+pub mod lidar;
 mod mesh_view;
 pub mod node;
 pub mod npy;
@@ -46,6 +47,8 @@ pub enum PointFormat {
     Geojson,
     /// The list `points` of a JSON mesh, or GeoJSON
     Json,
+    /// LAS, LAZ or COPC of laser scanners
+    Las,
 }
 
 impl PointFormat {
@@ -59,6 +62,7 @@ impl PointFormat {
             "ply" => Self::Ply,
             "geojson" => Self::Geojson,
             "json" => Self::Json,
+            "las" | "laz" => Self::Las,
             _ => return None,
         })
     }
@@ -69,7 +73,7 @@ impl PointFormat {
     }
 
     /// Reads all points of an input that are selected. Every wrong value is refused with its place.
-    pub fn read(self, input: Input, _selection: &Selection) -> Result<PointTable, Failure> {
+    pub fn read(self, input: Input, selection: &Selection) -> Result<PointTable, Failure> {
         match self {
             Self::Csv => csv::read_points(&input.into_bytes()?),
             Self::Xyz => xyz::read_points(&input.into_bytes()?),
@@ -78,6 +82,7 @@ impl PointFormat {
             Self::Ply => ply::read_points(&input.into_bytes()?),
             Self::Geojson => geojson::read_points(&input.into_bytes()?),
             Self::Json => json::read_points(&input.into_bytes()?),
+            Self::Las => lidar::read_points(input, selection),
         }
     }
 }

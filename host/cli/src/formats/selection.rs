@@ -1,6 +1,6 @@
 //! Which points of a file are taken.
 
-use crate::number::Number;
+use crate::number::Decimal;
 
 /// The choices that say which points of a file are taken.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -17,7 +17,7 @@ pub struct Selection {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
     /// The lowest x and y.
-    pub low: [Number; 2],
+    pub low: [Decimal; 2],
     /// The highest x and y.
-    pub high: [Number; 2],
+    pub high: [Decimal; 2],
 }

@@ -82,6 +82,12 @@ impl PointTable {
         }
     }
 
+    /// The table with the z of all its points, in their order. If one is not finite, no point has one.
+    pub fn with_heights(mut self, heights: Vec<f64>) -> Self {
+        self.heights = if heights.iter().all(|z| z.is_finite()) { heights } else { Vec::new() };
+        self
+    }
+
     /// The table, once all points are in it. Whole numbers beyond 64 bits are refused unless the set has fractions.
     pub fn complete(self) -> Result<Self, Failure> {
         match &self.beyond {

@@ -24,5 +24,7 @@ mod formats {
     mod bad_structure;
     mod files;
     mod hostile;
+    mod lidar;
+    mod lidar_hostile;
     mod packed;
 }

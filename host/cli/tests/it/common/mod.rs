@@ -1,5 +1,7 @@
 //! Helpers that run the command in a folder of its own.
 
+pub mod lidar;
+
 use std::ffi::OsStr;
 use std::io::Write;
 use std::path::{Path, PathBuf};

@@ -1,0 +1,189 @@
+//! The packed points of a LAZ file, chunk by chunk.
+//!
+//! A table at the end says how many bytes each chunk has, and, if chunks differ in length, how many points. The bytes
+//! must fill the place between the header and the table exactly, and the points must be those of the header, before a
+//! chunk is decoded. A chunk must end where its last point ends, so a count that is too small is found out.
+
+use std::io::{Cursor, Read, Seek, SeekFrom};
+
+use laz::laszip::ChunkTable;
+use laz::record::{LayeredPointRecordDecompressor, RecordDecompressor, SequentialPointRecordDecompressor};
+use laz::DecompressionSelection;
+
+use crate::failure::{counted, Failure};
+use crate::input::unreadable;
+
+use super::guard::guarded;
+use super::header::{read_at, refuse, Header};
+use super::packing::Packing;
+use super::sieve::Sieve;
+
+/// Bytes of the place of the table, which stands before the first chunk.
+const PLACE_BYTES: u64 = 8;
+/// Bytes of the head of the table: its version and the number of chunks.
+const TABLE_HEAD: u64 = 8;
+/// More bytes than the head and the end of a table take.
+const TABLE_ROOM: u64 = 64;
+/// More bytes than an entry of the table takes, with a number of bytes and one of points.
+const ENTRY_ROOM: u64 = 32;
+/// The records that are decoded at once.
+const BLOCK: usize = 1024;
+
+/// A chunk, by its number of bytes and of points.
+struct Chunk {
+    bytes: u64,
+    points: u64,
+}
+
+/// Reads all points of a LAZ file into the sieve.
+pub fn read<R: Read + Seek + ?Sized>(
+    source: &mut R,
+    header: &Header,
+    packing: &Packing,
+    sieve: &mut Sieve,
+) -> Result<(), Failure> {
+    let chunks = read_table(source, header, packing)?;
+    source.seek(SeekFrom::Start(header.data_start + PLACE_BYTES)).map_err(|error| unreadable(&error))?;
+    let mut bytes = Vec::new();
+    for (index, chunk) in chunks.iter().enumerate() {
+        bytes.clear();
+        source.take(chunk.bytes).read_to_end(&mut bytes).map_err(|error| unreadable(&error))?;
+        let at = |why: String| refuse(format!("chunk {} of {}: {why}", index + 1, chunks.len()));
+        if chunk.points == 0 && chunk.bytes < header.record_bytes as u64 {
+            // Some programs end with an empty chunk, of no bytes or of those that end the packing.
+            continue;
+        }
+        if chunk.points == 0 {
+            return Err(at(format!("it has {} bytes, but by the header no points", chunk.bytes)));
+        }
+        if packing.is_layered {
+            check_layers(&bytes, chunk, header, packing).map_err(at)?;
+        }
+        let decoded = guarded(|| decode(&bytes, chunk, header, packing, sieve));
+        match decoded.unwrap_or_else(|| Err(Fault::Damage("the packed bytes make no sense".to_owned()))) {
+            Ok(()) => {}
+            Err(Fault::Damage(why)) => return Err(at(why)),
+            Err(Fault::Refusal(failure)) => return Err(failure),
+        }
+    }
+    Ok(())
+}
+
+/// The chunks by the table of the file.
+fn read_table<R: Read + Seek + ?Sized>(
+    source: &mut R,
+    header: &Header,
+    packing: &Packing,
+) -> Result<Vec<Chunk>, Failure> {
+    let start = header.data_start.saturating_add(PLACE_BYTES);
+    let mut place = place_at(source, header.data_start)?;
+    if !(start..header.file_bytes).contains(&place) {
+        // A program that could not go back to the start puts the place at the end of the file.
+        place = place_at(source, header.file_bytes.saturating_sub(PLACE_BYTES))?;
+    }
+    let head = if place >= start { read_at(source, place, TABLE_HEAD)? } else { Vec::new() };
+    let Ok([_, _, _, _, count @ ..]) = <[u8; 8]>::try_from(head) else {
+        return Err(refuse("the table of chunks at the end of the points is missing: the file is cut off or damaged"));
+    };
+    let (count, room) = (u32::from_le_bytes(count), place - start);
+    // Every chunk but an empty last one begins with a point that is not packed.
+    if u64::from(count) > room / header.record_bytes as u64 + 1 {
+        return Err(refuse(format!("the table promises {count} chunks, for which {room} bytes are too few")));
+    }
+    let has_points = packing.vlr.uses_variable_size_chunks();
+    let rest = read_at(source, place, TABLE_ROOM + ENTRY_ROOM * u64::from(count))?;
+    let table = guarded(|| ChunkTable::read(&mut Cursor::new(&rest[..]), has_points)).and_then(Result::ok);
+    let Some(table) = table else {
+        return Err(refuse(format!("the table of {count} chunks cannot be read: the file is cut off or damaged")));
+    };
+    let sizes = table.as_ref().iter().map(|entry| entry.byte_count);
+    let sum = sizes.clone().try_fold(0u64, u64::checked_add);
+    if sum != Some(room) {
+        return Err(refuse(format!("the {count} chunks of the table do not fill the {room} bytes of the points")));
+    }
+    let points: Option<Vec<u64>> = if has_points {
+        let given: Vec<u64> = table.as_ref().iter().map(|entry| entry.point_count).collect();
+        let sum = given.iter().try_fold(0u64, |sum, &points| sum.checked_add(points));
+        (sum == Some(header.count)).then_some(given)
+    } else {
+        shares(header.count, packing.vlr.chunk_size().into(), count.into())
+    };
+    let points = points.ok_or_else(|| {
+        let (promised, count) = (header.count, counted(count as usize, "chunk"));
+        refuse(format!("the header promises {promised} points, which are not those of {count} in the file"))
+    })?;
+    Ok(sizes.zip(points).map(|(bytes, points)| Chunk { bytes, points }).collect())
+}
+
+/// The number at a place, or zero if the file ends before it.
+fn place_at<R: Read + Seek + ?Sized>(source: &mut R, place: u64) -> Result<u64, Failure> {
+    let bytes = read_at(source, place, PLACE_BYTES)?;
+    Ok(bytes.try_into().map_or(0, u64::from_le_bytes))
+}
+
+/// The points of chunks that all have `size` points but for the last, behind which there may be an empty one; `None` if
+/// `total` is not that of so many chunks.
+fn shares(total: u64, size: u64, count: u64) -> Option<Vec<u64>> {
+    let full = total.div_ceil(size);
+    if count != full && count != full + 1 {
+        return None;
+    }
+    Some((0..count).map(|index| size.min(total.saturating_sub(index * size))).collect())
+}
+
+/// Refuses a chunk of layers whose own count is another, or whose layers do not fill it.
+fn check_layers(bytes: &[u8], chunk: &Chunk, header: &Header, packing: &Packing) -> Result<(), String> {
+    let word = |place: usize| bytes.get(place..place + 4)?.try_into().ok().map(u32::from_le_bytes);
+    let first = header.record_bytes;
+    let count = word(first).ok_or("its first point is cut off")?;
+    if u64::from(count) != chunk.points {
+        return Err(format!("it has {count} points, but the header promises {}", chunk.points));
+    }
+    let layers = first + 4..first + 4 + 4 * packing.layers;
+    let sizes = layers.clone().step_by(4).map(|place| word(place).map(u64::from));
+    let sum = sizes.sum::<Option<u64>>().map(|sum| sum + layers.end as u64);
+    if sum != Some(chunk.bytes) {
+        return Err(format!("its layers do not fill its {} bytes", chunk.bytes));
+    }
+    Ok(())
+}
+
+/// The reason why a chunk was not read to its end.
+enum Fault {
+    /// The chunk is damaged.
+    Damage(String),
+    /// The points were refused.
+    Refusal(Failure),
+}
+
+/// Decodes a chunk of at least one point.
+fn decode(bytes: &[u8], chunk: &Chunk, header: &Header, packing: &Packing, sieve: &mut Sieve) -> Result<(), Fault> {
+    let mut layered;
+    let mut pointwise;
+    let decoder: &mut dyn RecordDecompressor<Cursor<&[u8]>> = if packing.is_layered {
+        layered = LayeredPointRecordDecompressor::new(Cursor::new(bytes));
+        &mut layered
+    } else {
+        pointwise = SequentialPointRecordDecompressor::new(Cursor::new(bytes));
+        &mut pointwise
+    };
+    decoder.set_fields_from(packing.vlr.items()).map_err(|error| Fault::Damage(error.to_string()))?;
+    let selection = DecompressionSelection::base().decompress_z();
+    decoder.set_selection(if sieve.wants_class() { selection.decompress_classification() } else { selection });
+    let mut block = vec![0; BLOCK * header.record_bytes];
+    let mut left = chunk.points;
+    while left > 0 {
+        let count = left.min(BLOCK as u64);
+        let records = &mut block[..count as usize * header.record_bytes];
+        let done = chunk.points - left;
+        decoder.decompress_many(records).map_err(|_| {
+            Fault::Damage(format!("it ends after {done} to {} of its {} points", done + count - 1, chunk.points))
+        })?;
+        sieve.take(records).map_err(Fault::Refusal)?;
+        left -= count;
+    }
+    match chunk.bytes - decoder.get().position() {
+        0 => Ok(()),
+        rest => Err(Fault::Damage(format!("it has {rest} bytes after its {} points", chunk.points))),
+    }
+}

@@ -1,0 +1,145 @@
+//! The records of a LAS file that are taken as points.
+
+use std::cmp::Ordering;
+
+use crate::failure::Failure;
+use crate::formats::selection::{Bounds, Selection};
+use crate::number;
+use crate::points::{Coordinates, PointTable};
+
+use super::header::{refuse, Header};
+use super::scale::{Plane, Scale};
+
+/// Bytes that a point takes in memory: two coordinates and a height.
+const POINT_BYTES: u64 = 24;
+
+/// Takes the points that are selected out of records.
+pub struct Sieve {
+    scale: Scale,
+    record_bytes: usize,
+    /// The place of the class in a record, and the bits of that byte that it has.
+    class: (usize, u8),
+    classes: Option<Box<[bool; 256]>>,
+    /// The integers of x and y that are within the bounds.
+    within: [(i64, i64); 2],
+    points: Points,
+    heights: Vec<f64>,
+    /// The records seen so far.
+    seen: u64,
+    /// The most points for which there is memory.
+    most: u64,
+}
+
+/// The coordinates of points.
+enum Points {
+    Steps(Plane, Vec<[i64; 2]>),
+    Doubles(Vec<[f64; 2]>),
+}
+
+impl Sieve {
+    /// Makes the sieve of a file. Its points may take as many bytes as `memory`.
+    pub fn new(header: &Header, selection: &Selection, memory: u64) -> Self {
+        let scale = Scale::of(header);
+        let within = match &selection.bounds {
+            Some(bounds) => [0, 1].map(|axis| within(&scale, bounds, axis)),
+            None => [(i64::MIN, i64::MAX); 2],
+        };
+        let classes = (!selection.classes.is_empty()).then(|| {
+            let mut taken = Box::new([false; 256]);
+            selection.classes.iter().for_each(|&class| taken[usize::from(class)] = true);
+            taken
+        });
+        let points = scale.plane().map_or(Points::Doubles(Vec::new()), |plane| Points::Steps(plane, Vec::new()));
+        Self {
+            scale,
+            record_bytes: header.record_bytes,
+            // The first formats have the class in five bits, beside three flags.
+            class: if header.is_extended() { (16, 0xff) } else { (15, 0x1f) },
+            classes,
+            within,
+            points,
+            heights: Vec::new(),
+            seen: 0,
+            most: memory / POINT_BYTES,
+        }
+    }
+
+    /// Whether the classes of points matter.
+    pub fn wants_class(&self) -> bool {
+        self.classes.is_some()
+    }
+
+    /// Takes points out of whole records, which follow those of the last call.
+    pub fn take(&mut self, records: &[u8]) -> Result<(), Failure> {
+        for record in records.chunks_exact(self.record_bytes) {
+            self.seen += 1;
+            let integer = |place: usize| i32::from_le_bytes([0, 1, 2, 3].map(|byte| record[place + byte]));
+            let [x, y] = [integer(0), integer(4)];
+            let class = usize::from(record[self.class.0] & self.class.1);
+            let is_within = |integer: i32, axis: usize| {
+                let (low, high) = self.within[axis];
+                low <= i64::from(integer) && i64::from(integer) <= high
+            };
+            let is_taken = self.classes.as_ref().is_none_or(|classes| classes[class]);
+            if !(is_taken && is_within(x, 0) && is_within(y, 1)) {
+                continue;
+            }
+            match &mut self.points {
+                Points::Steps(plane, steps) => steps.push([plane.steps(x, 0), plane.steps(y, 1)]),
+                Points::Doubles(doubles) => doubles.push(finite(&self.scale, [x, y], self.seen)?),
+            }
+            self.heights.push(self.scale.height(integer(8)));
+        }
+        if self.heights.len() as u64 > self.most {
+            let most = self.most;
+            return Err(refuse(format!(
+                "the file has more than {most} points, which take half of the free memory: select some with --class \
+                 or --bounds, or use a machine with more memory"
+            )));
+        }
+        Ok(())
+    }
+
+    /// The points that were taken.
+    pub fn into_table(self) -> PointTable {
+        let coordinates = match self.points {
+            Points::Steps(plane, steps) => Coordinates::Steps { steps, unit: plane.unit },
+            Points::Doubles(doubles) => Coordinates::Doubles(doubles),
+        };
+        PointTable::of_coordinates("point", coordinates).with_heights(self.heights)
+    }
+}
+
+/// The doubles of a point. A scale or an offset near the largest double can make them infinite, which is refused.
+fn finite(scale: &Scale, integers: [i32; 2], number: u64) -> Result<[f64; 2], Failure> {
+    let point = [scale.double(integers[0], 0), scale.double(integers[1], 1)];
+    if point.iter().all(|value| value.is_finite()) {
+        return Ok(point);
+    }
+    Err(refuse(format!(
+        "point {number} is beyond the largest double: the scale or the offset in the header is too large"
+    )))
+}
+
+/// The integers of an axis whose coordinates are within the bounds, as the lowest and the highest one.
+fn within(scale: &Scale, bounds: &Bounds, axis: usize) -> (i64, i64) {
+    let compare = |integer: i32, bound| number::compare(scale.coordinate(integer, axis), bound);
+    let low = first(|integer| compare(integer, bounds.low[axis]) != Ordering::Less);
+    let beyond = first(|integer| compare(integer, bounds.high[axis]) == Ordering::Greater);
+    (low, beyond - 1)
+}
+
+/// The lowest 32-bit integer for which `holds`, which must hold for all higher ones, too; 2^31 if there is none.
+fn first(holds: impl Fn(i32) -> bool) -> i64 {
+    let (mut low, mut high) = (i64::from(i32::MIN), i64::from(i32::MAX) + 1);
+    while low < high {
+        let middle = (low + high).div_euclid(2);
+        // The middle lies below 2^31, so it has 32 bits.
+        if holds(middle as i32) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    low
+}
