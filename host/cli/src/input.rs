@@ -71,6 +71,11 @@ impl Input {
         self.size
     }
 
+    /// The most bytes that the input, or what is made of it, may take in memory.
+    pub fn bound(&self) -> u64 {
+        self.bound
+    }
+
     /// All bytes of the input.
     pub fn into_bytes(mut self) -> Result<Vec<u8>, Failure> {
         if self.size > self.bound {

@@ -15,12 +15,18 @@ pub struct ReadArguments {
     /// Without this option the extension of the file chooses the format.
     #[arg(long, value_enum)]
     pub from: Option<PointFormat>,
+    /// Array of points in an archive .npz (default: its only array)
+    #[arg(long, value_name = "NAME")]
+    pub array: Option<String>,
 }
 
 impl ReadArguments {
     /// Which points of a file of this format are taken. A choice that the format does not have is refused.
-    pub fn selection(&self, _format: PointFormat) -> Result<Selection, Failure> {
-        Ok(Selection::default())
+    pub fn selection(&self, format: PointFormat) -> Result<Selection, Failure> {
+        if self.array.is_some() && format != PointFormat::Npz {
+            return Err(Failure::usage("--array names an array of an archive .npz: leave it out for other formats"));
+        }
+        Ok(Selection { array: self.array.clone(), ..Selection::default() })
     }
 }
 

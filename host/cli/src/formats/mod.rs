@@ -1,5 +1,6 @@
 //! The file formats, a file each, which reads and writes its format.
 
+mod array;
 pub mod csv;
 pub mod curve;
 pub mod ele;
@@ -7,8 +8,11 @@ pub mod geojson;
 pub mod json;
 mod mesh_view;
 pub mod node;
+pub mod npy;
+pub mod npz;
 pub mod obj;
 pub mod ply;
+mod ply_writer;
 mod selection;
 pub mod svg;
 mod triangle;
@@ -43,6 +47,10 @@ pub enum PointFormat {
     Geojson,
     /// The list `points` of a JSON mesh, or GeoJSON
     Json,
+    /// An array of NumPy of shape (n, 2) or (n, 3)
+    Npy,
+    /// An archive of such arrays, see --array
+    Npz,
 }
 
 impl PointFormat {
@@ -56,6 +64,8 @@ impl PointFormat {
             "ply" => Self::Ply,
             "geojson" => Self::Geojson,
             "json" => Self::Json,
+            "npy" => Self::Npy,
+            "npz" => Self::Npz,
             _ => return None,
         })
     }
@@ -66,7 +76,7 @@ impl PointFormat {
     }
 
     /// Reads all points of an input that are selected. Every wrong value is refused with its place.
-    pub fn read(self, input: Input, _selection: &Selection) -> Result<PointTable, Failure> {
+    pub fn read(self, mut input: Input, selection: &Selection) -> Result<PointTable, Failure> {
         match self {
             Self::Csv => csv::read_points(&input.into_bytes()?),
             Self::Xyz => xyz::read_points(&input.into_bytes()?),
@@ -75,6 +85,8 @@ impl PointFormat {
             Self::Ply => ply::read_points(&input.into_bytes()?),
             Self::Geojson => geojson::read_points(&input.into_bytes()?),
             Self::Json => json::read_points(&input.into_bytes()?),
+            Self::Npy => npy::read_points(array::Source::of_input(&mut input)),
+            Self::Npz => npz::read_points(input, selection.array.as_deref()),
         }
     }
 }
@@ -88,6 +100,8 @@ pub enum MeshFormat {
     Obj,
     /// PLY, ascii
     Ply,
+    /// PLY, binary, with doubles, little endian
+    PlyBinary,
     /// Legacy VTK, ascii
     Vtk,
     /// GeoJSON with a polygon for each triangle
@@ -96,6 +110,8 @@ pub enum MeshFormat {
     Json,
     /// Rows `a,b,c`
     Csv,
+    /// An array of NumPy of shape (m, 3), u4
+    Npy,
     /// A picture
     Svg,
 }
@@ -111,6 +127,7 @@ impl MeshFormat {
             "geojson" => Self::Geojson,
             "json" => Self::Json,
             "csv" => Self::Csv,
+            "npy" => Self::Npy,
             "svg" => Self::Svg,
             _ => return None,
         })
@@ -126,28 +143,39 @@ impl MeshFormat {
         !matches!(self, Self::Vtk | Self::Geojson | Self::Svg)
     }
 
+    /// Refuses points whose coordinates the format would change.
+    pub fn check_points(self, points: &PointTable) -> Result<(), Failure> {
+        match self {
+            Self::PlyBinary => ply_writer::check_binary(points),
+            _ => Ok(()),
+        }
+    }
+
     /// Writes a mesh in this format.
     pub fn write(self, mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
         match self {
             Self::Ele => ele::write_mesh(mesh, out),
             Self::Obj => obj::write_mesh(mesh, out),
-            Self::Ply => ply::write_mesh(mesh, out),
+            Self::Ply => ply_writer::write_ascii(mesh, out),
+            Self::PlyBinary => ply_writer::write_binary(mesh, out),
             Self::Vtk => vtk::write_mesh(mesh, out),
             Self::Geojson => geojson::write_mesh(mesh, out),
             Self::Json => json::write_mesh(mesh, out),
             Self::Csv => csv::write_mesh(mesh, out),
+            Self::Npy => npy::write_mesh(mesh, out),
             Self::Svg => svg::write_mesh(mesh, out),
         }
     }
 
     /// Reads the triangles of a mesh as they stand in the file. Only their form is checked.
-    pub fn read(self, input: Input) -> Result<Vec<[u32; 3]>, Failure> {
+    pub fn read(self, mut input: Input) -> Result<Vec<[u32; 3]>, Failure> {
         match self {
             Self::Ele => ele::read_mesh(&input.into_bytes()?),
             Self::Obj => obj::read_mesh(&input.into_bytes()?),
-            Self::Ply => ply::read_mesh(&input.into_bytes()?),
+            Self::Ply | Self::PlyBinary => ply::read_mesh(&input.into_bytes()?),
             Self::Json => json::read_mesh(&input.into_bytes()?),
             Self::Csv => csv::read_mesh(&input.into_bytes()?),
+            Self::Npy => npy::read_mesh(array::Source::of_input(&mut input)),
             Self::Vtk | Self::Geojson | Self::Svg => {
                 let readable = Self::names(Self::is_readable);
                 Err(Failure::usage(format!("a mesh can be read back only from {readable}: write one of them")))

@@ -82,6 +82,13 @@ impl PointTable {
         }
     }
 
+    /// The table with the z of its points. If there is none for a point, or one that is not finite, no point has one.
+    pub fn with_heights(mut self, heights: Vec<f64>) -> Self {
+        let is_complete = heights.len() == self.len() && heights.iter().all(|z| z.is_finite());
+        self.heights = if is_complete { heights } else { Vec::new() };
+        self
+    }
+
     /// The table, once all points are in it. Whole numbers beyond 64 bits are refused unless the set has fractions.
     pub fn complete(self) -> Result<Self, Failure> {
         match &self.beyond {

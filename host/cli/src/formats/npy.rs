@@ -1,0 +1,159 @@
+//! `.npy`, the arrays of NumPy: points as an array of n rows and two or three columns, meshes as one of m rows and three.
+//!
+//! Integers are taken as whole numbers and floats as the doubles that they are, in either byte order and in C or Fortran
+//! order. An array of records has the fields `x`, `y` and perhaps `z`. Meshes are written as `u4`, little endian.
+
+use std::io::{self, Write};
+
+use npyz::{DType, TypeStr, WriteOptions, WriterBuilder};
+
+use crate::failure::Failure;
+use crate::formats::array::{Cells, Source, Wanted};
+use crate::formats::mesh_view::MeshView;
+use crate::points::{Coordinates, Place, PointTable, Unit};
+use crate::text;
+
+const POINTS: Wanted =
+    Wanted { item: "point", widths: &[2, 3], shapes: "(n, 2) or (n, 3)", fields: (&["x", "y", "z"], 2) };
+const TRIANGLES: Wanted = Wanted { item: "triangle", widths: &[3], shapes: "(m, 3)", fields: (&[], 0) };
+
+/// The bytes that a point with its z takes in memory.
+const POINT_BYTES: u64 = 24;
+/// The bytes that a triangle takes in memory.
+const TRIANGLE_BYTES: u64 = 12;
+
+/// Reads the points of an array. The third column is z.
+pub fn read_points(mut source: Source<'_>) -> Result<PointTable, Failure> {
+    let layout = source.open(&POINTS, POINT_BYTES)?;
+    let certain = source.certain_rows(&layout);
+    let is_whole = |axis| layout.columns().any(|column| column.axis == axis && column.item.is_integer());
+    let mut heights = Vec::new();
+    let coordinates = if is_whole(0) && is_whole(1) {
+        let mut steps = with_room(certain)?;
+        source.read(&layout, |cells| match cells.axis {
+            2 => keep_heights(&mut heights, cells),
+            _ => keep_integers(&mut steps, cells),
+        })?;
+        Coordinates::Steps { steps, unit: Unit::of_digits(0) }
+    } else {
+        let mut points = with_room(certain)?;
+        source.read(&layout, |cells| match cells.axis {
+            2 => keep_heights(&mut heights, cells),
+            _ => keep_doubles(&mut points, cells),
+        })?;
+        Coordinates::Doubles(points)
+    };
+    Ok(PointTable::of_coordinates("point", coordinates).with_heights(heights))
+}
+
+/// Reads the triangles of an array of integers.
+pub fn read_mesh(mut source: Source<'_>) -> Result<Vec<[u32; 3]>, Failure> {
+    let layout = source.open(&TRIANGLES, TRIANGLE_BYTES)?;
+    if !layout.columns().all(|column| column.item.is_integer()) {
+        return Err(Failure::input("the array holds floats, but triangles are integers: save array.astype('<u4')"));
+    }
+    let mut triangles: Vec<[u32; 3]> = with_room(source.certain_rows(&layout))?;
+    source.read(&layout, |cells| {
+        let mut wrong = None;
+        let mut target = rows_of(&mut triangles, cells);
+        cells.integers(|integer| {
+            let Some((index, triangle)) = target.next() else { return };
+            match u32::try_from(integer) {
+                Ok(vertex) => triangle[cells.axis] = vertex,
+                Err(_) => wrong = wrong.or(Some((index, integer))),
+            }
+        });
+        wrong.map_or(Ok(()), |(index, integer)| {
+            let shown = cells.beyond(integer).map_or(integer.to_string(), |beyond| beyond.to_string());
+            Err(Failure::input(format!("triangle {}: {shown} is not a point index", index + 1)))
+        })
+    })?;
+    Ok(triangles)
+}
+
+/// Writes the triangles as an array of m rows and three columns.
+pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let item: TypeStr = "<u4".parse().map_err(io::Error::other)?;
+    let shape = [mesh.triangles.len() as u64, 3];
+    let options = WriteOptions::new_header_only().dtype(DType::Plain(item)).shape(&shape);
+    options.writer(&mut *out).write_header_only()?;
+    for triangle in mesh.triangles {
+        out.write_all(triangle.map(u32::to_le_bytes).as_flattened())?;
+    }
+    Ok(())
+}
+
+/// An empty list with room for so many rows.
+fn with_room<T>(rows: usize) -> Result<Vec<T>, Failure> {
+    let mut list = Vec::new();
+    list.try_reserve_exact(rows).map_err(|_| Failure::input(format!("{rows} rows do not fit the memory")))?;
+    Ok(list)
+}
+
+/// The rows of a list in which these cells stand, with their indices. The list grows as far as they need.
+fn rows_of<'a, T: Copy + Default>(
+    list: &'a mut Vec<T>,
+    cells: &Cells<'_>,
+) -> impl Iterator<Item = (usize, &'a mut T)> + use<'a, T> {
+    if list.len() < cells.end() {
+        list.resize(cells.end(), T::default());
+    }
+    let first = cells.first;
+    list[first..].iter_mut().enumerate().map(move |(index, row)| (first + index, row))
+}
+
+fn keep_integers(steps: &mut Vec<[i64; 2]>, cells: &Cells<'_>) -> Result<(), Failure> {
+    let axis = cells.axis.min(1);
+    let mut lowest = 0;
+    let mut target = rows_of(steps, cells);
+    cells.integers(|integer| {
+        lowest = lowest.min(integer);
+        if let Some((_, point)) = target.next() {
+            point[axis] = integer;
+        }
+    });
+    drop(target);
+    if cells.beyond(lowest).is_none() {
+        return Ok(());
+    }
+    let mut beyond = steps.iter().enumerate().skip(cells.first);
+    let found = beyond.find_map(|(index, point)| Some((index, cells.beyond(point[axis])?)));
+    found.map_or(Ok(()), |(index, value)| {
+        let (place, most) = (place(index, axis), i64::MAX);
+        Err(Failure::input(format!("{place}: {value} is beyond 64 bits with a sign: whole numbers go up to {most}")))
+    })
+}
+
+fn keep_doubles(points: &mut Vec<[f64; 2]>, cells: &Cells<'_>) -> Result<(), Failure> {
+    let axis = cells.axis.min(1);
+    let mut are_finite = true;
+    let mut target = rows_of(points, cells);
+    cells.doubles(|value| {
+        are_finite &= value.is_finite();
+        if let Some((_, point)) = target.next() {
+            // Adding zero turns minus zero into zero.
+            point[axis] = value + 0.0;
+        }
+    });
+    drop(target);
+    if are_finite {
+        return Ok(());
+    }
+    let mut rows = points.iter().enumerate().skip(cells.first);
+    let found = rows.find(|(_, point)| !point[axis].is_finite());
+    found.map_or(Ok(()), |(index, point)| Err(text::not_finite(&format!("'{}'", point[axis]), place(index, axis))))
+}
+
+fn keep_heights(heights: &mut Vec<f64>, cells: &Cells<'_>) -> Result<(), Failure> {
+    let mut target = rows_of(heights, cells);
+    cells.doubles(|value| {
+        if let Some((_, height)) = target.next() {
+            *height = value;
+        }
+    });
+    Ok(())
+}
+
+fn place(index: usize, axis: usize) -> Place {
+    Place::Item { name: "point", number: index + 1, axis: if axis == 0 { 'x' } else { 'y' } }
+}
