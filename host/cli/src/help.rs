@@ -41,6 +41,7 @@ Examples:
   incircle triangulate points.csv -o mesh.obj
   incircle triangulate cities.geojson -o picture.svg
   incircle triangulate - -o - --format csv < points.csv
+  incircle triangulate arrays.npz --array xy -o triangles.npy
   incircle triangulate points.csv -o mesh.ply --backend clock --config full --json
   incircle triangulate points.csv -o mesh.ply --backend serial:/dev/ttyUSB0";
 
