@@ -42,6 +42,7 @@ Examples:
   incircle triangulate cities.geojson -o picture.svg
   incircle triangulate - -o - --format csv < points.csv
   incircle triangulate survey.laz -o ground.ply --class 2
+  incircle triangulate arrays.npz --array xy -o triangles.npy
   incircle triangulate points.csv -o mesh.ply --backend clock --config full --json
   incircle triangulate points.csv -o mesh.ply --backend serial:/dev/ttyUSB0";
 

@@ -72,7 +72,7 @@ impl Input {
         self.size
     }
 
-    /// The most bytes that the input may have, and that may be made of it.
+    /// The most bytes that the input, or what is made of it, may take in memory.
     pub fn bound(&self) -> u64 {
         self.bound
     }

@@ -39,20 +39,26 @@ pub struct ReadArguments {
         verbatim_doc_comment
     )]
     pub bounds: Option<Bounds>,
+    /// Array of points in an archive .npz (default: its only array)
+    #[arg(long, value_name = "NAME")]
+    pub array: Option<String>,
 }
 
 impl ReadArguments {
     /// Which points of a file of this format are taken. A choice that the format does not have is refused.
     pub fn selection(&self, format: PointFormat) -> Result<Selection, Failure> {
-        let option = if self.bounds.is_some() { "--bounds" } else { "--class" };
-        let is_given = self.bounds.is_some() || !self.classes.is_empty();
-        if is_given && format != PointFormat::Las {
+        let is_lidar = self.bounds.is_some() || !self.classes.is_empty();
+        if is_lidar && format != PointFormat::Las {
+            let option = if self.bounds.is_some() { "--bounds" } else { "--class" };
             return Err(Failure::usage(format!(
                 "{option} selects points of LAS, LAZ and COPC files alone: select the points of this file before, or \
                  leave {option} out"
             )));
         }
-        Ok(Selection { array: None, classes: self.classes.clone(), bounds: self.bounds })
+        if self.array.is_some() && format != PointFormat::Npz {
+            return Err(Failure::usage("--array names an array of an archive .npz: leave it out for other formats"));
+        }
+        Ok(Selection { array: self.array.clone(), classes: self.classes.clone(), bounds: self.bounds })
     }
 }
 

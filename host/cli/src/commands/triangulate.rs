@@ -27,8 +27,9 @@ pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
     let table = source::read_points(&arguments.points, &arguments.read, arguments.quiet)?;
     watch.ended("load");
     interrupt::check()?;
-    let how = arguments.grid.quantize.map(|how| (how, choice.coord_bits));
     let in_file = |failure: Failure| failure.in_file(path::name(&arguments.points));
+    format.check_points(&table).map_err(in_file)?;
+    let how = arguments.grid.quantize.map(|how| (how, choice.coord_bits));
     let laid = lattice::lay(&table, how).map_err(in_file)?;
     choice.check_lattice(&laid).map_err(in_file)?;
     watch.ended("quantise");

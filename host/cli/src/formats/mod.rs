@@ -1,5 +1,6 @@
 //! The file formats, a file each, which reads and writes its format.
 
+mod array;
 pub mod csv;
 pub mod curve;
 pub mod ele;
@@ -9,8 +10,11 @@ pub mod lidar;
 mod mesh_view;
 pub mod node;
 pub mod npy;
+pub mod npy_writer;
+pub mod npz;
 pub mod obj;
 pub mod ply;
+mod ply_writer;
 mod selection;
 mod set;
 pub mod svg;
@@ -49,6 +53,10 @@ pub enum PointFormat {
     Json,
     /// LAS, LAZ or COPC of laser scanners
     Las,
+    /// An array of NumPy of shape (n, 2) or (n, 3)
+    Npy,
+    /// An archive of such arrays, see --array
+    Npz,
 }
 
 impl PointFormat {
@@ -63,6 +71,8 @@ impl PointFormat {
             "geojson" => Self::Geojson,
             "json" => Self::Json,
             "las" | "laz" => Self::Las,
+            "npy" => Self::Npy,
+            "npz" => Self::Npz,
             _ => return None,
         })
     }
@@ -73,7 +83,7 @@ impl PointFormat {
     }
 
     /// Reads all points of an input that are selected. Every wrong value is refused with its place.
-    pub fn read(self, input: Input, selection: &Selection) -> Result<PointTable, Failure> {
+    pub fn read(self, mut input: Input, selection: &Selection) -> Result<PointTable, Failure> {
         match self {
             Self::Csv => csv::read_points(&input.into_bytes()?),
             Self::Xyz => xyz::read_points(&input.into_bytes()?),
@@ -83,6 +93,8 @@ impl PointFormat {
             Self::Geojson => geojson::read_points(&input.into_bytes()?),
             Self::Json => json::read_points(&input.into_bytes()?),
             Self::Las => lidar::read_points(input, selection),
+            Self::Npy => npy::read_points(array::Source::of_input(&mut input)),
+            Self::Npz => npz::read_points(input, selection.array.as_deref()),
         }
     }
 }
@@ -96,6 +108,8 @@ pub enum MeshFormat {
     Obj,
     /// PLY, ascii
     Ply,
+    /// PLY, binary, with doubles, little endian
+    PlyBinary,
     /// Legacy VTK, ascii
     Vtk,
     /// GeoJSON with a polygon for each triangle
@@ -104,6 +118,8 @@ pub enum MeshFormat {
     Json,
     /// Rows `a,b,c`
     Csv,
+    /// An array of NumPy of shape (m, 3), u4
+    Npy,
     /// A picture
     Svg,
 }
@@ -119,6 +135,7 @@ impl MeshFormat {
             "geojson" => Self::Geojson,
             "json" => Self::Json,
             "csv" => Self::Csv,
+            "npy" => Self::Npy,
             "svg" => Self::Svg,
             _ => return None,
         })
@@ -134,28 +151,39 @@ impl MeshFormat {
         !matches!(self, Self::Vtk | Self::Geojson | Self::Svg)
     }
 
+    /// Refuses points whose coordinates the format would change.
+    pub fn check_points(self, points: &PointTable) -> Result<(), Failure> {
+        match self {
+            Self::PlyBinary => ply_writer::check_binary(points),
+            _ => Ok(()),
+        }
+    }
+
     /// Writes a mesh in this format.
     pub fn write(self, mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
         match self {
             Self::Ele => ele::write_mesh(mesh, out),
             Self::Obj => obj::write_mesh(mesh, out),
-            Self::Ply => ply::write_mesh(mesh, out),
+            Self::Ply => ply_writer::write_ascii(mesh, out),
+            Self::PlyBinary => ply_writer::write_binary(mesh, out),
             Self::Vtk => vtk::write_mesh(mesh, out),
             Self::Geojson => geojson::write_mesh(mesh, out),
             Self::Json => json::write_mesh(mesh, out),
             Self::Csv => csv::write_mesh(mesh, out),
+            Self::Npy => npy_writer::write_mesh(mesh, out),
             Self::Svg => svg::write_mesh(mesh, out),
         }
     }
 
     /// Reads the triangles of a mesh as they stand in the file. Only their form is checked.
-    pub fn read(self, input: Input) -> Result<Vec<[u32; 3]>, Failure> {
+    pub fn read(self, mut input: Input) -> Result<Vec<[u32; 3]>, Failure> {
         match self {
             Self::Ele => ele::read_mesh(&input.into_bytes()?),
             Self::Obj => obj::read_mesh(&input.into_bytes()?),
-            Self::Ply => ply::read_mesh(&input.into_bytes()?),
+            Self::Ply | Self::PlyBinary => ply::read_mesh(&input.into_bytes()?),
             Self::Json => json::read_mesh(&input.into_bytes()?),
             Self::Csv => csv::read_mesh(&input.into_bytes()?),
+            Self::Npy => npy::read_mesh(array::Source::of_input(&mut input)),
             Self::Vtk | Self::Geojson | Self::Svg => {
                 let readable = Self::names(Self::is_readable);
                 Err(Failure::usage(format!("a mesh can be read back only from {readable}: write one of them")))

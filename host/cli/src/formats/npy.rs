@@ -1,80 +1,142 @@
-//! `.npy`, the arrays of NumPy: points as an array of n rows and two columns, little endian.
+//! `.npy`, the arrays of NumPy: points as an array of n rows and two or three columns, meshes as one of m rows and three.
+//!
+//! Integers are taken as whole numbers and floats as the doubles that they are, in either byte order and in C or Fortran
+//! order. An array of records has the fields `x`, `y` and perhaps `z`.
 
-use std::io::{self, Write};
+use crate::failure::Failure;
+use crate::formats::array::{Cells, Source, Wanted};
+use crate::points::{Coordinates, Place, PointTable, Unit};
+use crate::text;
 
-use npyz::{AutoSerialize, DType, TypeStr, WriteOptions, WriterBuilder};
+const POINTS: Wanted =
+    Wanted { item: "point", widths: &[2, 3], shapes: "(n, 2) or (n, 3)", fields: (&["x", "y", "z"], 2) };
+const TRIANGLES: Wanted = Wanted { item: "triangle", widths: &[3], shapes: "(m, 3)", fields: (&[], 0) };
 
-/// A number that an array can hold.
-pub trait Stored: Copy {
-    /// The type of the values in the array.
-    type Value: Item;
+/// The bytes that a point with its z takes in memory.
+const POINT_BYTES: u64 = 24;
+/// The bytes that a triangle takes in memory.
+const TRIANGLE_BYTES: u64 = 12;
 
-    /// The value that is stored for the number.
-    fn stored(self) -> Self::Value;
+/// Reads the points of an array. The third column is z.
+pub fn read_points(mut source: Source<'_>) -> Result<PointTable, Failure> {
+    let layout = source.open(&POINTS, POINT_BYTES)?;
+    let certain = source.certain_rows(&layout);
+    let is_whole = |axis| layout.columns().any(|column| column.axis == axis && column.item.is_integer());
+    let mut heights = Vec::new();
+    let coordinates = if is_whole(0) && is_whole(1) {
+        let mut steps = with_room(certain)?;
+        source.read(&layout, |cells| match cells.axis {
+            2 => keep_heights(&mut heights, cells),
+            _ => keep_integers(&mut steps, cells),
+        })?;
+        Coordinates::Steps { steps, unit: Unit::of_digits(0) }
+    } else {
+        let mut points = with_room(certain)?;
+        source.read(&layout, |cells| match cells.axis {
+            2 => keep_heights(&mut heights, cells),
+            _ => keep_doubles(&mut points, cells),
+        })?;
+        Coordinates::Doubles(points)
+    };
+    Ok(PointTable::of_coordinates("point", coordinates).with_heights(heights))
 }
 
-/// A type of the values in an array.
-pub trait Item: AutoSerialize {
-    /// The name of the type in the header of a file.
-    const NAME: &'static str;
-}
-
-impl Item for u32 {
-    const NAME: &'static str = "<u4";
-}
-
-impl Item for i32 {
-    const NAME: &'static str = "<i4";
-}
-
-impl Item for f32 {
-    const NAME: &'static str = "<f4";
-}
-
-impl Item for f64 {
-    const NAME: &'static str = "<f8";
-}
-
-impl Stored for u32 {
-    type Value = Self;
-
-    fn stored(self) -> Self {
-        self
+/// Reads the triangles of an array of integers.
+pub fn read_mesh(mut source: Source<'_>) -> Result<Vec<[u32; 3]>, Failure> {
+    let layout = source.open(&TRIANGLES, TRIANGLE_BYTES)?;
+    if !layout.columns().all(|column| column.item.is_integer()) {
+        return Err(Failure::input("the array holds floats, but triangles are integers: save array.astype('<u4')"));
     }
+    let mut triangles: Vec<[u32; 3]> = with_room(source.certain_rows(&layout))?;
+    source.read(&layout, |cells| {
+        let mut wrong = None;
+        let mut target = rows_of(&mut triangles, cells);
+        cells.integers(|integer| {
+            let Some((index, triangle)) = target.next() else { return };
+            match u32::try_from(integer) {
+                Ok(vertex) => triangle[cells.axis] = vertex,
+                Err(_) => wrong = wrong.or(Some((index, integer))),
+            }
+        });
+        wrong.map_or(Ok(()), |(index, integer)| {
+            let shown = cells.beyond(integer).map_or(integer.to_string(), |beyond| beyond.to_string());
+            Err(Failure::input(format!("triangle {}: {shown} is not a point index", index + 1)))
+        })
+    })?;
+    Ok(triangles)
 }
 
-impl Stored for i32 {
-    type Value = Self;
+/// An empty list with room for so many rows.
+fn with_room<T>(rows: usize) -> Result<Vec<T>, Failure> {
+    let mut list = Vec::new();
+    list.try_reserve_exact(rows).map_err(|_| Failure::input(format!("{rows} rows do not fit the memory")))?;
+    Ok(list)
+}
 
-    fn stored(self) -> Self {
-        self
+/// The rows of a list in which these cells stand, with their indices. The list grows as far as they need.
+fn rows_of<'a, T: Copy + Default>(
+    list: &'a mut Vec<T>,
+    cells: &Cells<'_>,
+) -> impl Iterator<Item = (usize, &'a mut T)> + use<'a, T> {
+    if list.len() < cells.end() {
+        list.resize(cells.end(), T::default());
     }
+    let first = cells.first;
+    list[first..].iter_mut().enumerate().map(move |(index, row)| (first + index, row))
 }
 
-/// Writes points, one per row.
-pub fn write_points<N: Stored>(points: impl ExactSizeIterator<Item = [N; 2]>, out: &mut dyn Write) -> io::Result<()> {
-    let item: TypeStr = N::Value::NAME.parse().map_err(io::Error::other)?;
-    let options = WriteOptions::new().dtype(DType::Plain(item)).shape(&[points.len() as u64, 2]);
-    let mut array = options.writer(out).begin_nd()?;
-    array.extend(points.flatten().map(N::stored))?;
-    array.finish()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The bytes of the format are fixed by NumPy's page "numpy.lib.format", version 1.0.
-    #[test]
-    fn the_bytes_are_those_of_the_format() {
-        let mut bytes = Vec::new();
-        write_points([[1u32, 0x0203_0405], [7, 8]].into_iter(), &mut bytes).expect("memory can be written");
-        let (head, data) = bytes.split_at(128);
-        assert_eq!(head[..10], *b"\x93NUMPY\x01\x00\x76\x00");
-        let text = std::str::from_utf8(&head[10..]).expect("ASCII");
-        for part in ["'descr': '<u4'", "'fortran_order': False", "'shape': (2, 2"] {
-            assert!(text.contains(part), "{text}");
+fn keep_integers(steps: &mut Vec<[i64; 2]>, cells: &Cells<'_>) -> Result<(), Failure> {
+    let axis = cells.axis.min(1);
+    let mut lowest = 0;
+    let mut target = rows_of(steps, cells);
+    cells.integers(|integer| {
+        lowest = lowest.min(integer);
+        if let Some((_, point)) = target.next() {
+            point[axis] = integer;
         }
-        assert_eq!(data, [1, 0, 0, 0, 5, 4, 3, 2, 7, 0, 0, 0, 8, 0, 0, 0]);
+    });
+    drop(target);
+    if cells.beyond(lowest).is_none() {
+        return Ok(());
     }
+    let mut beyond = steps.iter().enumerate().skip(cells.first);
+    let found = beyond.find_map(|(index, point)| Some((index, cells.beyond(point[axis])?)));
+    found.map_or(Ok(()), |(index, value)| {
+        let (place, most) = (place(index, axis), i64::MAX);
+        Err(Failure::input(format!("{place}: {value} is beyond 64 bits with a sign: whole numbers go up to {most}")))
+    })
+}
+
+fn keep_doubles(points: &mut Vec<[f64; 2]>, cells: &Cells<'_>) -> Result<(), Failure> {
+    let axis = cells.axis.min(1);
+    let mut are_finite = true;
+    let mut target = rows_of(points, cells);
+    cells.doubles(|value| {
+        are_finite &= value.is_finite();
+        if let Some((_, point)) = target.next() {
+            // Adding zero turns minus zero into zero.
+            point[axis] = value + 0.0;
+        }
+    });
+    drop(target);
+    if are_finite {
+        return Ok(());
+    }
+    let mut rows = points.iter().enumerate().skip(cells.first);
+    let found = rows.find(|(_, point)| !point[axis].is_finite());
+    found.map_or(Ok(()), |(index, point)| Err(text::not_finite(&format!("'{}'", point[axis]), place(index, axis))))
+}
+
+fn keep_heights(heights: &mut Vec<f64>, cells: &Cells<'_>) -> Result<(), Failure> {
+    let mut target = rows_of(heights, cells);
+    cells.doubles(|value| {
+        if let Some((_, height)) = target.next() {
+            *height = value;
+        }
+    });
+    Ok(())
+}
+
+fn place(index: usize, axis: usize) -> Place {
+    Place::Item { name: "point", number: index + 1, axis: if axis == 0 { 'x' } else { 'y' } }
 }

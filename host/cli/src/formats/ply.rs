@@ -1,18 +1,16 @@
-//! PLY, the Stanford polygon format. Ascii and both binary forms are read; ascii is written.
+//! Reading PLY, the Stanford polygon format: ascii and both binary forms.
 //!
 //! Points are `x`, `y` and `z` of the element `vertex`, triangles the list `vertex_indices` or `vertex_index` of
 //! `face`; everything else is ignored. `ply-rs-bw` decodes headers and binary elements, one element at a time, so the
-//! claims of a header alone allocate nothing. Meshes hold every input point, at height 0 if it has no z, so indices
-//! stay those of the input.
+//! claims of a header alone allocate nothing.
 
-use std::io::{self, Write};
+use std::io;
 
 use incircle::Shown;
 use ply_rs_bw::parser::{Parser, Reader};
 use ply_rs_bw::ply::{ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType};
 
 use crate::failure::{counted, one_line, quoted, Failure};
-use crate::formats::mesh_view::MeshView;
 use crate::points::{self, PointTable};
 use crate::text;
 
@@ -268,20 +266,4 @@ fn read_row(element: &ElementDef, rest: &mut &[u8], index: usize) -> Result<Item
         return Err(Failure::input(format!("{} {} has more values than the header promises", element.name, index + 1)));
     }
     Ok(item)
-}
-
-/// Writes all input points and the triangles.
-pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
-    writeln!(out, "ply\nformat ascii 1.0\ncomment Delaunay triangulation by incircle")?;
-    writeln!(out, "element vertex {}", mesh.points.len())?;
-    writeln!(out, "property double x\nproperty double y\nproperty double z")?;
-    writeln!(out, "element face {}", mesh.triangles.len())?;
-    writeln!(out, "property list uchar int vertex_indices\nend_header")?;
-    for ([x, y], z) in mesh.positions() {
-        writeln!(out, "{x} {y} {z}")?;
-    }
-    for [a, b, c] in mesh.triangles {
-        writeln!(out, "3 {a} {b} {c}")?;
-    }
-    Ok(())
 }

@@ -5,8 +5,8 @@ use std::io::{self, Write};
 
 use clap::ValueEnum;
 
-use crate::formats::npy::Stored;
-use crate::formats::{csv, node, npy, xyz};
+use crate::formats::npy_writer::Stored;
+use crate::formats::{csv, node, npy_writer, xyz};
 
 /// Formats that `incircle generate` writes points in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -43,7 +43,7 @@ impl SetFormat {
             Self::Csv => csv::write_points(points, out),
             Self::Xyz => xyz::write_points(points, out),
             Self::Node => node::write_points(points, out),
-            Self::Npy => npy::write_points(points, out),
+            Self::Npy => npy_writer::write_points(points, out),
         }
     }
 }

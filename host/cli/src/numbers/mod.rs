@@ -10,7 +10,7 @@ use std::fmt;
 use clap::ValueEnum;
 
 use crate::failure::Failure;
-use crate::formats::npy::Stored;
+use crate::formats::npy_writer::Stored;
 use crate::number::Coordinate;
 
 /// Digits behind the point of decimals.

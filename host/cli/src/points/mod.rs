@@ -82,9 +82,10 @@ impl PointTable {
         }
     }
 
-    /// The table with the z of all its points, in their order. If one is not finite, no point has one.
+    /// The table with the z of its points. If there is none for a point, or one that is not finite, no point has one.
     pub fn with_heights(mut self, heights: Vec<f64>) -> Self {
-        self.heights = if heights.iter().all(|z| z.is_finite()) { heights } else { Vec::new() };
+        let is_complete = heights.len() == self.len() && heights.iter().all(|z| z.is_finite());
+        self.heights = if is_complete { heights } else { Vec::new() };
         self
     }
 

@@ -46,7 +46,7 @@ fn sets_without_triangles_are_answers() {
         scratch.write(&format!("{name}.csv"), points);
         scratch.run(&format!("triangulate {name}.csv -o {name}.ele")).ok();
         assert_eq!(scratch.read(&format!("{name}.ele")), "0 3 0\n", "{name}");
-        for format in ["obj", "ply", "vtk", "geojson", "json", "csv", "svg"] {
+        for format in ["obj", "ply", "vtk", "geojson", "json", "csv", "npy", "svg"] {
             scratch.run(&format!("triangulate {name}.csv -o {name}-mesh.{format}")).ok();
         }
         scratch.run(&format!("verify {name}.csv {name}.ele")).ok();

@@ -20,6 +20,7 @@ mod commands {
 }
 
 mod formats {
+    mod arrays;
     mod bad_input;
     mod bad_structure;
     mod files;

@@ -4,7 +4,7 @@ use incircle_cli::formats::{MeshFormat, PointFormat, Selection};
 use incircle_cli::Input;
 use incircle_testkit::SplitMix64;
 
-const POINT_FILES: [(PointFormat, &[u8]); 9] = [
+const POINT_FILES: [(PointFormat, &[u8]); 12] = [
     (PointFormat::Csv, b"x,y,\"name\"\n1,2,a\n3.5,-4e2,\"b\"\n# c\n5,6,d\n"),
     (PointFormat::Xyz, b"x y z\n1 2 3\n4\t5 6 # c\r\n7 8 9\n"),
     (PointFormat::Node, b"# a\n3 2 1 1\n1 1 2 0 0\n2 3 4 0 0\n3 5 6.5 0 0\n"),
@@ -34,9 +34,28 @@ const POINT_FILES: [(PointFormat, &[u8]); 9] = [
           {\"type\":\"MultiPoint\",\"coordinates\":[[3,4.5],[5e3,6,7]]}]}}]}",
     ),
     (PointFormat::Json, br#"{"points":[[1,2],[3.5,-4e2]],"triangles":[],"hull":[]}"#),
+    (
+        PointFormat::Npy,
+        b"\x93NUMPY\x01\x008\x00{'descr': '<f4', 'fortran_order': True, 'shape': (2, 3)}\x00\x00\x80\
+          ?\x00\x00\x00@\x00\x00@@\x00\x00\x90@\x00\x00\xa0@\x00\x00\xc0@",
+    ),
+    (
+        PointFormat::Npy,
+        b"\x93NUMPY\x01\x00N\x00{'descr': [('x', '>i2'), ('y', '|u1')], 'fortran_order': False, 'sha\
+          pe': (2,)}\x00\x01\x02\x00\x03\x04",
+    ),
+    (
+        PointFormat::Npz,
+        b"PK\x03\x04\x14\x00\x00\x00\x00\x00\x00\x00!\x00\x10\xcd`\x8aK\x00\x00\x00K\x00\x00\x00\x05\
+          \x00\x00\x00a.npy\x93NUMPY\x01\x009\x00{'descr': '<i2', 'fortran_order': False, 'shape': (\
+          2, 2)}\x01\x00\x02\x00\x03\x00\xfc\xffPK\x01\x02\x14\x03\x14\x00\x00\x00\x00\x00\x00\x00!\x00\
+          \x10\xcd`\x8aK\x00\x00\x00K\x00\x00\x00\x05\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x80\
+          \x01\x00\x00\x00\x00a.npyPK\x05\x06\x00\x00\x00\x00\x01\x00\x01\x003\x00\x00\x00n\x00\x00\x00\
+          \x00\x00",
+    ),
 ];
 
-const MESH_FILES: [(MeshFormat, &[u8]); 5] = [
+const MESH_FILES: [(MeshFormat, &[u8]); 6] = [
     (MeshFormat::Ele, b"2 3 0\n0 0 1 2\n1 1 3 2\n"),
     (MeshFormat::Obj, b"v 1 2 3\nf 1 2 3\nf 2/1 4//1 3/2/1\n"),
     (
@@ -47,6 +66,11 @@ const MESH_FILES: [(MeshFormat, &[u8]); 5] = [
     ),
     (MeshFormat::Json, br#"{"points":[[1,2]],"triangles":[[0,1,2],[1,3,2]],"hull":[]}"#),
     (MeshFormat::Csv, b"a,b,c\n0,1,2\n1,3,2\n"),
+    (
+        MeshFormat::Npy,
+        b"\x93NUMPY\x01\x009\x00{'descr': '<u2', 'fortran_order': False, 'shape': (2, 3)}\x00\x00\x01\
+          \x00\x02\x00\x01\x00\x03\x00\x02\x00",
+    ),
 ];
 
 /// Bytes that have a meaning in some format.
