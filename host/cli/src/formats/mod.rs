@@ -1,6 +1,7 @@
 //! The file formats, a file each, which reads and writes its format.
 
 pub mod csv;
+mod csv_rows;
 pub mod curve;
 pub mod ele;
 pub mod geojson;
@@ -13,6 +14,7 @@ mod selection;
 pub mod svg;
 mod triangle;
 pub mod vtk;
+pub mod wkt;
 pub mod xyz;
 
 use std::io::{self, Write};
@@ -43,6 +45,8 @@ pub enum PointFormat {
     Geojson,
     /// The list `points` of a JSON mesh, or GeoJSON
     Json,
+    /// Points of WKT, well-known text
+    Wkt,
 }
 
 impl PointFormat {
@@ -56,6 +60,7 @@ impl PointFormat {
             "ply" => Self::Ply,
             "geojson" => Self::Geojson,
             "json" => Self::Json,
+            "wkt" => Self::Wkt,
             _ => return None,
         })
     }
@@ -75,6 +80,7 @@ impl PointFormat {
             Self::Ply => ply::read_points(&input.into_bytes()?),
             Self::Geojson => geojson::read_points(&input.into_bytes()?),
             Self::Json => json::read_points(&input.into_bytes()?),
+            Self::Wkt => wkt::read_points(&input.into_bytes()?),
         }
     }
 }
