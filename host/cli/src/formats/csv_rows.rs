@@ -66,24 +66,25 @@ impl<'a> CsvRows<'a> {
             let Some(row) = self.take_row() else {
                 return Ok(None);
             };
-            if row.first() == Some(&b'#') || row.iter().all(|byte| byte.is_ascii_whitespace()) && !self.separates(row) {
+            if row.first() == Some(&b'#') {
                 continue;
             }
             self.ends.clear();
-            if memchr(b'"', row).is_some() {
+            let has_quotes = memchr(b'"', row).is_some();
+            if has_quotes {
                 self.unquote(row)?;
-                return Ok(Some((self.row, Values { text: &self.unquoted, ends: &self.ends, gap: 0 })));
+            } else {
+                let separators = row.iter().enumerate().filter(|(_, &byte)| byte == self.separator);
+                self.ends.extend(separators.map(|(place, _)| place));
+                self.ends.push(row.len());
             }
-            let separators = row.iter().enumerate().filter(|(_, &byte)| byte == self.separator);
-            self.ends.extend(separators.map(|(place, _)| place));
-            self.ends.push(row.len());
-            return Ok(Some((self.row, Values { text: row, ends: &self.ends, gap: 1 })));
+            // A blank row has one value, which is blank.
+            let only = if has_quotes { &self.unquoted[..self.ends[0]] } else { row };
+            if self.ends.len() > 1 || !only.trim_ascii().is_empty() {
+                let (text, gap) = if has_quotes { (self.unquoted.as_slice(), 0) } else { (row, 1) };
+                return Ok(Some((self.row, Values { text, ends: &self.ends, gap })));
+            }
         }
-    }
-
-    /// Whether a row that is blank still has values, because tabs separate them.
-    fn separates(&self, row: &[u8]) -> bool {
-        row.contains(&self.separator)
     }
 
     /// Takes the next row without its end, which is LF, CRLF or CR.
@@ -145,7 +146,7 @@ mod tests {
     fn the_crate_csv_splits_rows_alike() {
         let mut random = SplitMix64::new(3);
         let mut compared = 0;
-        for _ in 0..100_000 {
+        for _ in 0..20_000 {
             let len = random.below(24) as usize;
             // A lone CR ends a row here and not always there, so it is left out.
             let pieces = ["1", ",", "2", "\n", "\"", "\r\n", ";", "\t", " ", "#", "\n\"", "a", "\",", ",\""];
@@ -162,7 +163,7 @@ mod tests {
             }
             compared += usize::from(!runs_over);
         }
-        assert!(compared > 50_000);
+        assert!(compared > 10_000);
     }
 
     #[test]
