@@ -25,7 +25,16 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     let mut columns = [0, 1];
     let mut z = None;
     let mut width = 0;
-    while let Some((row, values)) = rows.next()? {
+    loop {
+        // Only rows of two columns can be pairs.
+        if width == 2 && columns == [0, 1] {
+            while let Some((row, pair)) = rows.next_pair() {
+                table.push_decimals(pair, row);
+            }
+        }
+        let Some((row, values)) = rows.next()? else {
+            return table.complete();
+        };
         if width == 0 {
             width = values.len();
             refuse_one_column(&values, row)?;
@@ -42,7 +51,6 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
             table.push_height(points::height(values.get(column)));
         }
     }
-    table.complete()
 }
 
 /// Reads the triangles of a mesh.

@@ -5,9 +5,10 @@
 //! `csv-core`, which knows the rules of RFC 4180. A quoted value may not run over the end of its row.
 
 use csv_core::{ReadRecordResult, Reader, ReaderBuilder};
-use memchr::{memchr, memchr2};
+use memchr::{memchr, memchr2, memchr_iter};
 
 use crate::failure::Failure;
+use crate::number::{self, Decimal};
 use crate::text;
 
 /// The rows of a file that are neither blank nor comments.
@@ -74,8 +75,7 @@ impl<'a> CsvRows<'a> {
             if has_quotes {
                 self.unquote(row)?;
             } else {
-                let separators = row.iter().enumerate().filter(|(_, &byte)| byte == self.separator);
-                self.ends.extend(separators.map(|(place, _)| place));
+                self.ends.extend(memchr_iter(self.separator, row));
                 self.ends.push(row.len());
             }
             // A blank row has one value, which is blank.
@@ -85,6 +85,21 @@ impl<'a> CsvRows<'a> {
                 return Ok(Some((self.row, Values { text, ends: &self.ends, gap })));
             }
         }
+    }
+
+    /// The next row with its number if the row is two decimals without quotes, spaces or exponents, and nothing else.
+    /// Such rows, which are the usual ones, take a third of the time here. Other rows are left to [`next`](Self::next).
+    #[inline]
+    pub fn next_pair(&mut self) -> Option<(usize, [Decimal; 2])> {
+        let (x, rest) = number::leading(self.rest)?;
+        let (y, rest) = number::leading(rest.strip_prefix(&[self.separator])?)?;
+        self.rest = match rest {
+            [b'\n', after @ ..] | [b'\r', b'\n', after @ ..] => after,
+            [] => rest,
+            _ => return None,
+        };
+        self.row += 1;
+        Some((self.row, [x, y]))
     }
 
     /// Takes the next row without its end, which is LF, CRLF or CR.
@@ -164,6 +179,27 @@ mod tests {
             compared += usize::from(!runs_over);
         }
         assert!(compared > 10_000);
+    }
+
+    #[test]
+    fn pairs_are_the_rows_of_two_decimals() {
+        let mut random = SplitMix64::new(4);
+        let pieces = ["1", "20", ",", ",", "\n", "\n", "\r\n", "-", ".", " ", "e1", "123456789012345", "\""];
+        let mut pairs = 0;
+        for _ in 0..200_000 {
+            let len = random.below(12) as usize;
+            let text: String = (0..len).map(|_| pieces[random.below(pieces.len() as u64) as usize]).collect();
+            let (mut rows, mut quick) = (CsvRows::new(text.as_bytes()), CsvRows::new(text.as_bytes()));
+            while let Some((row, [x, y])) = quick.next_pair() {
+                let (found, values) = rows.next().expect("no quotes").expect("a row");
+                assert_eq!((found, values.len()), (row, 2), "{text:?}");
+                let decimals = [values.get(0), values.get(1)].map(number::parse);
+                assert_eq!(decimals, [x, y].map(|decimal| Some(number::Number::Decimal(decimal))), "{text:?}");
+                assert_eq!(quick.rest, rows.rest, "{text:?}");
+                pairs += 1;
+            }
+        }
+        assert!(pairs > 500, "{pairs}");
     }
 
     #[test]
