@@ -57,30 +57,41 @@ pub fn parse(text: &[u8]) -> Option<Number> {
 
 /// Reads a decimal without an exponent that has at most 18 digits, which is the usual case.
 fn short(text: &[u8]) -> Option<Decimal> {
-    let (is_negative, unsigned) = match text {
-        [b'-', rest @ ..] => (true, rest),
-        _ => (false, text),
+    leading(text).filter(|(_, rest)| rest.is_empty()).map(|(decimal, _)| decimal)
+}
+
+/// Reads a decimal without an exponent at the start of a text, and returns the rest of the text as well. Of a decimal
+/// with more than 18 digits, some are left in the rest.
+#[inline]
+pub fn leading(text: &[u8]) -> Option<(Decimal, &[u8])> {
+    let (sign, unsigned) = match text {
+        [b'-', rest @ ..] => (-1, rest),
+        _ => (1, text),
     };
-    let mut steps = 0i64;
-    let mut point = None;
-    if unsigned.len() > SAFE_LEN {
-        return None;
-    }
-    for (index, &byte) in unsigned.iter().enumerate() {
-        match byte {
-            b'0'..=b'9' => steps = steps * 10 + i64::from(byte - b'0'),
-            b'.' if point.is_none() => point = Some(index),
-            _ => return None,
+    let (whole, rest) = digits(unsigned, SAFE_LEN, 0);
+    let len = unsigned.len() - rest.len();
+    match rest {
+        [b'.', behind @ ..] => {
+            let (steps, rest) = digits(behind, SAFE_LEN - len, whole);
+            let places = behind.len() - rest.len();
+            (len + places > 0).then(|| (Decimal::shortest(sign * steps, places as u32), rest))
         }
+        _ => (len > 0).then_some((Decimal { steps: sign * whole, digits: 0 }, rest)),
     }
-    if unsigned.len() == usize::from(point.is_some()) {
-        return None;
+}
+
+/// Reads up to `most` digits at the start of a text behind those of `steps`, and returns the rest of the text as well.
+#[inline]
+fn digits(text: &[u8], most: usize, mut steps: i64) -> (i64, &[u8]) {
+    let most = most.min(text.len());
+    for (index, byte) in text[..most].iter().enumerate() {
+        let digit = byte.wrapping_sub(b'0');
+        if digit > 9 {
+            return (steps, &text[index..]);
+        }
+        steps = steps * 10 + i64::from(digit);
     }
-    let steps = if is_negative { -steps } else { steps };
-    Some(match point {
-        Some(index) => Decimal::shortest(steps, (unsigned.len() - index - 1) as u32),
-        None => Decimal { steps, digits: 0 },
-    })
+    (steps, &text[most..])
 }
 
 /// Reads any number. The standard library decides what is a number.

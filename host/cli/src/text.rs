@@ -1,5 +1,7 @@
 //! Text files, read as rows of values.
 
+use memchr::memchr;
+
 use crate::failure::{quoted, Failure};
 use crate::points::Place;
 
@@ -16,9 +18,18 @@ pub fn without_mark(bytes: &[u8]) -> Result<&[u8], Failure> {
 
 /// The rows of a text with their numbers, counted from 1. Rows end in LF or CRLF; the last row may lack its end.
 pub fn rows(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
-    let body = bytes.strip_suffix(b"\n").unwrap_or(bytes);
-    let rows = body.split(|&byte| byte == b'\n').enumerate();
-    rows.filter(move |_| !bytes.is_empty()).map(|(index, row)| (index + 1, row.strip_suffix(b"\r").unwrap_or(row)))
+    let mut rest = bytes;
+    let mut number = 0;
+    std::iter::from_fn(move || {
+        if rest.is_empty() {
+            return None;
+        }
+        number += 1;
+        let end = memchr(b'\n', rest).unwrap_or(rest.len());
+        let row = &rest[..end];
+        rest = rest.get(end + 1..).unwrap_or_default();
+        Some((number, row.strip_suffix(b"\r").unwrap_or(row)))
+    })
 }
 
 /// The values of a row, separated by spaces and tabs.

@@ -2,6 +2,7 @@
 
 mod array;
 pub mod csv;
+mod csv_rows;
 pub mod curve;
 pub mod ele;
 pub mod geojson;
@@ -20,6 +21,7 @@ mod set;
 pub mod svg;
 mod triangle;
 pub mod vtk;
+pub mod wkt;
 pub mod xyz;
 
 use std::io::{self, Write};
@@ -57,6 +59,8 @@ pub enum PointFormat {
     Npy,
     /// An archive of such arrays, see --array
     Npz,
+    /// Points of WKT, well-known text
+    Wkt,
 }
 
 impl PointFormat {
@@ -73,6 +77,7 @@ impl PointFormat {
             "las" | "laz" => Self::Las,
             "npy" => Self::Npy,
             "npz" => Self::Npz,
+            "wkt" => Self::Wkt,
             _ => return None,
         })
     }
@@ -95,6 +100,7 @@ impl PointFormat {
             Self::Las => lidar::read_points(input, selection),
             Self::Npy => npy::read_points(array::Source::of_input(&mut input)),
             Self::Npz => npz::read_points(input, selection.array.as_deref()),
+            Self::Wkt => wkt::read_points(&input.into_bytes()?),
         }
     }
 }

@@ -6,7 +6,7 @@ mod place;
 use std::borrow::Cow;
 
 use crate::failure::{quoted, Failure};
-use crate::number::{self, Coordinate, Number};
+use crate::number::{self, Coordinate, Decimal, Number};
 use crate::text;
 
 pub use coordinates::{Coordinates, Unit};
@@ -62,6 +62,14 @@ impl PointTable {
         self.add_row(row);
         self.coordinates.push(numbers);
         Ok(())
+    }
+
+    /// Adds a point of decimals, from a text row.
+    #[inline]
+    pub fn push_decimals(&mut self, point: [Decimal; 2], row: usize) {
+        self.has_fraction |= point[0].digits | point[1].digits > 0;
+        self.add_row(row);
+        self.coordinates.push(point.map(Number::Decimal));
     }
 
     /// Adds a point of doubles, from a file that stores doubles. Values that are not finite are refused.

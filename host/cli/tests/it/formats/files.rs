@@ -65,6 +65,8 @@ fn every_point_format_gives_the_same_mesh() {
         ),
         ("little.ply", binary_ply("binary_little_endian", |value| value.to_le_bytes().to_vec())),
         ("big.ply", binary_ply("binary_big_endian", |value| value.to_be_bytes().to_vec())),
+        ("points.wkt", rows(|_, x, y| format!("Point ({x} {y})")).into()),
+        ("many.wkt", format!("MULTIPOINT ({})", POINTS.map(|[x, y]| format!("({x} {y})")).join(", ")).into()),
         ("features.geojson", collection(features).into()),
         ("multi.json", format!("{{\"type\":\"MultiPoint\",\"coordinates\":[{list}]}}").into()),
     ];

@@ -4,7 +4,8 @@ use incircle_cli::formats::{MeshFormat, PointFormat, Selection};
 use incircle_cli::Input;
 use incircle_testkit::SplitMix64;
 
-const POINT_FILES: [(PointFormat, &[u8]); 12] = [
+const POINT_FILES: [(PointFormat, &[u8]); 13] = [
+    (PointFormat::Wkt, b"POINT (1 2)\nSRID=4326;MULTIPOINT Z ((3 4 5), EMPTY)\nGEOMETRYCOLLECTION (POINT(6 7))"),
     (PointFormat::Csv, b"x,y,\"name\"\n1,2,a\n3.5,-4e2,\"b\"\n# c\n5,6,d\n"),
     (PointFormat::Xyz, b"x y z\n1 2 3\n4\t5 6 # c\r\n7 8 9\n"),
     (PointFormat::Node, b"# a\n3 2 1 1\n1 1 2 0 0\n2 3 4 0 0\n3 5 6.5 0 0\n"),

@@ -1,0 +1,263 @@
+//! WKT, well-known text: `POINT (x y)` and `MULTIPOINT ((x y), (x y))`, which can only be read.
+//!
+//! A file holds any number of geometries, one after the other, also in a `GEOMETRYCOLLECTION`. Letters may be small or
+//! capital; `Z`, `M` and `ZM` stand behind the name of the geometry or not at all; `SRID=4326;` before a geometry, as
+//! PostGIS writes it, is ignored, and so is an `EMPTY` geometry. The numbers are taken as they are written, which is why
+//! no library reads them: those that read WKT make doubles of them. Other geometries are refused.
+//!
+//! Source: OGC 06-103r4, "Simple feature access, part 1", chapter 7.
+
+use crate::failure::{quoted, Failure};
+use crate::points::{self, PointTable};
+use crate::text;
+
+/// Reads the points of all geometries.
+pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
+    let bytes = text::without_mark(bytes)?;
+    let mut table = PointTable::of_items("point");
+    let mut tokens = Tokens { all: bytes, at: 0 };
+    // Collections that are open.
+    let mut depth = 0usize;
+    while let Some(word) = tokens.next() {
+        match word {
+            b")" if depth > 0 => {
+                depth -= 1;
+                continue_list(&mut tokens, depth)?;
+            }
+            _ if word.eq_ignore_ascii_case(b"GEOMETRYCOLLECTION") => {
+                if open(&mut tokens)?.is_some() {
+                    depth += 1;
+                } else {
+                    continue_list(&mut tokens, depth)?;
+                }
+            }
+            _ => {
+                read_geometry(&mut tokens, word, &mut table)?;
+                continue_list(&mut tokens, depth)?;
+            }
+        }
+    }
+    if depth > 0 {
+        return Err(tokens.unexpected("')' or another geometry of the collection"));
+    }
+    table.complete()
+}
+
+/// Which numbers a point has behind x and y.
+#[derive(Clone, Copy, PartialEq)]
+enum Dimensions {
+    /// No letter says it: a third number is z.
+    Unsaid,
+    /// A measure, which is not read.
+    Measure,
+    /// A z, and perhaps a measure.
+    Height,
+}
+
+/// Takes the comma between two geometries of a collection; nothing stands between two geometries outside of one.
+fn continue_list(tokens: &mut Tokens<'_>, depth: usize) -> Result<(), Failure> {
+    if depth == 0 || tokens.peek() == Some(b")") || tokens.take(b",") {
+        return Ok(());
+    }
+    Err(tokens.unexpected("',' or ')'"))
+}
+
+/// Takes the letters behind the name of a geometry and the parenthesis; `None` for an empty geometry.
+fn open(tokens: &mut Tokens<'_>) -> Result<Option<Dimensions>, Failure> {
+    let mut dimensions = Dimensions::Unsaid;
+    for (letters, meaning) in [("ZM", Dimensions::Height), ("Z", Dimensions::Height), ("M", Dimensions::Measure)] {
+        if tokens.take_word(letters) {
+            dimensions = meaning;
+            break;
+        }
+    }
+    if tokens.take_word("EMPTY") {
+        return Ok(None);
+    }
+    tokens.expect(b"(", "'(' or EMPTY")?;
+    Ok(Some(dimensions))
+}
+
+/// Reads one geometry, whose first word has been taken.
+fn read_geometry<'a>(tokens: &mut Tokens<'a>, mut word: &'a [u8], table: &mut PointTable) -> Result<(), Failure> {
+    if word.eq_ignore_ascii_case(b"SRID") {
+        tokens.expect(b"=", "'=' and a number")?;
+        tokens.next();
+        tokens.expect(b";", "';' behind the number of the SRID")?;
+        word = tokens.next().unwrap_or_default();
+    }
+    // Some programs write the letters at the name: POINTZ.
+    let name = word.to_ascii_uppercase();
+    let (name, attached) = match name.as_slice() {
+        [name @ .., b'Z', b'M'] | [name @ .., b'Z'] => (name, Dimensions::Height),
+        [name @ .., b'M'] => (name, Dimensions::Measure),
+        name => (name, Dimensions::Unsaid),
+    };
+    let is_multiple = match name {
+        b"POINT" => false,
+        b"MULTIPOINT" => true,
+        _ => {
+            let (row, word) = (tokens.row(), quoted(word));
+            return Err(Failure::input(format!(
+                "row {row}: {word} is neither POINT nor MULTIPOINT nor a collection of them: other geometries are no \
+                 points"
+            )));
+        }
+    };
+    let Some(dimensions) = open(tokens)? else {
+        return Ok(());
+    };
+    let dimensions = if attached == Dimensions::Unsaid { dimensions } else { attached };
+    if !is_multiple {
+        read_point(tokens, dimensions, table)?;
+        return tokens.expect(b")", "')' behind the numbers of the point");
+    }
+    loop {
+        // The points of a MULTIPOINT have parentheses of their own, or none.
+        if tokens.take(b"(") {
+            read_point(tokens, dimensions, table)?;
+            tokens.expect(b")", "')' behind the numbers of the point")?;
+        } else if !tokens.take_word("EMPTY") {
+            read_point(tokens, dimensions, table)?;
+        }
+        if !tokens.take(b",") {
+            return tokens.expect(b")", "',' or ')'");
+        }
+    }
+}
+
+/// Reads two to four numbers.
+fn read_point(tokens: &mut Tokens<'_>, dimensions: Dimensions, table: &mut PointTable) -> Result<(), Failure> {
+    let mut numbers = [&b""[..]; 4];
+    let mut count = 0;
+    for number in &mut numbers {
+        match tokens.peek() {
+            Some(word) if !word.first().is_some_and(is_sign) => *number = word,
+            _ => break,
+        }
+        tokens.next();
+        count += 1;
+    }
+    if count < 2 {
+        let row = tokens.row();
+        return Err(Failure::input(format!("row {row}: a point has {count} numbers, not two or more")));
+    }
+    // The table names points by their numbers; counting the rows up to each point would take quadratic time.
+    table.push([numbers[0], numbers[1]], 0)?;
+    let has_height = count > 2 && dimensions != Dimensions::Measure;
+    table.push_height(has_height.then(|| points::height(numbers[2])).flatten());
+    Ok(())
+}
+
+/// Whether a byte is a token by itself.
+fn is_sign(byte: &u8) -> bool {
+    b"(),;=".contains(byte)
+}
+
+/// The words, numbers and signs of a text.
+struct Tokens<'a> {
+    all: &'a [u8],
+    at: usize,
+}
+
+impl<'a> Tokens<'a> {
+    /// The next token without taking it; `None` at the end.
+    fn peek(&mut self) -> Option<&'a [u8]> {
+        let rest = self.all.get(self.at..)?.trim_ascii_start();
+        self.at = self.all.len() - rest.len();
+        let len = match rest.first() {
+            None => return None,
+            Some(byte) if is_sign(byte) => 1,
+            Some(_) => rest.iter().position(|byte| is_sign(byte) || byte.is_ascii_whitespace()).unwrap_or(rest.len()),
+        };
+        Some(&rest[..len])
+    }
+
+    /// Takes the next token.
+    fn next(&mut self) -> Option<&'a [u8]> {
+        let token = self.peek()?;
+        self.at += token.len();
+        Some(token)
+    }
+
+    /// Takes the next token if it is this sign.
+    fn take(&mut self, sign: &[u8]) -> bool {
+        let is_next = self.peek() == Some(sign);
+        self.at += if is_next { sign.len() } else { 0 };
+        is_next
+    }
+
+    /// Takes the next token if it is this word, in small or capital letters.
+    fn take_word(&mut self, word: &str) -> bool {
+        let is_next = self.peek().is_some_and(|token| token.eq_ignore_ascii_case(word.as_bytes()));
+        self.at += if is_next { word.len() } else { 0 };
+        is_next
+    }
+
+    /// Takes the next token, which must be this sign.
+    fn expect(&mut self, sign: &[u8], what: &str) -> Result<(), Failure> {
+        if self.take(sign) {
+            return Ok(());
+        }
+        Err(self.unexpected(what))
+    }
+
+    /// The failure of a token that is not what the grammar wants.
+    fn unexpected(&mut self, what: &str) -> Failure {
+        let found = self.peek().map_or_else(|| "the end of the file".to_owned(), quoted);
+        Failure::input(format!("row {}: there is {found} where {what} must stand", self.row()))
+    }
+
+    /// The row of the next token, counted from 1.
+    fn row(&self) -> usize {
+        let before = self.all.get(..self.at).unwrap_or_default();
+        1 + memchr::memchr_iter(b'\n', before).count()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_spellings_are_read() {
+        let text = b"POINT(1 2)\nSRID=4326;point z (3 4.50 -5e0)\nMULTIPOINT ((-1 2), EMPTY, (3 4 9))\n\
+                     MultiPointZM(5 6 7 8,9 10 11 12) POINT EMPTY\nGEOMETRYCOLLECTION M (POINT M (1 1 1),\n \
+                     GEOMETRYCOLLECTION EMPTY, GEOMETRYCOLLECTION (MULTIPOINT(2 3)))\n";
+        let table = read_points(text).expect("well-known text");
+        let found: Vec<[f64; 2]> = table.doubles().to_vec();
+        let expected = [[1., 2.], [3., 4.5], [-1., 2.], [3., 4.], [5., 6.], [9., 10.], [1., 1.], [2., 3.]];
+        assert_eq!(found, expected);
+        assert!(read_points(b"").expect("no points").is_empty());
+        assert!(read_points(b"POINT EMPTY").expect("no points").is_empty());
+    }
+
+    #[test]
+    fn heights_are_kept_and_measures_are_not() {
+        let heights = |text: &str| read_points(text.as_bytes()).expect("points").heights().to_vec();
+        assert_eq!(heights("POINT (1 2 3) POINT Z (4 5 6) POINTZM (1 2 7 9)"), [3.0, 6.0, 7.0]);
+        assert!(heights("POINT M (1 2 3)").is_empty());
+        assert!(heights("POINTM (1 2 3)").is_empty());
+    }
+
+    #[test]
+    fn wrong_texts_are_refused_with_their_row() {
+        for (text, part) in [
+            ("POINT (1 2)\nLINESTRING (1 2, 3 4)", "row 2: 'LINESTRING' is neither POINT"),
+            ("POINT (1)", "row 1: a point has 1 numbers"),
+            ("POINT (1 2", "row 1: there is the end of the file where ')'"),
+            ("POINT 1 2", "row 1: there is '1' where '(' or EMPTY"),
+            ("POINT (1 2 3 4 5)", "row 1: there is '5' where ')'"),
+            ("POINT (1 x)", "point 1, y: 'x' is not a number"),
+            ("MULTIPOINT (1 2; 3 4)", "row 1: there is ';' where"),
+            ("GEOMETRYCOLLECTION (POINT (1 2)", "where ',' or ')'"),
+            ("GEOMETRYCOLLECTION (", "another geometry of the collection"),
+            ("SRID=4326 POINT (1 2)", "where ';'"),
+            (")", "row 1: ')' is neither"),
+            ("POINT (nan 1)", "not a finite number"),
+        ] {
+            let failure = read_points(text.as_bytes()).expect_err(text);
+            assert!(failure.message.contains(part), "{text}: {failure}");
+        }
+    }
+}
