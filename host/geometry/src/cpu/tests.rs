@@ -6,7 +6,7 @@ use incircle_testkit::{incircle_of_doubles, orient2d_of_doubles};
 use proptest::prelude::*;
 
 use super::edges::{Half, HALVES};
-use super::kernel::{is_inside, Kernel};
+use super::kernel::{Ends, Kernel};
 use super::sites::{sort, Sites};
 use super::view::{Integers, Narrow, Site, Wide, Widest, Width};
 use super::{collect, segments};
@@ -55,16 +55,15 @@ fn ties_are_decided<W: Width>() -> usize {
     let grid: Vec<Site> = (0..16).map(|k| Site { x: k / 4, y: k % 4 }).collect();
     let mut ties = 0;
     for (&a, &b) in grid.iter().flat_map(|a| grid.iter().map(move |b| (a, b))) {
-        let seen = grid.iter().map(|&site| Integers::<W>::see(a, b, site));
-        let seen: Vec<_> = seen.collect();
-        for (&c, &q) in seen.iter().flat_map(|c| seen.iter().map(move |q| (c, q))) {
-            let expected = Integers::<W>::is_left(c) && is_inside::<Integers<W>>(a, b, c, q);
-            assert_eq!(Integers::<W>::is_left_and_inside(a, b, c, q), expected);
-        }
-        let above: Vec<_> = seen.into_iter().filter(|&seen| Integers::<W>::is_left(seen)).collect();
-        for (&c, &q) in above.iter().flat_map(|c| above.iter().map(move |q| (c, q))).filter(|(c, q)| c.site != q.site) {
-            assert_eq!(is_inside::<Integers<W>>(a, b, c, q), conflicts(a, b, c.site, q.site));
-            ties += usize::from(lifted(a, b, c.site, q.site) == 0);
+        let ends = Ends { a, b, bounds: () };
+        let seen: Vec<_> = grid.iter().map(|&site| Integers::<W>::see(ends, site)).collect();
+        for (&c, &q) in seen.iter().flat_map(|c| seen.iter().map(move |q| (c, q))).filter(|(c, q)| c.site != q.site) {
+            let [c_is_left, q_is_left] = [c, q].map(|seen| Integers::<W>::is_left(ends, seen));
+            let determinant = lifted(a, b, c.site, q.site);
+            // A tie with a point that does not lie to the left is refused.
+            let is_inside = (determinant != 0 || q_is_left) && conflicts(a, b, c.site, q.site);
+            assert_eq!(Integers::<W>::is_left_and_inside(ends, c, q), c_is_left && is_inside);
+            ties += usize::from(c_is_left && q_is_left && determinant == 0);
         }
     }
     ties
