@@ -7,7 +7,7 @@ use proptest::prelude::*;
 
 use super::edges::{Half, HALVES};
 use super::kernel::{Ends, Kernel};
-use super::sites::{sort, Sites};
+use super::sites::{exact_bits, sort, Sites};
 use super::view::{Integers, Narrow, Site, Wide, Widest, Width};
 use super::{collect, segments};
 use crate::order::mix;
@@ -244,5 +244,25 @@ proptest! {
         }
         let position = |site: &Site| position(Point::new(site.x, site.y));
         prop_assert!(sorted.sites.windows(2).all(|pair| position(&pair[0]) < position(&pair[1])));
+    }
+}
+
+#[test]
+fn words_are_exact_up_to_the_bits_that_say_so() {
+    for points in [1, 2, 300, 4096, 16_384, 1_000_000, 1 << 25, (1 << 29) - 1] {
+        for threads in [1, 2, 16, 300] {
+            let bits = exact_bits(points, threads);
+            assert!((22..=32).contains(&bits), "{points} points, {threads} threads: {bits}");
+        }
+    }
+    // Points in the corners of the widest square whose words are exact, and one bit beyond, are all kept.
+    for bits in [exact_bits(5000, 1), exact_bits(5000, 1) + 1] {
+        let last = ((1u64 << bits) - 1) as u32;
+        let near = |k: u32| Point::new(if k & 1 == 0 { k } else { last - k }, if k & 2 == 0 { k } else { last - k });
+        let points: Vec<Point> = (0..5000).map(near).collect();
+        let Sites { sites, ids, duplicates, bits: found } = sort(&points, 1);
+        assert_eq!((sites.len(), duplicates.len(), found), (5000, 0, bits));
+        assert!(ids.iter().zip(&sites).all(|(&id, &site)| Site::from(points[id as usize]) == site));
+        assert!(sites.is_sorted_by_key(|site| position(Point::new(site.x, site.y))));
     }
 }
