@@ -68,8 +68,8 @@ impl<C: Coordinate> Kernel for Filtered<C> {
     type Bounds = Bounds;
 
     #[inline(always)]
-    fn bounds<const N: usize>(sites: [FilteredSite<C>; N]) -> Bounds {
-        Bounds::of(sites.map(|site| site.0))
+    fn bounds<const N: usize>(sites: impl FnOnce() -> [FilteredSite<C>; N]) -> Bounds {
+        Bounds::of(sites().map(|site| site.0))
     }
 
     #[inline(always)]

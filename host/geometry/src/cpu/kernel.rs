@@ -18,8 +18,8 @@ pub(super) trait Kernel: Copy + Sync + 'static {
     /// What the predicates need to know of a set of points beforehand.
     type Bounds: Copy;
 
-    /// The bounds for all points in the bounding box of these.
-    fn bounds<const N: usize>(sites: [Self::Site; N]) -> Self::Bounds;
+    /// The bounds for all points in the bounding box of these. Kernels that need no bounds leave the function uncalled.
+    fn bounds<const N: usize>(sites: impl FnOnce() -> [Self::Site; N]) -> Self::Bounds;
 
     /// Swaps the axes of a point, so that points compare by y, then x.
     fn swapped(site: Self::Site) -> Self::Site;

@@ -43,7 +43,7 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
     #[inline(always)]
     pub(super) fn triangle(&mut self, v: u32) -> Option<Part> {
         let at = |k: u32| self.site(v + k);
-        let turn = turn::<K>(K::bounds([at(0), at(1), at(2)]), [at(0), at(1), at(2)]);
+        let turn = turn::<K>(K::bounds(|| [at(0), at(1), at(2)]), [at(0), at(1), at(2)]);
         if turn.is_eq() {
             return None;
         }
@@ -57,7 +57,7 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
     #[inline(always)]
     pub(super) fn four(&mut self, v: u32) -> Option<Part> {
         let [p0, mut p1, mut p2, p3] = [0, 1, 2, 3].map(|k| self.site(v + k));
-        let bounds = K::bounds([p0, p1, p2, p3]);
+        let bounds = K::bounds(|| [p0, p1, p2, p3]);
         let turn = turn::<K>(bounds, [p0, p1, p2]);
         // The second and the third vertex change places, so that the first three turn left.
         let swap = u32::from(turn.is_lt()) * 3;

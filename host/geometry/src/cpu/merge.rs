@@ -73,11 +73,11 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
     /// Joins two parts, at least one of which has an edge.
     pub(super) fn merge(&mut self, one: Part, other: Part, cut: Cut) -> Part {
         debug_assert!(!(one.is_vertex && other.is_vertex), "the pair of one would be lost");
+        let bounds = K::bounds(|| self.outermost(&one, &other, cut).map(|e| self.from(e)));
+        let first = self.lower_tangent(&one, &other, cut, bounds);
         // `zip` may remove the half-edges of vertices that are ends of the first or the last base edge. The vertices
         // stay, so both are remembered, and such a half-edge is replaced by that of the base edge.
         let outermost = self.outermost(&one, &other, cut).map(|e| (e, self.origin(e)));
-        let bounds = K::bounds(outermost.map(|(_, vertex)| self.site(vertex)));
-        let first = self.lower_tangent(&one, &other, cut, bounds);
         let last = self.zip(first, bounds);
         let [left, right, bottom, top] = outermost.map(|(e, vertex)| {
             let e = if vertex == first.a { first.at_a } else { e };

@@ -188,7 +188,7 @@ impl<W: Width> Kernel for Integers<W> {
     type Bounds = ();
 
     #[inline(always)]
-    fn bounds<const N: usize>(_: [Site; N]) {}
+    fn bounds<const N: usize>(_: impl FnOnce() -> [Site; N]) {}
 
     #[inline(always)]
     fn swapped(site: Site) -> Site {
