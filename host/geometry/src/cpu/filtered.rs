@@ -123,7 +123,7 @@ impl<C: Coordinate> Kernel for Filtered<C> {
 /// it open.
 #[inline(never)]
 fn is_exactly_left_and_inside<C: Coordinate>(ends: Ends<Filtered<C>>, c: Seen<C>, q: Seen<C>) -> bool {
-    let Ends { a, b, .. } = ends;
+    let Ends { a, b, bounds } = ends;
     // Around a vertex with two half-edges the vertex behind the candidate is the other end of the base edge.
     if q.site == a || q.site == b || !Filtered::is_left(ends, c) {
         return false;
@@ -131,6 +131,6 @@ fn is_exactly_left_and_inside<C: Coordinate>(ends: Ends<Filtered<C>>, c: Seen<C>
     match circle(a.0, b.0, c.site.0, q.site.0) {
         Ordering::Greater => true,
         Ordering::Less => false,
-        Ordering::Equal => tie_is_inside(ends, c.site, q),
+        Ordering::Equal => tie_is_inside::<Filtered<C>>(a, b, bounds, c.site, q),
     }
 }

@@ -66,11 +66,10 @@ pub(super) struct Ends<K: Kernel> {
 
 /// Decides a tie: `a`, `b`, `c`, `q` lie on one circle, or `q` is on the line of `a` and `b`.
 #[inline(never)]
-pub(super) fn tie_is_inside<K: Kernel>(ends: Ends<K>, c: K::Site, q: K::Seen) -> bool {
-    if !K::is_left(ends, q) {
+pub(super) fn tie_is_inside<K: Kernel>(a: K::Site, b: K::Site, bounds: K::Bounds, c: K::Site, q: K::Seen) -> bool {
+    if !K::is_left(Ends { a, b, bounds }, q) {
         return false;
     }
-    let Ends { a, b, .. } = ends;
     let q = K::site(q);
     let smallest = a.min(b).min(c).min(q);
     // Lowering a corner moves `q` inside iff the other three turn right around that corner. Lowering `q` always moves

@@ -220,7 +220,7 @@ impl<W: Width> Kernel for Integers<W> {
     fn is_left_and_inside(ends: Ends<Self>, c: Self::Seen, q: Self::Seen) -> bool {
         let determinant = W::if_left(c.view.cross, W::determinant(c.view, q.view));
         let zero = W::Determinant::default();
-        determinant > zero || (determinant == zero && tie_is_inside::<Self>(ends, c.site, q))
+        determinant > zero || (determinant == zero && tie_is_inside::<Self>(ends.a, ends.b, (), c.site, q))
     }
 
     #[inline(always)]

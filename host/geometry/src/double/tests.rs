@@ -106,7 +106,7 @@ fn bounds_of_a_set_hold_for_all_scales() {
         let scale = 2f64.powi(exponent / 2) * 2f64.powi(exponent - exponent / 2);
         let mut answers = 0;
         for _ in 0..500 {
-            // Corners of a square, on a circle but for some units in the last place, in every fourth round away from it.
+            // Corners of a square, on a circle but for some units in the last place; in every fourth round one is away.
             let away = if random.once_in(4) { 0.1 } else { 0.0 };
             let mut near = |value: f64| scale * (value + random.below(8) as f64 * f64::EPSILON);
             let points = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [away, 1.0]].map(|point| point.map(&mut near));
