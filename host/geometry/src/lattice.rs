@@ -98,12 +98,7 @@ impl Lattice {
     /// two that makes all whole. `None` if a coordinate is infinite or not a number, or 9.2e18 steps or more in
     /// magnitude, or if a span is 2^32 steps or more.
     pub fn of_doubles(points: &[[f64; 2]]) -> Option<(Self, Vec<Point>)> {
-        let exponent =
-            points.iter().flatten().map(|&value| trailing_exponent(value)).try_fold(i32::MAX, |least, one| {
-                // A set with an infinity, or with a value that is not a number, has no lattice.
-                one.map(|exponent| least.min(exponent))
-            })?;
-        let exponent = if exponent >= 0 { 0 } else { exponent };
+        let exponent = least_exponent(points)?;
         let step = if exponent == 0 { Step::Whole } else { Step::Binary { exponent } };
         let whole = |value: f64| {
             let steps = scaled(value, -exponent);
@@ -128,6 +123,28 @@ impl Lattice {
     pub fn steps(&self, point: Point) -> [i64; 2] {
         [self.offset[0] + i64::from(point.x), self.offset[1] + i64::from(point.y)]
     }
+}
+
+/// The largest exponent, at most 0, of a power of two of which all coordinates are multiples. `None` if a coordinate is
+/// infinite or not a number, or if it is plain before the end that a span is 2^32 multiples or more: most sets without
+/// a lattice are recognised by their first points.
+fn least_exponent(points: &[[f64; 2]]) -> Option<i32> {
+    const POINTS: usize = 256;
+    // Twice as many steps as too many leave room for the rounding of the span.
+    const STEPS: f64 = (1u64 << 33) as f64;
+    let (mut least, mut low, mut high) = (0, [f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for some in points.chunks(POINTS) {
+        for &point in some {
+            for axis in 0..2 {
+                least = least.min(trailing_exponent(point[axis])?);
+                (low[axis], high[axis]) = (low[axis].min(point[axis]), high[axis].max(point[axis]));
+            }
+        }
+        if (0..2).any(|axis| scaled(high[axis] - low[axis], -least) >= STEPS) {
+            return None;
+        }
+    }
+    Some(least)
 }
 
 /// `10^digits`, for no negative `digits`; exact up to 22.
@@ -226,6 +243,27 @@ mod tests {
         assert_eq!(lattice(&[[f64::NAN, 0.0]]), None);
         assert_eq!(lattice(&[[f64::INFINITY, 0.0]]), None);
         assert_eq!(lattice(&[[1e300, 0.0]]), None);
+    }
+
+    #[test]
+    fn a_span_is_too_wide_wherever_it_shows() {
+        // 2^32 steps are too many and one less is not, whether early or late points show the span or the step.
+        for (first, last) in [(0, 999), (999, 0), (0, 1), (500, 501)] {
+            for exponent in [-60, -1, 0] {
+                let mut points = vec![[scaled(1.0, 8 + exponent), 0.0]; 1000];
+                points[first] = [0.0, 0.0];
+                points[last] = [scaled(f64::from(u32::MAX), exponent), 0.0];
+                let bits = Lattice::of_doubles(&points).map(|(lattice, _)| lattice.bits);
+                assert_eq!(bits, Some(32), "{first} {last} {exponent}");
+                points[last][0] += scaled(1.0, exponent);
+                points[first][1] = scaled(1.0, exponent);
+                assert_eq!(lattice(&points), None, "{first} {last} {exponent}");
+            }
+        }
+        let mut points = vec![[0.1, 0.2]; 1000];
+        points[0] = [1e300, 0.0];
+        points[999] = [f64::NAN, 0.0];
+        assert_eq!(lattice(&points), None);
     }
 
     #[test]

@@ -6,9 +6,9 @@ use core::marker::PhantomData;
 
 use bytemuck::Zeroable;
 
-use super::kernel::Kernel;
+use super::kernel::{tie_is_inside, Ends, Kernel};
 use super::view::level;
-use crate::double::{incircle_of_views, side, Coordinate, View};
+use crate::double::{circle, side, Bounds, Coordinate, View};
 
 /// The kernel of points with coordinates of type `C`.
 #[derive(Clone, Copy)]
@@ -54,36 +54,42 @@ pub(super) struct Place {
 /// The levels below those of the grid's cuts: an odd one for each bit of a rank.
 const RANK_LEVELS: u32 = 2 * (u32::BITS + 1);
 
-/// A site, the base edge seen from it, and the side of the edge on which it lies.
+/// A site, and the base edge seen from it.
 #[derive(Clone, Copy)]
 pub(super) struct Seen<C> {
     site: FilteredSite<C>,
     view: View,
-    side: Ordering,
 }
 
 impl<C: Coordinate> Kernel for Filtered<C> {
     type Site = FilteredSite<C>;
     type Seen = Seen<C>;
     type Place = Place;
+    type Bounds = Bounds;
 
-    /// A view of a point on the line of the base edge takes exact integers.
-    const HAS_CHEAP_VIEWS: bool = false;
+    #[inline(always)]
+    fn bounds<const N: usize>(sites: impl FnOnce() -> [FilteredSite<C>; N]) -> Bounds {
+        Bounds::of(sites().map(|site| site.0))
+    }
 
     #[inline(always)]
     fn swapped(site: FilteredSite<C>) -> FilteredSite<C> {
         FilteredSite([site.0[1], site.0[0]])
     }
 
-    #[inline(always)]
+    #[inline(never)]
     fn orient2d(a: FilteredSite<C>, b: FilteredSite<C>, c: FilteredSite<C>) -> Ordering {
-        side(View::of(a.0, b.0, c.0), a.0, b.0, c.0)
+        side(a.0, b.0, c.0)
     }
 
     #[inline(always)]
-    fn see(a: FilteredSite<C>, b: FilteredSite<C>, site: FilteredSite<C>) -> Seen<C> {
-        let view = View::of(a.0, b.0, site.0);
-        Seen { site, view, side: side(view, a.0, b.0, site.0) }
+    fn turn(Ends { a, b, bounds }: Ends<Self>, c: FilteredSite<C>) -> Ordering {
+        bounds.side(View::of(a.0, b.0, c.0)).unwrap_or_else(|| Self::orient2d(a, b, c))
+    }
+
+    #[inline(always)]
+    fn see(ends: Ends<Self>, site: FilteredSite<C>) -> Seen<C> {
+        Seen { site, view: View::of(ends.a.0, ends.b.0, site.0) }
     }
 
     #[inline(always)]
@@ -92,13 +98,13 @@ impl<C: Coordinate> Kernel for Filtered<C> {
     }
 
     #[inline(always)]
-    fn is_left(seen: Seen<C>) -> bool {
-        seen.side.is_gt()
+    fn is_left(Ends { a, b, bounds }: Ends<Self>, seen: Seen<C>) -> bool {
+        bounds.side(seen.view).unwrap_or_else(|| Self::orient2d(a, b, seen.site)).is_gt()
     }
 
     #[inline(always)]
-    fn incircle(a: FilteredSite<C>, b: FilteredSite<C>, c: Seen<C>, q: Seen<C>) -> Ordering {
-        incircle_of_views([a.0, b.0], (c.view, c.site.0), (q.view, q.site.0))
+    fn is_left_and_inside(ends: Ends<Self>, c: Seen<C>, q: Seen<C>) -> bool {
+        ends.bounds.is_left_and_inside(c.view, q.view).unwrap_or_else(|| is_exactly_left_and_inside(ends, c, q))
     }
 
     #[inline(always)]
@@ -110,5 +116,21 @@ impl<C: Coordinate> Kernel for Filtered<C> {
         } else {
             RANK_LEVELS + level(x, y)
         }
+    }
+}
+
+/// Whether the point of `c` lies to the left of the base edge and that of `q` inside the circle, where the bounds leave
+/// it open.
+#[inline(never)]
+fn is_exactly_left_and_inside<C: Coordinate>(ends: Ends<Filtered<C>>, c: Seen<C>, q: Seen<C>) -> bool {
+    let Ends { a, b, bounds } = ends;
+    // Around a vertex with two half-edges the vertex behind the candidate is the other end of the base edge.
+    if q.site == a || q.site == b || !Filtered::is_left(ends, c) {
+        return false;
+    }
+    match circle(a.0, b.0, c.site.0, q.site.0) {
+        Ordering::Greater => true,
+        Ordering::Less => false,
+        Ordering::Equal => tie_is_inside::<Filtered<C>>(a, b, bounds, c.site, q),
     }
 }

@@ -1,7 +1,8 @@
 //! The distinct points of doubles or long integers along a Z-curve.
 //!
 //! A grid of up to 2^31 cells a side lies over all points, and the points stand along the Z-curve through its cells.
-//! Points of one cell stand in lexicographic order. Rounding decides in which cell a point is, and never more than
+//! Points of one cell stand in lexicographic order. The grid is as fine as the words allow that are sorted (`sites`),
+//! or finer if many points share cells. Rounding decides in which cell a point is, and never more than
 //! that: a cell's number rises with the coordinate, so that cuts between cells separate points.
 
 use alloc::vec;
@@ -11,10 +12,13 @@ use super::filtered::{FilteredSite, Place};
 use super::parallel::in_parallel;
 use super::sites::{self, Sites};
 use crate::double::Coordinate;
+use crate::pages;
 use crate::point::{Duplicate, Point};
 
-/// Cells a side, as a double.
-const CELLS: f64 = (1u32 << 31) as f64;
+/// The finest grid has two to the power of this number of cells a side.
+const MOST_BITS: u32 = 31;
+/// The finest grid is taken if more than one in this number of points shares a cell with another point.
+const CROWDED: usize = 16;
 
 /// The distinct points, in the order of the tree of cuts.
 pub(super) struct FilteredSites<C> {
@@ -32,17 +36,20 @@ pub(super) struct FilteredSites<C> {
 struct Grid {
     corner: [f64; 2],
     scale: f64,
+    /// The number of the last cell of a row.
+    last: u32,
 }
 
 impl Grid {
-    fn over<C: Coordinate>(points: &[[C; 2]]) -> Self {
+    fn over<C: Coordinate>(points: &[[C; 2]], bits: u32) -> Self {
         let none = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         let (corner, far) = points.iter().fold(none, |(low, high), point| {
             let half = point.map(C::half);
             ([low[0].min(half[0]), low[1].min(half[1])], [high[0].max(half[0]), high[1].max(half[1])])
         });
         let extent = (far[0] - corner[0]).max(far[1] - corner[1]);
-        Self { corner, scale: CELLS / extent }
+        let cells = 1u32 << bits;
+        Self { corner, scale: f64::from(cells) / extent, last: cells - 1 }
     }
 
     /// The cell of a point. The conversion of a double to an integer saturates, and makes 0 of what is not a number: so
@@ -50,39 +57,48 @@ impl Grid {
     #[inline(always)]
     fn cell<C: Coordinate>(&self, point: [C; 2]) -> Point {
         let [x, y] = [0, 1].map(|axis| ((point[axis].half() - self.corner[axis]) * self.scale) as u32);
-        let last = CELLS as u32 - 1;
-        Point::new(x.min(last), y.min(last))
+        Point::new(x.min(self.last), y.min(self.last))
+    }
+
+    /// The cells of all points, sorted along the Z-curve, as the distinct points of a set.
+    fn sorted_cells<C: Coordinate>(points: &[[C; 2]], bits: u32, threads: usize) -> Sites {
+        let grid = Self::over(points, bits);
+        let mut cells = vec![Point::default(); points.len()];
+        let share = points.len().div_ceil(threads).max(1);
+        in_parallel(cells.chunks_mut(share).zip(points.chunks(share)), |(cells, points)| {
+            cells.iter_mut().zip(points).for_each(|(cell, &point)| *cell = grid.cell(point));
+        });
+        sites::sort(&cells, threads)
     }
 }
 
 /// Sorts the points and takes duplicates out, on up to `threads` threads. O(n) where few points share a cell, O(n
 /// log n) at worst.
 pub(super) fn sort<C: Coordinate>(points: &[[C; 2]], threads: usize) -> FilteredSites<C> {
-    let grid = Grid::over(points);
-    let mut cells = vec![Point::default(); points.len()];
-    let share = points.len().div_ceil(threads).max(1);
-    in_parallel(cells.chunks_mut(share).zip(points.chunks(share)), |(cells, points)| {
-        cells.iter_mut().zip(points).for_each(|(cell, &point)| *cell = grid.cell(point));
-    });
-    let Sites { sites: distinct, ids: firsts, duplicates: sharing, .. } = sites::sort(&cells, threads);
-    drop(cells);
+    let bits = sites::exact_bits(points.len(), threads).min(MOST_BITS);
+    let mut cells = Grid::sorted_cells(points, bits, threads);
+    // On a coarse grid crowds of points share cells, and their cuts alternate no longer.
+    if bits < MOST_BITS && cells.duplicates.len() > points.len() / CROWDED {
+        cells = Grid::sorted_cells(points, MOST_BITS, threads);
+    }
+    let Sites { sites: distinct, ids: firsts, duplicates: sharing, .. } = cells;
     let groups = Groups::of(sharing, points.len());
-    let mut all = FilteredSites {
-        sites: Vec::with_capacity(points.len()),
-        places: Vec::with_capacity(points.len()),
-        ids: Vec::with_capacity(points.len()),
-        duplicates: Vec::new(),
-    };
+    let mut all =
+        Taken { places: pages::with_room(points.len()), ids: pages::with_room(points.len()), duplicates: Vec::new() };
     for (cell, first) in distinct.into_iter().zip(firsts) {
         let cell = [cell.x, cell.y];
         let others = groups.of_first(first);
         if others.is_empty() {
-            all.keep(points, first, Place { cell, rank: 0 });
+            all.keep(first, Place { cell, rank: 0 });
         } else {
             all.take_cell(points, first, others, cell);
         }
     }
-    all
+    let Taken { places, ids, duplicates } = all;
+    let mut sites = pages::with_room(ids.len());
+    // The loop is short so that the processor has many of its scattered reads under way at a time.
+    sites.extend(ids.iter().map(|&id| FilteredSite::of(points[id as usize])));
+    FilteredSites { sites, places, ids, duplicates }
 }
 
 /// Points that share a cell with one of a lower index.
@@ -114,23 +130,29 @@ impl Groups {
     }
 }
 
-impl<C: Coordinate> FilteredSites<C> {
+/// The distinct points without their coordinates; see [`FilteredSites`].
+struct Taken {
+    places: Vec<Place>,
+    ids: Vec<u32>,
+    duplicates: Vec<Duplicate>,
+}
+
+impl Taken {
     #[inline(always)]
-    fn keep(&mut self, points: &[[C; 2]], id: u32, place: Place) {
-        self.sites.push(FilteredSite::of(points[id as usize]));
+    fn keep(&mut self, id: u32, place: Place) {
         self.places.push(place);
         self.ids.push(id);
     }
 
     /// Takes all points of a cell, in lexicographic order.
-    fn take_cell(&mut self, points: &[[C; 2]], first: u32, others: &[Duplicate], cell: [u32; 2]) {
+    fn take_cell<C: Coordinate>(&mut self, points: &[[C; 2]], first: u32, others: &[Duplicate], cell: [u32; 2]) {
         let all = core::iter::once(first).chain(others.iter().map(|other| other.index));
         let mut sorted: Vec<(FilteredSite<C>, u32)> =
             all.map(|id| (FilteredSite::of(points[id as usize]), id)).collect();
         sorted.sort_unstable();
         for (rank, group) in sorted.chunk_by(|one, other| one.0 == other.0).enumerate() {
             let id = group[0].1;
-            self.keep(points, id, Place { cell, rank: rank as u32 });
+            self.keep(id, Place { cell, rank: rank as u32 });
             self.duplicates.extend(group[1..].iter().map(|&(_, index)| Duplicate { index, of: id }));
         }
     }

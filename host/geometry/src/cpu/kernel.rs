@@ -15,9 +15,11 @@ pub(super) trait Kernel: Copy + Sync + 'static {
     type Seen: Copy;
     /// The place of a point in the tree of cuts.
     type Place: Copy + Send + Sync;
+    /// What the predicates need to know of a set of points beforehand.
+    type Bounds: Copy;
 
-    /// Whether a view that may not be needed costs less than a branch that a processor cannot predict.
-    const HAS_CHEAP_VIEWS: bool;
+    /// The bounds for all points in the bounding box of these. Kernels that need no bounds leave the function uncalled.
+    fn bounds<const N: usize>(sites: impl FnOnce() -> [Self::Site; N]) -> Self::Bounds;
 
     /// Swaps the axes of a point, so that points compare by y, then x.
     fn swapped(site: Self::Site) -> Self::Site;
@@ -25,25 +27,28 @@ pub(super) trait Kernel: Copy + Sync + 'static {
     /// The turn from `a` over `b` to `c`: `Greater` if it is counter-clockwise, `Equal` if the three lie on a line.
     fn orient2d(a: Self::Site, b: Self::Site, c: Self::Site) -> Ordering;
 
-    /// Views the base edge from `a` to `b` from a point.
-    fn see(a: Self::Site, b: Self::Site, site: Self::Site) -> Self::Seen;
+    /// The turn from `a` over `b` to `c`, as `orient2d`, which the bounds make cheaper.
+    #[inline(always)]
+    fn turn(ends: Ends<Self>, c: Self::Site) -> Ordering {
+        Self::orient2d(ends.a, ends.b, c)
+    }
+
+    /// Views the base edge from a point.
+    fn see(ends: Ends<Self>, site: Self::Site) -> Self::Seen;
 
     /// The point of a view.
     fn site(seen: Self::Seen) -> Self::Site;
 
     /// Whether the point lies strictly to the left of the base edge.
-    fn is_left(seen: Self::Seen) -> bool;
+    fn is_left(ends: Ends<Self>, seen: Self::Seen) -> bool;
 
-    /// The sign of the determinant of incircle of the base edge `a`, `b` and the points of two views, of which that of
-    /// `c` lies to the left: `Greater` if `q` lies inside the circle through `a`, `b` and `c`.
-    fn incircle(a: Self::Site, b: Self::Site, c: Self::Seen, q: Self::Seen) -> Ordering;
-
-    /// Whether the point of `c` lies to the left of the base edge, and that of `q` inside the circle through `a`, `b`
-    /// and `c`; see [`is_inside`]. Kernels with cheap determinants compute both without a branch in between.
-    #[inline(always)]
-    fn is_left_and_inside(a: Self::Site, b: Self::Site, c: Self::Seen, q: Self::Seen) -> bool {
-        Self::is_left(c) && is_inside::<Self>(a, b, c, q)
-    }
+    /// Whether the point of `c` lies to the left of the base edge, and that of `q` inside the circle through both ends
+    /// of the edge and the point of `c`. If `q` lies on the circle, the tie rule decides: the lexicographically
+    /// smallest of the four points is lowered on the lifted paraboloid.
+    ///
+    /// The answer is `false` for a `q` that does not lie to the left: the merge asks only where no such point can be
+    /// inside the circle, and a tie with such a point is refused.
+    fn is_left_and_inside(ends: Ends<Self>, c: Self::Seen, q: Self::Seen) -> bool;
 
     /// The level of the cut that separates two places: odd if all x of the first are at most those of the second and
     /// equal only with smaller y, even if the same holds with the axes swapped. Of three places in a row, the outer two
@@ -51,24 +56,18 @@ pub(super) trait Kernel: Copy + Sync + 'static {
     fn level(one: Self::Place, other: Self::Place) -> u32;
 }
 
-/// Whether `q` lies inside the circle through `a`, `b` and `c`. If `q` lies on the circle, the tie rule decides: the
-/// lexicographically smallest of the four points is lowered on the lifted paraboloid.
-///
-/// `c` must lie to the left of the edge from `a` to `b`. The answer is `false` for a `q` that does not lie to the left:
-/// the merge asks only where no such point can be inside the circle, and a tie with such a point is refused.
-#[inline(always)]
-pub(super) fn is_inside<K: Kernel>(a: K::Site, b: K::Site, c: K::Seen, q: K::Seen) -> bool {
-    match K::incircle(a, b, c, q) {
-        Ordering::Greater => true,
-        Ordering::Less => false,
-        Ordering::Equal => tie_is_inside::<K>(a, b, K::site(c), q),
-    }
+/// Both ends of an edge from `a` to `b`, with the bounds of a set that holds them and all points seen from the edge.
+#[derive(Clone, Copy)]
+pub(super) struct Ends<K: Kernel> {
+    pub(super) a: K::Site,
+    pub(super) b: K::Site,
+    pub(super) bounds: K::Bounds,
 }
 
 /// Decides a tie: `a`, `b`, `c`, `q` lie on one circle, or `q` is on the line of `a` and `b`.
 #[inline(never)]
-pub(super) fn tie_is_inside<K: Kernel>(a: K::Site, b: K::Site, c: K::Site, q: K::Seen) -> bool {
-    if !K::is_left(q) {
+pub(super) fn tie_is_inside<K: Kernel>(a: K::Site, b: K::Site, bounds: K::Bounds, c: K::Site, q: K::Seen) -> bool {
+    if !K::is_left(Ends { a, b, bounds }, q) {
         return false;
     }
     let q = K::site(q);

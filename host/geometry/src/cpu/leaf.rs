@@ -1,7 +1,9 @@
 //! The smallest parts, of up to four vertices, which are built without a merge.
 
+use core::cmp::Ordering;
+
 use super::edges::{Edges, Half, Halves};
-use super::kernel::{is_inside, Kernel};
+use super::kernel::{Ends, Kernel};
 use super::merge::Part;
 
 /// Four vertices of which no three lie on a line, by the turns of their triples, if the first three turn left. The
@@ -41,7 +43,7 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
     #[inline(always)]
     pub(super) fn triangle(&mut self, v: u32) -> Option<Part> {
         let at = |k: u32| self.site(v + k);
-        let turn = K::orient2d(at(0), at(1), at(2));
+        let turn = turn::<K>(K::bounds(|| [at(0), at(1), at(2)]), [at(0), at(1), at(2)]);
         if turn.is_eq() {
             return None;
         }
@@ -55,13 +57,15 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
     #[inline(always)]
     pub(super) fn four(&mut self, v: u32) -> Option<Part> {
         let [p0, mut p1, mut p2, p3] = [0, 1, 2, 3].map(|k| self.site(v + k));
-        let turn = K::orient2d(p0, p1, p2);
+        let bounds = K::bounds(|| [p0, p1, p2, p3]);
+        let turn = turn::<K>(bounds, [p0, p1, p2]);
         // The second and the third vertex change places, so that the first three turn left.
         let swap = u32::from(turn.is_lt()) * 3;
         if turn.is_lt() {
             (p1, p2) = (p2, p1);
         }
-        let turns = [turn, K::orient2d(p0, p1, p3), K::orient2d(p0, p2, p3), K::orient2d(p1, p2, p3)];
+        let of = |three| self::turn::<K>(bounds, three);
+        let turns = [turn, of([p0, p1, p3]), of([p0, p2, p3]), of([p1, p2, p3])];
         if turns.iter().any(|turn| turn.is_eq()) {
             return None;
         }
@@ -74,7 +78,8 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
             return Some(outermost::<K, 3>([at[0], at[1], at[2]], leaving));
         }
         // The diagonal leads from the first vertex of the order to the third.
-        let other = is_inside::<K>(at[0], at[1], K::see(at[0], at[1], at[2]), K::see(at[0], at[1], at[3]));
+        let ends = Ends { a: at[0], b: at[1], bounds };
+        let other = K::is_left_and_inside(ends, K::see(ends, at[2]), K::see(ends, at[3]));
         let turned = |all: [u32; 4]| if other { [all[1], all[2], all[3], all[0]] } else { all };
         let [e, f, g, h] = self.start_square(turned([a, b, c, d]));
         let leaving = if other { [h, e, f, g] } else { [e, f, g, h] };
@@ -113,6 +118,12 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
             self.halves.put(e, Half { next, previous, end });
         }
     }
+}
+
+/// The turn of three points of a set with these bounds.
+#[inline(always)]
+fn turn<K: Kernel>(bounds: K::Bounds, [a, b, c]: [K::Site; 3]) -> Ordering {
+    K::turn(Ends { a, b, bounds }, c)
 }
 
 /// The part with these corners, each with the half-edge that leaves the corner along the hull.

@@ -1,7 +1,7 @@
 //! The merge of two triangulations on both sides of a line (Guibas and Stolfi 1985).
 
 use super::edges::{Edges, Halves};
-use super::kernel::Kernel;
+use super::kernel::{Ends, Kernel};
 
 /// The triangulation of a subset of the points, known by its outermost vertices. Each of those is given as the
 /// half-edge that leaves it counter-clockwise along the hull.
@@ -73,11 +73,12 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
     /// Joins two parts, at least one of which has an edge.
     pub(super) fn merge(&mut self, one: Part, other: Part, cut: Cut) -> Part {
         debug_assert!(!(one.is_vertex && other.is_vertex), "the pair of one would be lost");
-        let first = self.lower_tangent(&one, &other, cut);
+        let bounds = K::bounds(|| self.outermost(&one, &other, cut).map(|e| self.from(e)));
+        let first = self.lower_tangent(&one, &other, cut, bounds);
         // `zip` may remove the half-edges of vertices that are ends of the first or the last base edge. The vertices
         // stay, so both are remembered, and such a half-edge is replaced by that of the base edge.
         let outermost = self.outermost(&one, &other, cut).map(|e| (e, self.origin(e)));
-        let last = self.zip(first);
+        let last = self.zip(first, bounds);
         let [left, right, bottom, top] = outermost.map(|(e, vertex)| {
             let e = if vertex == first.a { first.at_a } else { e };
             if vertex == last.b {
@@ -91,7 +92,7 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
 
     /// Makes the first base edge. All points of both parts lie on its line or to its left.
     #[inline(always)]
-    fn lower_tangent(&mut self, one: &Part, other: &Part, cut: Cut) -> Base {
+    fn lower_tangent(&mut self, one: &Part, other: &Part, cut: Cut, bounds: K::Bounds) -> Base {
         let (facing, mut rdi) = match cut {
             Cut::Vertical => (one.right, other.left),
             Cut::Horizontal => (one.top, other.bottom),
@@ -100,11 +101,12 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
         // The half-edge of a single vertex ends where it begins, so its predicate is zero and it never moves.
         let mut ldi = self.previous(facing);
         let (mut a, mut b) = (self.from(ldi), self.from(rdi));
+        let turn = |a, b, c| K::turn(Ends { a, b, bounds }, c);
         loop {
-            if K::orient2d(a, self.to(ldi), b).is_gt() {
+            if turn(a, self.to(ldi), b).is_gt() {
                 ldi = self.previous(ldi ^ 1);
                 a = self.from(ldi);
-            } else if K::orient2d(b, self.to(rdi), a).is_lt() {
+            } else if turn(b, self.to(rdi), a).is_lt() {
                 rdi = self.next(rdi ^ 1);
                 b = self.from(rdi);
             } else {
@@ -140,27 +142,27 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
 
     /// Fills the gap with triangles from the first base edge on; returns the last base edge.
     #[inline(always)]
-    fn zip(&mut self, mut base: Base) -> Base {
-        let (mut a, mut b) = (self.site(base.a), self.site(base.b));
+    fn zip(&mut self, mut base: Base, bounds: K::Bounds) -> Base {
+        let mut ends = Ends { a: self.site(base.a), b: self.site(base.b), bounds };
         let mut one = self.candidate::<true>(self.next(base.at_a));
         let mut other = self.candidate::<false>(self.previous(base.at_b));
         loop {
-            let from_one = self.advance::<true>(&mut one, a, b);
-            let from_other = self.advance::<false>(&mut other, a, b);
-            let (one_is_valid, other_is_valid) = (K::is_left(from_one), K::is_left(from_other));
+            let from_one = self.advance::<true>(&mut one, ends);
+            let from_other = self.advance::<false>(&mut other, ends);
+            let (one_is_valid, other_is_valid) = (K::is_left(ends, from_one), K::is_left(ends, from_other));
             if !(one_is_valid | other_is_valid) {
                 return base;
             }
             let pair = self.take();
             // The new base edge leads from the corner of the triangle to the vertex that stays. `back` leads from the
             // corner to the other one. The candidate of the vertex that stays is still the next one around it.
-            if other_is_valid & (!one_is_valid | K::is_left_and_inside(a, b, from_one, from_other)) {
+            if other_is_valid & (!one_is_valid | K::is_left_and_inside(ends, from_one, from_other)) {
                 let back = other.edge ^ 1;
                 let previous = self.previous(back);
                 self.insert(pair, other.end, base.at_a, one.edge);
                 self.insert(pair ^ 1, base.a, previous, back);
                 base = Base { at_a: pair, at_b: pair ^ 1, a: base.a, b: other.end };
-                b = other.site;
+                ends.b = other.site;
                 other = self.candidate::<false>(previous);
             } else {
                 let back = one.edge ^ 1;
@@ -168,7 +170,7 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
                 self.insert(pair ^ 1, one.end, other.edge, base.at_b);
                 self.insert(pair, base.b, back, next);
                 base = Base { at_a: pair, at_b: pair ^ 1, a: one.end, b: base.b };
-                a = one.site;
+                ends.a = one.site;
                 one = self.candidate::<true>(next);
             }
         }
@@ -185,14 +187,11 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
     /// Finds the first vertex of one part that a circle through `a` and `b` meets as it grows to the left, from the
     /// given candidate on, and removes the edges at `a` or `b` that cross the new triangle. Returns the vertex's view.
     #[inline(always)]
-    fn advance<const OF_A: bool>(&mut self, candidate: &mut Candidate<K>, a: K::Site, b: K::Site) -> K::Seen {
-        let mut seen = K::see(a, b, candidate.site);
+    fn advance<const OF_A: bool>(&mut self, candidate: &mut Candidate<K>, ends: Ends<K>) -> K::Seen {
+        let mut seen = K::see(ends, candidate.site);
         loop {
-            if !K::HAS_CHEAP_VIEWS && !K::is_left(seen) {
-                return seen;
-            }
-            let behind = K::see(a, b, candidate.behind);
-            if !K::is_left_and_inside(a, b, seen, behind) {
+            let behind = K::see(ends, candidate.behind);
+            if !K::is_left_and_inside(ends, seen, behind) {
                 return seen;
             }
             self.remove(candidate.edge);

@@ -1,4 +1,5 @@
 //! Published inputs on which triangulators with rounded predicates fail. Each test cites its source.
+#![allow(clippy::excessive_precision)] // the digits are those of the sources
 
 use std::cmp::Ordering;
 use std::num::NonZeroUsize;
@@ -84,22 +85,71 @@ fn reported_points_have_the_mesh_of_the_definition() {
     check("ironwallaby 8", &degrees);
 }
 
-/// The grid of L. Kettner, K. Mehlhorn, S. Pion, S. Schirra and C. Yap, "Classroom examples of robustness problems in
-/// geometric computations", 2008: a point moves in units in the last place from (0.5, 0.5) on, beside (12, 12) and
-/// (24, 24).
+/// The three grids of L. Kettner, K. Mehlhorn, S. Pion, S. Schirra and C. Yap, "Classroom examples of robustness
+/// problems in geometric computations", Computational Geometry 40 (2008), section 3: a point moves in units in the last
+/// place beside two others.
 #[test]
-fn the_classroom_grid_has_exact_signs_and_meshes() {
-    let at = |steps: u32| 0.5 + f64::from(steps) * 2f64.powi(-53);
-    let mut on_line = 0;
-    for (i, j) in (0..256).flat_map(|i| (0..256).map(move |j| (i, j))) {
-        let p = [at(i), at(j)];
-        let side = orient2d(p, [12.0; 2], [24.0; 2]);
-        assert_eq!(side, orient2d_of_doubles(p, [12.0; 2], [24.0; 2]), "{p:?}");
-        on_line += usize::from(side == Ordering::Equal);
-        if i % 16 == 0 && j % 16 < 2 {
-            check("classroom", &[p, [12.0; 2], [24.0; 2], [at(j), at(i)], [at(0), at(1)]]);
+fn the_classroom_grids_have_exact_signs_and_meshes() {
+    let grids = [
+        ([[0.5, 0.5], [12.0, 12.0], [24.0, 24.0]], Some(256)),
+        ([[0.5, 0.5], [8.800_000_000_000_000_7; 2], [12.1; 2]], Some(256)),
+        (
+            [
+                [0.500_000_000_000_025_31, 0.500_000_000_000_017_1],
+                [17.300_000_000_000_001; 2],
+                [24.000_000_000_000_05, 24.000_000_000_000_051_776_5],
+            ],
+            None,
+        ),
+    ];
+    for ([start, q, r], expected) in grids {
+        // Units in the last place of doubles from 0.5 to 1, so that all 65,536 places are doubles.
+        let at = |i: u32, j: u32| [start[0] + f64::from(i) * 2f64.powi(-53), start[1] + f64::from(j) * 2f64.powi(-53)];
+        let mut on_line = 0;
+        for (i, j) in (0..256).flat_map(|i| (0..256).map(move |j| (i, j))) {
+            let p = at(i, j);
+            let side = orient2d(p, q, r);
+            assert_eq!(side, orient2d_of_doubles(p, q, r), "{p:?}");
+            on_line += usize::from(side == Ordering::Equal);
+            if i % 16 == 0 && j % 16 < 2 {
+                check("classroom", &[p, q, r, at(j, i), at(0, 1)]);
+            }
+        }
+        // Places with equal coordinates lie on a line through the origin with slope 1.
+        assert!(expected.is_none_or(|expected| expected == on_line), "{on_line}");
+    }
+}
+
+/// The points of section 4 of the same work, which make a convex hull with rounded predicates fail: a point outside
+/// sees no edge (A1), a point inside sees one (A2), a point outside sees all (B1).
+#[test]
+fn the_classroom_hulls_are_right() {
+    let sees_none = [
+        [7.300_000_000_000_019_4, 7.300_000_000_000_016_7],
+        [24.000_000_000_000_068, 24.000_000_000_000_071],
+        [24.000_000_000_000_05, 24.000_000_000_000_053],
+        [0.500_000_000_000_016_21, 0.500_000_000_000_012_43],
+        [8.0, 4.0],
+        [4.0, 9.0],
+        [15.0, 27.0],
+        [26.0, 25.0],
+        [19.0, 11.0],
+    ];
+    let inside_sees = [
+        [27.643_564_356_435_643, -21.881_188_118_811_881],
+        [83.366_336_633_663_366, 15.544_554_455_445_542],
+        [4.0, 4.0],
+        [73.415_841_584_158_414, 8.861_386_138_613_859_5],
+    ];
+    let sees_all = [
+        [200.0, 49.200_000_000_000_003],
+        [100.0, 49.600_000_000_000_001],
+        [-233.333_333_333_333_34, 50.933_333_333_333_33],
+        [166.666_666_666_666_69, 49.333_333_333_333_336],
+    ];
+    for (name, points) in [("A1", &sees_none[..]), ("A2", &inside_sees), ("B1", &sees_all)] {
+        for count in 3..=points.len() {
+            check(name, &points[..count]);
         }
     }
-    // All 65,536 places are doubles, and those with i = j lie on the line.
-    assert_eq!(on_line, 256);
 }

@@ -30,8 +30,7 @@ pub(super) fn triangulate<K: Kernel>(
     threads: usize,
     go_on: GoOn<'_>,
 ) -> Option<Part> {
-    // Where views are dear, half-edges are too small a part of the work to be copied.
-    if threads < 2 && (sites.len() <= short::MOST || !K::HAS_CHEAP_VIEWS) {
+    if threads < 2 && sites.len() <= short::MOST {
         return conquer(&mut Edges::<K, _> { sites, halves, unused: 0 }, places, &mut Waiting::new(), go_on);
     }
     let most = if threads < 2 { short::MOST } else { (sites.len() / (SEGMENTS * threads)).clamp(LEAST, short::MOST) };

@@ -85,6 +85,22 @@ struct Curve {
     index_bits: u32,
 }
 
+/// The most bits that name a bucket, for so many points and threads.
+fn bucket_bits(points: usize, threads: usize) -> u32 {
+    let average = BUCKET.max(CHUNK * threads);
+    (points / average).max(1).ilog2().min(MOST_BUCKETS_BITS)
+}
+
+/// The number of bits of an index.
+fn index_bits(points: usize) -> u32 {
+    usize::BITS - points.saturating_sub(1).leading_zeros()
+}
+
+/// The most bits of a coordinate with which words have whole positions, for so many points and threads.
+pub(super) fn exact_bits(points: usize, threads: usize) -> u32 {
+    (u64::BITS + bucket_bits(points, threads) - index_bits(points)) / 2
+}
+
 impl Curve {
     /// The curve for these points, with buckets for `threads` threads.
     fn of(points: &[Point], threads: usize) -> Self {
@@ -94,11 +110,9 @@ impl Curve {
         });
         let extent = far.x.saturating_sub(corner.x) | far.y.saturating_sub(corner.y);
         let bits = u32::BITS - extent.leading_zeros();
-        let average = BUCKET.max(CHUNK * threads);
-        let most = MOST_BUCKETS_BITS.min((2 * bits).saturating_sub(1));
-        let bucket_bits = (points.len() / average).max(1).ilog2().min(most);
+        let bucket_bits = bucket_bits(points.len(), threads).min((2 * bits).saturating_sub(1));
         let rest_bits = (2 * bits - bucket_bits).max(1);
-        let index_bits = usize::BITS - points.len().saturating_sub(1).leading_zeros();
+        let index_bits = index_bits(points.len());
         Self { corner, bits, bucket_bits, rest_bits, index_bits }
     }
 
@@ -191,7 +205,7 @@ pub(super) fn sort(points: &[Point], threads: usize) -> Sites {
     });
     let kept = in_parallel(tasks, |(run, mut kept)| {
         let room = kept.sites.len();
-        let mut words = Vec::new();
+        let (mut words, mut found) = (Vec::new(), Vec::new());
         for bucket in run {
             words.clear();
             bucketed.iter().flat_map(|own| own.chunks(bucket)).for_each(|chunk| words.extend_from_slice(chunk));
@@ -199,7 +213,7 @@ pub(super) fn sort(points: &[Point], threads: usize) -> Sites {
             if curve.is_exact() {
                 kept.take_exact(&words, bucket as u64, curve);
             } else {
-                kept.take_rounded(&mut words, points, curve);
+                kept.take_rounded(&mut words, points, &mut found, curve);
             }
         }
         (room, kept.count, kept.duplicates)
@@ -233,29 +247,31 @@ impl Kept<'_> {
         }
     }
 
-    /// Takes the sorted words of a bucket that have only the leading bits of their positions.
-    fn take_rounded(&mut self, words: &mut [Placed], points: &[Point], curve: Curve) {
-        for group in words.chunk_by_mut(|one, other| (one.0 ^ other.0) & !curve.indices() == 0) {
-            if group.len() > 1 {
-                for word in &mut *group {
-                    let index = word.0 & curve.indices();
-                    *word = curve.placed_finely(curve.position(points[index as usize]), index);
-                }
-                let mut sorted = group.to_vec();
-                sort_words(&mut sorted);
-                group.copy_from_slice(&sorted);
+    /// Takes the sorted words of a bucket that have only the leading bits of their positions. `found` is the room for
+    /// their points.
+    fn take_rounded(&mut self, words: &mut [Placed], points: &[Point], found: &mut Vec<Point>, curve: Curve) {
+        let groups = words.chunk_by_mut(|one, other| (one.0 ^ other.0) & !curve.indices() == 0);
+        for group in groups.filter(|group| group.len() > 1) {
+            for word in &mut *group {
+                let index = word.0 & curve.indices();
+                *word = curve.placed_finely(curve.position(points[index as usize]), index);
             }
-            let mut before = None;
-            for word in &*group {
-                let index = (word.0 & curve.indices()) as u32;
-                let point = points[index as usize];
-                if before == Some(point) {
-                    self.drop_onto_last(index);
-                    continue;
-                }
-                before = Some(point);
-                self.keep(curve.site(point), index);
+            let mut sorted = group.to_vec();
+            sort_words(&mut sorted);
+            group.copy_from_slice(&sorted);
+        }
+        let index = |word: &Placed| (word.0 & curve.indices()) as u32;
+        found.clear();
+        // The loop is short so that the processor has many of its scattered reads under way at a time.
+        found.extend(words.iter().map(|word| points[index(word) as usize]));
+        let mut before = None;
+        for (word, &point) in words.iter().zip(&*found) {
+            if before == Some(point) {
+                self.drop_onto_last(index(word));
+                continue;
             }
+            before = Some(point);
+            self.keep(curve.site(point), index(word));
         }
     }
 

@@ -6,8 +6,8 @@ use incircle_testkit::{incircle_of_doubles, orient2d_of_doubles};
 use proptest::prelude::*;
 
 use super::edges::{Half, HALVES};
-use super::kernel::{is_inside, Kernel};
-use super::sites::{sort, Sites};
+use super::kernel::{Ends, Kernel};
+use super::sites::{exact_bits, sort, Sites};
 use super::view::{Integers, Narrow, Site, Wide, Widest, Width};
 use super::{collect, segments};
 use crate::order::mix;
@@ -55,16 +55,15 @@ fn ties_are_decided<W: Width>() -> usize {
     let grid: Vec<Site> = (0..16).map(|k| Site { x: k / 4, y: k % 4 }).collect();
     let mut ties = 0;
     for (&a, &b) in grid.iter().flat_map(|a| grid.iter().map(move |b| (a, b))) {
-        let seen = grid.iter().map(|&site| Integers::<W>::see(a, b, site));
-        let seen: Vec<_> = seen.collect();
-        for (&c, &q) in seen.iter().flat_map(|c| seen.iter().map(move |q| (c, q))) {
-            let expected = Integers::<W>::is_left(c) && is_inside::<Integers<W>>(a, b, c, q);
-            assert_eq!(Integers::<W>::is_left_and_inside(a, b, c, q), expected);
-        }
-        let above: Vec<_> = seen.into_iter().filter(|&seen| Integers::<W>::is_left(seen)).collect();
-        for (&c, &q) in above.iter().flat_map(|c| above.iter().map(move |q| (c, q))).filter(|(c, q)| c.site != q.site) {
-            assert_eq!(is_inside::<Integers<W>>(a, b, c, q), conflicts(a, b, c.site, q.site));
-            ties += usize::from(lifted(a, b, c.site, q.site) == 0);
+        let ends = Ends { a, b, bounds: () };
+        let seen: Vec<_> = grid.iter().map(|&site| Integers::<W>::see(ends, site)).collect();
+        for (&c, &q) in seen.iter().flat_map(|c| seen.iter().map(move |q| (c, q))).filter(|(c, q)| c.site != q.site) {
+            let [c_is_left, q_is_left] = [c, q].map(|seen| Integers::<W>::is_left(ends, seen));
+            let determinant = lifted(a, b, c.site, q.site);
+            // A tie with a point that does not lie to the left is refused.
+            let is_inside = (determinant != 0 || q_is_left) && conflicts(a, b, c.site, q.site);
+            assert_eq!(Integers::<W>::is_left_and_inside(ends, c, q), c_is_left && is_inside);
+            ties += usize::from(c_is_left && q_is_left && determinant == 0);
         }
     }
     ties
@@ -245,5 +244,25 @@ proptest! {
         }
         let position = |site: &Site| position(Point::new(site.x, site.y));
         prop_assert!(sorted.sites.windows(2).all(|pair| position(&pair[0]) < position(&pair[1])));
+    }
+}
+
+#[test]
+fn words_are_exact_up_to_the_bits_that_say_so() {
+    for points in [1, 2, 300, 4096, 16_384, 1_000_000, 1 << 25, (1 << 29) - 1] {
+        for threads in [1, 2, 16, 300] {
+            let bits = exact_bits(points, threads);
+            assert!((22..=32).contains(&bits), "{points} points, {threads} threads: {bits}");
+        }
+    }
+    // Points in the corners of the widest square whose words are exact, and one bit beyond, are all kept.
+    for bits in [exact_bits(5000, 1), exact_bits(5000, 1) + 1] {
+        let last = ((1u64 << bits) - 1) as u32;
+        let near = |k: u32| Point::new(if k & 1 == 0 { k } else { last - k }, if k & 2 == 0 { k } else { last - k });
+        let points: Vec<Point> = (0..5000).map(near).collect();
+        let Sites { sites, ids, duplicates, bits: found } = sort(&points, 1);
+        assert_eq!((sites.len(), duplicates.len(), found), (5000, 0, bits));
+        assert!(ids.iter().zip(&sites).all(|(&id, &site)| Site::from(points[id as usize]) == site));
+        assert!(sites.is_sorted_by_key(|site| position(Point::new(site.x, site.y))));
     }
 }

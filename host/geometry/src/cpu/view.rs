@@ -41,7 +41,7 @@ use core::marker::PhantomData;
 
 use bytemuck::Zeroable;
 
-use super::kernel::{tie_is_inside, Kernel};
+use super::kernel::{tie_is_inside, Ends, Kernel};
 use crate::point::Point;
 
 /// Determinants fit 64 bits if coordinates have up to this many bits.
@@ -185,8 +185,10 @@ impl<W: Width> Kernel for Integers<W> {
     type Site = Site;
     type Seen = Seen<W::Product>;
     type Place = Site;
+    type Bounds = ();
 
-    const HAS_CHEAP_VIEWS: bool = true;
+    #[inline(always)]
+    fn bounds<const N: usize>(_: impl FnOnce() -> [Site; N]) {}
 
     #[inline(always)]
     fn swapped(site: Site) -> Site {
@@ -199,8 +201,8 @@ impl<W: Width> Kernel for Integers<W> {
     }
 
     #[inline(always)]
-    fn see(a: Site, b: Site, site: Site) -> Self::Seen {
-        Seen { site, view: W::view(a, b, site) }
+    fn see(ends: Ends<Self>, site: Site) -> Self::Seen {
+        Seen { site, view: W::view(ends.a, ends.b, site) }
     }
 
     #[inline(always)]
@@ -209,20 +211,16 @@ impl<W: Width> Kernel for Integers<W> {
     }
 
     #[inline(always)]
-    fn is_left(seen: Self::Seen) -> bool {
+    fn is_left(_: Ends<Self>, seen: Self::Seen) -> bool {
         seen.view.cross > W::Product::default()
     }
 
+    /// Computes the cross product and the determinant without a branch in between.
     #[inline(always)]
-    fn incircle(_: Site, _: Site, c: Self::Seen, q: Self::Seen) -> Ordering {
-        W::determinant(c.view, q.view).cmp(&W::Determinant::default())
-    }
-
-    #[inline(always)]
-    fn is_left_and_inside(a: Site, b: Site, c: Self::Seen, q: Self::Seen) -> bool {
+    fn is_left_and_inside(ends: Ends<Self>, c: Self::Seen, q: Self::Seen) -> bool {
         let determinant = W::if_left(c.view.cross, W::determinant(c.view, q.view));
         let zero = W::Determinant::default();
-        determinant > zero || (determinant == zero && tie_is_inside::<Self>(a, b, c.site, q))
+        determinant > zero || (determinant == zero && tie_is_inside::<Self>(ends.a, ends.b, (), c.site, q))
     }
 
     #[inline(always)]

@@ -14,13 +14,17 @@
 //! **Overflow** makes a size infinite or not a number, and no comparison with such a bound is true: the exact stage
 //! decides. **Underflow** adds at most `2^-1075` to each product: where a size is at least `2^-960` that is less than
 //! `2^-115` of it, and hidden in the room above; below it the exact stage decides.
+//!
+//! The CPU triangulator asks a cheaper filter first, whose bounds are those of a whole set of points (`bounds`).
 
 mod big;
+mod bounds;
 mod coordinate;
 mod exact;
 
 use core::cmp::Ordering;
 
+pub(crate) use bounds::Bounds;
 pub(crate) use coordinate::Coordinate;
 
 /// The unit of rounding of a double.
@@ -38,9 +42,6 @@ const LEAST_SIZE: f64 = f64::from_bits((1023 - 960) << 52);
 pub(crate) struct View {
     cross: f64,
     dot: f64,
-    /// `|ax by| + |ay bx|` and `|ax bx| + |ay by|`, which bound the errors.
-    cross_size: f64,
-    dot_size: f64,
 }
 
 impl View {
@@ -48,22 +49,41 @@ impl View {
     #[inline(always)]
     pub(crate) fn of<C: Coordinate>(a: [C; 2], b: [C; 2], p: [C; 2]) -> Self {
         let (ax, ay, bx, by) = (a[0].minus(p[0]), a[1].minus(p[1]), b[0].minus(p[0]), b[1].minus(p[1]));
-        let (axby, aybx, axbx, ayby) = (ax * by, ay * bx, ax * bx, ay * by);
-        Self {
-            cross: axby - aybx,
-            dot: axbx + ayby,
-            cross_size: axby.abs() + aybx.abs(),
-            dot_size: axbx.abs() + ayby.abs(),
-        }
+        Self { cross: ax * by - ay * bx, dot: ax * bx + ay * by }
+    }
+
+    /// The rounded determinant of incircle, given the views from both points.
+    #[inline(always)]
+    fn determinant(self, other: Self) -> f64 {
+        self.dot * other.cross - other.dot * self.cross
+    }
+}
+
+/// A view with the sizes of its products, which bound their errors.
+#[derive(Clone, Copy, Debug)]
+struct SizedView {
+    view: View,
+    /// `|ax by| + |ay bx|`.
+    cross_size: f64,
+    /// `|ax bx| + |ay by|`.
+    dot_size: f64,
+}
+
+impl SizedView {
+    /// The edge from `a` to `b`, seen from `p`.
+    #[inline(always)]
+    fn of<C: Coordinate>(a: [C; 2], b: [C; 2], p: [C; 2]) -> Self {
+        let (ax, ay, bx, by) = (a[0].minus(p[0]), a[1].minus(p[1]), b[0].minus(p[0]), b[1].minus(p[1]));
+        let cross_size = (ax * by).abs() + (ay * bx).abs();
+        let dot_size = (ax * bx).abs() + (ay * by).abs();
+        Self { view: View::of(a, b, p), cross_size, dot_size }
     }
 
     /// The sign of the cross product, if the filter can tell.
     #[inline(always)]
     fn side(self) -> Option<Ordering> {
-        if self.cross_size >= LEAST_SIZE && self.cross.abs() > PRODUCT_BOUND * self.cross_size {
-            return Some(sign(self.cross));
-        }
-        None
+        let Self { view: View { cross, .. }, cross_size, .. } = self;
+        (cross_size >= LEAST_SIZE && cross.abs() > PRODUCT_BOUND * cross_size).then(|| sign(cross))
     }
 
     /// Whether underflow can be neglected.
@@ -82,26 +102,23 @@ fn sign(value: f64) -> Ordering {
     }
 }
 
-/// The side of the edge from `a` to `b` on which `p` lies, given its view: `Greater` is left.
+/// The side of the edge from `a` to `b` on which `p` lies: `Greater` is left.
 #[inline(always)]
-pub(crate) fn side<C: Coordinate>(view: View, a: [C; 2], b: [C; 2], p: [C; 2]) -> Ordering {
-    match view.side() {
+pub(crate) fn side<C: Coordinate>(a: [C; 2], b: [C; 2], p: [C; 2]) -> Ordering {
+    match SizedView::of(a, b, p).side() {
         Some(side) => side,
         None => exact::orient2d(a, b, p),
     }
 }
 
-/// The sign of `incircle(a, b, c, d)`, given the views of the edge from `a` to `b` from `c` and from `d`.
+/// The sign of `incircle(a, b, c, d)`.
 #[inline(always)]
-pub(crate) fn incircle_of_views<C: Coordinate>(
-    [a, b]: [[C; 2]; 2],
-    (c_view, c): (View, [C; 2]),
-    (d_view, d): (View, [C; 2]),
-) -> Ordering {
-    let determinant = c_view.dot * d_view.cross - d_view.dot * c_view.cross;
-    let size = c_view.dot_size * d_view.cross_size + d_view.dot_size * c_view.cross_size;
+pub(crate) fn circle<C: Coordinate>(a: [C; 2], b: [C; 2], c: [C; 2], d: [C; 2]) -> Ordering {
+    let (from_c, from_d) = (SizedView::of(a, b, c), SizedView::of(a, b, d));
+    let determinant = from_c.view.determinant(from_d.view);
+    let size = from_c.dot_size * from_d.cross_size + from_d.dot_size * from_c.cross_size;
     // A product of two small sizes may underflow, too.
-    if size >= LEAST_SIZE && determinant.abs() > DETERMINANT_BOUND * size && c_view.is_large() && d_view.is_large() {
+    if size >= LEAST_SIZE && determinant.abs() > DETERMINANT_BOUND * size && from_c.is_large() && from_d.is_large() {
         return sign(determinant);
     }
     exact::incircle(a, b, c, d)
@@ -124,7 +141,7 @@ pub(crate) fn incircle_of_views<C: Coordinate>(
 /// Never. For coordinates that are infinite or not a number the answer means nothing.
 #[inline]
 pub fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Ordering {
-    side(View::of(a, b, c), a, b, c)
+    side(a, b, c)
 }
 
 /// Returns on which side of the circle through the counter-clockwise triangle `a`, `b`, `c` the point `d` lies:
@@ -140,7 +157,7 @@ pub fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Ordering {
 /// ```
 #[inline]
 pub fn incircle(a: [f64; 2], b: [f64; 2], c: [f64; 2], d: [f64; 2]) -> Ordering {
-    incircle_of_views([a, b], (View::of(a, b, c), c), (View::of(a, b, d), d))
+    circle(a, b, c, d)
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use incircle_testkit::{incircle_of_doubles, orient2d_of_doubles, SplitMix64};
 
-use super::{incircle, orient2d};
+use super::{incircle, orient2d, Bounds, View};
 
 /// Coordinates of many kinds: small and large, near one another, with few bits and with all, denormals and the widest.
 fn coordinate(random: &mut SplitMix64, kind: u64) -> f64 {
@@ -65,5 +65,53 @@ fn the_corners_of_a_rotated_square_are_on_one_circle_up_to_their_last_bit() {
         // A line through three points of a chord.
         let middle = [(a[0] + c[0]) / 2.0, (a[1] + c[1]) / 2.0];
         assert_eq!(orient2d(a, c, middle), orient2d_of_doubles(a, c, middle));
+    }
+}
+
+/// Compares the filter with bounds of a set with integers of any size; returns how many of both questions about the
+/// points it answers.
+fn answers_of_bounds(bounds: Bounds, [a, b, c, q]: [[f64; 2]; 4]) -> usize {
+    let (from_c, from_q) = (View::of(a, b, c), View::of(a, b, q));
+    let side = bounds.side(from_c);
+    let exact_side = orient2d_of_doubles(a, b, c);
+    assert!(side.is_none_or(|side| side == exact_side), "{a:?} {b:?} {c:?}");
+    let inside = bounds.is_left_and_inside(from_c, from_q);
+    // For a point `c` to the right the answer is no, whatever the circle.
+    let expected = exact_side.is_gt() && incircle_of_doubles(a, b, c, q).is_gt();
+    assert!(inside.is_none_or(|inside| inside == expected), "{a:?} {b:?} {c:?} {q:?}");
+    usize::from(side.is_some()) + usize::from(inside.is_some())
+}
+
+#[test]
+fn bounds_of_a_set_never_contradict_integers_of_any_size() {
+    let mut random = SplitMix64::new(23);
+    let mut answers = [0; 9];
+    for round in 0..40_000 {
+        let kind = round % 9;
+        let own = |random: &mut SplitMix64| if kind == 8 { random.below(8) } else { kind };
+        let points = [(); 4].map(|()| {
+            let kind = own(&mut random);
+            point(&mut random, kind)
+        });
+        answers[kind as usize] += answers_of_bounds(Bounds::of(points), points);
+    }
+    // Points at random are far from any circle; denormals and the largest doubles are left to the exact stage.
+    assert!(answers[2] > 8000 && answers[3] == 0 && answers[4] == 0, "{answers:?}");
+}
+
+#[test]
+fn bounds_of_a_set_hold_for_all_scales() {
+    let mut random = SplitMix64::new(24);
+    for exponent in [-1070, -538, -242, -241, -240, -239, -100, 0, 248, 249, 250, 251, 1022] {
+        let scale = 2f64.powi(exponent / 2) * 2f64.powi(exponent - exponent / 2);
+        let mut answers = 0;
+        for _ in 0..500 {
+            // Corners of a square, on a circle but for some units in the last place; in every fourth round one is away.
+            let away = if random.once_in(4) { 0.1 } else { 0.0 };
+            let mut near = |value: f64| scale * (value + random.below(8) as f64 * f64::EPSILON);
+            let points = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [away, 1.0]].map(|point| point.map(&mut near));
+            answers += answers_of_bounds(Bounds::of(points), points);
+        }
+        assert_eq!(answers > 500, (-240..=249).contains(&exponent), "2^{exponent}: {answers}");
     }
 }

@@ -6,12 +6,18 @@
 
 use alloc::vec::Vec;
 
-use super::super::edges::{is_used, Halves};
+use super::super::edges::{is_used, Half, Halves};
+use super::super::short;
 
 /// Bits of a corner in a word that holds a triangle.
 const ID_BITS: u32 = 21;
 /// Most points for which a triangle fits a word.
 pub(super) const MOST: usize = 1 << ID_BITS;
+
+/// Most sites whose half-edges, half a megabyte, stay in a second-level cache.
+const IN_CACHE: usize = short::MOST;
+/// Edges that are processed together: they take 5 kB.
+const BLOCK: usize = 256;
 
 /// The memory to sort triangles.
 #[derive(Debug, Default)]
@@ -68,26 +74,64 @@ impl SmallCollect {
     fn find<H: Halves + ?Sized>(&mut self, halves: &H, ids: &[u32]) -> usize {
         let Self { found, first, second, .. } = self;
         let mut count = 0;
-        for pair in 0..3 * ids.len() as u32 {
-            let ends = [halves.half(2 * pair).end, halves.half(2 * pair + 1).end];
-            if !is_used(ends) {
-                continue;
-            }
-            let id = |end: u32| ids[(end & !H::GAP) as usize];
-            let (from, to) = (id(ends[1]), id(ends[0]));
-            // An index instead of a branch, because no processor predicts which end has the smaller id.
-            let leaving = halves.half(2 * pair + u32::from(to < from));
-            let (smaller, larger) = (from.min(to), from.max(to));
-            let third = id(halves.half(leaving.next).end);
+        let mut take = |edge: Edge, end: u32| {
+            let third = ids[(end & !H::GAP) as usize];
+            let Edge { smaller, larger, is_inside, .. } = edge;
             // Every triangle is written, and the counters keep the right ones: no processor would predict a branch.
-            let is_triangle = u32::from((leaving.end & H::GAP == 0) & (smaller < third));
+            let is_triangle = u32::from(is_inside & (smaller < third));
             found[count] = u64::from(smaller) << (2 * ID_BITS) | u64::from(larger) << ID_BITS | u64::from(third);
             count += is_triangle as usize;
             first[smaller as usize] += is_triangle;
             second[larger as usize] += is_triangle;
+        };
+        let mut edges = (0..3 * ids.len() as u32).filter_map(|pair| edge(halves, ids, pair));
+        if ids.len() <= IN_CACHE {
+            edges.for_each(|edge| take(edge, halves.half(edge.next).end));
+            return count;
         }
-        count
+        let mut block = [(Edge::default(), 0); BLOCK];
+        loop {
+            let mut listed = 0;
+            for (slot, edge) in block.iter_mut().zip(&mut edges) {
+                slot.0 = edge;
+                listed += 1;
+            }
+            // The loop is short so that the processor has many of its scattered reads under way at a time.
+            for (edge, end) in &mut block[..listed] {
+                *end = halves.half(edge.next).end;
+            }
+            for &(edge, end) in &block[..listed] {
+                take(edge, end);
+            }
+            if listed < BLOCK {
+                return count;
+            }
+        }
     }
+}
+
+/// An edge, seen from its end with the smaller id.
+#[derive(Clone, Copy, Default)]
+struct Edge {
+    smaller: u32,
+    larger: u32,
+    /// The next half-edge counter-clockwise.
+    next: u32,
+    /// Whether there is a triangle to the left of the edge.
+    is_inside: bool,
+}
+
+/// The edge of a pair of half-edges, if the pair is used.
+#[inline(always)]
+fn edge<H: Halves + ?Sized>(halves: &H, ids: &[u32], pair: u32) -> Option<Edge> {
+    let ends = [halves.half(2 * pair).end, halves.half(2 * pair + 1).end];
+    if !is_used(ends) {
+        return None;
+    }
+    let [to, from] = ends.map(|end| ids[(end & !H::GAP) as usize]);
+    // An index instead of a branch, because no processor predicts which end has the smaller id.
+    let Half { next, end, .. } = halves.half(2 * pair + u32::from(to < from));
+    Some(Edge { smaller: from.min(to), larger: from.max(to), next, is_inside: end & H::GAP == 0 })
 }
 
 /// Replaces each count by the sum of all counts before it.
