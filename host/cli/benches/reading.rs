@@ -2,8 +2,6 @@
 //!
 //! `cargo bench -p incircle-cli --bench reading` prints the figures.
 
-use std::fmt::Write;
-
 use criterion::{criterion_group, criterion_main, Criterion, Throughput};
 use incircle_cli::formats::{csv, wkt, xyz};
 use incircle_cli::generate::SplitMix64;
@@ -15,35 +13,31 @@ const POINTS: usize = 1_000_000;
 type Read = fn(&[u8]) -> Result<PointTable, Failure>;
 
 /// A file whose rows are made from two random numbers of 24 bits.
-fn file(row: impl Fn(&mut String, u64, u64)) -> String {
+fn file(row: impl Fn(u64, u64) -> String) -> String {
     let mut random = SplitMix64::new(1);
     let mut text = String::new();
     for _ in 0..POINTS {
-        row(&mut text, random.below(1 << 24), random.below(1 << 24));
+        text.push_str(&row(random.below(1 << 24), random.below(1 << 24)));
     }
     text
 }
 
 fn reading(criterion: &mut Criterion) {
     let files: [(&str, Read, String); 6] = [
-        ("csv, whole numbers of 24 bits", csv::read_points, file(|text, x, y| drop(writeln!(text, "{x},{y}")))),
+        ("csv, whole numbers of 24 bits", csv::read_points, file(|x, y| format!("{x},{y}\n"))),
         (
             "csv, six digits behind the point",
             csv::read_points,
-            file(|text, x, y| drop(writeln!(text, "-{}.{x:06},{}.{y:06}", x % 180, y % 90))),
+            file(|x, y| format!("-{}.{x:06},{}.{y:06}\n", x % 180, y % 90)),
         ),
         (
             "csv, doubles of 17 digits",
             csv::read_points,
-            file(|text, x, y| drop(writeln!(text, "{},{}", x as f64 / 3.0, y as f64 / 7.0))),
+            file(|x, y| format!("{},{}\n", x as f64 / 3.0, y as f64 / 7.0)),
         ),
-        (
-            "csv, a quoted name in each row",
-            csv::read_points,
-            file(|text, x, y| drop(writeln!(text, "{x},{y},\"a, b\""))),
-        ),
-        ("xyz, whole numbers of 24 bits", xyz::read_points, file(|text, x, y| drop(writeln!(text, "{x} {y} 7")))),
-        ("wkt, whole numbers of 24 bits", wkt::read_points, file(|text, x, y| drop(writeln!(text, "POINT ({x} {y})")))),
+        ("csv, a quoted name in each row", csv::read_points, file(|x, y| format!("{x},{y},\"a, b\"\n"))),
+        ("xyz, whole numbers of 24 bits", xyz::read_points, file(|x, y| format!("{x} {y} 7\n"))),
+        ("wkt, whole numbers of 24 bits", wkt::read_points, file(|x, y| format!("POINT ({x} {y})\n"))),
     ];
     let mut group = criterion.benchmark_group("reading");
     group.sample_size(10);
