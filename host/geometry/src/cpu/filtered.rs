@@ -8,7 +8,7 @@ use bytemuck::Zeroable;
 
 use super::kernel::{tie_is_inside, Ends, Kernel};
 use super::view::level;
-use crate::double::{circle, side, Bounds, Coordinate, View};
+use crate::double::{incircle_of, orient2d_of, Bounds, Coordinate, View};
 
 /// The kernel of points with coordinates of type `C`.
 #[derive(Clone, Copy)]
@@ -79,7 +79,7 @@ impl<C: Coordinate> Kernel for Filtered<C> {
 
     #[inline(never)]
     fn orient2d(a: FilteredSite<C>, b: FilteredSite<C>, c: FilteredSite<C>) -> Ordering {
-        side(a.0, b.0, c.0)
+        orient2d_of(a.0, b.0, c.0)
     }
 
     #[inline(always)]
@@ -128,7 +128,7 @@ fn is_exactly_left_and_inside<C: Coordinate>(ends: Ends<Filtered<C>>, c: Seen<C>
     if q.site == a || q.site == b || !Filtered::is_left(ends, c) {
         return false;
     }
-    match circle(a.0, b.0, c.site.0, q.site.0) {
+    match incircle_of(a.0, b.0, c.site.0, q.site.0) {
         Ordering::Greater => true,
         Ordering::Less => false,
         Ordering::Equal => tie_is_inside::<Filtered<C>>(a, b, bounds, c.site, q),

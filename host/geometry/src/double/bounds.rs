@@ -19,7 +19,8 @@
 
 use core::cmp::Ordering;
 
-use super::{sign, Coordinate, View, UNIT};
+use super::coordinate::Coordinate;
+use super::view::{sign, View, UNIT};
 
 /// Sizes of a set between these powers of two have finite bounds.
 const LEAST: f64 = power_of_two(-240);

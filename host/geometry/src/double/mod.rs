@@ -21,43 +21,21 @@ mod big;
 mod bounds;
 mod coordinate;
 mod exact;
+mod view;
 
 use core::cmp::Ordering;
 
 pub(crate) use bounds::Bounds;
 pub(crate) use coordinate::Coordinate;
+pub(crate) use view::View;
+use view::{sign, UNIT};
 
-/// The unit of rounding of a double.
-const UNIT: f64 = f64::EPSILON / 2.0;
 /// Error of a cross or dot product, by its size.
 const PRODUCT_BOUND: f64 = 6.0 * UNIT;
 /// Error of the determinant of incircle, by its size.
 const DETERMINANT_BOUND: f64 = 16.0 * UNIT;
 /// The smallest size of a cross or dot product for which underflow can be neglected: `2^-960`.
 const LEAST_SIZE: f64 = f64::from_bits((1023 - 960) << 52);
-
-/// The edge from `a` to `b`, seen from a point: rounded cross and dot product of the vectors from the point to both
-/// ends (`cpu/view.rs` says what they are good for).
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct View {
-    cross: f64,
-    dot: f64,
-}
-
-impl View {
-    /// The edge from `a` to `b`, seen from `p`.
-    #[inline(always)]
-    pub(crate) fn of<C: Coordinate>(a: [C; 2], b: [C; 2], p: [C; 2]) -> Self {
-        let (ax, ay, bx, by) = (a[0].minus(p[0]), a[1].minus(p[1]), b[0].minus(p[0]), b[1].minus(p[1]));
-        Self { cross: ax * by - ay * bx, dot: ax * bx + ay * by }
-    }
-
-    /// The rounded determinant of incircle, given the views from both points.
-    #[inline(always)]
-    fn determinant(self, other: Self) -> f64 {
-        self.dot * other.cross - other.dot * self.cross
-    }
-}
 
 /// A view with the sizes of its products, which bound their errors.
 #[derive(Clone, Copy, Debug)]
@@ -93,18 +71,9 @@ impl SizedView {
     }
 }
 
-#[inline(always)]
-fn sign(value: f64) -> Ordering {
-    if value > 0.0 {
-        Ordering::Greater
-    } else {
-        Ordering::Less
-    }
-}
-
 /// The side of the edge from `a` to `b` on which `p` lies: `Greater` is left.
 #[inline(always)]
-pub(crate) fn side<C: Coordinate>(a: [C; 2], b: [C; 2], p: [C; 2]) -> Ordering {
+pub(crate) fn orient2d_of<C: Coordinate>(a: [C; 2], b: [C; 2], p: [C; 2]) -> Ordering {
     match SizedView::of(a, b, p).side() {
         Some(side) => side,
         None => exact::orient2d(a, b, p),
@@ -113,7 +82,7 @@ pub(crate) fn side<C: Coordinate>(a: [C; 2], b: [C; 2], p: [C; 2]) -> Ordering {
 
 /// The sign of `incircle(a, b, c, d)`.
 #[inline(always)]
-pub(crate) fn circle<C: Coordinate>(a: [C; 2], b: [C; 2], c: [C; 2], d: [C; 2]) -> Ordering {
+pub(crate) fn incircle_of<C: Coordinate>(a: [C; 2], b: [C; 2], c: [C; 2], d: [C; 2]) -> Ordering {
     let (from_c, from_d) = (SizedView::of(a, b, c), SizedView::of(a, b, d));
     let determinant = from_c.view.determinant(from_d.view);
     let size = from_c.dot_size * from_d.cross_size + from_d.dot_size * from_c.cross_size;
@@ -141,7 +110,7 @@ pub(crate) fn circle<C: Coordinate>(a: [C; 2], b: [C; 2], c: [C; 2], d: [C; 2]) 
 /// Never. For coordinates that are infinite or not a number the answer means nothing.
 #[inline]
 pub fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Ordering {
-    side(a, b, c)
+    orient2d_of(a, b, c)
 }
 
 /// Returns on which side of the circle through the counter-clockwise triangle `a`, `b`, `c` the point `d` lies:
@@ -157,7 +126,7 @@ pub fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Ordering {
 /// ```
 #[inline]
 pub fn incircle(a: [f64; 2], b: [f64; 2], c: [f64; 2], d: [f64; 2]) -> Ordering {
-    circle(a, b, c, d)
+    incircle_of(a, b, c, d)
 }
 
 #[cfg(test)]
