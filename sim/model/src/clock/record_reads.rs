@@ -1,5 +1,5 @@
-//! The payload of a read-out: reads records, one at a time for all their words, or one in each clock
-//! for their vertices only.
+//! The payload of a read-out: reads records, packs their words or the ids of their vertices without gaps, and keeps
+//! the beats until they are taken.
 //!
 //! Hardware twin: the block `RecordReads`.
 
@@ -10,20 +10,20 @@ use incircle_protocol::NARROW_ID_BITS;
 const ROOM: usize = 4;
 /// Number of beats that the queue holds.
 const QUEUE: usize = 16;
-/// Number of records that fill whole beats.
-const GROUP: usize = 4;
+/// Number of halves of a word, 16 bits each, in a full beat.
+const FULL: usize = 4;
 
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct RecordReads {
     record_id: u32,
     /// Number of records still to be read.
     left: u32,
-    /// Whether a record has been asked for and has not come.
-    fetching: bool,
-    buffer_valid: bool,
-    buffer: [u32; 3],
-    /// The word of the buffer that is sent next.
-    column: usize,
+    /// Whether the next record is the second of a pair. Two whole records fill three beats.
+    is_second: bool,
+    /// Whether no record may be asked for, because the pair before needs a clock for its third beat.
+    pauses: bool,
+    /// The record that has come.
+    buffer: Option<[u32; 3]>,
     /// Whether a record may be asked for, since few beats wait.
     has_room: bool,
     packer: Packer,
@@ -50,14 +50,13 @@ impl RecordReads {
     pub(super) fn start(&mut self, first: u32, count: u32) {
         self.record_id = first;
         self.left = count;
-        self.packer.place = 0;
-        self.packer.left = count;
+        self.is_second = false;
+        self.packer = Packer { left: count, ..Packer::default() };
     }
 
     /// The record that is wanted.
-    pub(super) fn request(&self, packs: bool) -> Option<u32> {
-        let may_ask = if packs { self.has_room } else { !self.fetching && !self.buffer_valid };
-        (self.left != 0 && may_ask).then_some(self.record_id)
+    pub(super) fn request(&self) -> Option<u32> {
+        (self.left != 0 && self.has_room && !self.pauses).then_some(self.record_id)
     }
 
     /// The beat that is offered.
@@ -65,57 +64,36 @@ impl RecordReads {
         self.head
     }
 
-    /// The beat that is offered next.
-    fn next_beat(&self, packs: bool) -> Option<Beat> {
-        if packs {
-            return self.queue.first().or(self.packer.filled);
-        }
-        let last = self.column == 2 && self.left == 0;
-        self.buffer_valid.then(|| Beat { last, ..Beat::of(self.buffer[self.column]) })
-    }
-
     pub(super) fn clock(&mut self, event: Event) {
         let was = *self;
         let Event { packs, asks, done, takes } = event;
+        self.pauses = asks && was.is_second && !packs;
         if asks {
-            self.fetching = true;
             self.record_id += 1;
             self.left -= 1;
+            self.is_second = !was.is_second;
         }
-        let packed = packs && was.buffer_valid;
-        if packed {
-            self.buffer_valid = false;
-        }
-        if let Some(words) = done {
-            self.fetching = false;
-            self.buffer = words;
-            self.buffer_valid = true;
-        }
-        let mut moves = false;
+        self.buffer = done;
+        let mut pops = false;
         if takes || was.head.is_none() {
-            self.head = was.next_beat(packs);
-            moves = self.head.is_some();
-        }
-        if moves && !packs {
-            self.column = (was.column + 1) % 3;
-            self.buffer_valid = self.column != 0;
+            self.head = was.queue.first().or(was.packer.filled);
+            pops = self.head.is_some();
         }
         self.has_room = was.queue.waiting <= ROOM;
-        self.queue.clock(was.packer.filled, moves && packs);
-        self.packer.clock(packed.then(|| was.buffer.map(|word| word & ((1 << NARROW_ID_BITS) - 1))));
+        self.queue.clock(was.packer.filled, pops);
+        self.packer.clock(was.buffer, packs);
     }
 }
 
-/// Packs ids of 16 bits without gaps.
+/// Packs halves of words without gaps.
 #[derive(Clone, Copy, Debug, Default)]
 struct Packer {
     /// Number of records still to come.
     left: u32,
-    /// Number of records of the current group that have come.
-    place: usize,
-    /// Ids that are in no beat yet.
-    held: [u32; 3],
-    /// Whether the rest of the last record is due.
+    /// Halves that are in no beat yet, and zeros behind them.
+    held: [u32; FULL],
+    count: usize,
+    /// Whether the held halves become a beat although no record comes.
     flushes: bool,
     /// A beat that is full, or the last one.
     filled: Option<Beat>,
@@ -123,34 +101,41 @@ struct Packer {
 
 impl Packer {
     /// Simulates one edge, at which a record comes or not.
-    fn clock(&mut self, record: Option<[u32; 3]>) {
+    fn clock(&mut self, record: Option<[u32; 3]>, packs: bool) {
         let was = *self;
-        let is_last = was.left == 1;
-        let ends_full = is_last && was.place == GROUP - 1;
-        (self.filled, self.flushes) = (None, record.is_some() && is_last && !ends_full);
-        if record.is_some() {
-            self.left = self.left.wrapping_sub(1);
+        (self.filled, self.flushes) = (None, false);
+        if was.flushes {
+            assert!(record.is_none(), "a record comes in the clock of the rest");
+            let last = was.left == 0;
+            *self = Self { left: was.left, filled: Some(beat_of(was.held, was.count, last)), ..Self::default() };
         }
-        // The rest is packed as if a record of zeros had come.
-        let Some([a, b, c]) = record.or(was.flushes.then_some([0; 3])) else {
+        let Some(words) = record else {
             return;
         };
-        let [x, y, z] = was.held;
-        let (halves, held) = match was.place {
-            0 => (None, [a, b, c]),
-            1 => (Some([x, y, z, a]), [b, c, z]),
-            2 => (Some([x, y, a, b]), [c, y, z]),
-            _ => (Some([x, a, b, c]), [c, y, z]),
-        };
-        self.held = held;
-        self.place = (was.place + 1) % GROUP;
-        self.filled = halves.map(|[x, y, z, w]| Beat {
-            low: x | y << 16,
-            high: z | w << 16,
-            both: !was.flushes || was.place == 1,
-            last: was.flushes || ends_full,
-        });
+        let mut halves = [0; FULL + 6];
+        halves[..FULL].copy_from_slice(&was.held);
+        let mut end = was.count;
+        for word in words {
+            let ids = [word & ((1 << NARROW_ID_BITS) - 1)];
+            let both = [word & 0xffff, word >> 16];
+            for &half in if packs { &ids[..] } else { &both[..] } {
+                halves[end] = half;
+                end += 1;
+            }
+        }
+        self.left = self.left.wrapping_sub(1);
+        let sent = if end < FULL { 0 } else { FULL };
+        self.count = end - sent;
+        self.held = [0, 1, 2, 3].map(|place| halves[sent + place]);
+        self.flushes = self.count == FULL || self.left == 0 && self.count != 0;
+        let last = self.left == 0 && !self.flushes;
+        self.filled = (sent != 0).then(|| beat_of([0, 1, 2, 3].map(|place| halves[place]), FULL, last));
     }
+}
+
+/// The beat of the first `count` halves.
+fn beat_of([a, b, c, d]: [u32; FULL], count: usize, last: bool) -> Beat {
+    Beat { low: a | b << 16, high: c | d << 16, both: count > 2, last }
 }
 
 /// The beats that wait. A beat may come and go at the same edge.

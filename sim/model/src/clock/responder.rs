@@ -49,8 +49,8 @@ impl Responder {
         self.state == State::Idle
     }
 
-    pub(super) fn read_request(&self, was: &Registers) -> Option<u32> {
-        self.records.request(packs(was)).filter(|_| self.state == State::Records)
+    pub(super) fn read_request(&self) -> Option<u32> {
+        self.records.request().filter(|_| self.state == State::Records)
     }
 
     /// Index of the payload word that is wanted from the next clock on.

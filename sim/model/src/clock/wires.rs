@@ -130,7 +130,7 @@ impl ClockModel {
             done,
             outcome,
             record_read: self.pipeline.record_read().map(|id| self.memory.record_words(id)),
-            read: was.responder.read_request(was),
+            read: was.responder.read_request(),
             answer_ends: was.responder.ends(inputs.response_ready),
             is_quiet: was.finished_points.is_done(was) && rests,
             new_vertex: word.filter(|_| stored).map(|word| (was.command.arrived, point(word))),
