@@ -5,7 +5,7 @@
 //! command words -> CommandPort -> vertex memory, engine
 //! answers <- Responder <- RecordReads <- triangle memory
 //! ```
-//! `RecordWords` makes the words of a `Read`; `VertexPacker` and `VertexStream` make those of a `Triangles`.
+//! `RecordHalves`, `RecordPacker` and `RecordStream` make the words of a `Read` and of a `Triangles`.
 
 mod answer_head;
 mod answer_words;
@@ -15,13 +15,12 @@ mod command_gate;
 mod command_port;
 mod payload_words;
 mod point_slot;
-mod record_buffer;
+mod record_halves;
+mod record_packer;
 mod record_reads;
-mod record_words;
+mod record_stream;
 mod responder;
 pub mod types;
-mod vertex_packer;
-mod vertex_stream;
 
 pub use answer_head::AnswerHead;
 pub use answer_words::AnswerWords;
@@ -31,10 +30,9 @@ pub use command_gate::CommandGate;
 pub use command_port::CommandPort;
 pub use payload_words::PayloadWords;
 pub use point_slot::PointSlot;
-pub use record_buffer::RecordBuffer;
+pub use record_halves::RecordHalves;
+pub use record_packer::{KeptHalves, RecordPacker};
 pub use record_reads::RecordReads;
-pub use record_words::RecordWords;
+pub use record_stream::RecordStream;
 pub use responder::{AnswerState, Responder};
 pub use types::{AnswerBeat, CommandState, WordPair, ANSWER_BEAT_BITS, WORD_PAIR_BITS};
-pub use vertex_packer::VertexPacker;
-pub use vertex_stream::VertexStream;

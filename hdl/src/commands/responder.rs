@@ -1,14 +1,14 @@
-//! Sends answers: header and length in one beat, then the payload. Records come from the triangle memory one at a time,
-//! or one a clock if only their vertices are sent.
+//! Sends answers: header and length in one beat, then the payload. Records come from the triangle memory, two in three
+//! clocks, or one a clock if only their vertices are sent.
 //!
 //! 1. A beat on offer stays until it is taken; `response_valid` does not wait for `response_ready`.
 //! 2. Word `k` of a record holds `v[k]` in bits 0 to 14 and `n[k]` in bits 15 to 29; bit 31 of word 0 is the lock bit.
 //! 3. Bits 63 to 32 are zero in a beat of one word.
 //!
-//! Latency: 4 clocks from `answers` to the header. A word takes 3 clocks, a record 7: 3 for the read and 4 more.
-//! Vertices take 1 clock a record, and their first beat comes 8 clocks after the header.
+//! Latency: 4 clocks from `answers` to the header. A word takes 3 clocks. The first beat of records comes 7 clocks after
+//! the header, or 8 if only vertices are sent.
 //!
-//! A `Read` of one record, whose header has to wait; `beat` counts the beats of the answer:
+//! A `Read` of three records, whose header has to wait; `beat` counts the beats of the answer:
 //! ```text
 //! answers         ___/^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^\________
 //! read            _______________/^^\_____________________________

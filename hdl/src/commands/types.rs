@@ -4,6 +4,8 @@ use rust_hdl_core::prelude::*;
 
 /// A word of a command or an answer.
 pub type Word = Bits<32>;
+/// Half a word.
+pub type Half = Bits<16>;
 pub type VertexCount = Bits<15>;
 pub type RecordCount = Bits<15>;
 /// Index of a word in a payload.
@@ -81,6 +83,24 @@ crate::packed! {
         pub both: bool,
         /// The beat holds the last word of its answer.
         pub last: bool,
+    }
+
+    /// The halves that a record of a read-out brings, in their order in the answer.
+    pub struct Halves {
+        pub half0: Half,
+        pub half1: Half,
+        pub half2: Half,
+        pub half3: Half,
+        pub half4: Half,
+        pub half5: Half,
+    }
+
+    /// The halves of a beat, in their order in the answer.
+    pub struct BeatHalves {
+        pub half0: Half,
+        pub half1: Half,
+        pub half2: Half,
+        pub half3: Half,
     }
 
     /// The words of a beat without the marks.

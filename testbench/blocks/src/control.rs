@@ -4,8 +4,8 @@ use incircle_protocol::{Config, LARGE, MAX_RING, SMALL, TINY};
 
 use crate::exported::block;
 use incircle_hdl::commands::{
-    AnswerHead, AnswerWords, ClearCommand, CommandGate, CommandPort, PointSlot, RecordBuffer, RecordReads, RecordWords,
-    Responder, VertexPacker, VertexStream,
+    AnswerHead, AnswerWords, ClearCommand, CommandGate, CommandPort, PointSlot, RecordHalves, RecordPacker, RecordReads,
+    RecordStream, Responder,
 };
 use incircle_hdl::engine::{
     AttemptLists, AttemptPoints, AttemptStep, AttemptStore, Attempts, Commit, ContextFlags, Counters, FinishedPoints,
@@ -61,9 +61,8 @@ pub(crate) fn blocks() -> Vec<(String, String)> {
         block(AnswerWords::default(), "answer_words"),
         block(Responder::default(), "responder"),
         block(RecordReads::default(), "record_reads"),
-        block(VertexStream::default(), "vertex_stream"),
-        block(VertexPacker::default(), "vertex_packer"),
-        block(RecordBuffer::default(), "record_buffer"),
-        block(RecordWords::default(), "record_words"),
+        block(RecordStream::default(), "record_stream"),
+        block(RecordPacker::default(), "record_packer"),
+        block(RecordHalves::default(), "record_halves"),
     ]
 }

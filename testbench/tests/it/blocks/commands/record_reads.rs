@@ -4,8 +4,8 @@
 use std::collections::VecDeque;
 
 use crate::rig::stepper::{named_ports, Stepper};
-use crate::rig::vertex_beats::{beats_of, columns, Beat, LAYOUT};
-use incircle_hdl::commands::RecordReads;
+use crate::rig::record_beats::{beats_of, Beat, Columns};
+use incircle_hdl::commands::{RecordReads, RecordStream};
 use incircle_testkit::SplitMix64;
 
 named_ports!(
@@ -22,20 +22,10 @@ fn reads_give_the_words_of_records_or_their_vertices() {
         let mut block = Stepper::new("record_reads", RecordReads::default(), 1);
         for run in 0..80 {
             let is_packed = random.below(2) == 0;
-            let count = 1 + random.below(if is_packed { 60 } else { 8 }) as u32;
+            let count = 1 + random.below(60) as u32;
             let first = random.below(u64::from((1u32 << 15) - count)) as u32;
-            let ids = first..first + count;
-            let mut expected = if is_packed {
-                beats_of(&ids.map(|id| columns(id).0).collect::<Vec<_>>())
-            } else {
-                let words = |id| {
-                    let (v, n, lock) = columns(id);
-                    LAYOUT.record_to_words(v, n, lock)[..3].to_vec()
-                };
-                let words: Vec<u32> = ids.flat_map(words).collect();
-                let beat = |(place, &low)| Beat { low, high: 0, both: false, last: place + 1 == words.len() };
-                words.iter().enumerate().map(beat).collect()
-            };
+            let records: Vec<Columns> = (first..first + count).map(Columns::of).collect();
+            let mut expected = beats_of(&records, is_packed);
             for reset in [run == 0 || random.below(9) == 0, false] {
                 block.set("reset", reset);
                 block.set("starts", !reset);
@@ -50,18 +40,14 @@ fn reads_give_the_words_of_records_or_their_vertices() {
             }
             block.set("starts", false);
             block.set("runs", true);
-            let mut reads: VecDeque<Option<u32>> = vec![None; 3].into();
+            let mut reads: VecDeque<Option<u32>> = vec![None; 1 + random.below(RecordStream::PATIENCE as u64) as usize].into();
             let (mut asked, mut clock) = (first, 0);
             let cut = if run % 10 == 9 { random.below(30) } else { 40_000 };
             while !expected.is_empty() && clock < cut {
                 block.set("takes", false);
                 let done = reads.pop_front().flatten();
                 block.set("read_done", done.is_some());
-                let (v, n, lock) = columns(done.unwrap_or_else(|| random.below(1 << 15) as u32));
-                for (port, value) in ["v0", "v1", "v2", "n0", "n1", "n2"].into_iter().zip([v, n].concat()) {
-                    block.set(port, value);
-                }
-                block.set("was_set", lock);
+                Columns::of(done.unwrap_or_else(|| random.below(1 << 15) as u32)).set(&mut block);
                 block.settle();
                 let reads_now = block.is("read");
                 if reads_now {

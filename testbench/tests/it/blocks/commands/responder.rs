@@ -4,9 +4,10 @@
 
 use std::collections::VecDeque;
 
+use crate::rig::record_beats::{payload_of, Columns};
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_hdl::commands::Responder;
-use incircle_protocol::{Layout, CORE_COORD_BITS, LATENCY_BUCKETS};
+use incircle_hdl::commands::{RecordStream, Responder};
+use incircle_protocol::LATENCY_BUCKETS;
 use incircle_testkit::SplitMix64;
 
 named_ports!(
@@ -32,7 +33,7 @@ struct Sent {
     header: u32,
     payload: Vec<u32>,
     /// For a read, its first record and number of records; the payload then has their words, or their vertices alone.
-    range: Option<(u64, u64)>,
+    range: Option<(u32, u32)>,
     is_packed: bool,
 }
 
@@ -41,8 +42,10 @@ impl Sent {
         let header = word(random);
         let first = random.below((1 << 15) - 64);
         match random.below(4) {
-            0 => Self::read(header, first, random.below(8)),
-            1 | 2 => Self::triangles(header, first, [random.below(8), random.below(64)][random.below(2) as usize]),
+            0..3 => {
+                let count = [random.below(8), random.below(64)][random.below(2) as usize];
+                Self::read_out(header, first as u32, count as u32, random.below(2) == 0)
+            }
             _ => {
                 let most = [15, LATENCY_BUCKETS as u64 + 1][random.below(2) as usize];
                 Self { header, payload: (0..random.below(most)).map(|_| word(random)).collect(), ..Self::default() }
@@ -50,49 +53,25 @@ impl Sent {
         }
     }
 
-    /// Makes the answer to a read of whole records.
-    fn read(header: u32, first: u64, count: u64) -> Self {
-        let words = |id| {
-            let (v, n, lock) = columns(id);
-            LAYOUT.record_to_words(v, n, lock)[..3].to_vec()
-        };
-        let payload = (first..first + count).flat_map(words).collect();
-        Self { header, payload, range: Some((first, count)), is_packed: false }
-    }
-
-    /// Makes the answer to a read of vertices.
-    fn triangles(header: u32, first: u64, count: u64) -> Self {
-        let length = LAYOUT.triangles_words(count as u32).expect("few records");
-        let mut payload = vec![0; length as usize];
-        for place in 0..count {
-            LAYOUT.vertices_to_words(columns(first + place).0, &mut payload, place as usize);
-        }
-        Self { header, payload, range: Some((first, count)), is_packed: true }
+    /// Makes the answer to a read of records.
+    fn read_out(header: u32, first: u32, count: u32, is_packed: bool) -> Self {
+        let records: Vec<Columns> = (first..first + count).map(Columns::of).collect();
+        Self { header, payload: payload_of(&records, is_packed), range: Some((first, count)), is_packed }
     }
 
     fn words(&self) -> Vec<u32> {
         [&[self.header, self.payload.len() as u32], &self.payload[..]].concat()
     }
 
-    /// Number of words in the last beat. Header and length share a beat; beats of vertices have two words,
+    /// Number of words in the last beat. Header and length share a beat; beats of records have two words,
     /// except one that is left over.
     fn last_beat(&self) -> usize {
         match self.payload.len() {
             0 => 2,
-            length if self.is_packed => 2 - length % 2,
+            length if self.range.is_some() => 2 - length % 2,
             _ => 1,
         }
     }
-}
-
-/// Layout of the words of the largest core.
-const LAYOUT: Layout = Layout::of(CORE_COORD_BITS, 1 << 14);
-
-/// A record whose columns are made from its id.
-fn columns(id: u64) -> ([u32; 3], [u32; 3], bool) {
-    let id = id as u32;
-    let column = |k: u32| (id ^ (0x1111 * k)) & 0x7fff;
-    ([column(1), column(2), column(3)], [column(4), column(5), column(6)], id.is_multiple_of(3))
 }
 
 /// Clocks from a read to its record in the core.
@@ -105,7 +84,7 @@ struct ResponderRig {
     /// Percentage of the clocks in which the host takes a word.
     ready: u64,
     /// Reads under way: clocks left, id.
-    reads: VecDeque<(usize, u64)>,
+    reads: VecDeque<(usize, u32)>,
     read_clocks: usize,
     /// Clocks that an answer has been due, then `index` of a clock ago, then `index_ahead` of one and two clocks ago.
     due: usize,
@@ -202,12 +181,8 @@ impl ResponderRig {
         }
         (self.index, self.aheads) = (index, [ahead, self.aheads[0]]);
         let due = self.reads.front().is_some_and(|(clocks, _)| *clocks == 0);
-        let id = if due { self.reads.pop_front().map_or(0, |(_, id)| id) } else { self.random.below(1 << 15) };
-        let (v, n, lock) = columns(id);
-        for (port, value) in ["v0", "v1", "v2", "n0", "n1", "n2"].into_iter().zip([v, n].concat()) {
-            block.set(port, value);
-        }
-        block.set("was_set", lock);
+        let id = if due { self.reads.pop_front().map(|(_, id)| id) } else { None };
+        Columns::of(id.unwrap_or_else(|| self.random.below(1 << 15) as u32)).set(block);
         block.set("read_done", due);
     }
 
@@ -235,7 +210,7 @@ impl ResponderRig {
             read.0 = read.0.saturating_sub(1);
         }
         if self.block.is("read") {
-            self.reads.push_back((self.read_clocks - 1, self.block.get("read_id") as u64));
+            self.reads.push_back((self.read_clocks - 1, self.block.get("read_id") as u32));
         }
         self.offered = beat.filter(|_| !ready);
         if let (true, Some((data, both, last))) = (ready, beat) {
@@ -285,7 +260,7 @@ impl ResponderRig {
 
 #[test]
 fn responder_sends_every_answer_whole_and_in_order() {
-    for (ready, read_clocks) in [(100, READ_CLOCKS), (50, 1), (10, 3), (80, 9)] {
+    for (ready, read_clocks) in [(100, READ_CLOCKS), (50, 1), (10, 3), (80, RecordStream::PATIENCE)] {
         let mut rig = ResponderRig::new(ready, read_clocks);
         let mut random = SplitMix64::new(6);
         let (mut expected, mut lasts) = (vec![], vec![]);
@@ -331,15 +306,17 @@ fn responder_is_as_fast_as_it_says() {
         }
         ends
     };
-    let ends = ends_of(&[1, 2, 10].map(|count| Sent::read(7, 0, count)));
-    assert_eq!(ends[1] - ends[0], 7, "clocks a record");
-    assert_eq!(ends[2] - ends[0], 9 * 7);
+    let ends = ends_of(&[2, 4, 1004].map(|count| Sent::read_out(7, 3, count, false)));
+    assert_eq!([ends[1] - ends[0], ends[2] - ends[0]], [3, 1503], "three clocks for two whole records");
     let ends = ends_of(&[1, 25].map(|count| Sent { header: 8, payload: vec![5; count], ..Sent::default() }));
     assert_eq!(ends[1] - ends[0], 24 * 3, "clocks a word");
-    let ends = ends_of(&[4, 8, 1004].map(|count| Sent::triangles(9, 3, count)));
+    let ends = ends_of(&[4, 8, 1004].map(|count| Sent::read_out(9, 3, count, true)));
     assert_eq!([ends[1] - ends[0], ends[2] - ends[0]], [4, 1000], "clocks of as many records");
-    let (_, [header, first]) = rig.answer(&Sent::triangles(9, 3, 4));
-    assert_eq!(first - header, 8, "from the header to the first vertices");
+    for (is_packed, clocks) in [(false, 7), (true, 8)] {
+        let (_, [header, first]) = rig.answer(&Sent::read_out(9, 3, 4, is_packed));
+        rig.clock(false, &Sent::default());
+        assert_eq!(first - header, clocks, "from the header to the first beat of records");
+    }
 }
 
 #[test]
@@ -354,13 +331,13 @@ fn responder_begins_no_answer_in_a_sweep() {
     }
 }
 
-/// Reads one record, whose header has to wait.
+/// Reads three records. The header has to wait.
 #[test]
 fn responder_shows_the_wave_of_its_header() {
     let mut rig = ResponderRig::new(100, READ_CLOCKS);
-    let sent = Sent::read(7, 5, 1);
+    let sent = Sent::read_out(7, 5, 3, false);
     let mut answers = false;
-    for clock in 0..16 {
+    for clock in 0..20 {
         rig.ready = if (5..7).contains(&clock) { 0 } else { 100 };
         answers |= clock == 1;
         answers &= !rig.clock(answers, &sent).ends;

@@ -1,35 +1,36 @@
-//! Sends the payload of a `Triangles` answer: packs the vertices of the records that come, and keeps the beats
-//! until they are taken.
+//! Packs the records that come into beats, and keeps the beats until they are taken.
 //!
 //! 1. `has_room` says, two clocks late, whether at most `ROOM` beats wait. The queue holds 16 beats, so there is room
 //!    for every record under way if each comes within `PATIENCE` clocks.
+//! 2. Behind the second of two whole records a clock passes in which no record comes; see [`RecordPacker`].
 //!
-//! Latency: 1 clock from a record to the beat that it fills, if no other beat waits.
+//! Latency: 2 clocks from a record to the beat that it fills, if no other beat waits.
 
+use super::record_halves::RecordHalves;
+use super::record_packer::RecordPacker;
 use super::types::{AnswerBeat, RecordCount, ANSWER_BEAT_BITS};
-use super::vertex_packer::VertexPacker;
-use crate::engine::types::VertexId;
 use crate::leaf::{Fifo, Unpack};
+use crate::mesh::Record;
 use crate::prelude::*;
 
 /// Number of address bits of the queue of beats.
 const QUEUE_BITS: usize = 4;
 
 #[derive(LogicBlock, Default)]
-pub struct VertexStream {
+pub struct RecordStream {
     pub clock: Signal<In, Clock>,
     /// A reset drops everything.
     pub reset: Signal<In, Bit>,
     /// A payload of `count` records begins; allowed only when no beat of another payload is left.
     pub starts: Signal<In, Bit>,
     pub count: Signal<In, RecordCount>,
+    /// The payload has the vertices of the records alone; stable from `starts` to the last beat.
+    pub vertices_alone: Signal<In, Bit>,
     /// A record may be asked for.
     pub has_room: Signal<Out, Bit>,
-    /// A record that was asked for has come, with these vertices.
+    /// A record that was asked for comes.
     pub comes: Signal<In, Bit>,
-    pub v0: Signal<In, VertexId>,
-    pub v1: Signal<In, VertexId>,
-    pub v2: Signal<In, VertexId>,
+    pub record: Signal<In, Record>,
     /// The first beat that has not been taken.
     pub valid: Signal<Out, Bit>,
     pub beat: Signal<Out, AnswerBeat>,
@@ -38,7 +39,9 @@ pub struct VertexStream {
     /// Number of beats in the queue.
     waiting: DFF<Bits<5>>,
     roomy: DFF<Bit>,
-    packer: VertexPacker,
+    has_come: DFF<Bit>,
+    halves: RecordHalves,
+    packer: RecordPacker,
     queue: Fifo<QUEUE_BITS, ANSWER_BEAT_BITS>,
     head: Unpack<AnswerBeat, ANSWER_BEAT_BITS>,
     beat_bits: Signal<Local, Bits<ANSWER_BEAT_BITS>>,
@@ -46,34 +49,36 @@ pub struct VertexStream {
     room: Signal<Local, Bits<5>>,
 }
 
-impl VertexStream {
+impl RecordStream {
     /// Number of beats that may wait while more records are asked for.
     pub const ROOM: usize = 4;
     /// Largest number of clocks between asking for a record and its coming.
-    pub const PATIENCE: usize = 10;
+    pub const PATIENCE: usize = 7;
 }
 
-// Up to three more records are asked for while the count of beats follows. Four records fill three beats, and the last
-// record may leave a rest.
+// Records of four more clocks are under way while the count of beats follows. A clock brings one beat, but for the last
+// record, which may leave a rest.
 const _: () = assert!(
-    VertexStream::ROOM == 4 && VertexStream::ROOM + ((VertexStream::PATIENCE + 3) * 3).div_ceil(4) < 1 << QUEUE_BITS,
+    RecordStream::ROOM == 4 && RecordStream::ROOM + RecordStream::PATIENCE + 5 <= 1 << QUEUE_BITS,
     "the literal of this block is its constant, and the queue takes what is under way"
 );
 
-impl Logic for VertexStream {
+impl Logic for RecordStream {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, waiting, roomy);
-        clock!(self, clock, packer, queue);
+        dff_setup!(self, clock, waiting, roomy, has_come);
+        clock!(self, clock, halves, packer, queue);
         self.one_beat.next = 1.into();
         self.room.next = 4.into();
         self.packer.reset.next = self.reset.val();
         self.packer.starts.next = self.starts.val();
         self.packer.count.next = self.count.val();
-        self.packer.comes.next = self.comes.val();
-        self.packer.v0.next = self.v0.val();
-        self.packer.v1.next = self.v1.val();
-        self.packer.v2.next = self.v2.val();
+        self.has_come.d.next = self.comes.val();
+        self.halves.record.next = self.record.val();
+        self.halves.vertices_alone.next = self.vertices_alone.val();
+        self.packer.vertices_alone.next = self.vertices_alone.val();
+        self.packer.comes.next = self.has_come.q.val();
+        self.packer.halves.next = self.halves.halves.val();
 
         self.queue.reset.next = self.reset.val();
         self.queue.push.next = self.packer.valid.val();
@@ -93,6 +98,7 @@ impl Logic for VertexStream {
             self.waiting.d.next = self.waiting.q.val() - self.one_beat.val();
         }
         if self.reset.val() {
+            self.has_come.d.next = false;
             self.waiting.d.next = 0.into();
         }
     }

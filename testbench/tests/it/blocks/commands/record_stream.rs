@@ -1,45 +1,54 @@
-//! Runs `VertexStream` in Rust and in Verilog beside the layout that the protocol states: all three must agree, while
+//! Runs `RecordStream` in Rust and in Verilog beside the layout that the protocol states: all three must agree, while
 //! idle clocks, back-pressure and resets come in between.
 
 use std::collections::VecDeque;
 
 use crate::rig::stepper::{named_ports, Stepper};
-use crate::rig::vertex_beats::{beats_of, set_vertices, vertices, Beat};
-use incircle_hdl::commands::VertexStream;
+use crate::rig::record_beats::{beats_of, leaves_no_rest, Beat, Columns};
+use incircle_hdl::commands::RecordStream;
 use incircle_testkit::SplitMix64;
 
-named_ports!(VertexStream, [reset, starts, count, comes, v0, v1, v2, takes], [has_room, valid, beat], clock);
+named_ports!(
+    RecordStream,
+    [reset, starts, count, vertices_alone, comes, record, takes],
+    [has_room, valid, beat],
+    clock
+);
 
 #[test]
 fn stream_keeps_every_beat_whatever_is_taken() {
     for (seed, ready) in [(42, 100), (43, 50), (44, 3)] {
         let mut random = SplitMix64::new(seed);
-        let mut block = Stepper::new("vertex_stream", VertexStream::default(), 1);
+        let mut block = Stepper::new("record_stream", RecordStream::default(), 1);
         for run in 0..60 {
-            let records: Vec<[u32; 3]> = (0..1 + random.below(80)).map(|_| vertices(&mut random)).collect();
-            let latency = 1 + random.below(VertexStream::PATIENCE as u64) as usize;
+            let vertices_alone = random.below(2) == 0;
+            let records: Vec<Columns> = (0..1 + random.below(80)).map(|_| Columns::random(&mut random)).collect();
+            let latency = 1 + random.below(RecordStream::PATIENCE as u64) as usize;
             for reset in [run == 0, false] {
                 block.set("reset", reset);
                 block.set("starts", !reset);
                 block.set("count", records.len() as u32);
+                block.set("vertices_alone", vertices_alone);
                 block.set("comes", false);
                 block.set("takes", false);
                 block.settle();
                 block.edge();
             }
             block.set("starts", false);
-            let mut expected = beats_of(&records);
-            let mut under_way: VecDeque<Option<[u32; 3]>> = vec![None; latency].into();
-            let mut rest = records.iter().copied();
-            let mut clock = 0;
+            let mut expected = beats_of(&records, vertices_alone);
+            let mut under_way: VecDeque<Option<Columns>> = vec![None; latency].into();
+            let mut rest = records.iter().copied().enumerate();
+            let (mut clock, mut may_ask) = (0, true);
             while !expected.is_empty() {
                 // `has_room` follows registers only, so `takes` may still change.
                 block.set("takes", false);
                 let next = under_way.pop_front().flatten();
                 block.set("comes", next.is_some());
-                set_vertices(&mut block, next.unwrap_or([0x7ead; 3]));
+                next.unwrap_or_else(|| Columns::random(&mut random)).set(&mut block);
                 block.settle();
-                under_way.push_back(if block.is("has_room") { rest.next() } else { None });
+                let asked = if may_ask && block.is("has_room") { rest.next() } else { None };
+                may_ask = asked.is_none_or(|(place, _)| leaves_no_rest(place, vertices_alone));
+                under_way.push_back(asked.map(|(_, record)| record));
                 let takes = block.is("valid") && random.below(100) < ready;
                 if block.is("valid") {
                     assert_eq!(Beat::of(block.get("beat")), expected[0]);
