@@ -1,9 +1,9 @@
 //! The command of the hardware side: exports the core to Verilog, and makes bitstreams for boards.
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
 use incircle_hdl::board::{self, Board, BoardError, Clock, Origin, Report, Request, BOARDS};
 use incircle_hdl::committed::{self, Top};
-use incircle_protocol::{Config, LinkConfig, BEAT_BITS, NAMED, SILENCE_MS};
+use incircle_protocol::{Config, LinkConfig, BEAT_BITS, FULL, NAMED, SILENCE_MS};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -31,19 +31,32 @@ enum Command {
 }
 
 #[derive(Args)]
-#[command(after_help = "Example:\n  incircle-hdl export --config full --top serial -o serial.v")]
+#[command(
+    group = ArgGroup::new("core_size").args(["config", "points"]),
+    after_help = "Examples:\n  incircle-hdl export --config full --top serial -o serial.v\n  \
+                  incircle-hdl export --points 2048 --contexts 12 -o core.v"
+)]
 struct ExportArguments {
     /// Configuration: tiny, small, full or large. Default: the ones that the repository holds.
     #[arg(long, value_parser = config)]
     config: Option<Config>,
-    /// File to write; `-` is standard output. Needs --config.
-    #[arg(short, long, requires = "config")]
+    /// Number of points that a core of your own size holds, a power of two. Needs --contexts.
+    #[arg(long, requires = "contexts")]
+    points: Option<u32>,
+    /// Number of contexts of a core of your own size, that is, of insertions in progress at a time.
+    #[arg(long, requires = "points")]
+    contexts: Option<u32>,
+    /// Number of boundary edges that a context of a core of your own size keeps in its list.
+    #[arg(long, default_value_t = FULL.ring, requires = "points")]
+    ring: u32,
+    /// File to write; `-` is standard output. Needs --config or --points.
+    #[arg(short, long, requires = "core_size")]
     out: Option<PathBuf>,
     /// Add the write port of the triangle memory to the ports, for simulation.
-    #[arg(long, requires = "config")]
+    #[arg(long, requires = "core_size")]
     probe: bool,
     /// Module to export: the core with its two streams of words, or the core behind a serial link or a stream link.
-    #[arg(long, value_enum, default_value = "core", requires = "config")]
+    #[arg(long, value_enum, default_value = "core", requires = "core_size")]
     top: TopName,
     /// Clock of the serial link, in Hz.
     #[arg(long, default_value_t = 125_000_000)]
@@ -134,13 +147,14 @@ fn named_board(name: &str) -> Result<Board, String> {
 
 /// Writes the Verilog of one configuration, or renews the committed files.
 fn export(arguments: ExportArguments) -> Result<(), committed::WriteError> {
-    let ExportArguments { config, out, probe, top, clock_hz, fifo_bytes, width } = arguments;
+    let ExportArguments { config, points, contexts, ring, out, probe, top, clock_hz, fifo_bytes, width } = arguments;
+    let own = points.zip(contexts).map(|(points, contexts)| Config { name: "custom", points, ring, contexts });
     let top = match top {
         TopName::Core => Top::Core,
         TopName::Serial => Top::Serial(LinkConfig { clock_hz, fifo_bytes, silence_ms: SILENCE_MS }),
         TopName::Stream => Top::Stream(width),
     };
-    if let Some(config) = config {
+    if let Some(config) = config.or(own) {
         return committed::write(config, top, probe, out);
     }
     for file in committed::renew()? {

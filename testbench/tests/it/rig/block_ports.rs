@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use incircle_hdl::commands::types::{Activity, AnswerProgress, Clearing, Head, Request, TakenWord, Tally};
+use incircle_hdl::commands::types::{Activity, AnswerProgress, Clearing, Halves, Head, Request, TakenWord, Tally};
 use incircle_hdl::commands::{AnswerBeat, CommandState};
 use incircle_hdl::engine::{Arrival, EngineState};
 use incircle_hdl::engine::{
@@ -138,6 +138,7 @@ packed_values!(
     Arrival,
     Clearing,
     EngineState,
+    Halves,
     Head,
     Request,
     TakenWord,

@@ -81,7 +81,7 @@ fn packer_shows_the_wave_of_its_header() {
     block.edge();
     block.set("reset", false);
     let mut wave = Wave::default();
-    let mut next = 1;
+    let mut next = 1u32;
     for clock in 0..17 {
         let vertices_alone = clock < 10;
         let comes = [1, 2, 3, 5, 6, 11, 12, 14].contains(&clock);
