@@ -4,8 +4,8 @@ use incircle_protocol::{Config, LARGE, MAX_RING, SMALL, TINY};
 
 use crate::exported::block;
 use incircle_hdl::commands::{
-    AnswerHead, AnswerWords, ClearCommand, CommandGate, CommandPort, PointSlot, RecordHalves, RecordPacker, RecordReads,
-    RecordStream, Responder,
+    AnswerHead, AnswerWords, ClearCommand, CommandGate, CommandPort, PointSlot, RecordHalves, RecordPacker,
+    RecordReads, RecordStream, Responder,
 };
 use incircle_hdl::engine::{
     AttemptLists, AttemptPoints, AttemptStep, AttemptStore, Attempts, Commit, ContextFlags, Counters, FinishedPoints,

@@ -39,8 +39,7 @@ pub struct Columns {
 
 impl Columns {
     pub fn random(random: &mut SplitMix64) -> Self {
-        let mut ids =
-            || [(); 3].map(|()| [0, 0x7fff, random.below(1 << 15) as u32][random.below(3) as usize]);
+        let mut ids = || [(); 3].map(|()| [0, 0x7fff, random.below(1 << 15) as u32][random.below(3) as usize]);
         Self { v: ids(), n: ids(), lock: random.below(2) == 0 }
     }
 

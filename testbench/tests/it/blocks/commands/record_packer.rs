@@ -108,7 +108,13 @@ fn packer_shows_the_wave_of_its_header() {
             ("last", Cell::Bit(beat.is_some_and(|beat| beat.last))),
         ]);
         block.edge();
-        next += if !comes { 0 } else if vertices_alone { 3 } else { 6 };
+        next += if !comes {
+            0
+        } else if vertices_alone {
+            3
+        } else {
+            6
+        };
     }
     wave.assert_drawn_in("record_packer");
 }

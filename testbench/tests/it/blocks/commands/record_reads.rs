@@ -3,8 +3,8 @@
 
 use std::collections::VecDeque;
 
-use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::record_beats::{beats_of, Beat, Columns};
+use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::commands::{RecordReads, RecordStream};
 use incircle_testkit::SplitMix64;
 
@@ -40,7 +40,8 @@ fn reads_give_the_words_of_records_or_their_vertices() {
             }
             block.set("starts", false);
             block.set("runs", true);
-            let mut reads: VecDeque<Option<u32>> = vec![None; 1 + random.below(RecordStream::PATIENCE as u64) as usize].into();
+            let mut reads: VecDeque<Option<u32>> =
+                vec![None; 1 + random.below(RecordStream::PATIENCE as u64) as usize].into();
             let (mut asked, mut clock) = (first, 0);
             let cut = if run % 10 == 9 { random.below(30) } else { 40_000 };
             while !expected.is_empty() && clock < cut {

@@ -3,8 +3,8 @@
 
 use std::collections::VecDeque;
 
-use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::record_beats::{beats_of, leaves_no_rest, Beat, Columns};
+use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::commands::RecordStream;
 use incircle_testkit::SplitMix64;
 
