@@ -23750,33 +23750,23 @@ module incircle_core_logic$responder$records(clock,reset,starts,first,count,is_p
     reg  some_are_left$d;
     wire  some_are_left$q;
     reg  some_are_left$clock;
-    reg  fetching$d;
-    wire  fetching$q;
-    reg  fetching$clock;
-    reg  buffer$clock;
-    reg  buffer$reset;
-    reg  buffer$read_done;
-    reg  [90:0] buffer$record;
-    wire  buffer$holds;
-    wire  [31:0] buffer$word;
-    wire  buffer$is_at_last;
-    reg  buffer$takes;
-    wire  [14:0] buffer$vertex0;
-    wire  [14:0] buffer$vertex1;
-    wire  [14:0] buffer$vertex2;
-    reg  buffer$takes_whole;
-    reg  vertices$clock;
-    reg  vertices$reset;
-    reg  vertices$starts;
-    reg  [14:0] vertices$count;
-    wire  vertices$has_room;
-    reg  vertices$comes;
-    reg  [14:0] vertices$v0;
-    reg  [14:0] vertices$v1;
-    reg  [14:0] vertices$v2;
-    wire  vertices$valid;
-    wire  [65:0] vertices$beat;
-    reg  vertices$takes;
+    reg  is_second$d;
+    wire  is_second$q;
+    reg  is_second$clock;
+    reg  pauses$d;
+    wire  pauses$q;
+    reg  pauses$clock;
+    reg  stream$clock;
+    reg  stream$reset;
+    reg  stream$starts;
+    reg  [14:0] stream$count;
+    reg  stream$vertices_alone;
+    wire  stream$has_room;
+    reg  stream$comes;
+    reg  [90:0] stream$record;
+    wire  stream$valid;
+    wire  [65:0] stream$beat;
+    reg  stream$takes;
     reg  is_there$d;
     wire  is_there$q;
     reg  is_there$clock;
@@ -23786,10 +23776,7 @@ module incircle_core_logic$responder$records(clock,reset,starts,first,count,is_p
     
     // Local signals
     reg  moves;
-    reg  may_ask;
     reg  asks;
-    reg  packs;
-    reg  [31:0] no_word;
     reg  [14:0] one;
     
     // Sub module instances
@@ -23813,38 +23800,28 @@ module incircle_core_logic$responder$records(clock,reset,starts,first,count,is_p
         .q(some_are_left$q),
         .clock(some_are_left$clock)
     );
-    incircle_core_logic$responder$records$fetching fetching(
-        .d(fetching$d),
-        .q(fetching$q),
-        .clock(fetching$clock)
+    incircle_core_logic$responder$records$is_second is_second(
+        .d(is_second$d),
+        .q(is_second$q),
+        .clock(is_second$clock)
     );
-    incircle_core_logic$responder$records$buffer buffer(
-        .clock(buffer$clock),
-        .reset(buffer$reset),
-        .read_done(buffer$read_done),
-        .record(buffer$record),
-        .holds(buffer$holds),
-        .word(buffer$word),
-        .is_at_last(buffer$is_at_last),
-        .takes(buffer$takes),
-        .vertex0(buffer$vertex0),
-        .vertex1(buffer$vertex1),
-        .vertex2(buffer$vertex2),
-        .takes_whole(buffer$takes_whole)
+    incircle_core_logic$responder$records$pauses pauses(
+        .d(pauses$d),
+        .q(pauses$q),
+        .clock(pauses$clock)
     );
-    incircle_core_logic$responder$records$vertices vertices(
-        .clock(vertices$clock),
-        .reset(vertices$reset),
-        .starts(vertices$starts),
-        .count(vertices$count),
-        .has_room(vertices$has_room),
-        .comes(vertices$comes),
-        .v0(vertices$v0),
-        .v1(vertices$v1),
-        .v2(vertices$v2),
-        .valid(vertices$valid),
-        .beat(vertices$beat),
-        .takes(vertices$takes)
+    incircle_core_logic$responder$records$stream stream(
+        .clock(stream$clock),
+        .reset(stream$reset),
+        .starts(stream$starts),
+        .count(stream$count),
+        .vertices_alone(stream$vertices_alone),
+        .has_room(stream$has_room),
+        .comes(stream$comes),
+        .record(stream$record),
+        .valid(stream$valid),
+        .beat(stream$beat),
+        .takes(stream$takes)
     );
     incircle_core_logic$responder$records$is_there is_there(
         .d(is_there$d),
@@ -23863,385 +23840,58 @@ module incircle_core_logic$responder$records(clock,reset,starts,first,count,is_p
         record_id$clock = clock;
         left$clock = clock;
         some_are_left$clock = clock;
-        fetching$clock = clock;
+        is_second$clock = clock;
+        pauses$clock = clock;
         is_there$clock = clock;
         head$clock = clock;
         vertices_alone$d = vertices_alone$q;
         record_id$d = record_id$q;
         left$d = left$q;
         some_are_left$d = some_are_left$q;
-        fetching$d = fetching$q;
+        is_second$d = is_second$q;
+        pauses$d = pauses$q;
         is_there$d = is_there$q;
         head$d = head$q;
-        buffer$clock = clock;
-        vertices$clock = clock;
-        no_word = 32'h0;
+        stream$clock = clock;
         one = 32'h1;
         vertices_alone$d = is_packed;
-        may_ask = (~fetching$q) & (~buffer$holds);
-        if (vertices_alone$q) begin
-            may_ask = vertices$has_room;
-        end
-        asks = runs & some_are_left$q & may_ask;
+        asks = runs & some_are_left$q & stream$has_room & (~pauses$q);
         read = asks;
         read_id = record_id$q;
+        pauses$d = asks & is_second$q & (~vertices_alone$q);
         if (asks) begin
-            fetching$d = 1'b1;
+            is_second$d = ~is_second$q;
             record_id$d = record_id$q + one;
             left$d = left$q - one;
             some_are_left$d = left$q != one;
         end
-        if (read_done) begin
-            fetching$d = 1'b0;
-        end
         if (starts) begin
+            is_second$d = 1'b0;
             record_id$d = first;
             left$d = count;
             some_are_left$d = |count;
         end
-        buffer$reset = reset;
-        buffer$read_done = read_done;
-        buffer$record = record;
-        packs = vertices_alone$q & buffer$holds;
-        buffer$takes_whole = packs;
-        vertices$reset = reset;
-        vertices$starts = starts;
-        vertices$count = count;
-        vertices$comes = packs;
-        vertices$v0 = buffer$vertex0;
-        vertices$v1 = buffer$vertex1;
-        vertices$v2 = buffer$vertex2;
+        stream$reset = reset;
+        stream$starts = starts;
+        stream$count = count;
+        stream$vertices_alone = vertices_alone$q;
+        stream$comes = read_done;
+        stream$record = record;
         valid = is_there$q;
         beat = head$q;
         moves = (~is_there$q) | takes;
-        buffer$takes = moves & buffer$holds & (~vertices_alone$q);
-        vertices$takes = moves & vertices$valid & vertices_alone$q;
+        stream$takes = moves & stream$valid;
         if (moves) begin
-            is_there$d = buffer$holds;
-            head$d[(64'h0)+:(32)] = buffer$word;
-            head$d[(64'h20)+:(32)] = no_word;
-            head$d[(64'h40)+:(1)] = 1'b0;
-            head$d[(64'h41)+:(1)] = buffer$is_at_last & (~some_are_left$q);
-            if (vertices_alone$q) begin
-                is_there$d = vertices$valid;
-                head$d = vertices$beat;
-            end
+            is_there$d = stream$valid;
+            head$d = stream$beat;
         end
         if (reset) begin
             some_are_left$d = 1'b0;
-            fetching$d = 1'b0;
             is_there$d = 1'b0;
         end
     end
     
 endmodule // incircle_core_logic$responder$records
-
-
-module incircle_core_logic$responder$records$buffer(clock,reset,read_done,record,holds,word,is_at_last,takes,vertex0,vertex1,vertex2,takes_whole);
-    
-    // Module arguments
-    input wire  clock;
-    input wire  reset;
-    input wire  read_done;
-    input wire  [90:0] record;
-    output reg  holds;
-    output reg  [31:0] word;
-    output reg  is_at_last;
-    input wire  takes;
-    output reg  [14:0] vertex0;
-    output reg  [14:0] vertex1;
-    output reg  [14:0] vertex2;
-    input wire  takes_whole;
-    
-    // Stub signals
-    reg  is_held$d;
-    wire  is_held$q;
-    reg  is_held$clock;
-    reg  [31:0] buffer0$d;
-    wire  [31:0] buffer0$q;
-    reg  buffer0$clock;
-    reg  [31:0] buffer1$d;
-    wire  [31:0] buffer1$q;
-    reg  buffer1$clock;
-    reg  [31:0] buffer2$d;
-    wire  [31:0] buffer2$q;
-    reg  buffer2$clock;
-    reg  is_second$d;
-    wire  is_second$q;
-    reg  is_second$clock;
-    reg  is_third$d;
-    wire  is_third$q;
-    reg  is_third$clock;
-    reg  [90:0] words$record;
-    wire  [31:0] words$word0;
-    wire  [31:0] words$word1;
-    wire  [31:0] words$word2;
-    
-    // Sub module instances
-    incircle_core_logic$responder$records$buffer$is_held is_held(
-        .d(is_held$d),
-        .q(is_held$q),
-        .clock(is_held$clock)
-    );
-    incircle_core_logic$responder$records$buffer$buffer0 buffer0(
-        .d(buffer0$d),
-        .q(buffer0$q),
-        .clock(buffer0$clock)
-    );
-    incircle_core_logic$responder$records$buffer$buffer1 buffer1(
-        .d(buffer1$d),
-        .q(buffer1$q),
-        .clock(buffer1$clock)
-    );
-    incircle_core_logic$responder$records$buffer$buffer2 buffer2(
-        .d(buffer2$d),
-        .q(buffer2$q),
-        .clock(buffer2$clock)
-    );
-    incircle_core_logic$responder$records$buffer$is_second is_second(
-        .d(is_second$d),
-        .q(is_second$q),
-        .clock(is_second$clock)
-    );
-    incircle_core_logic$responder$records$buffer$is_third is_third(
-        .d(is_third$d),
-        .q(is_third$q),
-        .clock(is_third$clock)
-    );
-    incircle_core_logic$responder$records$buffer$words words(
-        .record(words$record),
-        .word0(words$word0),
-        .word1(words$word1),
-        .word2(words$word2)
-    );
-    
-    // Update code
-    always @(*) begin
-        is_held$clock = clock;
-        buffer0$clock = clock;
-        buffer1$clock = clock;
-        buffer2$clock = clock;
-        is_second$clock = clock;
-        is_third$clock = clock;
-        is_held$d = is_held$q;
-        buffer0$d = buffer0$q;
-        buffer1$d = buffer1$q;
-        buffer2$d = buffer2$q;
-        is_second$d = is_second$q;
-        is_third$d = is_third$q;
-        holds = is_held$q;
-        words$record = record;
-        vertex0 = buffer0$q[(32'h0)+:(15)];
-        vertex1 = buffer1$q[(32'h0)+:(15)];
-        vertex2 = buffer2$q[(32'h0)+:(15)];
-        if (takes_whole) begin
-            is_held$d = 1'b0;
-        end
-        if (read_done) begin
-            is_held$d = 1'b1;
-            buffer0$d = words$word0;
-            buffer1$d = words$word1;
-            buffer2$d = words$word2;
-        end
-        is_at_last = is_third$q;
-        word = buffer0$q;
-        if (is_second$q) begin
-            word = buffer1$q;
-        end
-        if (is_third$q) begin
-            word = buffer2$q;
-        end
-        if (takes) begin
-            is_second$d = (~is_second$q) & (~is_third$q);
-            is_third$d = is_second$q;
-            is_held$d = ~is_third$q;
-        end
-        if (reset) begin
-            is_held$d = 1'b0;
-            is_second$d = 1'b0;
-            is_third$d = 1'b0;
-        end
-    end
-    
-endmodule // incircle_core_logic$responder$records$buffer
-
-
-module incircle_core_logic$responder$records$buffer$buffer0(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$records$buffer$buffer0
-
-
-module incircle_core_logic$responder$records$buffer$buffer1(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$records$buffer$buffer1
-
-
-module incircle_core_logic$responder$records$buffer$buffer2(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$records$buffer$buffer2
-
-
-module incircle_core_logic$responder$records$buffer$is_held(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$records$buffer$is_held
-
-
-module incircle_core_logic$responder$records$buffer$is_second(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$records$buffer$is_second
-
-
-module incircle_core_logic$responder$records$buffer$is_third(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$records$buffer$is_third
-
-
-module incircle_core_logic$responder$records$buffer$words(record,word0,word1,word2);
-    
-    // Module arguments
-    input wire  [90:0] record;
-    output reg  [31:0] word0;
-    output reg  [31:0] word1;
-    output reg  [31:0] word2;
-    
-    // Local signals
-    reg  [31:0] lock;
-    reg  [31:0] vertex0;
-    reg  [31:0] vertex1;
-    reg  [31:0] vertex2;
-    reg  [31:0] link0;
-    reg  [31:0] link1;
-    reg  [31:0] link2;
-    reg  [31:0] high0;
-    reg  [31:0] high1;
-    reg  [31:0] high2;
-    reg  [31:0] link_shift;
-    
-    // Update code
-    always @(*) begin
-        link_shift = 32'hf;
-        lock = 32'h0;
-        if (record[(64'h5a)+:(1)]) begin
-            lock = 64'h80000000;
-        end
-        vertex0 = ((record[(64'h0)+:(15)]) & 32'hffffffff);
-        vertex1 = ((record[(64'hf)+:(15)]) & 32'hffffffff);
-        vertex2 = ((record[(64'h1e)+:(15)]) & 32'hffffffff);
-        link0 = ((record[(64'h2d)+:(15)]) & 32'hffffffff);
-        link1 = ((record[(64'h3c)+:(15)]) & 32'hffffffff);
-        link2 = ((record[(64'h4b)+:(15)]) & 32'hffffffff);
-        high0 = link0 << link_shift;
-        high1 = link1 << link_shift;
-        high2 = link2 << link_shift;
-        word0 = vertex0 | high0 | lock;
-        word1 = vertex1 | high1;
-        word2 = vertex2 | high2;
-    end
-    
-endmodule // incircle_core_logic$responder$records$buffer$words
-
-
-module incircle_core_logic$responder$records$fetching(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$records$fetching
 
 
 module incircle_core_logic$responder$records$head(d,q,clock);
@@ -24261,6 +23911,25 @@ module incircle_core_logic$responder$records$head(d,q,clock);
     end
           
 endmodule // incircle_core_logic$responder$records$head
+
+
+module incircle_core_logic$responder$records$is_second(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$is_second
 
 
 module incircle_core_logic$responder$records$is_there(d,q,clock);
@@ -24301,6 +23970,25 @@ module incircle_core_logic$responder$records$left(d,q,clock);
 endmodule // incircle_core_logic$responder$records$left
 
 
+module incircle_core_logic$responder$records$pauses(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$pauses
+
+
 module incircle_core_logic$responder$records$record_id(d,q,clock);
     
     // Module arguments
@@ -24339,18 +24027,17 @@ module incircle_core_logic$responder$records$some_are_left(d,q,clock);
 endmodule // incircle_core_logic$responder$records$some_are_left
 
 
-module incircle_core_logic$responder$records$vertices(clock,reset,starts,count,has_room,comes,v0,v1,v2,valid,beat,takes);
+module incircle_core_logic$responder$records$stream(clock,reset,starts,count,vertices_alone,has_room,comes,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  starts;
     input wire  [14:0] count;
+    input wire  vertices_alone;
     output reg  has_room;
     input wire  comes;
-    input wire  [14:0] v0;
-    input wire  [14:0] v1;
-    input wire  [14:0] v2;
+    input wire  [90:0] record;
     output reg  valid;
     output reg  [65:0] beat;
     input wire  takes;
@@ -24362,14 +24049,20 @@ module incircle_core_logic$responder$records$vertices(clock,reset,starts,count,h
     reg  roomy$d;
     wire  roomy$q;
     reg  roomy$clock;
+    reg  has_come$d;
+    wire  has_come$q;
+    reg  has_come$clock;
+    reg  halves$clock;
+    reg  [90:0] halves$record;
+    reg  halves$vertices_alone;
+    wire  [95:0] halves$halves;
     reg  packer$clock;
     reg  packer$reset;
     reg  packer$starts;
     reg  [14:0] packer$count;
+    reg  packer$vertices_alone;
     reg  packer$comes;
-    reg  [14:0] packer$v0;
-    reg  [14:0] packer$v1;
-    reg  [14:0] packer$v2;
+    reg  [95:0] packer$halves;
     wire  packer$valid;
     wire  [65:0] packer$beat;
     reg  queue$clock;
@@ -24388,29 +24081,39 @@ module incircle_core_logic$responder$records$vertices(clock,reset,starts,count,h
     reg  [4:0] room;
     
     // Sub module instances
-    incircle_core_logic$responder$records$vertices$waiting waiting(
+    incircle_core_logic$responder$records$stream$waiting waiting(
         .d(waiting$d),
         .q(waiting$q),
         .clock(waiting$clock)
     );
-    incircle_core_logic$responder$records$vertices$roomy roomy(
+    incircle_core_logic$responder$records$stream$roomy roomy(
         .d(roomy$d),
         .q(roomy$q),
         .clock(roomy$clock)
     );
-    incircle_core_logic$responder$records$vertices$packer packer(
+    incircle_core_logic$responder$records$stream$has_come has_come(
+        .d(has_come$d),
+        .q(has_come$q),
+        .clock(has_come$clock)
+    );
+    incircle_core_logic$responder$records$stream$halves halves(
+        .clock(halves$clock),
+        .record(halves$record),
+        .vertices_alone(halves$vertices_alone),
+        .halves(halves$halves)
+    );
+    incircle_core_logic$responder$records$stream$packer packer(
         .clock(packer$clock),
         .reset(packer$reset),
         .starts(packer$starts),
         .count(packer$count),
+        .vertices_alone(packer$vertices_alone),
         .comes(packer$comes),
-        .v0(packer$v0),
-        .v1(packer$v1),
-        .v2(packer$v2),
+        .halves(packer$halves),
         .valid(packer$valid),
         .beat(packer$beat)
     );
-    incircle_core_logic$responder$records$vertices$queue queue(
+    incircle_core_logic$responder$records$stream$queue queue(
         .clock(queue$clock),
         .reset(queue$reset),
         .push(queue$push),
@@ -24419,7 +24122,7 @@ module incircle_core_logic$responder$records$vertices(clock,reset,starts,count,h
         .valid(queue$valid),
         .data(queue$data)
     );
-    incircle_core_logic$responder$records$vertices$head head(
+    incircle_core_logic$responder$records$stream$head head(
         .bits(head$bits),
         .value(head$value)
     );
@@ -24428,8 +24131,11 @@ module incircle_core_logic$responder$records$vertices(clock,reset,starts,count,h
     always @(*) begin
         waiting$clock = clock;
         roomy$clock = clock;
+        has_come$clock = clock;
         waiting$d = waiting$q;
         roomy$d = roomy$q;
+        has_come$d = has_come$q;
+        halves$clock = clock;
         packer$clock = clock;
         queue$clock = clock;
         one_beat = 32'h1;
@@ -24437,10 +24143,12 @@ module incircle_core_logic$responder$records$vertices(clock,reset,starts,count,h
         packer$reset = reset;
         packer$starts = starts;
         packer$count = count;
-        packer$comes = comes;
-        packer$v0 = v0;
-        packer$v1 = v1;
-        packer$v2 = v2;
+        has_come$d = comes;
+        halves$record = record;
+        halves$vertices_alone = vertices_alone;
+        packer$vertices_alone = vertices_alone;
+        packer$comes = has_come$q;
+        packer$halves = halves$halves;
         queue$reset = reset;
         queue$push = packer$valid;
         beat_bits = packer$beat;
@@ -24458,14 +24166,125 @@ module incircle_core_logic$responder$records$vertices(clock,reset,starts,count,h
             waiting$d = waiting$q - one_beat;
         end
         if (reset) begin
+            has_come$d = 1'b0;
             waiting$d = 32'h0;
         end
     end
     
-endmodule // incircle_core_logic$responder$records$vertices
+endmodule // incircle_core_logic$responder$records$stream
 
 
-module incircle_core_logic$responder$records$vertices$head(bits,value);
+module incircle_core_logic$responder$records$stream$halves(clock,record,vertices_alone,halves);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [90:0] record;
+    input wire  vertices_alone;
+    output reg  [95:0] halves;
+    
+    // Stub signals
+    reg  [90:0] kept$d;
+    wire  [90:0] kept$q;
+    reg  kept$clock;
+    
+    // Local signals
+    reg  [15:0] vertex0;
+    reg  [15:0] vertex1;
+    reg  [15:0] vertex2;
+    reg  [15:0] link0;
+    reg  [15:0] link1;
+    reg  [15:0] link2;
+    reg  [15:0] bottom0;
+    reg  [15:0] bottom1;
+    reg  [15:0] bottom2;
+    reg  [15:0] top0;
+    reg  [15:0] lock;
+    reg  [15:0] id_bits;
+    reg  [15:0] one;
+    
+    // Sub module instances
+    incircle_core_logic$responder$records$stream$halves$kept kept(
+        .d(kept$d),
+        .q(kept$q),
+        .clock(kept$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        kept$clock = clock;
+        kept$d = kept$q;
+        id_bits = 32'hf;
+        one = 32'h1;
+        kept$d = record;
+        lock = 32'h0;
+        if (kept$q[(64'h5a)+:(1)]) begin
+            lock = 32'h8000;
+        end
+        vertex0 = ((kept$q[(64'h0)+:(15)]) & 16'hffff);
+        vertex1 = ((kept$q[(64'hf)+:(15)]) & 16'hffff);
+        vertex2 = ((kept$q[(64'h1e)+:(15)]) & 16'hffff);
+        link0 = ((kept$q[(64'h2d)+:(15)]) & 16'hffff);
+        link1 = ((kept$q[(64'h3c)+:(15)]) & 16'hffff);
+        link2 = ((kept$q[(64'h4b)+:(15)]) & 16'hffff);
+        bottom0 = link0 << id_bits;
+        bottom1 = link1 << id_bits;
+        bottom2 = link2 << id_bits;
+        top0 = link0 >> one;
+        halves[(64'h0)+:(16)] = vertex0 | bottom0;
+        halves[(64'h10)+:(16)] = top0 | lock;
+        halves[(64'h20)+:(16)] = vertex1 | bottom1;
+        halves[(64'h30)+:(16)] = link1 >> one;
+        halves[(64'h40)+:(16)] = vertex2 | bottom2;
+        halves[(64'h50)+:(16)] = link2 >> one;
+        if (vertices_alone) begin
+            halves[(64'h0)+:(16)] = vertex0;
+            halves[(64'h10)+:(16)] = vertex1;
+            halves[(64'h20)+:(16)] = vertex2;
+        end
+    end
+    
+endmodule // incircle_core_logic$responder$records$stream$halves
+
+
+module incircle_core_logic$responder$records$stream$halves$kept(d,q,clock);
+    
+    // Module arguments
+    input wire  [90:0] d;
+    output reg  [90:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 91'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$stream$halves$kept
+
+
+module incircle_core_logic$responder$records$stream$has_come(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$stream$has_come
+
+
+module incircle_core_logic$responder$records$stream$head(bits,value);
     
     // Module arguments
     input wire  [65:0] bits;
@@ -24473,22 +24292,28 @@ module incircle_core_logic$responder$records$vertices$head(bits,value);
     
     // Update code (custom)
     always @(*) value = bits;
-endmodule // incircle_core_logic$responder$records$vertices$head
+endmodule // incircle_core_logic$responder$records$stream$head
 
 
-module incircle_core_logic$responder$records$vertices$packer(clock,reset,starts,count,comes,v0,v1,v2,valid,beat);
+module incircle_core_logic$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,comes,halves,valid,beat);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  starts;
     input wire  [14:0] count;
+    input wire  vertices_alone;
     input wire  comes;
-    input wire  [14:0] v0;
-    input wire  [14:0] v1;
-    input wire  [14:0] v2;
+    input wire  [95:0] halves;
     output reg  valid;
     output reg  [65:0] beat;
+    
+    // Enums
+    localparam KeptHalves$Zero = 0;
+    localparam KeptHalves$One = 1;
+    localparam KeptHalves$Two = 2;
+    localparam KeptHalves$Three = 3;
+    localparam KeptHalves$Rest = 4;
     
     // Stub signals
     reg  is_there$d;
@@ -24497,205 +24322,210 @@ module incircle_core_logic$responder$records$vertices$packer(clock,reset,starts,
     reg  [65:0] filled$d;
     wire  [65:0] filled$q;
     reg  filled$clock;
-    reg  [1:0] place$d;
-    wire  [1:0] place$q;
-    reg  place$clock;
+    reg  [2:0] number$d;
+    wire  [2:0] number$q;
+    reg  number$clock;
+    reg  [63:0] kept$d;
+    wire  [63:0] kept$q;
+    reg  kept$clock;
+    reg  many_are_kept$d;
+    wire  many_are_kept$q;
+    reg  many_are_kept$clock;
     reg  [14:0] left$d;
     wire  [14:0] left$q;
     reg  left$clock;
     reg  is_last$d;
     wire  is_last$q;
     reg  is_last$clock;
-    reg  flushes$d;
-    wire  flushes$q;
-    reg  flushes$clock;
-    reg  [14:0] held0$d;
-    wire  [14:0] held0$q;
-    reg  held0$clock;
-    reg  [14:0] held1$d;
-    wire  [14:0] held1$q;
-    reg  held1$clock;
-    reg  [14:0] held2$d;
-    wire  [14:0] held2$q;
-    reg  held2$clock;
+    reg  all_came$d;
+    wire  all_came$q;
+    reg  all_came$clock;
     
     // Local signals
     reg  takes;
-    reg  ends_full;
-    reg  [14:0] new0;
-    reg  [14:0] new1;
-    reg  [14:0] new2;
-    reg  [14:0] half1;
-    reg  [14:0] half2;
-    reg  [14:0] half3;
-    reg  [31:0] even0;
-    reg  [31:0] even1;
-    reg  [31:0] odd0;
-    reg  [31:0] odd1;
-    reg  [31:0] high0;
-    reg  [31:0] high1;
-    reg  [31:0] half_shift;
+    reg  [63:0] sent;
+    reg  [63:0] sent_bits;
     reg  [14:0] one;
     reg  [14:0] two;
-    reg  [1:0] first_place;
-    reg  [1:0] second_place;
-    reg  [1:0] last_place;
     
     // Sub module instances
-    incircle_core_logic$responder$records$vertices$packer$is_there is_there(
+    incircle_core_logic$responder$records$stream$packer$is_there is_there(
         .d(is_there$d),
         .q(is_there$q),
         .clock(is_there$clock)
     );
-    incircle_core_logic$responder$records$vertices$packer$filled filled(
+    incircle_core_logic$responder$records$stream$packer$filled filled(
         .d(filled$d),
         .q(filled$q),
         .clock(filled$clock)
     );
-    incircle_core_logic$responder$records$vertices$packer$place place(
-        .d(place$d),
-        .q(place$q),
-        .clock(place$clock)
+    incircle_core_logic$responder$records$stream$packer$number number(
+        .d(number$d),
+        .q(number$q),
+        .clock(number$clock)
     );
-    incircle_core_logic$responder$records$vertices$packer$left left(
+    incircle_core_logic$responder$records$stream$packer$kept kept(
+        .d(kept$d),
+        .q(kept$q),
+        .clock(kept$clock)
+    );
+    incircle_core_logic$responder$records$stream$packer$many_are_kept many_are_kept(
+        .d(many_are_kept$d),
+        .q(many_are_kept$q),
+        .clock(many_are_kept$clock)
+    );
+    incircle_core_logic$responder$records$stream$packer$left left(
         .d(left$d),
         .q(left$q),
         .clock(left$clock)
     );
-    incircle_core_logic$responder$records$vertices$packer$is_last is_last(
+    incircle_core_logic$responder$records$stream$packer$is_last is_last(
         .d(is_last$d),
         .q(is_last$q),
         .clock(is_last$clock)
     );
-    incircle_core_logic$responder$records$vertices$packer$flushes flushes(
-        .d(flushes$d),
-        .q(flushes$q),
-        .clock(flushes$clock)
-    );
-    incircle_core_logic$responder$records$vertices$packer$held0 held0(
-        .d(held0$d),
-        .q(held0$q),
-        .clock(held0$clock)
-    );
-    incircle_core_logic$responder$records$vertices$packer$held1 held1(
-        .d(held1$d),
-        .q(held1$q),
-        .clock(held1$clock)
-    );
-    incircle_core_logic$responder$records$vertices$packer$held2 held2(
-        .d(held2$d),
-        .q(held2$q),
-        .clock(held2$clock)
+    incircle_core_logic$responder$records$stream$packer$all_came all_came(
+        .d(all_came$d),
+        .q(all_came$q),
+        .clock(all_came$clock)
     );
     
     // Update code
     always @(*) begin
         is_there$clock = clock;
         filled$clock = clock;
-        place$clock = clock;
-        left$clock = clock;
-        is_last$clock = clock;
-        flushes$clock = clock;
-        held0$clock = clock;
-        held1$clock = clock;
-        held2$clock = clock;
+        number$clock = clock;
+        kept$clock = clock;
+        many_are_kept$clock = clock;
         is_there$d = is_there$q;
         filled$d = filled$q;
-        place$d = place$q;
+        number$d = number$q;
+        kept$d = kept$q;
+        many_are_kept$d = many_are_kept$q;
+        left$clock = clock;
+        is_last$clock = clock;
+        all_came$clock = clock;
         left$d = left$q;
         is_last$d = is_last$q;
-        flushes$d = flushes$q;
-        held0$d = held0$q;
-        held1$d = held1$q;
-        held2$d = held2$q;
-        half_shift = 32'h10;
+        all_came$d = all_came$q;
         one = 32'h1;
         two = 32'h2;
-        first_place = 32'h0;
-        second_place = 32'h1;
-        last_place = 32'h3;
         valid = is_there$q;
         beat = filled$q;
-        takes = comes | flushes$q;
-        new0 = v0;
-        new1 = v1;
-        new2 = v2;
-        if (flushes$q) begin
-            new0 = 32'h0;
-            new1 = 32'h0;
-            new2 = 32'h0;
-        end
-        half1 = held1$q;
-        half2 = held2$q;
-        half3 = new0;
-        case (place$q)
-            2:
+        sent = kept$q;
+        kept$d[(64'h10)+:(16)] = 32'h0;
+        kept$d[(64'h20)+:(16)] = 32'h0;
+        kept$d[(64'h30)+:(16)] = 32'h0;
+        many_are_kept$d = 1'b0;
+        takes = comes;
+        is_there$d = comes;
+        filled$d[(64'h40)+:(1)] = 1'b1;
+        filled$d[(64'h41)+:(1)] = 1'b0;
+        case (number$q)
+            KeptHalves$Zero:
                 begin
-                    half2 = new0;
-                    half3 = new1;
+                    sent[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
+                    sent[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
+                    sent[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
+                    sent[(64'h30)+:(16)] = halves[(64'h30)+:(16)];
+                    kept$d[(64'h0)+:(16)] = halves[(64'h40)+:(16)];
+                    kept$d[(64'h10)+:(16)] = halves[(64'h50)+:(16)];
+                    number$d = KeptHalves$Two;
+                    if (vertices_alone) begin
+                        is_there$d = 1'b0;
+                        kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
+                        kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
+                        kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
+                        many_are_kept$d = 1'b1;
+                        number$d = KeptHalves$Three;
+                    end
                 end
-            3:
+            KeptHalves$One:
                 begin
-                    half1 = new0;
-                    half2 = new1;
-                    half3 = new2;
+                    sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
+                    sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
+                    sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
+                    filled$d[(64'h41)+:(1)] = is_last$q;
+                    number$d = KeptHalves$Zero;
+                end
+            KeptHalves$Two:
+                begin
+                    sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
+                    sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
+                    kept$d[(64'h0)+:(16)] = halves[(64'h20)+:(16)];
+                    number$d = KeptHalves$One;
+                    if (~vertices_alone) begin
+                        kept$d[(64'h10)+:(16)] = halves[(64'h30)+:(16)];
+                        kept$d[(64'h20)+:(16)] = halves[(64'h40)+:(16)];
+                        kept$d[(64'h30)+:(16)] = halves[(64'h50)+:(16)];
+                        many_are_kept$d = 1'b1;
+                        number$d = KeptHalves$Rest;
+                    end
+                end
+            KeptHalves$Three:
+                begin
+                    sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
+                    kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
+                    kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
+                    number$d = KeptHalves$Two;
                 end
             default:
                 begin
+                    takes = 1'b1;
+                    is_there$d = 1'b1;
+                    filled$d[(64'h40)+:(1)] = many_are_kept$q;
+                    filled$d[(64'h41)+:(1)] = all_came$q;
+                    number$d = KeptHalves$Zero;
                 end
         endcase
-        if (takes) begin
-            case (place$q)
-                0:
-                    begin
-                        held0$d = new0;
-                        held1$d = new1;
-                        held2$d = new2;
-                    end
-                1:
-                    begin
-                        held0$d = new1;
-                        held1$d = new2;
-                    end
-                default:
-                    begin
-                        held0$d = new2;
-                    end
-            endcase
-            place$d = place$q + second_place;
-        end
-        even0 = ((held0$q) & 32'hffffffff);
-        odd0 = ((half1) & 32'hffffffff);
-        even1 = ((half2) & 32'hffffffff);
-        odd1 = ((half3) & 32'hffffffff);
-        high0 = odd0 << half_shift;
-        high1 = odd1 << half_shift;
-        ends_full = is_last$q & (place$q == last_place);
-        filled$d[(64'h0)+:(32)] = even0 | high0;
-        filled$d[(64'h20)+:(32)] = even1 | high1;
-        filled$d[(64'h40)+:(1)] = (~flushes$q) | (place$q == second_place);
-        filled$d[(64'h41)+:(1)] = flushes$q | ends_full;
-        is_there$d = takes & (place$q != first_place);
-        flushes$d = comes & is_last$q & (~ends_full);
+        sent_bits = sent;
+        filled$d[(64'h0)+:(32)] = sent_bits[(32'h0)+:(32)];
+        filled$d[(64'h20)+:(32)] = sent_bits[(32'h20)+:(32)];
         if (comes) begin
             left$d = left$q - one;
             is_last$d = left$q == two;
+            all_came$d = is_last$q;
+            if (is_last$q & (number$q != KeptHalves$One)) begin
+                number$d = KeptHalves$Rest;
+            end
+        end
+        if (~takes) begin
+            number$d = number$q;
+            kept$d = kept$q;
         end
         if (starts) begin
-            place$d = first_place;
             left$d = count;
             is_last$d = count == one;
         end
         if (reset) begin
             is_there$d = 1'b0;
-            flushes$d = 1'b0;
+            number$d = KeptHalves$Zero;
         end
     end
     
-endmodule // incircle_core_logic$responder$records$vertices$packer
+endmodule // incircle_core_logic$responder$records$stream$packer
 
 
-module incircle_core_logic$responder$records$vertices$packer$filled(d,q,clock);
+module incircle_core_logic$responder$records$stream$packer$all_came(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$stream$packer$all_came
+
+
+module incircle_core_logic$responder$records$stream$packer$filled(d,q,clock);
     
     // Module arguments
     input wire  [65:0] d;
@@ -24711,10 +24541,10 @@ module incircle_core_logic$responder$records$vertices$packer$filled(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$responder$records$vertices$packer$filled
+endmodule // incircle_core_logic$responder$records$stream$packer$filled
 
 
-module incircle_core_logic$responder$records$vertices$packer$flushes(d,q,clock);
+module incircle_core_logic$responder$records$stream$packer$is_last(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -24730,67 +24560,10 @@ module incircle_core_logic$responder$records$vertices$packer$flushes(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$responder$records$vertices$packer$flushes
+endmodule // incircle_core_logic$responder$records$stream$packer$is_last
 
 
-module incircle_core_logic$responder$records$vertices$packer$held0(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$records$vertices$packer$held0
-
-
-module incircle_core_logic$responder$records$vertices$packer$held1(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$records$vertices$packer$held1
-
-
-module incircle_core_logic$responder$records$vertices$packer$held2(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$records$vertices$packer$held2
-
-
-module incircle_core_logic$responder$records$vertices$packer$is_last(d,q,clock);
+module incircle_core_logic$responder$records$stream$packer$is_there(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -24806,29 +24579,29 @@ module incircle_core_logic$responder$records$vertices$packer$is_last(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$responder$records$vertices$packer$is_last
+endmodule // incircle_core_logic$responder$records$stream$packer$is_there
 
 
-module incircle_core_logic$responder$records$vertices$packer$is_there(d,q,clock);
+module incircle_core_logic$responder$records$stream$packer$kept(d,q,clock);
     
     // Module arguments
-    input wire  d;
-    output reg  q;
+    input wire  [63:0] d;
+    output reg  [63:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 1'h0;
+       q = 64'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_core_logic$responder$records$vertices$packer$is_there
+endmodule // incircle_core_logic$responder$records$stream$packer$kept
 
 
-module incircle_core_logic$responder$records$vertices$packer$left(d,q,clock);
+module incircle_core_logic$responder$records$stream$packer$left(d,q,clock);
     
     // Module arguments
     input wire  [14:0] d;
@@ -24844,29 +24617,55 @@ module incircle_core_logic$responder$records$vertices$packer$left(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$responder$records$vertices$packer$left
+endmodule // incircle_core_logic$responder$records$stream$packer$left
 
 
-module incircle_core_logic$responder$records$vertices$packer$place(d,q,clock);
+module incircle_core_logic$responder$records$stream$packer$many_are_kept(d,q,clock);
     
     // Module arguments
-    input wire  [1:0] d;
-    output reg  [1:0] q;
+    input wire  d;
+    output reg  q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 2'h0;
+       q = 1'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_core_logic$responder$records$vertices$packer$place
+endmodule // incircle_core_logic$responder$records$stream$packer$many_are_kept
 
 
-module incircle_core_logic$responder$records$vertices$queue(clock,reset,push,push_data,pop,valid,data);
+module incircle_core_logic$responder$records$stream$packer$number(d,q,clock);
+    
+    // Module arguments
+    input wire  [2:0] d;
+    output reg  [2:0] q;
+    input wire  clock;
+    
+    // Enums
+    localparam KeptHalves$Zero = 0;
+    localparam KeptHalves$One = 1;
+    localparam KeptHalves$Two = 2;
+    localparam KeptHalves$Three = 3;
+    localparam KeptHalves$Rest = 4;
+    
+    // Update code (custom)
+    initial begin
+       q = 64'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$stream$packer$number
+
+
+module incircle_core_logic$responder$records$stream$queue(clock,reset,push,push_data,pop,valid,data);
     
     // Module arguments
     input wire  clock;
@@ -24906,7 +24705,7 @@ module incircle_core_logic$responder$records$vertices$queue(clock,reset,push,pus
     reg  [3:0] after_oldest;
     
     // Sub module instances
-    incircle_core_logic$responder$records$vertices$queue$entries entries(
+    incircle_core_logic$responder$records$stream$queue$entries entries(
         .clock(entries$clock),
         .write_address(entries$write_address),
         .write_data(entries$write_data),
@@ -24914,17 +24713,17 @@ module incircle_core_logic$responder$records$vertices$queue(clock,reset,push,pus
         .read_address(entries$read_address),
         .read_data(entries$read_data)
     );
-    incircle_core_logic$responder$records$vertices$queue$holds_entries holds_entries(
+    incircle_core_logic$responder$records$stream$queue$holds_entries holds_entries(
         .d(holds_entries$d),
         .q(holds_entries$q),
         .clock(holds_entries$clock)
     );
-    incircle_core_logic$responder$records$vertices$queue$newest newest(
+    incircle_core_logic$responder$records$stream$queue$newest newest(
         .d(newest$d),
         .q(newest$q),
         .clock(newest$clock)
     );
-    incircle_core_logic$responder$records$vertices$queue$oldest oldest(
+    incircle_core_logic$responder$records$stream$queue$oldest oldest(
         .d(oldest$d),
         .q(oldest$q),
         .clock(oldest$clock)
@@ -24971,10 +24770,10 @@ module incircle_core_logic$responder$records$vertices$queue(clock,reset,push,pus
         end
     end
     
-endmodule // incircle_core_logic$responder$records$vertices$queue
+endmodule // incircle_core_logic$responder$records$stream$queue
 
 
-module incircle_core_logic$responder$records$vertices$queue$entries(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$responder$records$stream$queue$entries(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -24992,10 +24791,10 @@ module incircle_core_logic$responder$records$vertices$queue$entries(clock,write_
         if (write_enable) memory[write_address] <= write_data;
     end
     always @(*) read_data = word;
-endmodule // incircle_core_logic$responder$records$vertices$queue$entries
+endmodule // incircle_core_logic$responder$records$stream$queue$entries
 
 
-module incircle_core_logic$responder$records$vertices$queue$holds_entries(d,q,clock);
+module incircle_core_logic$responder$records$stream$queue$holds_entries(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -25011,10 +24810,10 @@ module incircle_core_logic$responder$records$vertices$queue$holds_entries(d,q,cl
        q <= d;
     end
           
-endmodule // incircle_core_logic$responder$records$vertices$queue$holds_entries
+endmodule // incircle_core_logic$responder$records$stream$queue$holds_entries
 
 
-module incircle_core_logic$responder$records$vertices$queue$newest(d,q,clock);
+module incircle_core_logic$responder$records$stream$queue$newest(d,q,clock);
     
     // Module arguments
     input wire  [3:0] d;
@@ -25030,10 +24829,10 @@ module incircle_core_logic$responder$records$vertices$queue$newest(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$responder$records$vertices$queue$newest
+endmodule // incircle_core_logic$responder$records$stream$queue$newest
 
 
-module incircle_core_logic$responder$records$vertices$queue$oldest(d,q,clock);
+module incircle_core_logic$responder$records$stream$queue$oldest(d,q,clock);
     
     // Module arguments
     input wire  [3:0] d;
@@ -25049,10 +24848,10 @@ module incircle_core_logic$responder$records$vertices$queue$oldest(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$responder$records$vertices$queue$oldest
+endmodule // incircle_core_logic$responder$records$stream$queue$oldest
 
 
-module incircle_core_logic$responder$records$vertices$roomy(d,q,clock);
+module incircle_core_logic$responder$records$stream$roomy(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -25068,10 +24867,10 @@ module incircle_core_logic$responder$records$vertices$roomy(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$responder$records$vertices$roomy
+endmodule // incircle_core_logic$responder$records$stream$roomy
 
 
-module incircle_core_logic$responder$records$vertices$waiting(d,q,clock);
+module incircle_core_logic$responder$records$stream$waiting(d,q,clock);
     
     // Module arguments
     input wire  [4:0] d;
@@ -25087,7 +24886,7 @@ module incircle_core_logic$responder$records$vertices$waiting(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$responder$records$vertices$waiting
+endmodule // incircle_core_logic$responder$records$stream$waiting
 
 
 module incircle_core_logic$responder$records$vertices_alone(d,q,clock);
