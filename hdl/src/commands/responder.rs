@@ -5,8 +5,8 @@
 //! 2. Word `k` of a record holds `v[k]` in bits 0 to 14 and `n[k]` in bits 15 to 29; bit 31 of word 0 is the lock bit.
 //! 3. Bits 63 to 32 are zero in a beat of one word.
 //!
-//! Latency: 4 clocks from `answers` to the header. A word takes 3 clocks. The first beat of records comes 7 clocks after
-//! the header, or 8 if only vertices are sent.
+//! Latency: 4 clocks from `answers` to the header. A word takes 3 clocks. The first beat of records comes 7 clocks
+//! after the header, or 8 if only vertices are sent.
 //!
 //! A `Read` of three records, whose header has to wait; `beat` counts the beats of the answer:
 //! ```text

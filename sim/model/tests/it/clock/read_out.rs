@@ -24,15 +24,15 @@ fn clocks_of(bench: &mut Bench, opcode: Opcode, count: u32) -> u64 {
     read_cycles(bench) - before
 }
 
-/// Number of clocks of a read-out that are not of its records: from the command to the first beat, and for the last word.
+/// Number of clocks of a read-out beyond those of its records: from the command to the first beat, and to the last word.
 const LATENCY: u64 = 16;
 
 #[test]
 fn a_point_takes_two_clocks_without_links_and_three_with_them() {
     let points = 4096;
     let (mut bench, records) = filled(points);
-    // A beat has two words, and a clock has one beat. `Triangles` fills three beats with four records, but reads only
-    // one record a clock.
+    // A clock has one beat of two words, so two records of three words take three clocks. `Triangles` fills three beats
+    // with four records, but only one record is read in a clock.
     for (opcode, expected) in [(Opcode::Triangles, u64::from(records)), (Opcode::Read, 3 * u64::from(records) / 2)] {
         let clocks = clocks_of(&mut bench, opcode, records);
         println!("{opcode:?}: {clocks} clocks for {points} points, {:.3} a point", clocks as f64 / f64::from(points));
