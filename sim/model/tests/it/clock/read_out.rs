@@ -24,7 +24,7 @@ fn clocks_of(bench: &mut Bench, opcode: Opcode, count: u32) -> u64 {
     read_cycles(bench) - before
 }
 
-/// Number of clocks of a read-out beyond those of its records: from the command to the first beat, and to the last word.
+/// Number of clocks of a read-out beyond those of its records: up to the first beat, and for the last word.
 const LATENCY: u64 = 16;
 
 #[test]
