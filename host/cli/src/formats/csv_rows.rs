@@ -170,13 +170,20 @@ mod tests {
             let separator = CsvRows::new(&text).separator;
             let expected = by_csv(&text, separator);
             let found = own(&text);
-            // Values that run over the end of a row are refused.
+            // A quoted value that runs over the end of its row is refused. The crate reads on to a later quote, or, if
+            // there is none, to the end of the text: then a closing quote in a row of its own is one more value.
             let runs_over = expected.iter().flatten().any(|value| value.contains(&b'\n') || value.contains(&b'\r'));
+            let is_open = by_csv(&[&text[..], b"\n\"\n"].concat(), separator)
+                .iter()
+                .flatten()
+                .any(|value| value.contains(&b'\n'));
             match found {
-                Some(found) => assert_eq!(found, expected, "{:?}", String::from_utf8_lossy(&text)),
-                None => assert!(runs_over || text.contains(&b'"'), "{:?}", String::from_utf8_lossy(&text)),
+                Some(found) => {
+                    assert_eq!(found, expected, "{:?}", String::from_utf8_lossy(&text));
+                    compared += 1;
+                }
+                None => assert!(runs_over || is_open, "{:?}", String::from_utf8_lossy(&text)),
             }
-            compared += usize::from(!runs_over);
         }
         assert!(compared > 10_000);
     }

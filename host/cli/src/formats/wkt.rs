@@ -2,8 +2,10 @@
 //!
 //! A file holds any number of geometries, one after the other, also in a `GEOMETRYCOLLECTION`. Letters may be small or
 //! capital; `Z`, `M` and `ZM` stand behind the name of the geometry or not at all; `SRID=4326;` before a geometry, as
-//! PostGIS writes it, is ignored, and so is an `EMPTY` geometry. The numbers are taken as they are written, which is why
-//! no library reads them: those that read WKT make doubles of them. Other geometries are refused.
+//! PostGIS writes it, is ignored, and so is an `EMPTY` geometry. Other geometries are refused.
+//!
+//! The numbers are taken as they are written. That is why no library reads them: the libraries that read WKT make
+//! doubles of them.
 //!
 //! Source: OGC 06-103r4, "Simple feature access, part 1", chapter 7.
 
@@ -54,12 +56,17 @@ enum Dimensions {
     Height,
 }
 
-/// Takes the comma between two geometries of a collection; nothing stands between two geometries outside of one.
+/// Takes the comma between two geometries of a collection, behind which another one must stand. Nothing stands between
+/// two geometries outside of a collection.
 fn continue_list(tokens: &mut Tokens<'_>, depth: usize) -> Result<(), Failure> {
-    if depth == 0 || tokens.peek() == Some(b")") || tokens.take(b",") {
+    if depth == 0 || tokens.peek() == Some(b")") {
         return Ok(());
     }
-    Err(tokens.unexpected("',' or ')'"))
+    tokens.expect(b",", "',' or ')'")?;
+    if tokens.peek() == Some(b")") {
+        return Err(tokens.unexpected("another geometry of the collection"));
+    }
+    Ok(())
 }
 
 /// Takes the letters behind the name of a geometry and the parenthesis; `None` for an empty geometry.
@@ -93,27 +100,27 @@ fn read_geometry<'a>(tokens: &mut Tokens<'a>, mut word: &'a [u8], table: &mut Po
         [name @ .., b'M'] => (name, Dimensions::Measure),
         name => (name, Dimensions::Unsaid),
     };
-    let is_multiple = match name {
-        b"POINT" => false,
-        b"MULTIPOINT" => true,
-        _ => {
-            let (row, word) = (tokens.row(), quoted(word));
-            return Err(Failure::input(format!(
-                "row {row}: {word} is neither POINT nor MULTIPOINT nor a collection of them: other geometries are no \
-                 points"
-            )));
-        }
-    };
+    if name != b"POINT" && name != b"MULTIPOINT" {
+        let (row, word) = (tokens.row(), quoted(word));
+        return Err(Failure::input(format!(
+            "row {row}: {word} is neither POINT nor MULTIPOINT nor a collection of them: other geometries are no points"
+        )));
+    }
     let Some(dimensions) = open(tokens)? else {
         return Ok(());
     };
     let dimensions = if attached == Dimensions::Unsaid { dimensions } else { attached };
-    if !is_multiple {
+    if name == b"POINT" {
         read_point(tokens, dimensions, table)?;
         return tokens.expect(b")", "')' behind the numbers of the point");
     }
+    read_multiple(tokens, dimensions, table)
+}
+
+/// Reads the points of a `MULTIPOINT` and the closing parenthesis.
+fn read_multiple(tokens: &mut Tokens<'_>, dimensions: Dimensions, table: &mut PointTable) -> Result<(), Failure> {
     loop {
-        // The points of a MULTIPOINT have parentheses of their own, or none.
+        // Each point has parentheses of its own, or none.
         if tokens.take(b"(") {
             read_point(tokens, dimensions, table)?;
             tokens.expect(b")", "')' behind the numbers of the point")?;
@@ -252,6 +259,7 @@ mod tests {
             ("MULTIPOINT (1 2; 3 4)", "row 1: there is ';' where"),
             ("GEOMETRYCOLLECTION (POINT (1 2)", "where ',' or ')'"),
             ("GEOMETRYCOLLECTION (", "another geometry of the collection"),
+            ("GEOMETRYCOLLECTION (POINT (1 2),)", "there is ')' where another geometry of the collection"),
             ("SRID=4326 POINT (1 2)", "where ';'"),
             (")", "row 1: ')' is neither"),
             ("POINT (nan 1)", "not a finite number"),

@@ -6,7 +6,7 @@
 
 use std::io::{Cursor, Read, Seek, SeekFrom};
 
-use laz::laszip::ChunkTable;
+use laz::laszip::{ChunkTable, ChunkTableEntry};
 use laz::record::{LayeredPointRecordDecompressor, RecordDecompressor, SequentialPointRecordDecompressor};
 use laz::DecompressionSelection;
 
@@ -101,18 +101,21 @@ fn read_table<R: Read + Seek + ?Sized>(
     if sum != Some(room) {
         return Err(refuse(format!("the {count} chunks of the table do not fill the {room} bytes of the points")));
     }
-    let points: Option<Vec<u64>> = if has_points {
-        let given: Vec<u64> = table.as_ref().iter().map(|entry| entry.point_count).collect();
-        let sum = given.iter().try_fold(0u64, |sum, &points| sum.checked_add(points));
-        (sum == Some(header.count)).then_some(given)
-    } else {
-        shares(header.count, packing.vlr.chunk_size().into(), count.into())
-    };
-    let points = points.ok_or_else(|| {
+    let points = points_of_chunks(table.as_ref(), header, packing).ok_or_else(|| {
         let (promised, count) = (header.count, counted(count as usize, "chunk"));
         refuse(format!("the header promises {promised} points, which are not those of {count} in the file"))
     })?;
     Ok(sizes.zip(points).map(|(bytes, points)| Chunk { bytes, points }).collect())
+}
+
+/// The number of points in each chunk; `None` if they are not those that the header promises.
+fn points_of_chunks(table: &[ChunkTableEntry], header: &Header, packing: &Packing) -> Option<Vec<u64>> {
+    if !packing.vlr.uses_variable_size_chunks() {
+        return shares(header.count, packing.vlr.chunk_size().into(), table.len() as u64);
+    }
+    let given: Vec<u64> = table.iter().map(|entry| entry.point_count).collect();
+    let sum = given.iter().try_fold(0u64, |sum, &points| sum.checked_add(points));
+    (sum == Some(header.count)).then_some(given)
 }
 
 /// The number at a place, or zero if the file ends before it.

@@ -105,7 +105,12 @@ fn padded(bytes: &[u8]) -> [u8; LONGEST] {
 pub fn read_at<R: Read + Seek + ?Sized>(source: &mut R, place: u64, len: u64) -> Result<Vec<u8>, Failure> {
     let mut bytes = Vec::new();
     let mut read = || -> io::Result<usize> {
-        source.seek(SeekFrom::Start(place))?;
+        // A file may have a million short records: a relative seek keeps what the reader has buffered.
+        let by = i128::from(place) - i128::from(source.stream_position()?);
+        match i64::try_from(by) {
+            Ok(by) => source.seek_relative(by)?,
+            Err(_) => source.seek(SeekFrom::Start(place)).map(drop)?,
+        }
         source.take(len).read_to_end(&mut bytes)
     };
     read().map_err(|error| unreadable(&error))?;
