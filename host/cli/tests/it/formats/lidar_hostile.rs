@@ -78,11 +78,11 @@ fn wrong_counts_are_refused() {
         for count in [0, 1, 299, 301, 1 << 20, most] {
             refuse(name, with_count(&file, count), &["points"]);
         }
-        // Without points there is nothing to read, however large the claim.
+        // A file that ends before its points is refused, however many its header promises.
         let empty = &file[..word(&file, 96)];
         refuse(name, with_count(empty, most), &[]);
     }
-    // What follows the points must have its place in the header.
+    // Bytes behind the points are refused unless the header names their place.
     let (_, file) = &samples()[1];
     let longer = [&file[..], &[0; 92]].concat();
     refuse("new.las", &longer, &["92 bytes after"]);
@@ -151,7 +151,7 @@ fn spoilt_files_never_panic() {
 fn damage_is_reported_with_its_chunk() {
     let scratch = Scratch::new();
     let [.., (name, file)] = samples();
-    // The count of the second chunk, behind its first point, no longer fits.
+    // The second chunk has its count behind its first point. The edit makes the count wrong.
     let start = word(&file, 96) + 8;
     let second = (start..file.len() - 4).find(|&place| word(&file, place) == 200).expect("the count");
     scratch.write(name, with(&file, second, &199u32.to_le_bytes()));
