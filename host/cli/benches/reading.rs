@@ -1,4 +1,4 @@
-//! Benchmarks of reading points: bytes a second of each format, on one thread, from memory.
+//! Benchmarks the reading of points from memory, on one thread. The figures are bytes a second for each format.
 //!
 //! `cargo bench -p incircle-cli --bench reading` prints the figures.
 
@@ -7,7 +7,7 @@ use incircle_cli::formats::{csv, wkt, xyz};
 use incircle_cli::generate::SplitMix64;
 use incircle_cli::{Failure, PointTable};
 
-/// Points of a file.
+/// The number of points in a file.
 const POINTS: usize = 1_000_000;
 
 type Read = fn(&[u8]) -> Result<PointTable, Failure>;

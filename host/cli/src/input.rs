@@ -10,7 +10,7 @@ use crate::failure::Failure;
 use crate::path::{self, Compression};
 use crate::progress::ReadMeter;
 
-/// The most bytes that an input may have on systems that do not tell their free memory.
+/// The most bytes that an input may have on systems that do not say how much memory is free.
 const USUAL_BOUND: u64 = 8 << 30;
 
 /// A source that can be read from any place.
@@ -18,8 +18,8 @@ pub trait ReadSeek: Read + Seek + Send + Sync {}
 
 impl<T: Read + Seek + Send + Sync> ReadSeek for T {}
 
-/// An input that is open for reading. Reading more bytes than half of the free memory fails with a sentence, so that
-/// a packed file of any length or a pipe without an end cannot take all memory.
+/// An input that is open for reading. Reading more bytes than half of the free memory is an error, so that neither a
+/// packed file nor a pipe without an end can take all memory.
 pub struct Input {
     source: Box<dyn Read + Send>,
     /// The file itself, if its bytes are not packed.
@@ -61,7 +61,7 @@ impl Input {
         Ok(Self { source, file: is_plain.then_some(own), size, left: bound, bound, quiet })
     }
 
-    /// An input of these bytes.
+    /// An input that consists of these bytes.
     pub fn of_bytes(bytes: &[u8]) -> Self {
         let source = Box::new(Cursor::new(bytes.to_vec()));
         Self { source, file: None, size: bytes.len() as u64, left: u64::MAX, bound: u64::MAX, quiet: true }
@@ -72,7 +72,7 @@ impl Input {
         self.size
     }
 
-    /// The most bytes that the input, or what is made of it, may take in memory.
+    /// The most bytes that the input, or the points in it, may take in memory.
     pub fn bound(&self) -> u64 {
         self.bound
     }
@@ -83,7 +83,7 @@ impl Input {
             return Err(unreadable(&too_large(self.bound)));
         }
         let mut bytes = Vec::new();
-        // One byte more than the file has lets the end be noticed without another allocation.
+        // With room for one byte more than the file has, reading notices the end without another allocation.
         let room = usize::try_from(self.size).unwrap_or(usize::MAX).saturating_add(1);
         bytes.try_reserve_exact(room).map_err(|_| unreadable(&too_large(self.bound)))?;
         self.read_to_end(&mut bytes).map_err(|error| unreadable(&error))?;
@@ -110,7 +110,7 @@ impl Read for Input {
     }
 }
 
-/// The failure of an input whose bytes cannot be had.
+/// The failure of an input that cannot be read.
 pub fn unreadable(error: &io::Error) -> Failure {
     Failure::input(format!("the file cannot be read: {error}"))
 }
@@ -124,7 +124,7 @@ fn too_large(bound: u64) -> io::Error {
 }
 
 /// The most bytes that an input may have: half of the memory that is free now, because the points take about as much
-/// again. Only Linux tells how much is free.
+/// again. On Linux the system says how much is free; elsewhere the bound is fixed.
 fn bound() -> u64 {
     let free = std::fs::read_to_string("/proc/meminfo").ok().and_then(|text| {
         let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;

@@ -1,4 +1,5 @@
-//! The step from the numbers of a file to those that are triangulated, without rounding unless the user asks.
+//! From the numbers of a file to the numbers that are triangulated: the lattice of the points or, if the user asks for
+//! rounding, a grid.
 
 use std::borrow::Cow;
 
@@ -34,11 +35,11 @@ impl Numbers<'_> {
 pub struct Laid<'a> {
     /// All points, in input order.
     pub numbers: Numbers<'a>,
-    /// What the numbers are.
+    /// The kind of numbers.
     pub kind: Kind,
     /// Bits of the larger span, in steps; `None` for doubles, which have no steps.
     pub bits: Option<u32>,
-    /// The coordinates of the place from which steps are counted, for the report; `null` for doubles.
+    /// The coordinates of the place from which steps are counted, as JSON; `null` for doubles.
     pub offset: Value,
 }
 
@@ -47,13 +48,14 @@ pub struct Laid<'a> {
 pub enum Kind {
     /// Whole numbers.
     Whole,
-    /// Whole numbers of steps of this length, which is a decimal: a factor, and digits behind the point.
+    /// Whole numbers of steps. The length of a step is the decimal `factor * 10^-digits`, with factor and digits in
+    /// this order.
     Decimal(i64, u32),
-    /// Whole numbers of steps of a power of two with this exponent.
+    /// Whole numbers of steps. The length of a step is the power of two with this exponent.
     Binary(i32),
-    /// The doubles of the file, or those that are nearest to its decimals.
+    /// The doubles in the file, or the doubles nearest to its decimals.
     Doubles,
-    /// Points of a grid onto which the user had the points laid, with rounding.
+    /// Points of a grid, onto which the points of the file were rounded by `--quantize`.
     Quantized(Quantization),
 }
 
@@ -101,7 +103,7 @@ impl Laid<'_> {
         format!("{steps}, {}", counted(self.bits.unwrap_or_default() as usize, "bit"))
     }
 
-    /// Refuses points that a device with coordinates of `coord_bits` bits cannot take, with both ways out.
+    /// Refuses points that a device with coordinates of `coord_bits` bits cannot take. The message names both remedies.
     pub fn check_bits(&self, coord_bits: u32, device: &str) -> Result<(), Failure> {
         let have = match (&self.numbers, self.bits) {
             (Numbers::Grid(_), Some(bits)) if bits <= coord_bits => return Ok(()),
@@ -126,8 +128,8 @@ impl Laid<'_> {
 }
 
 /// Finds the lattice of the points. The first that fits is taken: whole numbers, steps of a power of ten, steps of a
-/// power of two, each with spans below 2^32; else whole numbers of 64 bits, or doubles. With `how` the points are laid
-/// onto a grid of that many bits instead.
+/// power of two, each with spans below 2^32 steps. Without a lattice the points are whole numbers of 64 bits, or
+/// doubles. If `how` is given, the points are laid onto a grid of that many bits instead.
 pub fn lay(table: &PointTable, how: Option<(Quantize, u32)>) -> Result<Laid<'_>, Failure> {
     if let Some((how, coord_bits)) = how {
         return lay_onto_grid(table, how, coord_bits);
@@ -157,20 +159,20 @@ pub fn lay(table: &PointTable, how: Option<(Quantize, u32)>) -> Result<Laid<'_>,
     Ok(on_lattice(grid, &lattice, kind, |steps, _| json!(steps as f64 * scale)))
 }
 
-/// Points on a lattice of up to 32 bits; `value` gives the coordinate of a number of steps on an axis.
+/// Makes the points of a lattice of up to 32 bits. `value` gives the coordinate for a number of steps on an axis.
 fn on_lattice(grid: Vec<Point>, lattice: &Lattice, kind: Kind, value: impl Fn(i64, usize) -> Value) -> Laid<'static> {
     let [x, y] = lattice.offset;
     let offset = json!([value(x, 0), value(y, 1)]);
     Laid { numbers: Numbers::Grid(grid), kind, bits: Some(lattice.bits), offset }
 }
 
-/// Whether steps are taken as they are even if their span is 2^32 or more. Decimals of a text are not: the nearest
-/// doubles, which usually were printed there, are quicker.
+/// Whether the points stay in steps even if a span is 2^32 steps or more. Decimals of a text do not: they usually are
+/// printed doubles, and the nearest doubles are quicker to triangulate.
 fn is_taken_wide(unit: &Unit) -> bool {
     unit.is_whole() || *unit != Unit::of_digits(unit.digits)
 }
 
-/// Bits of the larger span of points with at least one axis.
+/// The bits of the larger span of the points, in steps.
 fn wide_bits(steps: &[[i64; 2]]) -> u32 {
     let span = |axis: usize| {
         let values = || steps.iter().map(|point| point[axis]);
@@ -239,7 +241,7 @@ mod tests {
         assert_eq!(whole, ("whole".into(), 1.into(), json!([-363, 4]), 9.into()));
         let decimal = lattice_of(&[["-101.473911", "33"], ["5", "0.1"]]);
         assert_eq!(decimal, ("decimal".into(), 1e-6.into(), json!([-101.473911, 0.1]), 27.into()));
-        // So many digits are too long for steps of a power of ten, but the number is 2^-25.
+        // The first number has too many digits for steps of a power of ten, but it is 2^-25.
         let binary = lattice_of(&[["0.0000000298023223876953125", "1"], ["0.5", "2"]]);
         assert_eq!(binary, ("binary".into(), 2f64.powi(-25).into(), json!([2f64.powi(-25), 1.0]), 26.into()));
         let doubles = lattice_of(&[["0.12345678901234567", "1e-5"], ["3", "2"]]);

@@ -1,12 +1,13 @@
-//! Numbers as they are written in a text, without rounding where that is possible.
+//! Numbers as they are written in a text, without rounding if the digits fit 64 bits.
 //!
 //! A text such as `-101.473911` is a decimal, and most decimals are no double. So a number is read as a whole number of
-//! steps of a power of ten, which is exact. Only numbers of more than 18 digits or so become the nearest double.
+//! steps of a power of ten, which is exact. Only a number of more than 18 or 19 digits becomes the nearest double.
 
 use std::cmp::Ordering;
 use std::fmt;
 
-/// Decimals with more digits behind the point than this are read as doubles, whose smallest has 324.
+/// Decimals with more digits behind the point than this are read as doubles. The smallest positive double, 5e-324, has
+/// 324.
 const MOST_DIGITS: u32 = 400;
 /// Numbers with more digits behind the point than this are shown with an exponent.
 const MOST_DIGITS_SHOWN: u32 = 25;
@@ -49,8 +50,8 @@ impl Decimal {
     }
 }
 
-/// Reads a number, without spaces around it; `None` if the text is none. Every text that the standard library reads as
-/// a double is a number.
+/// Reads a text as a number; `None` if the text is no number. Numbers are the texts that the standard library reads as
+/// doubles, without spaces around them.
 pub fn parse(text: &[u8]) -> Option<Number> {
     short(text).map(Number::Decimal).or_else(|| long(text))
 }
@@ -60,8 +61,8 @@ fn short(text: &[u8]) -> Option<Decimal> {
     leading(text).filter(|(_, rest)| rest.is_empty()).map(|(decimal, _)| decimal)
 }
 
-/// Reads a decimal without an exponent at the start of a text, and returns the rest of the text as well. Of a decimal
-/// with more than 18 digits, some are left in the rest.
+/// Reads a decimal without an exponent at the start of a text, and returns the rest of the text as well. If a
+/// decimal has more than 18 digits, the rest begins with some of them.
 #[inline]
 pub fn leading(text: &[u8]) -> Option<(Decimal, &[u8])> {
     let (sign, unsigned) = match text {
@@ -158,7 +159,8 @@ pub fn compare(coordinate: Coordinate, with: Decimal) -> Ordering {
         Coordinate::Double(value) => compare_double(value, with),
         Coordinate::Decimal { steps, digits } => {
             let common = digits.max(with.digits);
-            // The other decimal is below 2^63 * 10^18, so one that does not fit is beyond it.
+            // The other decimal is below 2^63 * 10^18 in the common steps, so a value that overflows is farther from
+            // zero.
             let steps = 10i128.checked_pow(common - digits).and_then(|power| steps.checked_mul(power)).ok_or(steps);
             let with = i128::from(with.steps) * 10i128.pow(common - with.digits);
             steps.map_or_else(|beyond| beyond.cmp(&0), |steps| steps.cmp(&with))
@@ -173,7 +175,7 @@ fn compare_double(value: f64, with: Decimal) -> Ordering {
         // No double lies between a decimal and the double that is nearest to it.
         return value.total_cmp(&nearest);
     }
-    // The double is mantissa * 2^exponent. Both sides below are about steps * 2^53 at most.
+    // The double is mantissa * 2^exponent. Neither side of the comparison exceeds about steps * 2^53, which fits.
     let bits = value.to_bits();
     let mantissa = i128::from(bits & ((1 << 52) - 1) | 1 << 52) * if value < 0.0 { -1 } else { 1 };
     let exponent = ((bits >> 52) & 0x7ff) as i32 - 1075;

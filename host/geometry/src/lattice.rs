@@ -125,12 +125,12 @@ impl Lattice {
     }
 }
 
-/// The largest exponent, at most 0, of a power of two of which all coordinates are multiples. `None` if a coordinate is
-/// infinite or not a number, or if it is plain before the end that a span is 2^32 multiples or more: most sets without
-/// a lattice are recognised by their first points.
+/// The exponent of the largest power of two, at most 1, of which all coordinates are multiples. `None` if a coordinate
+/// is infinite or not a number, or as soon as the points read so far have a span of 2^33 multiples or more: most sets
+/// without a lattice are recognised by their first points.
 fn least_exponent(points: &[[f64; 2]]) -> Option<i32> {
     const POINTS: usize = 256;
-    // Twice as many steps as too many leave room for the rounding of the span.
+    // A lattice has spans below 2^32 steps. Twice that number leaves room for the rounding of the span.
     const STEPS: f64 = (1u64 << 33) as f64;
     let (mut least, mut low, mut high) = (0, [f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     for some in points.chunks(POINTS) {
@@ -247,7 +247,7 @@ mod tests {
 
     #[test]
     fn a_span_is_too_wide_wherever_it_shows() {
-        // 2^32 steps are too many and one less is not, whether early or late points show the span or the step.
+        // 2^32 steps are too many and 2^32 - 1 are not, whether early or late points show the span or the step.
         for (first, last) in [(0, 999), (999, 0), (0, 1), (500, 501)] {
             for exponent in [-60, -1, 0] {
                 let mut points = vec![[scaled(1.0, 8 + exponent), 0.0]; 1000];

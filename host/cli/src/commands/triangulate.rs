@@ -118,7 +118,7 @@ fn format_of(arguments: &TriangulateArguments) -> Result<MeshFormat, Failure> {
     })
 }
 
-/// The mesh without its points, which the table of the file has.
+/// The mesh without its points, which are in the table of the file.
 struct Connections {
     triangles: Vec<[u32; 3]>,
     hull: Vec<u32>,
@@ -158,7 +158,7 @@ fn triangulate(
     solution
 }
 
-/// Triangulates points of one type of numbers.
+/// Triangulates points whose coordinates are numbers of one type.
 fn connect<P: PlanePoint>(
     session: &mut Session<'_>,
     points: &[P],

@@ -27,7 +27,7 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     let mut z = None;
     let mut width = 0;
     loop {
-        // Only rows of two columns can be pairs.
+        // The quick way reads rows of two columns, x and y.
         if width == 2 && columns == [0, 1] {
             while let Some((row, pair)) = rows.next_pair() {
                 table.push_decimals(pair, row);

@@ -28,7 +28,7 @@ pub struct CsvRows<'a> {
 pub struct Values<'r> {
     text: &'r [u8],
     ends: &'r [usize],
-    /// Bytes between two values: one for rows with their separators, none for values without their quotes.
+    /// Bytes between two values: 1 if `text` has the separators, 0 if it has the values without their quotes.
     gap: usize,
 }
 
@@ -87,8 +87,9 @@ impl<'a> CsvRows<'a> {
         }
     }
 
-    /// The next row with its number if the row is two decimals without quotes, spaces or exponents, and nothing else.
-    /// Such rows, which are the usual ones, take a third of the time here. Other rows are left to [`next`](Self::next).
+    /// The next row with its number, if the row is two decimals without quotes, spaces or exponents, and nothing else.
+    /// Most rows are of this kind, and this function takes a third of the time of [`next`](Self::next) for them. It
+    /// leaves other rows to `next`.
     #[inline]
     pub fn next_pair(&mut self) -> Option<(usize, [Decimal; 2])> {
         let (x, rest) = number::leading(self.rest)?;
@@ -163,7 +164,7 @@ mod tests {
         let mut compared = 0;
         for _ in 0..20_000 {
             let len = random.below(24) as usize;
-            // A lone CR ends a row here and not always there, so it is left out.
+            // The crate `csv` does not always end a row at a lone CR, so the texts have none.
             let pieces = ["1", ",", "2", "\n", "\"", "\r\n", ";", "\t", " ", "#", "\n\"", "a", "\",", ",\""];
             let text: String = (0..len).map(|_| pieces[random.below(pieces.len() as u64) as usize]).collect();
             let text = text.into_bytes();

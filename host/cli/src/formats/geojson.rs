@@ -76,11 +76,11 @@ fn add_position(position: &Position, table: &mut PointTable, place: &str) -> Res
     }
 }
 
-/// Whole doubles from here on may stand for other numbers that were written.
+/// A whole double of this magnitude or more may differ from the number in the file.
 const LAST_EXACT: f64 = 9_007_199_254_740_992.0;
 
-/// Adds a point. The numbers of GeoJSON are doubles, and the shortest text of a double is the decimal that was written,
-/// if that had up to 15 digits.
+/// Adds a point. The parser of GeoJSON makes doubles of all numbers. The shortest text of a double is the decimal in
+/// the file, if that has up to 15 digits.
 fn push(table: &mut PointTable, point: [f64; 2]) -> Result<(), Failure> {
     if point.iter().any(|value| value.abs() >= LAST_EXACT) {
         return table.push_doubles(point, 0);

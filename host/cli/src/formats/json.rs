@@ -32,8 +32,8 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
             let shown = quoted(value.to_string().as_bytes());
             return Err(Failure::input(format!("points[{index}] is {shown}, not two numbers")));
         };
-        // The parser keeps whole numbers of 64 bits, and the shortest text of a double is the decimal that was written,
-        // if that had up to 15 digits.
+        // The parser keeps whole numbers of 64 bits, and makes doubles of other numbers. The shortest text of a double
+        // is the decimal in the file, if that has up to 15 digits.
         table.push([x.to_string().as_bytes(), y.to_string().as_bytes()], 0)?;
     }
     table.complete()

@@ -53,13 +53,13 @@ pub enum PointFormat {
     Geojson,
     /// The list `points` of a JSON mesh, or GeoJSON
     Json,
-    /// LAS, LAZ or COPC of laser scanners
+    /// LAS, LAZ or COPC, from laser scanners
     Las,
-    /// An array of NumPy of shape (n, 2) or (n, 3)
+    /// An array of NumPy, of shape (n, 2) or (n, 3)
     Npy,
-    /// An archive of such arrays, see --array
+    /// An archive of arrays of NumPy; see --array
     Npz,
-    /// Points of WKT, well-known text
+    /// Points of WKT (well-known text)
     Wkt,
 }
 
@@ -87,7 +87,7 @@ impl PointFormat {
         names_of(Self::value_variants().iter())
     }
 
-    /// Reads all points of an input that are selected. Every wrong value is refused with its place.
+    /// Reads the selected points of an input. Every wrong value is refused with its place.
     pub fn read(self, mut input: Input, selection: &Selection) -> Result<PointTable, Failure> {
         match self {
             Self::Csv => csv::read_points(&input.into_bytes()?),
@@ -114,7 +114,7 @@ pub enum MeshFormat {
     Obj,
     /// PLY, ascii
     Ply,
-    /// PLY, binary, with doubles, little endian
+    /// PLY, binary: doubles, little endian
     PlyBinary,
     /// Legacy VTK, ascii
     Vtk,
@@ -124,7 +124,7 @@ pub enum MeshFormat {
     Json,
     /// Rows `a,b,c`
     Csv,
-    /// An array of NumPy of shape (m, 3), u4
+    /// An array of NumPy, of shape (m, 3) and type u4
     Npy,
     /// A picture
     Svg,

@@ -1,7 +1,8 @@
-//! `.npy`, the arrays of NumPy: points as an array of n rows and two or three columns, meshes as one of m rows and three.
+//! `.npy`, the arrays of NumPy: points as an array of n rows and two or three columns, meshes as one of m rows and
+//! three.
 //!
-//! Integers are taken as whole numbers and floats as the doubles that they are, in either byte order and in C or Fortran
-//! order. An array of records has the fields `x`, `y` and perhaps `z`.
+//! Integers are taken as whole numbers and floats as the doubles that they are, in either byte order and in C or
+//! Fortran order. An array of records has the fields `x`, `y` and perhaps `z`.
 
 use crate::failure::Failure;
 use crate::formats::array::{Cells, Source, Wanted};
@@ -66,14 +67,14 @@ pub fn read_mesh(mut source: Source<'_>) -> Result<Vec<[u32; 3]>, Failure> {
     Ok(triangles)
 }
 
-/// An empty list with room for so many rows.
+/// An empty list with room for `rows` rows.
 fn with_room<T>(rows: usize) -> Result<Vec<T>, Failure> {
     let mut list = Vec::new();
     list.try_reserve_exact(rows).map_err(|_| Failure::input(format!("{rows} rows do not fit the memory")))?;
     Ok(list)
 }
 
-/// The rows of a list in which these cells stand, with their indices. The list grows as far as they need.
+/// The rows of the list into which `cells` go, with their indices. The list grows to hold them.
 fn rows_of<'a, T: Copy + Default>(
     list: &'a mut Vec<T>,
     cells: &Cells<'_>,
@@ -103,7 +104,7 @@ fn keep_integers(steps: &mut Vec<[i64; 2]>, cells: &Cells<'_>) -> Result<(), Fai
     let found = beyond.find_map(|(index, point)| Some((index, cells.beyond(point[axis])?)));
     found.map_or(Ok(()), |(index, value)| {
         let (place, most) = (place(index, axis), i64::MAX);
-        Err(Failure::input(format!("{place}: {value} is beyond 64 bits with a sign: whole numbers go up to {most}")))
+        Err(Failure::input(format!("{place}: {value} is beyond 64 bits: whole numbers go up to {most}")))
     })
 }
 

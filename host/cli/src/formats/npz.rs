@@ -29,7 +29,7 @@ fn array_name(file_name: &str) -> Option<String> {
     file_name.strip_suffix(ENDING).map(str::to_owned)
 }
 
-/// The array that is read.
+/// The name of the array to read: `wanted`, or else that of the only array.
 fn choose<'a>(names: &'a [String], wanted: Option<&str>) -> Result<&'a str, Failure> {
     let found = match (names, wanted) {
         ([], _) => return Err(Failure::input("the archive holds no array")),
@@ -42,7 +42,7 @@ fn choose<'a>(names: &'a [String], wanted: Option<&str>) -> Result<&'a str, Fail
             let wanted = quoted(wanted.as_bytes());
             Failure::input(format!("the archive has no array {wanted}: it has {}", list(names)))
         }
-        None => Failure::input(format!("the archive has several arrays, {}: choose one by --array", list(names))),
+        None => Failure::input(format!("the archive has several arrays, {}: choose one with --array", list(names))),
     })
 }
 

@@ -1,8 +1,8 @@
 //! Writing PLY: all input points, at height 0 if they have no z, and the triangles.
 //!
-//! The ascii form has the numbers of the input as they are. The binary form, little endian, has doubles, so whole numbers
-//! that no double holds are refused before the work. A decimal is written as the nearest double, which is what readers
-//! make of its text as well.
+//! The ascii form has the numbers of the input as they are. The binary form, little endian, has doubles, so whole
+//! numbers that no double holds are refused before the work. A decimal is written as the nearest double, which is what
+//! readers make of its text as well.
 
 use std::io::{self, Write};
 
@@ -46,7 +46,7 @@ fn write_header(mesh: &MeshView<'_>, form: &str, out: &mut dyn Write) -> io::Res
     writeln!(out, "property list uchar int vertex_indices\nend_header")
 }
 
-/// Refuses whole numbers that no double holds, which the binary form would change.
+/// Refuses whole numbers that no double equals, because the binary form would change them.
 pub fn check_binary(points: &PointTable) -> Result<(), Failure> {
     for index in 0..points.len() {
         for axis in [0, 1] {
@@ -54,7 +54,7 @@ pub fn check_binary(points: &PointTable) -> Result<(), Failure> {
             if !is_kept(coordinate) {
                 let place = points.place(index, axis);
                 return Err(Failure::input(format!(
-                    "{place}: no double is {coordinate}, and ply-binary holds doubles: choose a text format, such as \
+                    "{place}: {coordinate} is no double, and ply-binary holds doubles: choose a text format, such as \
                      ply or obj"
                 )));
             }
@@ -63,7 +63,7 @@ pub fn check_binary(points: &PointTable) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Whether the nearest double is the coordinate itself, or the coordinate is a decimal with a fraction.
+/// Whether a double equals the coordinate, or the coordinate is a decimal with a fraction, which may be rounded.
 fn is_kept(coordinate: Coordinate) -> bool {
     match coordinate {
         Coordinate::Decimal { steps, digits: 0 } => steps as f64 as i128 == steps,

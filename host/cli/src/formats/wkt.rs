@@ -2,10 +2,8 @@
 //!
 //! A file holds any number of geometries, one after the other, also in a `GEOMETRYCOLLECTION`. Letters may be small or
 //! capital; `Z`, `M` and `ZM` stand behind the name of the geometry or not at all; `SRID=4326;` before a geometry, as
-//! PostGIS writes it, is ignored, and so is an `EMPTY` geometry. Other geometries are refused.
-//!
-//! The numbers are taken as they are written. That is why no library reads them: the libraries that read WKT make
-//! doubles of them.
+//! PostGIS writes it, is ignored, and so is an `EMPTY` geometry. Other geometries are refused. The numbers are taken as
+//! they are written. Libraries for WKT make doubles of the numbers, so this module uses none.
 //!
 //! Source: OGC 06-103r4, "Simple feature access, part 1", chapter 7.
 
@@ -18,7 +16,7 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     let bytes = text::without_mark(bytes)?;
     let mut table = PointTable::of_items("point");
     let mut tokens = Tokens { all: bytes, at: 0 };
-    // Collections that are open.
+    // The number of collections that are open.
     let mut depth = 0usize;
     while let Some(word) = tokens.next() {
         match word {
@@ -48,7 +46,7 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
 /// Which numbers a point has behind x and y.
 #[derive(Clone, Copy, PartialEq)]
 enum Dimensions {
-    /// No letter says it: a third number is z.
+    /// No letter is given, so a third number is z.
     Unsaid,
     /// A measure, which is not read.
     Measure,
@@ -56,8 +54,8 @@ enum Dimensions {
     Height,
 }
 
-/// Takes the comma between two geometries of a collection, behind which another one must stand. Nothing stands between
-/// two geometries outside of a collection.
+/// Takes the comma between two geometries of a collection, behind which another one must stand. Outside a collection
+/// nothing stands between two geometries.
 fn continue_list(tokens: &mut Tokens<'_>, depth: usize) -> Result<(), Failure> {
     if depth == 0 || tokens.peek() == Some(b")") {
         return Ok(());
@@ -69,7 +67,7 @@ fn continue_list(tokens: &mut Tokens<'_>, depth: usize) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Takes the letters behind the name of a geometry and the parenthesis; `None` for an empty geometry.
+/// Takes the letters behind the name of a geometry, and the opening parenthesis; `None` for an empty geometry.
 fn open(tokens: &mut Tokens<'_>) -> Result<Option<Dimensions>, Failure> {
     let mut dimensions = Dimensions::Unsaid;
     for (letters, meaning) in [("ZM", Dimensions::Height), ("Z", Dimensions::Height), ("M", Dimensions::Measure)] {
@@ -93,7 +91,7 @@ fn read_geometry<'a>(tokens: &mut Tokens<'a>, mut word: &'a [u8], table: &mut Po
         tokens.expect(b";", "';' behind the number of the SRID")?;
         word = tokens.next().unwrap_or_default();
     }
-    // Some programs write the letters at the name: POINTZ.
+    // Some programs join the letters to the name: POINTZ.
     let name = word.to_ascii_uppercase();
     let (name, attached) = match name.as_slice() {
         [name @ .., b'Z', b'M'] | [name @ .., b'Z'] => (name, Dimensions::Height),
@@ -147,7 +145,7 @@ fn read_point(tokens: &mut Tokens<'_>, dimensions: Dimensions, table: &mut Point
     }
     if count < 2 {
         let row = tokens.row();
-        return Err(Failure::input(format!("row {row}: a point has {count} numbers, not two or more")));
+        return Err(Failure::input(format!("row {row}: a point needs two numbers or more, but this one has {count}")));
     }
     // The table names points by their numbers; counting the rows up to each point would take quadratic time.
     table.push([numbers[0], numbers[1]], 0)?;
@@ -212,7 +210,7 @@ impl<'a> Tokens<'a> {
     /// The failure of a token that is not what the grammar wants.
     fn unexpected(&mut self, what: &str) -> Failure {
         let found = self.peek().map_or_else(|| "the end of the file".to_owned(), quoted);
-        Failure::input(format!("row {}: there is {found} where {what} must stand", self.row()))
+        Failure::input(format!("row {}: expected {what}, but found {found}", self.row()))
     }
 
     /// The row of the next token, counted from 1.
@@ -251,16 +249,16 @@ mod tests {
     fn wrong_texts_are_refused_with_their_row() {
         for (text, part) in [
             ("POINT (1 2)\nLINESTRING (1 2, 3 4)", "row 2: 'LINESTRING' is neither POINT"),
-            ("POINT (1)", "row 1: a point has 1 numbers"),
-            ("POINT (1 2", "row 1: there is the end of the file where ')'"),
-            ("POINT 1 2", "row 1: there is '1' where '(' or EMPTY"),
-            ("POINT (1 2 3 4 5)", "row 1: there is '5' where ')'"),
+            ("POINT (1)", "row 1: a point needs two numbers or more, but this one has 1"),
+            ("POINT (1 2", "row 1: expected ')' behind the numbers of the point, but found the end of the file"),
+            ("POINT 1 2", "row 1: expected '(' or EMPTY, but found '1'"),
+            ("POINT (1 2 3 4 5)", "behind the numbers of the point, but found '5'"),
             ("POINT (1 x)", "point 1, y: 'x' is not a number"),
-            ("MULTIPOINT (1 2; 3 4)", "row 1: there is ';' where"),
-            ("GEOMETRYCOLLECTION (POINT (1 2)", "where ',' or ')'"),
+            ("MULTIPOINT (1 2; 3 4)", "but found ';'"),
+            ("GEOMETRYCOLLECTION (POINT (1 2)", "expected ',' or ')'"),
             ("GEOMETRYCOLLECTION (", "another geometry of the collection"),
-            ("GEOMETRYCOLLECTION (POINT (1 2),)", "there is ')' where another geometry of the collection"),
-            ("SRID=4326 POINT (1 2)", "where ';'"),
+            ("GEOMETRYCOLLECTION (POINT (1 2),)", "row 1: expected another geometry of the collection"),
+            ("SRID=4326 POINT (1 2)", "expected ';'"),
             (")", "row 1: ')' is neither"),
             ("POINT (nan 1)", "not a finite number"),
         ] {

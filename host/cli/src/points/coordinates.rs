@@ -1,22 +1,22 @@
-//! The coordinates of a file, in numbers that hold them without rounding where there are such.
+//! The coordinates of the points of a file: in exact steps if these fit 64 bits, else in doubles.
 
 use std::borrow::Cow;
 
 use crate::number::{self, Coordinate, Decimal, Number};
 
-/// The meaning of steps: a coordinate is `(steps * factor + offset) * 10^-digits`.
+/// How steps become coordinates: `(steps * factor + offset) * 10^-digits`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unit {
     /// Digits behind the point.
     pub digits: u32,
-    /// The length of a step, in the last digit; positive.
+    /// The length of a step, in units of the last digit; positive.
     pub factor: i64,
-    /// The coordinates of the place at step 0, in the last digit.
+    /// The coordinates of the place at step 0, in units of the last digit.
     pub offset: [i128; 2],
 }
 
 impl Unit {
-    /// The unit of decimals with so many digits behind the point.
+    /// The unit of decimals with `digits` digits behind the point.
     pub fn of_digits(digits: u32) -> Self {
         Self { digits, factor: 1, offset: [0; 2] }
     }
@@ -26,13 +26,13 @@ impl Unit {
         *self == Self::of_digits(0)
     }
 
-    /// The coordinate of a step on an axis.
+    /// The coordinate for a number of steps on an axis.
     pub fn coordinate(&self, steps: i64, axis: usize) -> Coordinate {
         let steps = i128::from(steps) * i128::from(self.factor) + self.offset[axis];
         Coordinate::Decimal { steps, digits: self.digits }
     }
 
-    /// The double that is nearest to the coordinate of a step on an axis.
+    /// The double nearest to the coordinate for a number of steps on an axis.
     pub fn nearest(&self, steps: i64, axis: usize) -> f64 {
         number::nearest(i128::from(steps) * i128::from(self.factor) + self.offset[axis], self.digits)
     }
@@ -45,14 +45,14 @@ pub enum Coordinates {
     Steps {
         /// The coordinates of each point, in steps.
         steps: Vec<[i64; 2]>,
-        /// The meaning of the steps.
+        /// How the steps become coordinates.
         unit: Unit,
     },
     /// Doubles.
     Doubles(Vec<[f64; 2]>),
 }
 
-/// An empty list, to which numbers as written are added.
+/// Makes an empty list of steps, which are whole numbers.
 impl Default for Coordinates {
     fn default() -> Self {
         Self::Steps { steps: Vec::new(), unit: Unit::of_digits(0) }
@@ -68,8 +68,8 @@ impl Coordinates {
         }
     }
 
-    /// Adds a point as it is written. As long as all coordinates are decimals of one length of step whose steps fit 64
-    /// bits, they stay exact; otherwise all become the nearest doubles.
+    /// Adds a point as it is written. The coordinates stay exact as long as all are decimals whose steps of one common
+    /// length fit 64 bits. Otherwise all coordinates become the nearest doubles.
     pub fn push(&mut self, point: [Number; 2]) {
         if let [Number::Decimal(x), Number::Decimal(y)] = point {
             if self.push_decimals(x, y).is_some() {

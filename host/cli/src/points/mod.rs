@@ -83,14 +83,14 @@ impl PointTable {
         Ok(())
     }
 
-    /// Gives the last point a z. If one point has none, or one that is not finite, no point of the table has one.
+    /// Gives the last point a z. If any point has no z, or a z that is not finite, no point of the table has a z.
     pub fn push_height(&mut self, z: Option<f64>) {
         if let Some(z) = z.filter(|z| z.is_finite() && self.heights.len() + 1 == self.len()) {
             self.heights.push(z);
         }
     }
 
-    /// The table with the z of its points. If there is none for a point, or one that is not finite, no point has one.
+    /// The table with the z of its points. If any point has no z, or a z that is not finite, no point has a z.
     pub fn with_heights(mut self, heights: Vec<f64>) -> Self {
         let is_complete = heights.len() == self.len() && heights.iter().all(|z| z.is_finite());
         self.heights = if is_complete { heights } else { Vec::new() };
@@ -114,8 +114,8 @@ impl PointTable {
 
     fn beyond_at(&self, point: [&[u8]; 2], axis: usize, row: usize) -> String {
         format!(
-            "{}: {} is beyond 64 bits: whole numbers go from {} to {}; with an exponent, as in 1e20, numbers are \
-             doubles",
+            "{}: {} is beyond 64 bits: whole numbers go from {} to {}; a number with an exponent, as in 1e20, is \
+             taken as a double",
             self.next_place(axis, row),
             quoted(point[axis]),
             i64::MIN,
@@ -179,7 +179,7 @@ impl PointTable {
     }
 }
 
-/// Reads a number at a place, which is any finite one, with spaces around it or without.
+/// Reads the number at a place. Any finite number is taken, with spaces around it or without.
 fn number_at(value: &[u8], place: impl Fn() -> Place) -> Result<Number, Failure> {
     let trimmed = value.trim_ascii();
     match number::parse(trimmed) {

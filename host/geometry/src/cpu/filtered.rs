@@ -119,8 +119,7 @@ impl<C: Coordinate> Kernel for Filtered<C> {
     }
 }
 
-/// Whether the point of `c` lies to the left of the base edge and that of `q` inside the circle, where the bounds leave
-/// it open.
+/// The answer of `is_left_and_inside` if the bounds leave it open, by exact predicates.
 #[inline(never)]
 fn is_exactly_left_and_inside<C: Coordinate>(ends: Ends<Filtered<C>>, c: Seen<C>, q: Seen<C>) -> bool {
     let Ends { a, b, bounds } = ends;

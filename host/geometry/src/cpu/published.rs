@@ -11,7 +11,7 @@ use super::triangulator::{connect, triangulate};
 use crate::double::{incircle, orient2d};
 use crate::plane_point::PlanePoint;
 
-/// The most points for which the slow definition is compared.
+/// The most points of a set that is also compared with the slow definition of the mesh.
 const FEW: usize = 20;
 
 fn check(name: &str, points: &[[f64; 2]]) {
@@ -86,8 +86,8 @@ fn reported_points_have_the_mesh_of_the_definition() {
 }
 
 /// The three grids of L. Kettner, K. Mehlhorn, S. Pion, S. Schirra and C. Yap, "Classroom examples of robustness
-/// problems in geometric computations", Computational Geometry 40 (2008), section 3: a point moves in units in the last
-/// place beside two others.
+/// problems in geometric computations", Computational Geometry 40 (2008), section 3: a point takes 256 by 256 places,
+/// one unit in the last place apart, near the line through two other points.
 #[test]
 fn the_classroom_grids_have_exact_signs_and_meshes() {
     let grids = [
@@ -120,8 +120,8 @@ fn the_classroom_grids_have_exact_signs_and_meshes() {
     }
 }
 
-/// The points of section 4 of the same work, which make a convex hull with rounded predicates fail: a point outside
-/// sees no edge (A1), a point inside sees one (A2), a point outside sees all (B1).
+/// The points of section 4 of the same work, for which rounded predicates make a convex hull fail: a point outside sees
+/// no edge (A1), a point inside sees an edge (A2), a point outside sees all edges (B1).
 #[test]
 fn the_classroom_hulls_are_right() {
     let sees_none = [

@@ -60,7 +60,7 @@ fn ties_are_decided<W: Width>() -> usize {
         for (&c, &q) in seen.iter().flat_map(|c| seen.iter().map(move |q| (c, q))).filter(|(c, q)| c.site != q.site) {
             let [c_is_left, q_is_left] = [c, q].map(|seen| Integers::<W>::is_left(ends, seen));
             let determinant = lifted(a, b, c.site, q.site);
-            // A tie with a point that does not lie to the left is refused.
+            // At a tie with a point that does not lie to the left, the answer is no.
             let is_inside = (determinant != 0 || q_is_left) && conflicts(a, b, c.site, q.site);
             assert_eq!(Integers::<W>::is_left_and_inside(ends, c, q), c_is_left && is_inside);
             ties += usize::from(c_is_left && q_is_left && determinant == 0);
@@ -255,7 +255,8 @@ fn words_are_exact_up_to_the_bits_that_say_so() {
             assert!((22..=32).contains(&bits), "{points} points, {threads} threads: {bits}");
         }
     }
-    // Points in the corners of the widest square whose words are exact, and one bit beyond, are all kept.
+    // All points near the corners of a square are kept, in the widest square whose words are exact and in one of one
+    // bit more.
     for bits in [exact_bits(5000, 1), exact_bits(5000, 1) + 1] {
         let last = ((1u64 << bits) - 1) as u32;
         let near = |k: u32| Point::new(if k & 1 == 0 { k } else { last - k }, if k & 2 == 0 { k } else { last - k });

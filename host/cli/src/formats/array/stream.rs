@@ -28,7 +28,7 @@ impl<'a> Source<'a> {
         Self { bytes, size: None, bound }
     }
 
-    /// Reads the header. Refuses an array whose numbers would take too much memory, at `row_bytes` a row, and one whose
+    /// Reads the header. An array is refused if its numbers would take too much memory, at `row_bytes` a row, or if the
     /// file has another length than its header promises.
     pub fn open(&mut self, wanted: &Wanted, row_bytes: u64) -> Result<Layout, Failure> {
         let (layout, header_bytes) = Layout::read(self.bytes, wanted)?;
@@ -53,7 +53,8 @@ impl<'a> Source<'a> {
         Ok(layout)
     }
 
-    /// The number of rows for which memory can be taken before they are read: those that the file has for certain.
+    /// The number of rows for which memory is taken before they are read: all rows if the length of the file proves
+    /// that they are there, else none.
     pub fn certain_rows(&self, layout: &Layout) -> usize {
         if self.size.is_some() {
             layout.rows
@@ -68,7 +69,7 @@ impl<'a> Source<'a> {
         layout: &Layout,
         mut take: impl FnMut(&Cells<'_>) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
-        // A piece has at least one row, and no row is longer than this.
+        // No row is longer than this, so a piece has at least one row.
         let mut piece = vec![0; LONGEST_ROW];
         let mut done = 0;
         for pass in &layout.passes {
@@ -87,14 +88,14 @@ impl<'a> Source<'a> {
                 }
             }
         }
-        // Reading to the end also lets an archive compare the check sum.
+        // An archive compares its check sum when the entry is read to its end.
         if self.fill(&mut [0])? > 0 {
             return Err(too_long(layout, "bytes"));
         }
         Ok(())
     }
 
-    /// Fills `bytes`, unless the file ends before.
+    /// Fills `bytes`, or its beginning if the file ends first. Returns the number of bytes read.
     fn fill(&mut self, bytes: &mut [u8]) -> Result<usize, Failure> {
         let mut count = 0;
         while count < bytes.len() {

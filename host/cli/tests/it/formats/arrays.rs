@@ -27,7 +27,7 @@ fn number(value: i8, name: &str) -> Vec<u8> {
     }
 }
 
-/// The points with so many columns in an array of this type, such as `>f4`.
+/// The points in an array with `width` columns of this type, such as `>f4`.
 fn array(descr: &str, fortran_order: bool, width: usize) -> Vec<u8> {
     let cell = |row: usize, axis: usize| {
         // Unsigned numbers begin at zero.
@@ -89,7 +89,7 @@ fn numbers_are_those_of_the_array() {
     scratch.run("triangulate p.npy -o m.obj").ok();
     let rows = "v -9223372036854775808 9223372036854775807 0\nv 9007199254740993 0 0\nv 0 1 0\n";
     assert!(scratch.read("m.obj").starts_with(rows), "{}", scratch.read("m.obj"));
-    // 0.1 as a number of 32 bits is another double than 0.1.
+    // The f32 nearest to 0.1 is not the double nearest to 0.1.
     let data: Vec<u8> = [0.1f32, -0.0, 2.0, 0.0, 0.0, 1.0].iter().flat_map(|value| value.to_be_bytes()).collect();
     scratch.write("p.npy", npy("'>f4'", "False", "(3, 2)", data));
     scratch.run("triangulate p.npy -o m.obj").ok();
@@ -138,7 +138,7 @@ fn values_that_are_no_coordinates_are_refused() {
     refuse("p.npy", npy("'>f4'", "True", "(2, 2)", &data), &["point 2, x", "-inf"]);
     let data: Vec<u8> = [1, 2, 1 << 63, 4u64].iter().flat_map(|value| value.to_le_bytes()).collect();
     refuse("p.npy", npy("'<u8'", "False", "(2, 2)", &data), &["point 2, x", "9223372036854775808 is beyond 64 bits"]);
-    // A z that is not finite leaves all points without one.
+    // If any z is not finite, no point has a z.
     let data: Vec<u8> = [0.0, 0.0, f64::NAN].iter().flat_map(|value| value.to_le_bytes()).collect();
     accept("p.npy", npy("'<f8'", "False", "(1, 3)", &data), 0);
 }
@@ -149,7 +149,7 @@ fn headers_that_lie_or_end_are_refused() {
     refuse("p.npy", &whole[..whole.len() - 1], &["shape (4, 2) in 64 bytes", "ends after 63"]);
     refuse("p.npy", [whole.as_slice(), b"12"].concat(), &["more than its header promises", "2 bytes"]);
     for (cut, part) in
-        [(0, "not an array"), (5, "not an array"), (7, "ends in it"), (9, "ends in it"), (40, "ends in it")]
+        [(0, "not an array"), (5, "not an array"), (7, "ends within"), (9, "ends within"), (40, "ends within")]
     {
         refuse("p.npy", &whole[..cut], &[part]);
     }

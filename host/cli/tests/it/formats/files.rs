@@ -218,7 +218,7 @@ fn the_airports_of_the_world_become_a_picture() {
     assert!(scratch.read("world.svg").len() < 1_500_000);
     let run = scratch.run(&format!("triangulate {data} -o world.ele --quantize fit --coord-bits 16 --json")).ok();
     let report: Value = serde_json::from_str(&run.stdout).expect("the report is JSON");
-    // On a grid of 16 bits 27 more fall together.
+    // On a grid of 16 bits, 27 more airports fall onto others.
     assert_eq!((&report["distinct"], &report["quantisation"]["merged"]), (&28_266.into(), &27.into()));
     scratch.run(&format!("verify {data} world.ele --quantize fit --coord-bits 16")).ok();
 }

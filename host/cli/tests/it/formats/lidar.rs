@@ -167,7 +167,7 @@ fn edges_of_bounds_are_exact() {
     assert_eq!(count("0.3,-1,0.6,1"), 4);
     assert_eq!(count("0.300000000000000001,-1,0.599999999999999999,0"), 2);
     assert_eq!(count("-9e18,-9e18,9e18,9e18"), 10);
-    // These coordinates are doubles; that of 3 is 0.30000000000000004, above the decimal 0.3.
+    // These coordinates are doubles. The integer 3 gives 0.30000000000000004, which is above the decimal 0.3.
     scratch.write("p.las", write(2, 0, false, [(0.1, 0.0), (1e-30, 0.0), (1.0, 0.0)], &stored));
     assert_eq!(count("0.3,-1,0.30000000000000004,1"), 0);
     assert_eq!(count("0.3,-1,0.300000000000000045,1"), 1);

@@ -25,7 +25,7 @@ fn zstd(bytes: &[u8]) -> Vec<u8> {
 fn packed_points_are_read_by_their_extension() {
     let scratch = Scratch::new();
     let (head, tail) = POINTS.split_at(7);
-    // Files that were packed in parts and joined are one file.
+    // Packed parts that were joined are read as one file.
     scratch.write("joined.csv.gz", [gzip(head), gzip(tail)].concat());
     scratch.write("joined.csv.zst", [zstd(head), zstd(tail)].concat());
     scratch.write("upper.CSV.GZ", gzip(POINTS));
