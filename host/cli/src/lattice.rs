@@ -108,6 +108,12 @@ impl Laid<'_> {
             (_, Some(bits)) => format!("the {} need {}", self.noun(), counted(bits as usize, "bit")),
             (_, None) => "the points lie on no lattice of up to 32 bits".to_owned(),
         };
+        if let Kind::Quantized(_) = self.kind {
+            return Err(Failure::input(format!(
+                "{have} after --quantize, but {device} has coordinates of {coord_bits} bits: give --coord-bits \
+                 {coord_bits}"
+            )));
+        }
         Err(Failure::input(format!(
             "{have}, but {device} has coordinates of {coord_bits} bits: give --backend cpu, which takes them exactly, \
              or --quantize fit, which rounds them"
@@ -246,6 +252,16 @@ mod tests {
         assert_eq!(doubles, ("doubles".into(), Value::Null, Value::Null, Value::Null));
         let wide = lattice_of(&[["9007199254740993", "0"], ["-4", "0"]]);
         assert_eq!(wide, ("whole".into(), 1.into(), json!([0, 0]), 54.into()));
+    }
+
+    #[test]
+    fn a_set_that_is_quantised_needs_fewer_bits() {
+        let table = table(&[["0", "0.5"], ["70000", "1"]]);
+        let laid = lay(&table, Some((Quantize::Fit, 20))).expect("a grid of 20 bits");
+        assert!(laid.check_bits(20, "model").is_ok());
+        let failure = laid.check_bits(16, "serial").expect_err("20 bits");
+        assert!(failure.message.ends_with("give --coord-bits 16"), "{failure}");
+        assert!(!failure.message.contains("--quantize fit"), "{failure}");
     }
 
     #[test]
