@@ -173,7 +173,7 @@ fn on_lattice(grid: Vec<Point>, lattice: &Lattice, kind: Kind, value: impl Fn(i6
 /// Whether steps are taken as they are even if their span is 2^32 or more. Decimals of a text are not: the nearest
 /// doubles, which usually were printed there, are quicker.
 fn is_taken_wide(unit: &Unit) -> bool {
-    unit.is_whole() || *unit != Unit::of_digits(unit.digits)
+    unit.is_whole() || unit.is_stored
 }
 
 /// Bits of the larger span of points with at least one axis.

@@ -13,17 +13,19 @@ pub struct Unit {
     pub factor: i64,
     /// The coordinates of the place at step 0, in the last digit.
     pub offset: [i128; 2],
+    /// Whether the file stores the steps as integers. The steps of a text are made of its decimals.
+    pub is_stored: bool,
 }
 
 impl Unit {
     /// The unit of decimals with so many digits behind the point.
     pub fn of_digits(digits: u32) -> Self {
-        Self { digits, factor: 1, offset: [0; 2] }
+        Self { digits, factor: 1, offset: [0; 2], is_stored: false }
     }
 
     /// Whether steps are whole numbers.
     pub fn is_whole(&self) -> bool {
-        *self == Self::of_digits(0)
+        Self { is_stored: false, ..*self } == Self::of_digits(0)
     }
 
     /// The coordinate of a step on an axis.
