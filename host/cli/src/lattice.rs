@@ -71,7 +71,7 @@ impl Laid<'_> {
         let (kind, scale) = match &self.kind {
             Kind::Whole => ("whole", json!(1)),
             &Kind::Decimal(factor, digits) => ("decimal", json!(crate::number::nearest(factor.into(), digits))),
-            &Kind::Binary(exponent) => ("binary", json!(2f64.powi(exponent))),
+            &Kind::Binary(exponent) => ("binary", json!(Step::Binary { exponent }.length())),
             Kind::Doubles => ("doubles", Value::Null),
             Kind::Quantized(quantization) => ("quantized", json!(1.0 / quantization.scale)),
         };
@@ -156,11 +156,11 @@ pub fn lay(table: &PointTable, how: Option<(Quantize, u32)>) -> Result<Laid<'_>,
     let Some((lattice, grid)) = Lattice::of_doubles(&doubles) else {
         return Ok(Laid { numbers: Numbers::Doubles(doubles), kind: Kind::Doubles, bits: None, offset: Value::Null });
     };
-    let (kind, scale) = match lattice.step {
-        Step::Binary { exponent } => (Kind::Binary(exponent), 2f64.powi(exponent)),
-        _ => (Kind::Whole, 1.0),
+    let kind = match lattice.step {
+        Step::Binary { exponent } => Kind::Binary(exponent),
+        _ => Kind::Whole,
     };
-    Ok(on_lattice(grid, &lattice, kind, |steps, _| json!(steps as f64 * scale)))
+    Ok(on_lattice(grid, &lattice, kind, |steps, _| json!(steps as f64 * lattice.step.length())))
 }
 
 /// Points on a lattice of up to 32 bits; `value` gives the coordinate of a number of steps on an axis.
@@ -252,6 +252,20 @@ mod tests {
         assert_eq!(doubles, ("doubles".into(), Value::Null, Value::Null, Value::Null));
         let wide = lattice_of(&[["9007199254740993", "0"], ["-4", "0"]]);
         assert_eq!(wide, ("whole".into(), 1.into(), json!([0, 0]), 54.into()));
+    }
+
+    #[test]
+    fn the_smallest_steps_have_a_length() {
+        let mut table = PointTable::of_items("vertex");
+        for point in [[5e-324, 0.0], [1.5e-323, 1e-323]] {
+            table.push_doubles(point, 0).expect("finite numbers");
+        }
+        let found = lay(&table, None).expect("a lattice").to_json();
+        assert_eq!((&found["kind"], &found["scale"]), (&"binary".into(), &5e-324.into()));
+        assert_eq!(found["offset"], json!([5e-324, 0.0]));
+        assert_eq!(lattice(&[["1e-323", "0"], ["5e-323", "2e-323"]])["scale"], 1e-323);
+        // Shorter steps have no double as their length, so these decimals are rounded.
+        assert_eq!(lattice(&[["1e-324", "0"], ["5e-324", "2e-324"]])["kind"], "doubles");
     }
 
     #[test]

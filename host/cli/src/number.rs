@@ -6,8 +6,9 @@
 use std::cmp::Ordering;
 use std::fmt;
 
-/// Decimals with more digits behind the point than this are read as doubles, whose smallest has 324.
-const MOST_DIGITS: u32 = 400;
+/// Decimals with more digits behind the point than this are read as doubles. No double but 0 is nearest to a step of
+/// more digits, and reports tell the length of steps as doubles.
+const MOST_DIGITS: u32 = 323;
 /// Numbers with more digits behind the point than this are shown with an exponent.
 const MOST_DIGITS_SHOWN: u32 = 25;
 /// The most digits behind the point of a decimal with which coordinates are compared.
