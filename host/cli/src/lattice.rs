@@ -51,8 +51,9 @@ pub enum Kind {
     Decimal(i64, u32),
     /// Whole numbers of steps of a power of two with this exponent.
     Binary(i32),
-    /// The doubles of the file, or those that are nearest to its decimals.
-    Doubles,
+    /// The doubles of the file, or those that are nearest to its decimals; with the number of coordinates that are
+    /// rounded.
+    Doubles(usize),
     /// Points of a grid onto which the user had the points laid, with rounding.
     Quantized(Quantization),
 }
@@ -72,10 +73,16 @@ impl Laid<'_> {
             Kind::Whole => ("whole", json!(1)),
             &Kind::Decimal(factor, digits) => ("decimal", json!(crate::number::nearest(factor.into(), digits))),
             &Kind::Binary(exponent) => ("binary", json!(Step::Binary { exponent }.length())),
-            Kind::Doubles => ("doubles", Value::Null),
+            Kind::Doubles(_) => ("doubles", Value::Null),
             Kind::Quantized(quantization) => ("quantized", json!(1.0 / quantization.scale)),
         };
-        json!({ "kind": kind, "scale": scale, "offset": self.offset, "bits": self.bits })
+        let rounded = match self.kind {
+            Kind::Doubles(rounded) => json!(rounded),
+            // The report of the quantisation has the largest error.
+            Kind::Quantized(_) => Value::Null,
+            _ => json!(0),
+        };
+        json!({ "kind": kind, "scale": scale, "offset": self.offset, "bits": self.bits, "rounded": rounded })
     }
 
     /// The line of the report for people.
@@ -85,7 +92,14 @@ impl Laid<'_> {
             &Kind::Decimal(1, digits) => format!("lattice: decimals, steps of 1e-{digits}"),
             &Kind::Decimal(factor, digits) => format!("lattice: decimals, steps of {factor}e-{digits}"),
             Kind::Binary(exponent) => format!("lattice: steps of 2^{exponent}"),
-            Kind::Doubles => return "lattice: none of up to 32 bits; exact on the doubles".to_owned(),
+            Kind::Doubles(0) => return "lattice: none of up to 32 bits; exact on the doubles".to_owned(),
+            &Kind::Doubles(rounded) => {
+                let are = if rounded == 1 { "is" } else { "are" };
+                return format!(
+                    "lattice: none of up to 32 bits; exact on the nearest doubles ({} {are} rounded to them)",
+                    counted(rounded, "coordinate")
+                );
+            }
             Kind::Quantized(q) => {
                 let ([x, y], merged) = (q.offset, counted(q.merged, "point"));
                 return format!(
@@ -126,13 +140,14 @@ impl Laid<'_> {
             &Kind::Decimal(1, digits) => format!("steps of 1e-{digits} in which the points lie"),
             &Kind::Decimal(factor, digits) => format!("steps of {factor}e-{digits} in which the points lie"),
             Kind::Binary(exponent) => format!("steps of 2^{exponent} in which the points lie"),
-            Kind::Doubles | Kind::Quantized(_) => "points".to_owned(),
+            Kind::Doubles(_) | Kind::Quantized(_) => "points".to_owned(),
         }
     }
 }
 
 /// Finds the lattice of the points. The first that fits is taken: whole numbers, steps of a power of ten, steps of a
-/// power of two, each with spans below 2^32; else whole numbers of 64 bits, or doubles. With `how` the points are laid
+/// power of two, each with spans below 2^32; else whole numbers of 64 bits, or doubles. Steps of a power of two are
+/// looked for only if every number is a double, so that no rounded number passes for the one in the file. With `how` the points are laid
 /// onto a grid of that many bits instead.
 pub fn lay(table: &PointTable, how: Option<(Quantize, u32)>) -> Result<Laid<'_>, Failure> {
     if let Some((how, coord_bits)) = how {
@@ -152,9 +167,12 @@ pub fn lay(table: &PointTable, how: Option<(Quantize, u32)>) -> Result<Laid<'_>,
         }
         Coordinates::Doubles(_) => {}
     }
-    let doubles = table.doubles();
-    let Some((lattice, grid)) = Lattice::of_doubles(&doubles) else {
-        return Ok(Laid { numbers: Numbers::Doubles(doubles), kind: Kind::Doubles, bits: None, offset: Value::Null });
+    let (doubles, rounded) = (table.doubles(), table.rounded());
+    // A lattice of rounded numbers is not that of the file.
+    let found = if rounded == 0 { Lattice::of_doubles(&doubles) } else { None };
+    let Some((lattice, grid)) = found else {
+        let (numbers, kind) = (Numbers::Doubles(doubles), Kind::Doubles(rounded));
+        return Ok(Laid { numbers, kind, bits: None, offset: Value::Null });
     };
     let kind = match lattice.step {
         Step::Binary { exponent } => Kind::Binary(exponent),
@@ -252,6 +270,36 @@ mod tests {
         assert_eq!(doubles, ("doubles".into(), Value::Null, Value::Null, Value::Null));
         let wide = lattice_of(&[["9007199254740993", "0"], ["-4", "0"]]);
         assert_eq!(wide, ("whole".into(), 1.into(), json!([0, 0]), 54.into()));
+    }
+
+    #[test]
+    fn rounded_numbers_are_reported() {
+        let rounded = |points: &[[&str; 2]]| {
+            let table = table(points);
+            let laid = lay(&table, None).expect("finite numbers");
+            (laid.to_json()["kind"].clone(), laid.to_json()["rounded"].clone(), laid.line())
+        };
+        let line = |rounded: &str| {
+            format!("lattice: none of up to 32 bits; exact on the nearest doubles ({rounded} rounded to them)")
+        };
+        // The nearest doubles of all these numbers are whole.
+        let whole = [["1234567890123456789.5", "0"], ["1234567890123456790.5", "1"], ["1234567890123456791.5", "5"]];
+        assert_eq!(rounded(&whole), ("doubles".into(), 3.into(), line("3 coordinates are")));
+        // The nearest doubles of these are multiples of 2^-29.
+        let binary = [["1234567.1234567891", "0"], ["1234567.1234567892", "5"], ["1234567", "7"]];
+        assert_eq!(rounded(&binary), ("doubles".into(), 2.into(), line("2 coordinates are")));
+        // A number too many makes all earlier ones doubles, exactly or not.
+        let last = [["0.1", "0.5"], ["1e300", "1"]];
+        assert_eq!(rounded(&last), ("doubles".into(), 2.into(), line("2 coordinates are")));
+        let one = [["0.5", "0.25"], ["1e22", "0.1"]];
+        assert_eq!(rounded(&one), ("doubles".into(), 1.into(), line("1 coordinate is")));
+        // Doubles that are written out in full are those of the file, on a lattice or without one.
+        let tenth = format!("{:.60}", 0.1);
+        let near = [[tenth.as_str(), "0"], ["0.100000000000000033306690738754696212708950042724609375", "0"]];
+        assert_eq!(rounded(&near).0, "binary");
+        let far = [[tenth.as_str(), "0"], ["9007199254740992", "0"]];
+        let plain = "lattice: none of up to 32 bits; exact on the doubles";
+        assert_eq!(rounded(&far), ("doubles".into(), 0.into(), plain.to_owned()));
     }
 
     #[test]

@@ -121,9 +121,9 @@ fn the_report_names_the_lattice() {
         serde_json::from_str::<Value>(&run.stdout).expect("JSON")["lattice"].clone()
     };
     let found = lattice((0.25, 10.0), (0.25, -1.5));
-    assert_eq!(found, json!({ "kind": "decimal", "scale": 0.25, "offset": [10.0, -1.5], "bits": 4 }));
+    assert_eq!(found, json!({ "kind": "decimal", "scale": 0.25, "offset": [10.0, -1.5], "bits": 4, "rounded": 0 }));
     let found = lattice((1.0, 400_000.0), (1.0, -3.0));
-    assert_eq!(found, json!({ "kind": "whole", "scale": 1, "offset": [400_000, -3], "bits": 4 }));
+    assert_eq!(found, json!({ "kind": "whole", "scale": 1, "offset": [400_000, -3], "bits": 4, "rounded": 0 }));
     // Two scales widen the span to 2^33 steps and more, and the steps stay integers.
     let ends: [Stored; 3] = [([0, 0, 0], 0), ([0, i32::MAX, 0], 0), ([1, i32::MIN, 0], 0)];
     scratch.write("p.las", write(2, 0, false, [(0.001, 0.0), (0.002, 0.0), (1.0, 0.0)], &ends));
@@ -131,7 +131,7 @@ fn the_report_names_the_lattice() {
     let found = &serde_json::from_str::<Value>(&run.stdout).expect("JSON")["lattice"];
     assert_eq!((&found["kind"], &found["bits"]), (&"decimal".into(), &33.into()), "{found}");
     let found = lattice((1e-25, 0.0), (0.1, 0.0));
-    assert_eq!(found, json!({ "kind": "doubles", "scale": null, "offset": null, "bits": null }));
+    assert_eq!(found, json!({ "kind": "doubles", "scale": null, "offset": null, "bits": null, "rounded": 0 }));
 }
 
 #[test]
