@@ -48,13 +48,13 @@ pub struct Laid<'a> {
 pub enum Kind {
     /// Whole numbers.
     Whole,
-    /// Whole numbers of steps. The length of a step is the decimal `factor * 10^-digits`, with factor and digits in
+    /// Whole numbers of steps. The length of a step is the decimal `factor * 10^exponent`, with factor and exponent in
     /// this order.
-    Decimal(i64, u32),
+    Decimal(i64, i32),
     /// Whole numbers of steps. The length of a step is the power of two with this exponent.
     Binary(i32),
-    /// The doubles in the file, or the doubles nearest to its decimals.
-    Doubles,
+    /// The doubles in the file, or the doubles nearest to its decimals, with the number of coordinates that were rounded.
+    Doubles(usize),
     /// Points of a grid, onto which the points of the file were rounded by `--quantize`.
     Quantized(Quantization),
 }
@@ -72,22 +72,37 @@ impl Laid<'_> {
     pub fn to_json(&self) -> Value {
         let (kind, scale) = match &self.kind {
             Kind::Whole => ("whole", json!(1)),
-            &Kind::Decimal(factor, digits) => ("decimal", json!(crate::number::nearest(factor.into(), digits))),
-            &Kind::Binary(exponent) => ("binary", json!(2f64.powi(exponent))),
-            Kind::Doubles => ("doubles", Value::Null),
+            &Kind::Decimal(factor, exponent @ ..=0) => {
+                ("decimal", json!(crate::number::nearest(factor.into(), exponent.unsigned_abs())))
+            }
+            &Kind::Decimal(factor, exponent) => ("decimal", json!(factor * 10i64.pow(exponent.unsigned_abs()))),
+            &Kind::Binary(exponent) => ("binary", json!(Step::Binary { exponent }.length())),
+            Kind::Doubles(_) => ("doubles", Value::Null),
             Kind::Quantized(quantization) => ("quantized", json!(1.0 / quantization.scale)),
         };
-        json!({ "kind": kind, "scale": scale, "offset": self.offset, "bits": self.bits })
+        let rounded = match self.kind {
+            Kind::Doubles(rounded) => json!(rounded),
+            // The report of the quantisation has the largest error.
+            Kind::Quantized(_) => Value::Null,
+            _ => json!(0),
+        };
+        json!({ "kind": kind, "scale": scale, "offset": self.offset, "bits": self.bits, "rounded": rounded })
     }
 
     /// The line of the report for people.
     pub fn line(&self) -> String {
         let steps = match &self.kind {
             Kind::Whole => "lattice: whole numbers".to_owned(),
-            &Kind::Decimal(1, digits) => format!("lattice: decimals, steps of 1e-{digits}"),
-            &Kind::Decimal(factor, digits) => format!("lattice: decimals, steps of {factor}e-{digits}"),
+            Kind::Decimal(factor, exponent) => format!("lattice: decimals, steps of {factor}e{exponent}"),
             Kind::Binary(exponent) => format!("lattice: steps of 2^{exponent}"),
-            Kind::Doubles => return "lattice: none of up to 32 bits; exact on the doubles".to_owned(),
+            Kind::Doubles(0) => return "lattice: none of up to 32 bits; exact on the doubles".to_owned(),
+            &Kind::Doubles(rounded) => {
+                let are = if rounded == 1 { "is" } else { "are" };
+                return format!(
+                    "lattice: none of up to 32 bits; exact on the nearest doubles ({} {are} rounded to them)",
+                    counted(rounded, "coordinate")
+                );
+            }
             Kind::Quantized(q) => {
                 let ([x, y], merged) = (q.offset, counted(q.merged, "point"));
                 return format!(
@@ -110,6 +125,12 @@ impl Laid<'_> {
             (_, Some(bits)) => format!("the {} need {}", self.noun(), counted(bits as usize, "bit")),
             (_, None) => "the points lie on no lattice of up to 32 bits".to_owned(),
         };
+        if let Kind::Quantized(_) = self.kind {
+            return Err(Failure::input(format!(
+                "{have} after --quantize, but {device} has coordinates of {coord_bits} bits: give --coord-bits \
+                 {coord_bits}"
+            )));
+        }
         Err(Failure::input(format!(
             "{have}, but {device} has coordinates of {coord_bits} bits: give --backend cpu, which takes them exactly, \
              or --quantize fit, which rounds them"
@@ -119,26 +140,30 @@ impl Laid<'_> {
     fn noun(&self) -> String {
         match &self.kind {
             Kind::Whole => "whole numbers of the points".to_owned(),
-            &Kind::Decimal(1, digits) => format!("steps of 1e-{digits} in which the points lie"),
-            &Kind::Decimal(factor, digits) => format!("steps of {factor}e-{digits} in which the points lie"),
+            Kind::Decimal(factor, exponent) => format!("steps of {factor}e{exponent} in which the points lie"),
             Kind::Binary(exponent) => format!("steps of 2^{exponent} in which the points lie"),
-            Kind::Doubles | Kind::Quantized(_) => "points".to_owned(),
+            Kind::Doubles(_) | Kind::Quantized(_) => "points".to_owned(),
         }
     }
 }
 
-/// Finds the lattice of the points. The first that fits is taken: whole numbers, steps of a power of ten, steps of a
-/// power of two, each with spans below 2^32 steps. Without a lattice the points are whole numbers of 64 bits, or
-/// doubles. If `how` is given, the points are laid onto a grid of that many bits instead.
+/// Finds the lattice of the points. The first that fits is taken: whole numbers, steps of a power of ten (above 1 where
+/// whole numbers do not fit), steps of a power of two, each with spans below 2^32 steps. Without a lattice the points are
+/// whole numbers of 64 bits, or doubles. Steps of a power of two are tried only if every number is a double, so that no
+/// rounded number passes for the one in the file. If `how` is given, the points are laid onto a grid of that many bits
+/// instead.
 pub fn lay(table: &PointTable, how: Option<(Quantize, u32)>) -> Result<Laid<'_>, Failure> {
     if let Some((how, coord_bits)) = how {
         return lay_onto_grid(table, how, coord_bits);
     }
     match table.coordinates() {
         Coordinates::Steps { steps, unit } => {
-            let kind = if unit.is_whole() { Kind::Whole } else { Kind::Decimal(unit.factor, unit.digits) };
+            let kind = if unit.is_whole() { Kind::Whole } else { Kind::Decimal(unit.factor, -(unit.digits as i32)) };
             if let Some((lattice, grid)) = Lattice::of_integers(steps, Step::Whole) {
                 return Ok(on_lattice(grid, &lattice, kind, |steps, axis| decimal_json(unit, steps, axis)));
+            }
+            if let Some(laid) = lay_on_tens(steps).filter(|_| unit.is_whole()) {
+                return Ok(laid);
             }
             if is_taken_wide(unit) {
                 let numbers = Numbers::Whole(Cow::Borrowed(steps));
@@ -148,15 +173,35 @@ pub fn lay(table: &PointTable, how: Option<(Quantize, u32)>) -> Result<Laid<'_>,
         }
         Coordinates::Doubles(_) => {}
     }
-    let doubles = table.doubles();
-    let Some((lattice, grid)) = Lattice::of_doubles(&doubles) else {
-        return Ok(Laid { numbers: Numbers::Doubles(doubles), kind: Kind::Doubles, bits: None, offset: Value::Null });
+    let (doubles, rounded) = (table.doubles(), table.rounded());
+    // A lattice of rounded numbers is not that of the file.
+    let found = if rounded == 0 { Lattice::of_doubles(&doubles) } else { None };
+    let Some((lattice, grid)) = found else {
+        let (numbers, kind) = (Numbers::Doubles(doubles), Kind::Doubles(rounded));
+        return Ok(Laid { numbers, kind, bits: None, offset: Value::Null });
     };
-    let (kind, scale) = match lattice.step {
-        Step::Binary { exponent } => (Kind::Binary(exponent), 2f64.powi(exponent)),
-        _ => (Kind::Whole, 1.0),
+    let kind = match lattice.step {
+        Step::Binary { exponent } => Kind::Binary(exponent),
+        _ => Kind::Whole,
     };
-    Ok(on_lattice(grid, &lattice, kind, |steps, _| json!(steps as f64 * scale)))
+    Ok(on_lattice(grid, &lattice, kind, |steps, _| json!(steps as f64 * lattice.step.length())))
+}
+
+/// Whole numbers on a lattice whose steps are a power of ten above 1.
+fn lay_on_tens(steps: &[[i64; 2]]) -> Option<Laid<'static>> {
+    let mut exponent = 18;
+    for value in steps.iter().flatten() {
+        while value % 10i64.pow(exponent) != 0 {
+            exponent -= 1;
+        }
+        if exponent == 0 {
+            return None;
+        }
+    }
+    let power = 10i64.pow(exponent);
+    let multiples: Vec<_> = steps.iter().map(|point| point.map(|value| value / power)).collect();
+    let (lattice, grid) = Lattice::of_integers(&multiples, Step::Whole)?;
+    Some(on_lattice(grid, &lattice, Kind::Decimal(1, exponent as i32), |multiple, _| json!(multiple * power)))
 }
 
 /// Makes the points of a lattice of up to 32 bits. `value` gives the coordinate for a number of steps on an axis.
@@ -169,7 +214,7 @@ fn on_lattice(grid: Vec<Point>, lattice: &Lattice, kind: Kind, value: impl Fn(i6
 /// Whether the points stay in steps even if a span is 2^32 steps or more. Decimals of a text do not: they usually are
 /// printed doubles, and the nearest doubles are quicker to triangulate.
 fn is_taken_wide(unit: &Unit) -> bool {
-    unit.is_whole() || *unit != Unit::of_digits(unit.digits)
+    unit.is_whole() || unit.is_stored
 }
 
 /// The bits of the larger span of the points, in steps.
@@ -248,6 +293,76 @@ mod tests {
         assert_eq!(doubles, ("doubles".into(), Value::Null, Value::Null, Value::Null));
         let wide = lattice_of(&[["9007199254740993", "0"], ["-4", "0"]]);
         assert_eq!(wide, ("whole".into(), 1.into(), json!([0, 0]), 54.into()));
+    }
+
+    #[test]
+    fn rounded_numbers_are_reported() {
+        let rounded = |points: &[[&str; 2]]| {
+            let table = table(points);
+            let laid = lay(&table, None).expect("finite numbers");
+            (laid.to_json()["kind"].clone(), laid.to_json()["rounded"].clone(), laid.line())
+        };
+        let line = |rounded: &str| {
+            format!("lattice: none of up to 32 bits; exact on the nearest doubles ({rounded} rounded to them)")
+        };
+        // The nearest doubles of all these numbers are whole.
+        let whole = [["1234567890123456789.5", "0"], ["1234567890123456790.5", "1"], ["1234567890123456791.5", "5"]];
+        assert_eq!(rounded(&whole), ("doubles".into(), 3.into(), line("3 coordinates are")));
+        // The nearest doubles of these are multiples of 2^-29.
+        let binary = [["1234567.1234567891", "0"], ["1234567.1234567892", "5"], ["1234567", "7"]];
+        assert_eq!(rounded(&binary), ("doubles".into(), 2.into(), line("2 coordinates are")));
+        // A number too many makes all earlier ones doubles, exactly or not.
+        let last = [["0.1", "0.5"], ["1e300", "1"]];
+        assert_eq!(rounded(&last), ("doubles".into(), 2.into(), line("2 coordinates are")));
+        let one = [["0.5", "0.25"], ["1e22", "0.1"]];
+        assert_eq!(rounded(&one), ("doubles".into(), 1.into(), line("1 coordinate is")));
+        // Doubles that are written out in full are those of the file, on a lattice or without one.
+        let tenth = format!("{:.60}", 0.1);
+        let near = [[tenth.as_str(), "0"], ["0.100000000000000033306690738754696212708950042724609375", "0"]];
+        assert_eq!(rounded(&near).0, "binary");
+        let far = [[tenth.as_str(), "0"], ["9007199254740992", "0"]];
+        let plain = "lattice: none of up to 32 bits; exact on the doubles";
+        assert_eq!(rounded(&far), ("doubles".into(), 0.into(), plain.to_owned()));
+    }
+
+    #[test]
+    fn wide_multiples_of_a_power_of_ten_have_long_steps() {
+        let found = lattice(&[["0", "1000000000000"], ["-3000000000000", "5e12"]]);
+        let offset = [-3_000_000_000_000i64, 1_000_000_000_000];
+        let expected =
+            json!({ "kind": "decimal", "scale": 1_000_000_000_000i64, "offset": offset, "bits": 3, "rounded": 0 });
+        assert_eq!(found, expected);
+        let set = table(&[["0", "0"], ["9000000000000000000", "0"]]);
+        assert_eq!(lay(&set, None).expect("a lattice").line(), "lattice: decimals, steps of 1e18, 4 bits");
+        // Whole numbers come first, and steps of ten may be too short.
+        assert_eq!(lattice(&[["0", "0"], ["4000000000", "0"]])["kind"], "whole");
+        let wide = lattice(&[["0", "10"], ["42949672960", "0"]]);
+        assert_eq!((&wide["kind"], &wide["bits"]), (&"whole".into(), &36.into()));
+        assert_eq!(lattice(&[["0", "10"], ["42949672950", "0"]])["scale"], 10);
+    }
+
+    #[test]
+    fn the_smallest_steps_have_a_length() {
+        let mut table = PointTable::of_items("vertex");
+        for point in [[5e-324, 0.0], [1.5e-323, 1e-323]] {
+            table.push_doubles(point, 0).expect("finite numbers");
+        }
+        let found = lay(&table, None).expect("a lattice").to_json();
+        assert_eq!((&found["kind"], &found["scale"]), (&"binary".into(), &5e-324.into()));
+        assert_eq!(found["offset"], json!([5e-324, 0.0]));
+        assert_eq!(lattice(&[["1e-323", "0"], ["5e-323", "2e-323"]])["scale"], 1e-323);
+        // Shorter steps have no double as their length, so these decimals are rounded.
+        assert_eq!(lattice(&[["1e-324", "0"], ["5e-324", "2e-324"]])["kind"], "doubles");
+    }
+
+    #[test]
+    fn a_set_that_is_quantised_needs_fewer_bits() {
+        let table = table(&[["0", "0.5"], ["70000", "1"]]);
+        let laid = lay(&table, Some((Quantize::Fit, 20))).expect("a grid of 20 bits");
+        assert!(laid.check_bits(20, "model").is_ok());
+        let failure = laid.check_bits(16, "serial").expect_err("20 bits");
+        assert!(failure.message.ends_with("give --coord-bits 16"), "{failure}");
+        assert!(!failure.message.contains("--quantize fit"), "{failure}");
     }
 
     #[test]

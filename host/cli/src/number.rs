@@ -6,9 +6,9 @@
 use std::cmp::Ordering;
 use std::fmt;
 
-/// Decimals with more digits behind the point than this are read as doubles. The smallest positive double, 5e-324, has
-/// 324.
-const MOST_DIGITS: u32 = 400;
+/// Decimals with more digits behind the point than this are read as doubles. No double but 0 is nearest to a step of
+/// more digits, and reports tell the length of steps as doubles.
+const MOST_DIGITS: u32 = 323;
 /// Numbers with more digits behind the point than this are shown with an exponent.
 const MOST_DIGITS_SHOWN: u32 = 25;
 /// The most digits behind the point of a decimal with which coordinates are compared.
@@ -22,9 +22,31 @@ pub enum Number {
     /// A decimal, exactly.
     Decimal(Decimal),
     /// The nearest double of a whole number that is written without an exponent and is beyond 64 bits.
-    Beyond(f64),
+    Beyond(Nearest),
     /// The nearest double of any other number. Infinities and NaN are among them.
-    Double(f64),
+    Double(Nearest),
+}
+
+/// The double that is nearest to a number of a text.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nearest {
+    /// The double.
+    pub value: f64,
+    /// Whether the double is the number, and not only near to it.
+    pub is_exact: bool,
+}
+
+impl Number {
+    /// The double that is nearest to the number.
+    pub fn nearest(self) -> Nearest {
+        match self {
+            Self::Decimal(Decimal { steps, digits }) => {
+                let steps = i128::from(steps);
+                Nearest { value: nearest(steps, digits), is_exact: is_double(steps, digits) }
+            }
+            Self::Beyond(nearest) | Self::Double(nearest) => nearest,
+        }
+    }
 }
 
 /// The decimal `steps * 10^-digits`. The number of digits is the smallest possible one.
@@ -97,15 +119,42 @@ fn digits(text: &[u8], most: usize, mut steps: i64) -> (i64, &[u8]) {
 
 /// Reads any number. The standard library decides what is a number.
 fn long(text: &[u8]) -> Option<Number> {
-    let double: f64 = std::str::from_utf8(text).ok()?.parse().ok()?;
-    if !double.is_finite() {
-        return Some(if is_whole(text) { Number::Beyond(double) } else { Number::Double(double) });
+    let value: f64 = std::str::from_utf8(text).ok()?.parse().ok()?;
+    if let Some(decimal) = value.is_finite().then(|| exact(text)).flatten() {
+        return Some(Number::Decimal(decimal));
     }
-    Some(match exact(text) {
-        Some(decimal) => Number::Decimal(decimal),
-        None if is_whole(text) => Number::Beyond(double),
-        None => Number::Double(double),
-    })
+    let nearest = Nearest { value, is_exact: value.is_finite() && is_written_out(text, value) };
+    Some(if is_whole(text) { Number::Beyond(nearest) } else { Number::Double(nearest) })
+}
+
+/// The most digits of a double that is written out in full.
+const LONGEST_DOUBLE: usize = 767;
+
+/// Whether a valid number is equal to the double that is nearest to it.
+fn is_written_out(text: &[u8], value: f64) -> bool {
+    let number = significant(text);
+    let digit = |steps: i128, digit: &u8| steps.checked_mul(10)?.checked_add(i128::from(digit - b'0'));
+    let places = u32::try_from(number.0.len() as i64 - 1 - number.1);
+    if let (Some(steps), Ok(places)) = (number.0.iter().try_fold(0, digit), places) {
+        return value != 0.0 && is_double(steps, places);
+    }
+    // A text of few digits rarely passes the first comparison, which is much quicker than that of all digits.
+    let is_equal = |digits: usize| significant(format!("{value:.digits$e}").as_bytes()) == number;
+    value != 0.0 && number.0.len() <= LONGEST_DOUBLE && is_equal(number.0.len()) && is_equal(LONGEST_DOUBLE)
+}
+
+/// The digits of a valid number without zeros at either end, and the power of ten of the first digit.
+fn significant(text: &[u8]) -> (Vec<u8>, i64) {
+    let mut parts = text.splitn(2, |byte| byte.eq_ignore_ascii_case(&b'e'));
+    let mantissa = parts.next().unwrap_or_default();
+    let exponent = parts.next().and_then(|text| std::str::from_utf8(text).ok()?.parse().ok()).unwrap_or(0i64);
+    let point = mantissa.iter().position(|&byte| byte == b'.').unwrap_or(mantissa.len());
+    let whole = mantissa[..point].iter().filter(|byte| byte.is_ascii_digit()).count();
+    let digits = mantissa.iter().copied().filter(u8::is_ascii_digit);
+    let zeros = digits.clone().take_while(|&digit| digit == b'0').count();
+    let mut digits: Vec<u8> = digits.skip(zeros).collect();
+    digits.truncate(digits.iter().rposition(|&digit| digit != b'0').map_or(0, |last| last + 1));
+    (digits, exponent.saturating_add(whole as i64 - zeros as i64 - 1))
 }
 
 /// Whether a number is written as digits alone, perhaps with a sign.
@@ -151,6 +200,26 @@ pub fn nearest(steps: i128, digits: u32) -> f64 {
     }
     // The standard library rounds every text correctly.
     format!("{steps}e-{digits}").parse().unwrap_or_default()
+}
+
+/// Whether `steps * 10^-digits` is a double.
+pub fn is_double(steps: i128, digits: u32) -> bool {
+    if steps == 0 {
+        return true;
+    }
+    // The number is a multiple of a power of two only if `5^digits` divides the steps. No power beyond 55 is below 2^127.
+    let multiple = match i64::try_from(steps) {
+        Ok(steps) if digits <= 27 => {
+            let power = 5i64.pow(digits);
+            (steps % power == 0).then(|| i128::from(steps / power))
+        }
+        _ => 5i128.checked_pow(digits).filter(|power| steps % power == 0).map(|power| steps / power),
+    };
+    // The power of two is at least 2^-55, far above the smallest double.
+    multiple.is_some_and(|multiple| {
+        let odd = multiple.unsigned_abs() >> multiple.trailing_zeros();
+        odd < 1 << f64::MANTISSA_DIGITS
+    })
 }
 
 /// Compares a coordinate, exactly, with a decimal of up to [`MOST_DIGITS_COMPARED`] digits behind the point.
@@ -269,12 +338,15 @@ mod tests {
 
     #[test]
     fn other_numbers_are_the_nearest_doubles() {
-        assert_eq!(parse(b"1e300"), Some(Number::Double(1e300)));
-        assert_eq!(parse(b"0.12345678901234567890123"), Some(Number::Double(0.123_456_789_012_345_68)));
-        assert_eq!(parse(b"9223372036854775808"), Some(Number::Beyond(9.223_372_036_854_776e18)));
-        assert_eq!(parse(b"1e-999"), Some(Number::Double(0.0)));
-        assert!(matches!(parse(b"-inf"), Some(Number::Double(value)) if value.is_infinite()));
-        assert!(matches!(parse(b"nan"), Some(Number::Double(value)) if value.is_nan()));
+        let double = |value, is_exact| Some(Number::Double(Nearest { value, is_exact }));
+        let beyond = |value, is_exact| Some(Number::Beyond(Nearest { value, is_exact }));
+        assert_eq!(parse(b"1e300"), double(1e300, false));
+        assert_eq!(parse(b"0.12345678901234567890123"), double(0.123_456_789_012_345_68, false));
+        assert_eq!(parse(b"9223372036854775808"), beyond(9.223_372_036_854_776e18, true));
+        assert_eq!(parse(b"9223372036854775809"), beyond(9.223_372_036_854_776e18, false));
+        assert_eq!(parse(b"1e-999"), double(0.0, false));
+        let value = |text: &[u8]| parse(text).map_or(0.0, |number| number.nearest().value);
+        assert!(value(b"-inf").is_infinite() && value(b"nan").is_nan());
         for bad in ["", "-", "+", ".", "1,5", "0x10", "1e", "--1", "1.2.3", "1_000", "e5", " 1"] {
             assert_eq!(parse(bad.as_bytes()), None, "{bad}");
         }
@@ -290,7 +362,7 @@ mod tests {
             let library = std::str::from_utf8(&text).expect("ASCII").parse::<f64>().ok();
             let own = parse(&text).map(|number| match number {
                 Number::Decimal(Decimal { steps, digits }) => nearest(i128::from(steps), digits),
-                Number::Beyond(value) | Number::Double(value) => value,
+                Number::Beyond(nearest) | Number::Double(nearest) => nearest.value,
             });
             // Minus zero is read as zero.
             assert_eq!(
@@ -300,6 +372,31 @@ mod tests {
                 String::from_utf8_lossy(&text)
             );
         }
+    }
+
+    #[test]
+    fn numbers_are_told_from_their_nearest_doubles() {
+        let is_exact = |text: &str| parse(text.as_bytes()).expect("a number").nearest().is_exact;
+        let mut random = SplitMix64::new(9);
+        for _ in 0..300 {
+            let value = f64::from_bits(random.next_u64());
+            let value = if value.is_finite() { value } else { 0.5 };
+            for value in [value, (random.below(1 << 20) as f64 - 524_288.0) / 8192.0, value.trunc()] {
+                let text = format!("{value:.1100}");
+                assert!(is_exact(&text), "{value:e}");
+                assert!(is_exact(&format!("{value:.770e}")), "{value:e}");
+                // One more digit behind the last one.
+                assert!(!is_exact(&format!("{text}1")), "{value:e}");
+            }
+        }
+        for text in ["0", "-0.0", "0.5", "9007199254740992", "9007199254740994", "-9223372036854775808", "1e20", "1e22"]
+        {
+            assert!(is_exact(text), "{text}");
+        }
+        for text in ["0.1", "9007199254740993", "9007199254740992.5", "1e23", "9223372036854775807", "1e-20"] {
+            assert!(!is_exact(text), "{text}");
+        }
+        assert!(is_double(5i128.pow(50), 50) && !is_double(5i128.pow(50) + 5, 50) && !is_double(7, 300));
     }
 
     #[test]

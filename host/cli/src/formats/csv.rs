@@ -27,8 +27,8 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     let mut z = None;
     let mut width = 0;
     loop {
-        // The quick way reads rows of two columns, x and y.
-        if width == 2 && columns == [0, 1] {
+        // The quick way reads rows of two columns, x and y. In a file with the header `x,z` one of the two is the z.
+        if width == 2 && columns == [0, 1] && z.is_none() {
             while let Some((row, pair)) = rows.next_pair() {
                 table.push_decimals(pair, row);
             }
@@ -125,4 +125,16 @@ fn refuse_other_width(record: &Values<'_>, width: usize, row: usize) -> Result<(
         "row {row} has {}, the first row has {width}: all rows need the same",
         counted(record.len(), "column")
     )))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_z_in_the_second_column_is_kept() {
+        let table = read_points(b"x,z\n0,5\n1,6\n2,7.5\n").expect("points");
+        assert_eq!(table.heights(), [5.0, 6.0, 7.5]);
+        assert_eq!(table.doubles()[2], [2.0, 7.5]);
+    }
 }

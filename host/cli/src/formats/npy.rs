@@ -110,6 +110,9 @@ fn keep_integers(steps: &mut Vec<[i64; 2]>, cells: &Cells<'_>) -> Result<(), Fai
 
 fn keep_doubles(points: &mut Vec<[f64; 2]>, cells: &Cells<'_>) -> Result<(), Failure> {
     let axis = cells.axis.min(1);
+    if cells.item.is_integer() {
+        refuse_rounded(cells)?;
+    }
     let mut are_finite = true;
     let mut target = rows_of(points, cells);
     cells.doubles(|value| {
@@ -126,6 +129,26 @@ fn keep_doubles(points: &mut Vec<[f64; 2]>, cells: &Cells<'_>) -> Result<(), Fai
     let mut rows = points.iter().enumerate().skip(cells.first);
     let found = rows.find(|(_, point)| !point[axis].is_finite());
     found.map_or(Ok(()), |(index, point)| Err(text::not_finite(&format!("'{}'", point[axis]), place(index, axis))))
+}
+
+/// Refuses integers that no double holds, in a column whose points have a float as the other coordinate.
+fn refuse_rounded(cells: &Cells<'_>) -> Result<(), Failure> {
+    let mut index = cells.first;
+    let mut rounded = None;
+    cells.integers(|integer| {
+        let exact = cells.beyond(integer).map_or(i128::from(integer), i128::from);
+        if exact as f64 as i128 != exact {
+            rounded = rounded.or(Some((index, exact)));
+        }
+        index += 1;
+    });
+    rounded.map_or(Ok(()), |(index, integer)| {
+        let place = place(index, cells.axis);
+        Err(Failure::input(format!(
+            "{place}: no double is {integer}, but the other coordinate is a float, so both are taken as doubles: save \
+             both as integers"
+        )))
+    })
 }
 
 fn keep_heights(heights: &mut Vec<f64>, cells: &Cells<'_>) -> Result<(), Failure> {

@@ -24,6 +24,8 @@ pub struct PointTable {
     /// The message about the first whole number beyond 64 bits. Such a number is an error if all numbers are whole.
     beyond: Option<String>,
     has_fraction: bool,
+    /// Coordinates that were rounded to the nearest double when they were added.
+    rounded: usize,
 }
 
 impl PointTable {
@@ -43,7 +45,7 @@ impl PointTable {
     }
 
     fn new(coordinates: Coordinates, origin: Origin, columns: [usize; 2]) -> Self {
-        Self { coordinates, heights: Vec::new(), origin, columns, beyond: None, has_fraction: false }
+        Self { coordinates, heights: Vec::new(), origin, columns, beyond: None, has_fraction: false, rounded: 0 }
     }
 
     /// Adds a point as it is written. Rows are counted from 1; a table of items ignores them. Anything but two finite
@@ -60,7 +62,7 @@ impl PointTable {
             }
         }
         self.add_row(row);
-        self.coordinates.push(numbers);
+        self.rounded += self.coordinates.push(numbers);
         Ok(())
     }
 
@@ -69,7 +71,7 @@ impl PointTable {
     pub fn push_decimals(&mut self, point: [Decimal; 2], row: usize) {
         self.has_fraction |= point[0].digits | point[1].digits > 0;
         self.add_row(row);
-        self.coordinates.push(point.map(Number::Decimal));
+        self.rounded += self.coordinates.push(point.map(Number::Decimal));
     }
 
     /// Adds a point of doubles, from a file that stores doubles. Values that are not finite are refused.
@@ -79,7 +81,7 @@ impl PointTable {
         }
         self.has_fraction = true;
         self.add_row(row);
-        self.coordinates.push_doubles(point);
+        self.rounded += self.coordinates.push_doubles(point);
         Ok(())
     }
 
@@ -148,6 +150,12 @@ impl PointTable {
         self.coordinates.doubles()
     }
 
+    /// The number of coordinates that are rounded in [`doubles`](Self::doubles). Those of a file that stores doubles are
+    /// not.
+    pub fn rounded(&self) -> usize {
+        self.rounded + self.coordinates.count_no_doubles()
+    }
+
     /// The z of the points; empty if they have none.
     pub fn heights(&self) -> &[f64] {
         if self.heights.len() == self.len() {
@@ -183,7 +191,7 @@ impl PointTable {
 fn number_at(value: &[u8], place: impl Fn() -> Place) -> Result<Number, Failure> {
     let trimmed = value.trim_ascii();
     match number::parse(trimmed) {
-        Some(Number::Double(double) | Number::Beyond(double)) if !double.is_finite() => {
+        Some(Number::Double(nearest) | Number::Beyond(nearest)) if !nearest.value.is_finite() => {
             Err(text::not_finite(&quoted(trimmed), place()))
         }
         Some(number) => Ok(number),

@@ -75,12 +75,13 @@ impl Plane {
         if multiple.iter().any(|&multiple| multiple > i64::from(i32::MAX)) {
             return None;
         }
-        let unit = Unit { digits, factor, offset: [x.offset.into(), y.offset.into()] };
+        let unit = Unit { digits, factor, offset: [x.offset.into(), y.offset.into()], is_stored: true };
         let plane = Self { unit, multiple, start: [0, 0] };
         let is_near = |offset: i64| offset.unsigned_abs() < 1 << 62;
         if (digits, factor) == (0, 1) && is_near(x.offset) && is_near(y.offset) {
             // For whole numbers the offset becomes a part of the steps, so that the steps are the coordinates.
-            return Some(Self { unit: Unit::of_digits(0), start: [x.offset, y.offset], ..plane });
+            let unit = Unit { is_stored: true, ..Unit::of_digits(0) };
+            return Some(Self { unit, start: [x.offset, y.offset], ..plane });
         }
         Some(plane)
     }
@@ -150,7 +151,7 @@ mod tests {
     #[test]
     fn decimals_have_a_common_step() {
         let common = |digits, factor, offset, multiple, start| {
-            Some(Plane { unit: Unit { digits, factor, offset }, multiple, start })
+            Some(Plane { unit: Unit { digits, factor, offset, is_stored: true }, multiple, start })
         };
         let same = plane([0.001, 500_000.0], [0.001, -4_100_000.5]);
         assert_eq!(same, common(3, 1, [500_000_000, -4_100_000_500], [1, 1], [0, 0]));

@@ -118,6 +118,20 @@ fn records_have_fields_by_name() {
 }
 
 #[test]
+fn integers_beside_floats_are_not_rounded() {
+    let file = |name: &str, integers: [i128; 2]| {
+        let record = |integer: i128| [&integer.to_le_bytes()[..8], &0.5f64.to_le_bytes()].concat();
+        npy(&format!("[('x', '<{name}'), ('y', '<f8')]"), "False", "(2,)", integers.map(record).concat())
+    };
+    let held = (1 << 53) + 2;
+    accept("p.npy", file("i8", [-held, 1 << 62]), 0);
+    accept("p.npy", file("u8", [held, 1 << 63]), 0);
+    refuse("p.npy", file("i8", [7, held - 1]), &["point 2, x", "9007199254740993", "both as integers"]);
+    refuse("p.npy", file("i8", [1 - held, 7]), &["point 1, x", "-9007199254740993"]);
+    refuse("p.npy", file("u8", [7, (1 << 64) - 1]), &["point 2, x", "18446744073709551615"]);
+}
+
+#[test]
 fn shapes_and_types_that_are_no_points_are_refused() {
     for shape in ["()", "(8,)", "(2, 4)", "(4, 1)", "(1, 4, 2)"] {
         let named = format!("shape {shape}");

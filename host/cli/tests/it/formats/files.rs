@@ -149,6 +149,18 @@ fn text_formats_say_what_they_should() {
 }
 
 #[test]
+fn heights_are_written_like_coordinates() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", "x,y,z\n0,0,1e300\n4,0,-2.5e-9\n0,4,7\n");
+    for (format, start) in [("obj", "v "), ("ply", ""), ("vtk", "")] {
+        scratch.run(&format!("triangulate p.csv -o m.{format}")).ok();
+        let mesh = scratch.read(&format!("m.{format}"));
+        let rows = format!("{start}0 0 1e300\n{start}4 0 -2.5e-9\n{start}0 4 7\n");
+        assert!(mesh.contains(&rows), "{mesh}");
+    }
+}
+
+#[test]
 fn json_formats_are_json() {
     let scratch = Scratch::new();
     scratch.write("p.csv", "0.5,0\n4,0\n0,4\n4,0\n");
