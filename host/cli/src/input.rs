@@ -53,8 +53,14 @@ impl Input {
         let compression = Compression::of(path);
         let source: Box<dyn Read + Send> = match compression {
             Compression::None => Box::new(raw),
-            Compression::Gzip => Box::new(MultiGzDecoder::new(BufReader::with_capacity(1 << 16, raw))),
-            Compression::Zstd => Box::new(zstd::Decoder::new(raw).map_err(|error| unreadable(&error))?),
+            Compression::Gzip => {
+                let packed = BufReader::with_capacity(1 << 16, raw);
+                Box::new(Unpacked { source: MultiGzDecoder::new(packed), packer: "gzip" })
+            }
+            Compression::Zstd => {
+                let source = zstd::Decoder::new(raw).map_err(|error| unreadable(&error))?;
+                Box::new(Unpacked { source, packer: "zstd" })
+            }
         };
         let is_plain = compression == Compression::None && found.is_file();
         let size = if is_plain { found.len() } else { 0 };
@@ -107,6 +113,25 @@ impl Read for Input {
         let count = self.source.read(into)?;
         self.left = self.left.checked_sub(count as u64).ok_or_else(|| too_large(self.bound))?;
         Ok(count)
+    }
+}
+
+/// A packed source, whose damage is told in a sentence.
+struct Unpacked<R> {
+    source: R,
+    packer: &'static str,
+}
+
+impl<R: Read> Read for Unpacked<R> {
+    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+        self.source.read(into).map_err(|error| match error.raw_os_error() {
+            // The disk is at fault, and not the data.
+            Some(_) => error,
+            None => io::Error::other(format!(
+                "its data packed by {} is damaged or cut off ({error}): copy the file again, or pack it again",
+                self.packer
+            )),
+        })
     }
 }
 

@@ -90,17 +90,17 @@ impl PointFormat {
     /// Reads the selected points of an input. Every wrong value is refused with its place.
     pub fn read(self, mut input: Input, selection: &Selection) -> Result<PointTable, Failure> {
         match self {
-            Self::Csv => csv::read_points(&input.into_bytes()?),
-            Self::Xyz => xyz::read_points(&input.into_bytes()?),
-            Self::Node => node::read_points(&input.into_bytes()?),
-            Self::Obj => obj::read_points(&input.into_bytes()?),
-            Self::Ply => ply::read_points(&input.into_bytes()?),
-            Self::Geojson => geojson::read_points(&input.into_bytes()?),
-            Self::Json => json::read_points(&input.into_bytes()?),
+            Self::Csv => csv::read_points(&some_bytes(input)?),
+            Self::Xyz => xyz::read_points(&some_bytes(input)?),
+            Self::Node => node::read_points(&some_bytes(input)?),
+            Self::Obj => obj::read_points(&some_bytes(input)?),
+            Self::Ply => ply::read_points(&some_bytes(input)?),
+            Self::Geojson => geojson::read_points(&some_bytes(input)?),
+            Self::Json => json::read_points(&some_bytes(input)?),
             Self::Las => lidar::read_points(input, selection),
             Self::Npy => npy::read_points(array::Source::of_input(&mut input)),
             Self::Npz => npz::read_points(input, selection.array.as_deref()),
-            Self::Wkt => wkt::read_points(&input.into_bytes()?),
+            Self::Wkt => wkt::read_points(&some_bytes(input)?),
         }
     }
 }
@@ -196,6 +196,16 @@ impl MeshFormat {
             }
         }
     }
+}
+
+/// All bytes of an input of points. An input without a byte is refused, because a failed download or a command that
+/// ended early leaves such a file more often than somebody means a set without points.
+fn some_bytes(input: Input) -> Result<Vec<u8>, Failure> {
+    let bytes = input.into_bytes()?;
+    if bytes.is_empty() {
+        return Err(Failure::input("the file is empty: a set without points is a file with a header, such as 'x,y'"));
+    }
+    Ok(bytes)
 }
 
 /// The names of formats as a list, such as `csv, xyz or node`.

@@ -56,5 +56,8 @@ fn list(names: &[String]) -> String {
 }
 
 fn refuse(error: &ZipError) -> Failure {
-    Failure::input(format!("not an archive of arrays: {}", one_line(&error.to_string())))
+    Failure::input(format!(
+        "not an archive of arrays, or cut off ({}): save it again with numpy.savez",
+        one_line(&error.to_string())
+    ))
 }

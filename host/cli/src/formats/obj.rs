@@ -2,13 +2,14 @@
 //!
 //! Points are the x and y of the vertices, and their z is kept; all other statements are ignored. Rows that do not
 //! start with a word of the format are refused, because a file of another kind must not pass for one without points.
+//! A first row with the mark of doubles says that the decimals stand for the nearest doubles.
 //! Meshes hold every input point as a vertex, at height 0 if the input has no z, so indices stay those of the input.
 
 use std::io::{self, Write};
 
 use crate::failure::{counted, quoted, Failure};
 use crate::formats::mesh_view::MeshView;
-use crate::points::{self, Place, PointTable};
+use crate::points::{self, Place, PointTable, DOUBLES};
 use crate::text;
 
 /// The words that a statement can start with, including those of older versions. Source: Wavefront, Advanced
@@ -61,6 +62,9 @@ const KEYWORDS: [&str; 42] = [
 /// Reads the vertices of a file as points.
 pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     let mut table = PointTable::of_rows([2, 3]);
+    if text::rows(bytes).next().is_some_and(|(_, row)| row == format!("# {DOUBLES}").as_bytes()) {
+        table.take_doubles();
+    }
     for (row, mut values) in statements(bytes, b"v")? {
         let point = [values.next().unwrap_or_default(), values.next().unwrap_or_default()];
         table.push(point, row)?;
@@ -137,6 +141,9 @@ fn read_corner(value: &[u8], row: usize, column: usize) -> Result<u32, Failure> 
 
 /// Writes all input points and the triangles.
 pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
+    if mesh.points.are_doubles() {
+        writeln!(out, "# {DOUBLES}")?;
+    }
     for ([x, y], z) in mesh.positions() {
         writeln!(out, "v {x} {y} {z}")?;
     }

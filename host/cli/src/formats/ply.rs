@@ -1,5 +1,7 @@
 //! Reading PLY, the Stanford polygon format: ascii and both binary forms.
 //!
+//! A comment with the mark of doubles says that the decimals of an ascii file stand for the nearest doubles.
+//!
 //! Points are `x`, `y` and `z` of the element `vertex`, triangles the list `vertex_indices` or `vertex_index` of
 //! `face`; everything else is ignored. `ply-rs-bw` decodes headers and binary elements, one element at a time, so the
 //! claims of a header alone allocate nothing.
@@ -11,12 +13,16 @@ use ply_rs_bw::parser::{Parser, Reader};
 use ply_rs_bw::ply::{ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType};
 
 use crate::failure::{counted, one_line, quoted, Failure};
-use crate::points::{self, PointTable};
+use crate::points::{self, PointTable, DOUBLES};
 use crate::text;
 
 /// Reads the vertices of a file as points.
 pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     let mut table = PointTable::of_items("vertex");
+    let mut header = text::rows(bytes).map(|(_, row)| row).take_while(|&row| row != b"end_header");
+    if header.any(|row| row == format!("comment {DOUBLES}").as_bytes()) {
+        table.take_doubles();
+    }
     read_element(bytes, "vertex", |item, _| {
         let [x, y, z] = item.position;
         match [x, y] {

@@ -9,7 +9,7 @@ use std::io::{self, Write};
 use crate::failure::Failure;
 use crate::formats::mesh_view::MeshView;
 use crate::number::Coordinate;
-use crate::points::PointTable;
+use crate::points::{PointTable, DOUBLES};
 
 /// Writes the ascii form.
 pub fn write_ascii(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
@@ -40,6 +40,9 @@ pub fn write_binary(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> 
 
 fn write_header(mesh: &MeshView<'_>, form: &str, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "ply\nformat {form} 1.0\ncomment Delaunay triangulation by incircle")?;
+    if mesh.points.are_doubles() {
+        writeln!(out, "comment {DOUBLES}")?;
+    }
     writeln!(out, "element vertex {}", mesh.points.len())?;
     writeln!(out, "property double x\nproperty double y\nproperty double z")?;
     writeln!(out, "element face {}", mesh.triangles.len())?;

@@ -13,6 +13,9 @@ pub use coordinates::{Coordinates, Unit};
 pub use place::Place;
 use place::{Origin, Rows};
 
+/// The mark of a text file whose coordinates are doubles. It stands in a comment, so other programs ignore it.
+pub const DOUBLES: &str = "incircle: the coordinates are doubles";
+
 /// The points of a file, each with its place for messages.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointTable {
@@ -24,6 +27,8 @@ pub struct PointTable {
     /// The message about the first whole number beyond 64 bits. Such a number is an error if all numbers are whole.
     beyond: Option<String>,
     has_fraction: bool,
+    /// Whether the numbers of the text stand for the doubles nearest to them, as a mark in the file says.
+    takes_doubles: bool,
     /// Coordinates that were rounded to the nearest double when they were added.
     rounded: usize,
 }
@@ -45,7 +50,27 @@ impl PointTable {
     }
 
     fn new(coordinates: Coordinates, origin: Origin, columns: [usize; 2]) -> Self {
-        Self { coordinates, heights: Vec::new(), origin, columns, beyond: None, has_fraction: false, rounded: 0 }
+        Self {
+            coordinates,
+            heights: Vec::new(),
+            origin,
+            columns,
+            beyond: None,
+            has_fraction: false,
+            takes_doubles: false,
+            rounded: 0,
+        }
+    }
+
+    /// Takes all further numbers as the doubles nearest to them, because the file has the mark [`DOUBLES`].
+    pub fn take_doubles(&mut self) {
+        self.takes_doubles = true;
+    }
+
+    /// Whether the coordinates are doubles. A text format writes each in the fewest digits that tell it from all other
+    /// doubles, and needs the mark [`DOUBLES`], because the decimal that stands there is another number.
+    pub fn are_doubles(&self) -> bool {
+        matches!(self.coordinates, Coordinates::Doubles(_))
     }
 
     /// Adds a point as it is written. Rows are counted from 1; a table of items ignores them. Anything but two finite
@@ -53,6 +78,9 @@ impl PointTable {
     pub fn push(&mut self, point: [&[u8]; 2], row: usize) -> Result<(), Failure> {
         let number = |axis: usize| number_at(point[axis], || self.next_place(axis, row));
         let numbers = [number(0)?, number(1)?];
+        if self.takes_doubles {
+            return self.push_doubles(numbers.map(|number| number.nearest().value), row);
+        }
         for (axis, number) in numbers.iter().enumerate() {
             match number {
                 Number::Decimal(decimal) => self.has_fraction |= decimal.digits > 0,

@@ -316,3 +316,21 @@ fn binary_ply_refuses_whole_numbers_that_no_double_holds() {
         }
     }
 }
+
+/// The doubles nearest to tenths lie on no common lattice, while the decimals that are written for them do: without the
+/// mark the squares of this lattice would be ties in one reading and not in the other.
+#[test]
+fn doubles_that_were_written_as_text_are_read_as_doubles() {
+    let scratch = Scratch::new();
+    let tenths = (0..400).flat_map(|k| [f64::from(k / 20) * 0.1, f64::from(k % 20) * 0.3 - 0.7]);
+    let bytes: Vec<u8> = tenths.flat_map(f64::to_le_bytes).collect();
+    scratch.write("p.npy", npy("<f8", "False", "(400, 2)", &bytes));
+    scratch.run("triangulate p.npy -o m.npy").ok();
+    for name in ["m.obj", "m.ply", "m.json"] {
+        scratch.run(&format!("triangulate p.npy -o {name}")).ok();
+        scratch.run(&format!("verify {name} {name}")).ok();
+        scratch.run(&format!("verify {name} m.npy")).ok();
+        scratch.run(&format!("triangulate {name} -o again-{name}")).ok();
+        assert!(scratch.read(&format!("again-{name}")) == scratch.read(name), "{name} is another mesh when read again");
+    }
+}

@@ -64,16 +64,18 @@ fn long_lines_and_wrong_encodings() {
 
 #[test]
 fn empty_files() {
-    accept("p.csv", "", 0);
+    for name in ["p.csv", "p.tsv", "p.xyz", "p.node", "p.obj", "p.ply", "p.geojson", "p.json", "p.wkt"] {
+        refuse(name, "", &["the file is empty", "'x,y'"]);
+    }
     accept("p.csv", "\n\n", 0);
     accept("p.csv", "x,y\r\n", 0);
-    accept("p.xyz", "", 0);
     accept("p.xyz", "x y z\n# nothing\n", 0);
-    accept("p.obj", "", 0);
+    accept("p.obj", "# nothing\n", 0);
+    accept("p.wkt", "POINT EMPTY\n", 0);
     accept("p.node", "0 2 0 0\n", 0);
     accept("p.geojson", r#"{"type":"FeatureCollection","features":[]}"#, 0);
-    refuse("p.node", "", &["empty", "N 2"]);
-    refuse("p.ply", "", &["PLY header"]);
+    refuse("p.node", "\n", &["empty", "N 2"]);
+    refuse("p.ply", "\n", &["PLY header"]);
     refuse("p.geojson", " ", &["empty"]);
 }
 
