@@ -47,8 +47,8 @@ pub struct Laid<'a> {
 pub enum Kind {
     /// Whole numbers.
     Whole,
-    /// Whole numbers of steps of this length, which is a decimal: a factor, and digits behind the point.
-    Decimal(i64, u32),
+    /// Whole numbers of steps of this length, which is a decimal: a factor, times ten to the power of an exponent.
+    Decimal(i64, i32),
     /// Whole numbers of steps of a power of two with this exponent.
     Binary(i32),
     /// The doubles of the file, or those that are nearest to its decimals; with the number of coordinates that are
@@ -71,7 +71,10 @@ impl Laid<'_> {
     pub fn to_json(&self) -> Value {
         let (kind, scale) = match &self.kind {
             Kind::Whole => ("whole", json!(1)),
-            &Kind::Decimal(factor, digits) => ("decimal", json!(crate::number::nearest(factor.into(), digits))),
+            &Kind::Decimal(factor, exponent @ ..=0) => {
+                ("decimal", json!(crate::number::nearest(factor.into(), exponent.unsigned_abs())))
+            }
+            &Kind::Decimal(factor, exponent) => ("decimal", json!(factor * 10i64.pow(exponent.unsigned_abs()))),
             &Kind::Binary(exponent) => ("binary", json!(Step::Binary { exponent }.length())),
             Kind::Doubles(_) => ("doubles", Value::Null),
             Kind::Quantized(quantization) => ("quantized", json!(1.0 / quantization.scale)),
@@ -89,8 +92,7 @@ impl Laid<'_> {
     pub fn line(&self) -> String {
         let steps = match &self.kind {
             Kind::Whole => "lattice: whole numbers".to_owned(),
-            &Kind::Decimal(1, digits) => format!("lattice: decimals, steps of 1e-{digits}"),
-            &Kind::Decimal(factor, digits) => format!("lattice: decimals, steps of {factor}e-{digits}"),
+            Kind::Decimal(factor, exponent) => format!("lattice: decimals, steps of {factor}e{exponent}"),
             Kind::Binary(exponent) => format!("lattice: steps of 2^{exponent}"),
             Kind::Doubles(0) => return "lattice: none of up to 32 bits; exact on the doubles".to_owned(),
             &Kind::Doubles(rounded) => {
@@ -137,27 +139,29 @@ impl Laid<'_> {
     fn noun(&self) -> String {
         match &self.kind {
             Kind::Whole => "whole numbers of the points".to_owned(),
-            &Kind::Decimal(1, digits) => format!("steps of 1e-{digits} in which the points lie"),
-            &Kind::Decimal(factor, digits) => format!("steps of {factor}e-{digits} in which the points lie"),
+            Kind::Decimal(factor, exponent) => format!("steps of {factor}e{exponent} in which the points lie"),
             Kind::Binary(exponent) => format!("steps of 2^{exponent} in which the points lie"),
             Kind::Doubles(_) | Kind::Quantized(_) => "points".to_owned(),
         }
     }
 }
 
-/// Finds the lattice of the points. The first that fits is taken: whole numbers, steps of a power of ten, steps of a
-/// power of two, each with spans below 2^32; else whole numbers of 64 bits, or doubles. Steps of a power of two are
-/// looked for only if every number is a double, so that no rounded number passes for the one in the file. With `how` the points are laid
-/// onto a grid of that many bits instead.
+/// Finds the lattice of the points. The first that fits is taken: whole numbers, steps of a power of ten (above 1 where
+/// whole numbers do not fit), steps of a power of two, each with spans below 2^32; else whole numbers of 64 bits, or
+/// doubles. Steps of a power of two are looked for only if every number is a double, so that no rounded number passes for
+/// the one in the file. With `how` the points are laid onto a grid of that many bits instead.
 pub fn lay(table: &PointTable, how: Option<(Quantize, u32)>) -> Result<Laid<'_>, Failure> {
     if let Some((how, coord_bits)) = how {
         return lay_onto_grid(table, how, coord_bits);
     }
     match table.coordinates() {
         Coordinates::Steps { steps, unit } => {
-            let kind = if unit.is_whole() { Kind::Whole } else { Kind::Decimal(unit.factor, unit.digits) };
+            let kind = if unit.is_whole() { Kind::Whole } else { Kind::Decimal(unit.factor, -(unit.digits as i32)) };
             if let Some((lattice, grid)) = Lattice::of_integers(steps, Step::Whole) {
                 return Ok(on_lattice(grid, &lattice, kind, |steps, axis| decimal_json(unit, steps, axis)));
+            }
+            if let Some(laid) = lay_on_tens(steps).filter(|_| unit.is_whole()) {
+                return Ok(laid);
             }
             if is_taken_wide(unit) {
                 let numbers = Numbers::Whole(Cow::Borrowed(steps));
@@ -179,6 +183,23 @@ pub fn lay(table: &PointTable, how: Option<(Quantize, u32)>) -> Result<Laid<'_>,
         _ => Kind::Whole,
     };
     Ok(on_lattice(grid, &lattice, kind, |steps, _| json!(steps as f64 * lattice.step.length())))
+}
+
+/// Whole numbers on a lattice whose steps are a power of ten above 1.
+fn lay_on_tens(steps: &[[i64; 2]]) -> Option<Laid<'static>> {
+    let mut exponent = 18;
+    for value in steps.iter().flatten() {
+        while value % 10i64.pow(exponent) != 0 {
+            exponent -= 1;
+        }
+        if exponent == 0 {
+            return None;
+        }
+    }
+    let power = 10i64.pow(exponent);
+    let multiples: Vec<_> = steps.iter().map(|point| point.map(|value| value / power)).collect();
+    let (lattice, grid) = Lattice::of_integers(&multiples, Step::Whole)?;
+    Some(on_lattice(grid, &lattice, Kind::Decimal(1, exponent as i32), |multiple, _| json!(multiple * power)))
 }
 
 /// Points on a lattice of up to 32 bits; `value` gives the coordinate of a number of steps on an axis.
@@ -300,6 +321,22 @@ mod tests {
         let far = [[tenth.as_str(), "0"], ["9007199254740992", "0"]];
         let plain = "lattice: none of up to 32 bits; exact on the doubles";
         assert_eq!(rounded(&far), ("doubles".into(), 0.into(), plain.to_owned()));
+    }
+
+    #[test]
+    fn wide_multiples_of_a_power_of_ten_have_long_steps() {
+        let found = lattice(&[["0", "1000000000000"], ["-3000000000000", "5e12"]]);
+        let offset = [-3_000_000_000_000i64, 1_000_000_000_000];
+        let expected =
+            json!({ "kind": "decimal", "scale": 1_000_000_000_000i64, "offset": offset, "bits": 3, "rounded": 0 });
+        assert_eq!(found, expected);
+        let set = table(&[["0", "0"], ["9000000000000000000", "0"]]);
+        assert_eq!(lay(&set, None).expect("a lattice").line(), "lattice: decimals, steps of 1e18, 4 bits");
+        // Whole numbers come first, and steps of ten may be too short.
+        assert_eq!(lattice(&[["0", "0"], ["4000000000", "0"]])["kind"], "whole");
+        let wide = lattice(&[["0", "10"], ["42949672960", "0"]]);
+        assert_eq!((&wide["kind"], &wide["bits"]), (&"whole".into(), &36.into()));
+        assert_eq!(lattice(&[["0", "10"], ["42949672950", "0"]])["scale"], 10);
     }
 
     #[test]
