@@ -377,7 +377,7 @@ mod tests {
     fn numbers_are_told_from_their_nearest_doubles() {
         let is_exact = |text: &str| parse(text.as_bytes()).expect("a number").nearest().is_exact;
         let mut random = SplitMix64::new(9);
-        for _ in 0..3000 {
+        for _ in 0..300 {
             let value = f64::from_bits(random.next_u64());
             let value = if value.is_finite() { value } else { 0.5 };
             for value in [value, (random.below(1 << 20) as f64 - 524_288.0) / 8192.0, value.trunc()] {
@@ -388,7 +388,7 @@ mod tests {
                 assert!(!is_exact(&format!("{text}1")), "{value:e}");
             }
         }
-        for text in ["0", "-0.0", "0.5", "9007199254740992", "9007199254740994", "-9223372036854775808", "1e20", "5e22"]
+        for text in ["0", "-0.0", "0.5", "9007199254740992", "9007199254740994", "-9223372036854775808", "1e20", "1e22"]
         {
             assert!(is_exact(text), "{text}");
         }
