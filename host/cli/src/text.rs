@@ -66,7 +66,7 @@ pub fn not_a_number(value: &[u8], place: Place) -> Failure {
 
 /// The failure of NaN, infinities, and numbers too large for a double.
 pub fn not_finite(shown: &str, place: Place) -> Failure {
-    Failure::input(format!("{place}: {shown} is not a finite number: a point needs two numbers"))
+    Failure::input(format!("{place}: {shown} is not a finite number"))
 }
 
 /// Parses a whole number from 0 to 2^32 - 1, which messages call `what`.

@@ -9,7 +9,7 @@ use std::io::{self, Write};
 use crate::failure::{counted, one_line, quoted, Failure};
 use crate::formats::json_text;
 use crate::formats::mesh_view::MeshView;
-use crate::points::{self, PointTable};
+use crate::points::PointTable;
 use crate::text;
 
 /// The most collections that may be in one another. RFC 7946 advises against any collection in a collection.
@@ -136,8 +136,7 @@ fn add_position(text: &str, table: &mut PointTable, place: Place) -> Result<(), 
     }
     let [x, y, z] = numbers.map(str::as_bytes);
     table.push([x, y], 0)?;
-    table.push_height(if count > 2 { points::height(z) } else { None });
-    Ok(())
+    table.push_height((count > 2).then_some(z), 0)
 }
 
 /// Writes a feature for each triangle, with its number as `id` and its corners as the property `vertices`.

@@ -8,7 +8,7 @@ use std::io::{self, Write};
 
 use crate::failure::{counted, quoted, Failure};
 use crate::formats::mesh_view::MeshView;
-use crate::points::{self, Place, PointTable};
+use crate::points::{Place, PointTable};
 use crate::text;
 
 /// The words that a statement can start with, including those of older versions. Source: Wavefront, Advanced
@@ -60,11 +60,11 @@ const KEYWORDS: [&str; 42] = [
 
 /// Reads the vertices of a file as points.
 pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
-    let mut table = PointTable::of_rows([2, 3]);
+    let mut table = PointTable::of_rows([2, 3, 4]);
     for (row, mut values) in statements(bytes, b"v")? {
         let point = [values.next().unwrap_or_default(), values.next().unwrap_or_default()];
         table.push(point, row)?;
-        table.push_height(values.next().and_then(points::height));
+        table.push_height(values.next(), row)?;
     }
     table.complete()
 }
