@@ -265,7 +265,7 @@ mod tests {
     use super::*;
 
     fn table(points: &[[&str; 2]]) -> PointTable {
-        let mut table = PointTable::of_rows([1, 2]);
+        let mut table = PointTable::of_rows([1, 2, 3]);
         for (index, point) in points.iter().enumerate() {
             table.push(point.map(str::as_bytes), index + 1).expect("numbers");
         }

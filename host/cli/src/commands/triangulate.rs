@@ -43,6 +43,7 @@ pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
     let (mesh, about) = triangulate(&mut backend, &laid, arguments).map_err(in_file)?;
     watch.stages.extend(&about.stages);
     let mut report = RunReport::new(&about, &backend, &laid);
+    report.left_out = table.left_out();
     // Dropping the back end ends a simulation, which completes its waveform.
     drop(backend);
     watch.since = Instant::now();

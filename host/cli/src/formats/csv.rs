@@ -12,7 +12,7 @@ use std::io::{self, Write};
 use crate::failure::{counted, quoted, Failure};
 use crate::formats::csv_rows::{CsvRows, Values};
 use crate::formats::mesh_view::MeshView;
-use crate::points::{self, Place, PointTable};
+use crate::points::{Place, PointTable};
 use crate::text;
 
 /// Names of the two columns in a header, in lower case.
@@ -22,7 +22,7 @@ const NAMES: [(&str, &str); 6] =
 /// Reads the points of a file.
 pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     let mut rows = CsvRows::new(text::without_mark(bytes)?);
-    let mut table = PointTable::of_rows([1, 2]);
+    let mut table = PointTable::of_rows([1, 2, 3]);
     let mut columns = [0, 1];
     let mut z = None;
     let mut width = 0;
@@ -42,14 +42,14 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
             if !values.iter().any(text::looks_like_number) {
                 columns = named_columns(&values);
                 z = named_column(&values, "z");
-                table = PointTable::of_rows(columns.map(|column| column + 1));
+                table = PointTable::of_rows([columns[0], columns[1], z.unwrap_or(0)].map(|column| column + 1));
                 continue;
             }
         }
         refuse_other_width(&values, width, row)?;
         table.push(columns.map(|column| values.get(column)), row)?;
         if let Some(column) = z {
-            table.push_height(points::height(values.get(column)));
+            table.push_height(Some(values.get(column)), row)?;
         }
     }
 }

@@ -7,6 +7,7 @@ pub mod curve;
 pub mod ele;
 pub mod geojson;
 pub mod json;
+mod json_text;
 pub mod lidar;
 mod mesh_view;
 pub mod node;

@@ -22,7 +22,7 @@ const FIXED: usize = 3;
 /// Reads the points of a file.
 pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     let (promised, rows) = triangle::open(bytes, &HEADER)?;
-    let mut table = PointTable::of_rows([2, 3]);
+    let mut table = PointTable::of_rows([2, 3, 4]);
     let mut base = 0;
     for (row, content) in rows {
         let count = table.len();

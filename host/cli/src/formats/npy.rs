@@ -158,9 +158,11 @@ fn keep_heights(heights: &mut Vec<f64>, cells: &Cells<'_>) -> Result<(), Failure
             *height = value;
         }
     });
-    Ok(())
+    drop(target);
+    let found = heights.iter().enumerate().skip(cells.first).find(|(_, height)| !height.is_finite());
+    found.map_or(Ok(()), |(index, height)| Err(text::not_finite(&format!("'{height}'"), place(index, 2))))
 }
 
 fn place(index: usize, axis: usize) -> Place {
-    Place::Item { name: "point", number: index + 1, axis: if axis == 0 { 'x' } else { 'y' } }
+    Place::Item { name: "point", number: index + 1, axis: ['x', 'y', 'z'][axis.min(2)] }
 }

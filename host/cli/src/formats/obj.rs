@@ -9,7 +9,7 @@ use std::io::{self, Write};
 
 use crate::failure::{counted, quoted, Failure};
 use crate::formats::mesh_view::MeshView;
-use crate::points::{self, Place, PointTable, DOUBLES};
+use crate::points::{Place, PointTable, DOUBLES};
 use crate::text;
 
 /// The words that a statement can start with, including those of older versions. Source: Wavefront, Advanced
@@ -61,14 +61,14 @@ const KEYWORDS: [&str; 42] = [
 
 /// Reads the vertices of a file as points.
 pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
-    let mut table = PointTable::of_rows([2, 3]);
+    let mut table = PointTable::of_rows([2, 3, 4]);
     if text::rows(bytes).next().is_some_and(|(_, row)| row == format!("# {DOUBLES}").as_bytes()) {
         table.take_doubles();
     }
     for (row, mut values) in statements(bytes, b"v")? {
         let point = [values.next().unwrap_or_default(), values.next().unwrap_or_default()];
         table.push(point, row)?;
-        table.push_height(values.next().and_then(points::height));
+        table.push_height(values.next(), row)?;
     }
     table.complete()
 }

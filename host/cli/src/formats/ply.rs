@@ -13,7 +13,7 @@ use ply_rs_bw::parser::{Parser, Reader};
 use ply_rs_bw::ply::{ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType};
 
 use crate::failure::{counted, one_line, quoted, Failure};
-use crate::points::{self, PointTable, DOUBLES};
+use crate::points::{PointTable, DOUBLES};
 use crate::text;
 
 /// Reads the vertices of a file as points.
@@ -32,8 +32,7 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
                 table.push([&texts[0], &texts[1]], 0)?;
             }
         }
-        table.push_height(z.and_then(|z| points::height(&z.into_text())));
-        Ok(())
+        table.push_height(z.map(Value::into_text).as_deref(), 0)
     })?;
     table.complete()
 }

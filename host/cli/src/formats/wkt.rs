@@ -8,7 +8,7 @@
 //! Source: OGC 06-103r4, "Simple feature access, part 1", chapter 7.
 
 use crate::failure::{quoted, Failure};
-use crate::points::{self, PointTable};
+use crate::points::PointTable;
 use crate::text;
 
 /// Reads the points of all geometries.
@@ -149,9 +149,9 @@ fn read_point(tokens: &mut Tokens<'_>, dimensions: Dimensions, table: &mut Point
     }
     // The table names points by their numbers; counting the rows up to each point would take quadratic time.
     table.push([numbers[0], numbers[1]], 0)?;
-    let has_height = count > 2 && dimensions != Dimensions::Measure;
-    table.push_height(has_height.then(|| points::height(numbers[2])).flatten());
-    Ok(())
+    // A point that the letter Z promises a height needs one.
+    let has_height = dimensions == Dimensions::Height || count > 2 && dimensions == Dimensions::Unsaid;
+    table.push_height(has_height.then_some(numbers[2]), 0)
 }
 
 /// Whether a byte is a token by itself.
@@ -261,6 +261,8 @@ mod tests {
             ("SRID=4326 POINT (1 2)", "expected ';'"),
             (")", "row 1: ')' is neither"),
             ("POINT (nan 1)", "not a finite number"),
+            ("POINT (1 2 x)", "point 1, z: 'x' is not a number"),
+            ("POINT Z (1 2)", "point 1, z: the value is missing"),
         ] {
             let failure = read_points(text.as_bytes()).expect_err(text);
             assert!(failure.message.contains(part), "{text}: {failure}");

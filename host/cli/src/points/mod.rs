@@ -22,8 +22,12 @@ pub struct PointTable {
     coordinates: Coordinates,
     /// The z of the first points, up to the first one that has none.
     heights: Vec<f64>,
+    /// The index of the first point that has no z, if the format can have one.
+    without_height: Option<usize>,
+    /// Whether a point has a z.
+    has_height: bool,
     origin: Origin,
-    columns: [usize; 2],
+    columns: [usize; 3],
     /// The message about the first whole number beyond 64 bits. Such a number is an error if all numbers are whole.
     beyond: Option<String>,
     has_fraction: bool,
@@ -34,8 +38,8 @@ pub struct PointTable {
 }
 
 impl PointTable {
-    /// Makes an empty table of text rows whose coordinates stand in these columns, counted from 1.
-    pub fn of_rows(columns: [usize; 2]) -> Self {
+    /// Makes an empty table of text rows whose x, y and z stand in these columns, counted from 1.
+    pub fn of_rows(columns: [usize; 3]) -> Self {
         Self::new(Coordinates::default(), Origin::Rows(Rows::default()), columns)
     }
 
@@ -46,13 +50,15 @@ impl PointTable {
 
     /// Makes a table of items of this name with these coordinates, which must be finite.
     pub fn of_coordinates(name: &'static str, coordinates: Coordinates) -> Self {
-        Self::new(coordinates, Origin::Items(name), [1, 2])
+        Self::new(coordinates, Origin::Items(name), [1, 2, 3])
     }
 
-    fn new(coordinates: Coordinates, origin: Origin, columns: [usize; 2]) -> Self {
+    fn new(coordinates: Coordinates, origin: Origin, columns: [usize; 3]) -> Self {
         Self {
             coordinates,
             heights: Vec::new(),
+            without_height: None,
+            has_height: false,
             origin,
             columns,
             beyond: None,
@@ -113,18 +119,32 @@ impl PointTable {
         Ok(())
     }
 
-    /// Gives the last point a z. If any point has no z, or a z that is not finite, no point of the table has a z.
-    pub fn push_height(&mut self, z: Option<f64>) {
-        if let Some(z) = z.filter(|z| z.is_finite() && self.heights.len() + 1 == self.len()) {
-            self.heights.push(z);
+    /// Gives the last point its z as it is written, as the nearest double. Anything but a finite number is refused. If
+    /// one point has no z, no point of the table has one.
+    pub fn push_height(&mut self, z: Option<&[u8]>, row: usize) -> Result<(), Failure> {
+        let index = self.len().saturating_sub(1);
+        let Some(text) = z else {
+            self.without_height.get_or_insert(index);
+            return Ok(());
+        };
+        let height = number_at(text, || self.place_in(row, index, 2))?.nearest().value;
+        self.has_height = true;
+        if self.without_height.is_none() {
+            self.heights.push(height);
         }
+        Ok(())
     }
 
-    /// The table with the z of its points. If any point has no z, or a z that is not finite, no point has a z.
+    /// The table with the z of its points, which must be finite; an empty list if they have none.
     pub fn with_heights(mut self, heights: Vec<f64>) -> Self {
-        let is_complete = heights.len() == self.len() && heights.iter().all(|z| z.is_finite());
-        self.heights = if is_complete { heights } else { Vec::new() };
+        self.heights = heights;
         self
+    }
+
+    /// The sentence about a z that only some points have, and that is left out for that reason.
+    pub fn left_out(&self) -> Option<String> {
+        let index = self.without_height.filter(|_| self.has_height)?;
+        Some(format!("z is left out: {} has none", self.place(index, 2).owner()))
     }
 
     /// The table, once all points are in it. Whole numbers beyond 64 bits are refused unless the set has fractions.
@@ -186,14 +206,14 @@ impl PointTable {
 
     /// The z of the points; empty if they have none.
     pub fn heights(&self) -> &[f64] {
-        if self.heights.len() == self.len() {
+        if self.without_height.is_none() && self.heights.len() == self.len() {
             &self.heights
         } else {
             &[]
         }
     }
 
-    /// The place of coordinate `axis`, 0 or 1, of the point at `index`, for messages.
+    /// The place of coordinate `axis`, 0 to 2, of the point at `index`, for messages.
     pub fn place(&self, index: usize, axis: usize) -> Place {
         let row = match &self.origin {
             Origin::Rows(rows) => rows.of(index),
@@ -209,8 +229,8 @@ impl PointTable {
 
     fn place_in(&self, row: usize, index: usize, axis: usize) -> Place {
         match self.origin {
-            Origin::Rows(_) => Place::Cell { row, column: self.columns[axis.min(1)] },
-            Origin::Items(name) => Place::Item { name, number: index + 1, axis: if axis == 0 { 'x' } else { 'y' } },
+            Origin::Rows(_) => Place::Cell { row, column: self.columns[axis.min(2)] },
+            Origin::Items(name) => Place::Item { name, number: index + 1, axis: ['x', 'y', 'z'][axis.min(2)] },
         }
     }
 }
@@ -227,17 +247,12 @@ fn number_at(value: &[u8], place: impl Fn() -> Place) -> Result<Number, Failure>
     }
 }
 
-/// Reads a z as the nearest double; `None` if the value is no number.
-pub fn height(value: &[u8]) -> Option<f64> {
-    std::str::from_utf8(value.trim_ascii()).ok()?.parse().ok()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn table(points: &[[&str; 2]]) -> Result<PointTable, Failure> {
-        let mut table = PointTable::of_rows([1, 2]);
+        let mut table = PointTable::of_rows([1, 2, 3]);
         for (index, point) in points.iter().enumerate() {
             table.push(point.map(str::as_bytes), index + 1)?;
         }

@@ -88,7 +88,11 @@ impl Sieve {
                 Points::Steps(plane, steps) => steps.push([plane.steps(x, 0), plane.steps(y, 1)]),
                 Points::Doubles(doubles) => doubles.push(finite(&self.scale, [x, y], self.seen)?),
             }
-            self.heights.push(self.scale.height(integer(8)));
+            let height = self.scale.height(integer(8));
+            if !height.is_finite() {
+                return Err(beyond_doubles(self.seen));
+            }
+            self.heights.push(height);
         }
         if self.heights.len() as u64 > self.most {
             let most = self.most;
@@ -117,9 +121,12 @@ fn finite(scale: &Scale, integers: [i32; 2], number: u64) -> Result<[f64; 2], Fa
     if point.iter().all(|value| value.is_finite()) {
         return Ok(point);
     }
-    Err(refuse(format!(
-        "point {number} is beyond the largest double: the scale or the offset in the header is too large"
-    )))
+    Err(beyond_doubles(number))
+}
+
+/// The failure of a point with an infinite coordinate.
+fn beyond_doubles(number: u64) -> Failure {
+    refuse(format!("point {number} is beyond the largest double: the scale or the offset in the header is too large"))
 }
 
 /// The lowest and the highest integer of an axis whose coordinates are within the bounds.

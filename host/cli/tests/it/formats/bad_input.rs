@@ -114,6 +114,39 @@ fn obj_of_wrong_form() {
 }
 
 #[test]
+fn heights_that_are_no_finite_numbers() {
+    refuse("p.csv", "x,y,z\n0,0,1\n1,0,\n", &["row 3, column 3", "missing"]);
+    refuse("p.csv", "z,x,y\n1,0,0\nnan,1,0\n", &["row 3, column 1", "'nan'", "finite"]);
+    refuse("p.xyz", "0 0 1\n1 0 inf\n", &["row 2, column 3", "'inf'"]);
+    refuse("p.xyz", "0 0 1\n1 0 a\n", &["row 2, column 3", "'a'", "not a number"]);
+    refuse("p.obj", "v 0 0 0\nv 1 0 1e999\n", &["row 2, column 4", "finite"]);
+    refuse("p.geojson", r#"{"type":"Point","coordinates":[1,2,1e999]}"#, &["point 1, z", "finite"]);
+    let ply = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
+    refuse("p.ply", format!("{ply}end_header\n1 2 nan\n"), &["vertex 1, z", "'nan'"]);
+}
+
+#[test]
+fn heights_of_some_points_are_left_out_with_a_word() {
+    let scratch = Scratch::new();
+    let files = [
+        ("p.obj", "v 0 0 7\nv 4 0\nv 0 4 1\n", "row 2"),
+        ("p.wkt", "POINT (0 0) POINT (4 0 5) POINT (0 4)", "point 1"),
+        ("p.geojson", r#"{"type":"MultiPoint","coordinates":[[0,0,1],[4,0,2],[0,4]]}"#, "point 3"),
+    ];
+    for (name, content, first) in files {
+        scratch.write(name, content);
+        let run = scratch.run(&format!("triangulate {name} -o m.obj")).ok();
+        assert!(run.stderr.contains(&format!("z is left out: {first} has none\n")), "{run:?}");
+        assert!(scratch.read("m.obj").starts_with("v 0 0 0\n"), "{name}");
+    }
+    for (name, content) in [("p.obj", "v 0 0\nv 4 0\nv 0 4\n"), ("p.wkt", "POINT M (0 0 1) POINT (4 0) POINT (0 4)")] {
+        scratch.write(name, content);
+        let run = scratch.run(&format!("triangulate {name} -o m.obj")).ok();
+        assert!(!run.stderr.contains("left out"), "{run:?}");
+    }
+}
+
+#[test]
 fn files_that_are_not_there_or_cannot_be_read() {
     let scratch = Scratch::new();
     scratch.run("triangulate none.csv -o m.ele").fails(3, &["none.csv", "No such file"]);

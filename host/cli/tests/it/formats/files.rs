@@ -121,6 +121,29 @@ fn points_are_read_back_from_json() {
 }
 
 #[test]
+fn numbers_of_json_are_those_that_are_written() {
+    let scratch = Scratch::new();
+    // Doubles would make one point of the first two, and 9007199254740992 of the others.
+    let points = ["0.123456789012345678", "0.123456789012345679", "1.5", "2"].map(|x| format!("[{x}, 1.50]")).join(",");
+    let whole = ["9007199254740993", "9007199254740992", "-9223372036854775808"].map(|x| format!("[{x},7]")).join(",");
+    for list in [points, whole] {
+        scratch.write("p.json", format!("{{\"points\":[{list}]}}"));
+        scratch.write("p.geojson", format!("{{\"coordinates\":[{list}],\"type\":\"MultiPoint\"}}"));
+        scratch.write("p.csv", list.replace("],[", "\n").replace(['[', ']'], "") + "\n");
+        scratch.run("triangulate p.csv -o csv.json").ok();
+        for name in ["p.json", "p.geojson"] {
+            scratch.run(&format!("triangulate {name} -o m.json")).ok();
+            assert_eq!(scratch.read("m.json"), scratch.read("csv.json"), "{name}");
+            // What the command writes reads back to the same.
+            scratch.run("triangulate m.json -o again.json").ok();
+            assert_eq!(scratch.read("again.json"), scratch.read("m.json"), "{name}");
+        }
+    }
+    let beyond = r#"{"type":"MultiPoint","coordinates":[[0,0],[1,9223372036854775808]]}"#;
+    crate::common::refuse("p.geojson", beyond, &["point 2, y", "beyond 64 bits"]);
+}
+
+#[test]
 fn triangles_own_files_count_from_one() {
     let scratch = Scratch::new();
     scratch.write("p.node", format!("6 2 0 0\n{}", rows(|i, x, y| format!("{} {x} {y}", i + 1))));
