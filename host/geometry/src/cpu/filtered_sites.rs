@@ -87,7 +87,7 @@ pub(super) fn sort<C: Coordinate>(points: &[[C; 2]], threads: usize) -> Filtered
     let mut all =
         Taken { places: pages::with_room(points.len()), ids: pages::with_room(points.len()), duplicates: Vec::new() };
     for (cell, first) in distinct.into_iter().zip(firsts) {
-        let cell = [cell.x, cell.y];
+        let cell = [cell.x(), cell.y()];
         let others = groups.of_first(first);
         if others.is_empty() {
             all.keep(first, Place { cell, rank: 0 });

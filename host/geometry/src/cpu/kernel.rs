@@ -36,9 +36,6 @@ pub(super) trait Kernel: Copy + Sync + 'static {
     /// The view of the base edge from a point.
     fn see(ends: Ends<Self>, site: Self::Site) -> Self::Seen;
 
-    /// The point of a view.
-    fn site(seen: Self::Seen) -> Self::Site;
-
     /// Whether the point lies strictly to the left of the base edge.
     fn is_left(ends: Ends<Self>, seen: Self::Seen) -> bool;
 
@@ -64,13 +61,13 @@ pub(super) struct Ends<K: Kernel> {
     pub(super) bounds: K::Bounds,
 }
 
-/// Decides a tie: `a`, `b`, `c`, `q` lie on one circle, or `q` is on the line of `a` and `b`.
+/// Decides a tie: `a`, `b`, `c`, `q` lie on one circle, or `q` is on the line of `a` and `b`. Given are all four points
+/// and whether `q` lies to the left of the edge from `a` to `b`.
 #[inline(never)]
-pub(super) fn tie_is_inside<K: Kernel>(a: K::Site, b: K::Site, bounds: K::Bounds, c: K::Site, q: K::Seen) -> bool {
-    if !K::is_left(Ends { a, b, bounds }, q) {
+pub(super) fn tie_is_inside<K: Kernel>(a: K::Site, b: K::Site, c: K::Site, q: K::Site, q_is_left: bool) -> bool {
+    if !q_is_left {
         return false;
     }
-    let q = K::site(q);
     let smallest = a.min(b).min(c).min(q);
     // Lowering a corner moves `q` inside iff the other three turn right around that corner. Lowering `q` always moves
     // it inside, and lowering `c` never does, because `c` and `q` lie on one side of the edge.
