@@ -59,7 +59,7 @@ pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
 /// Writes the object with one item per row.
 pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
     write!(out, "{{")?;
-    if mesh.points.are_doubles() {
+    if mesh.points.needs_mark() {
         write!(out, "\"numbers\":\"{DOUBLES}\",\n")?;
     }
     write!(out, "\"points\":")?;

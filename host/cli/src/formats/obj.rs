@@ -141,7 +141,7 @@ fn read_corner(value: &[u8], row: usize, column: usize) -> Result<u32, Failure> 
 
 /// Writes all input points and the triangles.
 pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
-    if mesh.points.are_doubles() {
+    if mesh.points.needs_mark() {
         writeln!(out, "# {DOUBLES}")?;
     }
     for ([x, y], z) in mesh.positions() {

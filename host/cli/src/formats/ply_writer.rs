@@ -11,9 +11,12 @@ use crate::formats::mesh_view::MeshView;
 use crate::number::Coordinate;
 use crate::points::{PointTable, DOUBLES};
 
+/// The name of the ascii form in the header.
+const ASCII: &str = "ascii";
+
 /// Writes the ascii form.
 pub fn write_ascii(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
-    write_header(mesh, "ascii", out)?;
+    write_header(mesh, ASCII, out)?;
     for ([x, y], z) in mesh.positions() {
         writeln!(out, "{x} {y} {z}")?;
     }
@@ -40,7 +43,7 @@ pub fn write_binary(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> 
 
 fn write_header(mesh: &MeshView<'_>, form: &str, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "ply\nformat {form} 1.0\ncomment Delaunay triangulation by incircle")?;
-    if mesh.points.are_doubles() {
+    if form == ASCII && mesh.points.needs_mark() {
         writeln!(out, "comment {DOUBLES}")?;
     }
     writeln!(out, "element vertex {}", mesh.points.len())?;

@@ -73,10 +73,17 @@ impl PointTable {
         self.takes_doubles = true;
     }
 
-    /// Whether the coordinates are doubles. A text format writes each in the fewest digits that tell it from all other
-    /// doubles, and needs the mark [`DOUBLES`], because the decimal that stands there is another number.
-    pub fn are_doubles(&self) -> bool {
-        matches!(self.coordinates, Coordinates::Doubles(_))
+    /// Whether a text of the coordinates needs the mark [`DOUBLES`]. A double is written in the fewest digits that tell it
+    /// from all other doubles, and the decimal that stands there is often another number.
+    pub fn needs_mark(&self) -> bool {
+        let is_written = |value: f64| {
+            let text = Coordinate::Double(value).to_string();
+            number::parse(text.as_bytes()).is_some_and(|number| number.nearest().is_exact)
+        };
+        match &self.coordinates {
+            Coordinates::Doubles(points) => !points.iter().flatten().all(|&value| is_written(value)),
+            Coordinates::Steps { .. } => false,
+        }
     }
 
     /// Adds a point as it is written. Rows are counted from 1; a table of items ignores them. Anything but two finite

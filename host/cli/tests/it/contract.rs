@@ -35,7 +35,6 @@ fn ties_take_the_smallest_of_the_four() {
 fn sets_without_triangles_are_answers() {
     let scratch = Scratch::new();
     let sets = [
-        ("none", ""),
         ("header", "x,y\n"),
         ("one", "3,4\n"),
         ("two", "3,4\n5,6\n"),

@@ -94,7 +94,7 @@ fn numbers_are_those_of_the_array() {
     scratch.write("p.npy", npy("'>f4'", "False", "(3, 2)", data));
     scratch.run("triangulate p.npy -o m.obj").ok();
     let obj = scratch.read("m.obj");
-    assert!(obj.starts_with("v 0.10000000149011612 0 0\nv 2 0 0\n"), "{obj}");
+    assert!(obj.starts_with("# incircle: the coordinates are doubles\nv 0.10000000149011612 0 0\nv 2 0 0\n"), "{obj}");
 }
 
 #[test]
@@ -323,7 +323,7 @@ fn doubles_that_were_written_as_text_are_read_as_doubles() {
     let scratch = Scratch::new();
     let tenths = (0..400).flat_map(|k| [f64::from(k / 20) * 0.1, f64::from(k % 20) * 0.3 - 0.7]);
     let bytes: Vec<u8> = tenths.flat_map(f64::to_le_bytes).collect();
-    scratch.write("p.npy", npy("<f8", "False", "(400, 2)", &bytes));
+    scratch.write("p.npy", npy("'<f8'", "False", "(400, 2)", &bytes));
     scratch.run("triangulate p.npy -o m.npy").ok();
     for name in ["m.obj", "m.ply", "m.json"] {
         scratch.run(&format!("triangulate p.npy -o {name}")).ok();
