@@ -8,18 +8,19 @@ use std::io::{self, Write};
 use crate::failure::{quoted, Failure};
 use crate::formats::mesh_view::MeshView;
 use crate::formats::{geojson, json_text};
+use crate::memory::Memory;
 use crate::points::PointTable;
 use crate::text;
 
 /// Reads the list `points`, which has pairs of finite numbers, and ignores everything else in the object. An object
 /// without that list, or with the key `type` of GeoJSON, is read as GeoJSON.
-pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
+pub fn read_points(bytes: &[u8], memory: Memory) -> Result<PointTable, Failure> {
     let list = match json_text::fields(text::utf8(bytes)?, ["type", "points"]) {
         Ok([None, Some(list)]) if json_text::is_list(list) => list,
         Err(error) if !error.is_data() => return Err(json_text::refuse(&error)),
-        _ => return geojson::read_points(bytes),
+        _ => return geojson::read_points(bytes, memory),
     };
-    let mut table = PointTable::of_items("point");
+    let mut table = PointTable::of_items("point").within(memory);
     json_text::each(list, |index, item| match json_text::numbers(item) {
         Some(([x, y, _], 2)) => table.push([x.as_bytes(), y.as_bytes()], 0),
         _ => {
@@ -31,7 +32,7 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
 }
 
 /// Reads the list `triangles` and ignores everything else in the object.
-pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
+pub fn read_mesh(bytes: &[u8], memory: Memory) -> Result<Vec<[u32; 3]>, Failure> {
     let fields = json_text::fields(text::utf8(bytes)?, ["triangles"]);
     let [list] = fields.or_else(|error| if error.is_data() { Ok([None]) } else { Err(json_text::refuse(&error)) })?;
     let Some(list) = list.filter(|list| json_text::is_list(list)) else {
@@ -43,8 +44,7 @@ pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
             let shown = quoted(item.as_bytes());
             Failure::input(format!("triangles[{index}] is {shown}, not three point indices"))
         })?;
-        triangles.push(triangle);
-        Ok(())
+        memory.push(&mut triangles, triangle)
     })?;
     Ok(triangles)
 }
