@@ -1,4 +1,4 @@
-//! Input files: their bytes, unpacked and bounded by the memory of the machine.
+//! Input files: their bytes, unpacked and bounded by the memory that is free.
 
 use std::fs::File;
 use std::io::{self, BufReader, Cursor, Read, Seek};
@@ -7,11 +7,9 @@ use std::path::Path;
 use flate2::read::MultiGzDecoder;
 
 use crate::failure::Failure;
+use crate::memory::Memory;
 use crate::path::{self, Compression};
 use crate::progress::ReadMeter;
-
-/// The most bytes that an input may have on systems that do not say how much memory is free.
-const USUAL_BOUND: u64 = 8 << 30;
 
 /// A source that can be read from any place.
 pub trait ReadSeek: Read + Seek + Send + Sync {}
@@ -28,20 +26,21 @@ pub struct Input {
     size: u64,
     /// Bytes that may still be read.
     left: u64,
-    bound: u64,
+    memory: Memory,
     quiet: bool,
 }
 
 impl Input {
     /// Opens a file, or standard input for the path `-`. Files with the extension `.gz` or `.zst` are unpacked.
     pub fn open(path: &Path, quiet: bool) -> Result<Self, Failure> {
-        Self::open_bounded(path, quiet, bound())
+        Self::open_within(path, quiet, Memory::free())
     }
 
-    fn open_bounded(path: &Path, quiet: bool, bound: u64) -> Result<Self, Failure> {
+    fn open_within(path: &Path, quiet: bool, memory: Memory) -> Result<Self, Failure> {
+        let left = memory.input_bytes();
         if path::is_standard(path) {
             let source = Box::new(ReadMeter::new(io::stdin(), 0, quiet));
-            return Ok(Self { source, file: None, size: 0, left: bound, bound, quiet });
+            return Ok(Self { source, file: None, size: 0, left, memory, quiet });
         }
         let file = File::open(path).map_err(|error| unreadable(&error))?;
         let found = file.metadata().map_err(|error| unreadable(&error))?;
@@ -64,13 +63,18 @@ impl Input {
         };
         let is_plain = compression == Compression::None && found.is_file();
         let size = if is_plain { found.len() } else { 0 };
-        Ok(Self { source, file: is_plain.then_some(own), size, left: bound, bound, quiet })
+        Ok(Self { source, file: is_plain.then_some(own), size, left, memory, quiet })
     }
 
-    /// An input that consists of these bytes.
+    /// An input of these bytes, with as much memory as it takes.
     pub fn of_bytes(bytes: &[u8]) -> Self {
+        Self::of_bytes_within(bytes, Memory::ENDLESS)
+    }
+
+    /// An input of these bytes. What is made of it may take so much memory.
+    pub fn of_bytes_within(bytes: &[u8], memory: Memory) -> Self {
         let source = Box::new(Cursor::new(bytes.to_vec()));
-        Self { source, file: None, size: bytes.len() as u64, left: u64::MAX, bound: u64::MAX, quiet: true }
+        Self { source, file: None, size: bytes.len() as u64, left: memory.input_bytes(), memory, quiet: true }
     }
 
     /// The number of bytes of the input, or zero if that is not known before it is read.
@@ -78,21 +82,23 @@ impl Input {
         self.size
     }
 
-    /// The most bytes that the input, or the points in it, may take in memory.
-    pub fn bound(&self) -> u64 {
-        self.bound
+    /// The memory that the input, and what is made of it, may take.
+    pub fn memory(&self) -> Memory {
+        self.memory
     }
 
     /// All bytes of the input.
     pub fn into_bytes(mut self) -> Result<Vec<u8>, Failure> {
-        if self.size > self.bound {
-            return Err(unreadable(&too_large(self.bound)));
+        if self.size > self.memory.input_bytes() {
+            return Err(unreadable(&too_large(self.memory)));
         }
         let mut bytes = Vec::new();
         // With room for one byte more than the file has, reading notices the end without another allocation.
         let room = usize::try_from(self.size).unwrap_or(usize::MAX).saturating_add(1);
-        bytes.try_reserve_exact(room).map_err(|_| unreadable(&too_large(self.bound)))?;
+        bytes.try_reserve_exact(room).map_err(|_| unreadable(&too_large(self.memory)))?;
         self.read_to_end(&mut bytes).map_err(|error| unreadable(&error))?;
+        // A list that grew may have twice the room that it needs.
+        bytes.shrink_to_fit();
         Ok(bytes)
     }
 
@@ -111,7 +117,7 @@ impl Input {
 impl Read for Input {
     fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
         let count = self.source.read(into)?;
-        self.left = self.left.checked_sub(count as u64).ok_or_else(|| too_large(self.bound))?;
+        self.left = self.left.checked_sub(count as u64).ok_or_else(|| too_large(self.memory))?;
         Ok(count)
     }
 }
@@ -140,22 +146,12 @@ pub fn unreadable(error: &io::Error) -> Failure {
     Failure::input(format!("the file cannot be read: {error}"))
 }
 
-fn too_large(bound: u64) -> io::Error {
-    let mebibytes = bound >> 20;
+fn too_large(memory: Memory) -> io::Error {
+    let mebibytes = memory.input_bytes() >> 20;
     io::Error::other(format!(
         "the input has more than {mebibytes} MiB, which is half of the free memory: triangulate a part of it, or use a \
          machine with more memory"
     ))
-}
-
-/// The most bytes that an input may have: half of the memory that is free now, because the points take about as much
-/// again. On Linux the system says how much is free; elsewhere the bound is fixed.
-fn bound() -> u64 {
-    let free = std::fs::read_to_string("/proc/meminfo").ok().and_then(|text| {
-        let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
-        line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()
-    });
-    free.map_or(USUAL_BOUND, |kibibytes| kibibytes * 1024 / 2)
 }
 
 #[cfg(test)]
@@ -165,7 +161,7 @@ mod tests {
     #[test]
     fn an_input_without_an_end_is_refused() {
         let mut input = Input::of_bytes(b"");
-        (input.source, input.left, input.bound) = (Box::new(io::repeat(b'1')), 1 << 20, 1 << 20);
+        (input.source, input.left, input.memory) = (Box::new(io::repeat(b'1')), 1 << 20, Memory::of_bytes(1 << 21));
         let failure = input.into_bytes().expect_err("more than a mebibyte");
         assert!(failure.message.contains("more than 1 MiB"), "{failure}");
     }
@@ -176,16 +172,11 @@ mod tests {
         let packed = zstd::encode_all(io::repeat(b'1').take(1 << 24), 0).expect("memory takes all bytes");
         assert!(packed.len() < 1 << 14);
         std::fs::write(&path, packed).expect("the folder can be written");
-        let read = |bound| Input::open_bounded(&path, true, bound).and_then(Input::into_bytes);
-        let (within, beyond) = (read(1 << 24), read((1 << 24) - 1));
+        let read = |bound| Input::open_within(&path, true, Memory::of_bytes(bound)).and_then(Input::into_bytes);
+        let (within, beyond) = (read(1 << 25), read((1 << 25) - 1));
         std::fs::remove_file(&path).expect("the file was written");
         assert_eq!(within.map(|bytes| bytes.len()), Ok(1 << 24));
         let failure = beyond.expect_err("one byte too many");
         assert!(failure.message.contains("more than 15 MiB"), "{failure}");
-    }
-
-    #[test]
-    fn the_bound_is_some_of_the_memory() {
-        assert!(bound() > 1 << 20, "{}", bound());
     }
 }

@@ -11,6 +11,10 @@ use crate::failure::Failure;
 use crate::number::{self, Decimal};
 use crate::text;
 
+/// The most values that a row may have. The places of the values are kept, at eight bytes each, and a file of commas
+/// must not take eight times its size.
+const MOST_COLUMNS: usize = 1 << 20;
+
 /// The rows of a file that are neither blank nor comments.
 pub struct CsvRows<'a> {
     rest: &'a [u8],
@@ -75,7 +79,10 @@ impl<'a> CsvRows<'a> {
             if has_quotes {
                 self.unquote(row)?;
             } else {
-                self.ends.extend(memchr_iter(self.separator, row));
+                self.ends.extend(memchr_iter(self.separator, row).take(MOST_COLUMNS));
+                if self.ends.len() == MOST_COLUMNS {
+                    return Err(self.too_wide());
+                }
                 self.ends.push(row.len());
             }
             // A blank row has one value, which is blank.
@@ -115,13 +122,20 @@ impl<'a> CsvRows<'a> {
         Some(row)
     }
 
+    fn too_wide(&self) -> Failure {
+        Failure::input(format!("row {} has more than {MOST_COLUMNS} columns", self.row))
+    }
+
     /// Takes the quotes off the values of a row.
     fn unquote(&mut self, row: &[u8]) -> Result<(), Failure> {
         // A row has one value more than separators, and no value grows.
         self.unquoted.resize(row.len() + 1, 0);
-        self.ends.resize(row.len() + 1, 0);
+        self.ends.resize((row.len() + 1).min(MOST_COLUMNS), 0);
         self.reader.reset();
-        let (_, read, written, ended) = self.reader.read_record(row, &mut self.unquoted, &mut self.ends);
+        let (result, read, written, ended) = self.reader.read_record(row, &mut self.unquoted, &mut self.ends);
+        if matches!(result, ReadRecordResult::OutputEndsFull) {
+            return Err(self.too_wide());
+        }
         let (unquoted, ends) = (&mut self.unquoted[written..], &mut self.ends[ended..]);
         let (result, _, _, last) = self.reader.read_record(b"\n", unquoted, ends);
         if read < row.len() || !matches!(result, ReadRecordResult::Record) {
@@ -208,6 +222,23 @@ mod tests {
             }
         }
         assert!(pairs > 500, "{pairs}");
+    }
+
+    #[test]
+    fn rows_of_separators_take_little_memory() {
+        for quote in ["", "\"\""] {
+            let row = |values: usize| quote.to_owned() + &",".repeat(values - 1);
+            let text = row(MOST_COLUMNS);
+            let mut rows = CsvRows::new(text.as_bytes());
+            let count = rows.next().map(|row| row.map(|(_, values)| values.len()));
+            assert_eq!(count, Ok(Some(MOST_COLUMNS)), "{quote}");
+            let text = format!("1,2\n{}", row(8 * MOST_COLUMNS));
+            let mut rows = CsvRows::new(text.as_bytes());
+            assert!(rows.next().is_ok());
+            let failure = rows.next().map(|_| ()).expect_err("too many columns");
+            assert!(failure.message.contains("row 2 has more than 1048576 columns"), "{failure}");
+            assert!(rows.ends.capacity() <= 2 * MOST_COLUMNS, "{}", rows.ends.capacity());
+        }
     }
 
     #[test]

@@ -9,6 +9,7 @@ use std::io::{self, Write};
 use crate::failure::{counted, one_line, quoted, Failure};
 use crate::formats::json_text;
 use crate::formats::mesh_view::MeshView;
+use crate::memory::Memory;
 use crate::points::PointTable;
 use crate::text;
 
@@ -18,12 +19,12 @@ const DEEPEST: usize = 32;
 const OTHERS: [&str; 4] = ["LineString", "MultiLineString", "Polygon", "MultiPolygon"];
 
 /// Reads the points of a file.
-pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
+pub fn read_points(bytes: &[u8], memory: Memory) -> Result<PointTable, Failure> {
     let text = text::utf8(bytes)?;
     if text.trim_ascii().is_empty() {
         return Err(Failure::input("the file is empty: GeoJSON is an object such as a FeatureCollection"));
     }
-    let mut table = PointTable::of_items("point");
+    let mut table = PointTable::of_items("point").within(memory);
     let object = Object::of(text, Place::default())?;
     match (object.kind.as_str(), object.features) {
         ("FeatureCollection", Some(list)) if json_text::is_list(list) => json_text::each(list, |index, feature| {

@@ -9,6 +9,7 @@ use std::io::{self, Write};
 use crate::failure::{quoted, Failure};
 use crate::formats::mesh_view::MeshView;
 use crate::formats::{geojson, json_text};
+use crate::memory::Memory;
 use crate::points::PointTable;
 use crate::text;
 
@@ -17,13 +18,13 @@ const DOUBLES: &str = "doubles";
 
 /// Reads the list `points`, which has pairs of finite numbers, and ignores everything else in the object. An object
 /// without that list, or with the key `type` of GeoJSON, is read as GeoJSON.
-pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
+pub fn read_points(bytes: &[u8], memory: Memory) -> Result<PointTable, Failure> {
     let (list, numbers) = match json_text::fields(text::utf8(bytes)?, ["type", "points", "numbers"]) {
         Ok([None, Some(list), numbers]) if json_text::is_list(list) => (list, numbers),
         Err(error) if !error.is_data() => return Err(json_text::refuse(&error)),
-        _ => return geojson::read_points(bytes),
+        _ => return geojson::read_points(bytes, memory),
     };
-    let mut table = PointTable::of_items("point");
+    let mut table = PointTable::of_items("point").within(memory);
     if numbers.and_then(json_text::string).as_deref() == Some(DOUBLES) {
         table.take_doubles();
     }
@@ -38,7 +39,7 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
 }
 
 /// Reads the list `triangles` and ignores everything else in the object.
-pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
+pub fn read_mesh(bytes: &[u8], memory: Memory) -> Result<Vec<[u32; 3]>, Failure> {
     let fields = json_text::fields(text::utf8(bytes)?, ["triangles"]);
     let [list] = fields.or_else(|error| if error.is_data() { Ok([None]) } else { Err(json_text::refuse(&error)) })?;
     let Some(list) = list.filter(|list| json_text::is_list(list)) else {
@@ -50,8 +51,7 @@ pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
             let shown = quoted(item.as_bytes());
             Failure::input(format!("triangles[{index}] is {shown}, not three point indices"))
         })?;
-        triangles.push(triangle);
-        Ok(())
+        memory.push(&mut triangles, triangle)
     })?;
     Ok(triangles)
 }

@@ -88,20 +88,22 @@ impl PointFormat {
         names_of(Self::value_variants().iter())
     }
 
-    /// Reads the selected points of an input. Every wrong value is refused with its place.
+    /// Reads the selected points of an input. Every wrong value is refused with its place, and more points than the memory
+    /// of the input holds are refused while they are read.
     pub fn read(self, mut input: Input, selection: &Selection) -> Result<PointTable, Failure> {
+        let memory = input.memory();
         match self {
-            Self::Csv => csv::read_points(&some_bytes(input)?),
-            Self::Xyz => xyz::read_points(&some_bytes(input)?),
-            Self::Node => node::read_points(&some_bytes(input)?),
-            Self::Obj => obj::read_points(&some_bytes(input)?),
-            Self::Ply => ply::read_points(&some_bytes(input)?),
-            Self::Geojson => geojson::read_points(&some_bytes(input)?),
-            Self::Json => json::read_points(&some_bytes(input)?),
+            Self::Csv => csv::read_points(&some_bytes(input)?, memory),
+            Self::Xyz => xyz::read_points(&some_bytes(input)?, memory),
+            Self::Node => node::read_points(&some_bytes(input)?, memory),
+            Self::Obj => obj::read_points(&some_bytes(input)?, memory),
+            Self::Ply => ply::read_points(&some_bytes(input)?, memory),
+            Self::Geojson => geojson::read_points(&some_bytes(input)?, memory),
+            Self::Json => json::read_points(&some_bytes(input)?, memory),
             Self::Las => lidar::read_points(input, selection),
             Self::Npy => npy::read_points(array::Source::of_input(&mut input)),
             Self::Npz => npz::read_points(input, selection.array.as_deref()),
-            Self::Wkt => wkt::read_points(&some_bytes(input)?),
+            Self::Wkt => wkt::read_points(&some_bytes(input)?, memory),
         }
     }
 }
@@ -184,12 +186,13 @@ impl MeshFormat {
 
     /// Reads the triangles of a mesh as they stand in the file. Only their form is checked.
     pub fn read(self, mut input: Input) -> Result<Vec<[u32; 3]>, Failure> {
+        let memory = input.memory();
         match self {
-            Self::Ele => ele::read_mesh(&input.into_bytes()?),
-            Self::Obj => obj::read_mesh(&input.into_bytes()?),
-            Self::Ply | Self::PlyBinary => ply::read_mesh(&input.into_bytes()?),
-            Self::Json => json::read_mesh(&input.into_bytes()?),
-            Self::Csv => csv::read_mesh(&input.into_bytes()?),
+            Self::Ele => ele::read_mesh(&input.into_bytes()?, memory),
+            Self::Obj => obj::read_mesh(&input.into_bytes()?, memory),
+            Self::Ply | Self::PlyBinary => ply::read_mesh(&input.into_bytes()?, memory),
+            Self::Json => json::read_mesh(&input.into_bytes()?, memory),
+            Self::Csv => csv::read_mesh(&input.into_bytes()?, memory),
             Self::Npy => npy::read_mesh(array::Source::of_input(&mut input)),
             Self::Vtk | Self::Geojson | Self::Svg => {
                 let readable = Self::names(Self::is_readable);

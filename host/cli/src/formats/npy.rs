@@ -6,6 +6,7 @@
 
 use crate::failure::Failure;
 use crate::formats::array::{Cells, Source, Wanted};
+use crate::memory::Memory;
 use crate::points::{Coordinates, Place, PointTable, Unit};
 use crate::text;
 
@@ -13,14 +14,9 @@ const POINTS: Wanted =
     Wanted { item: "point", widths: &[2, 3], shapes: "(n, 2) or (n, 3)", fields: (&["x", "y", "z"], 2) };
 const TRIANGLES: Wanted = Wanted { item: "triangle", widths: &[3], shapes: "(m, 3)", fields: (&[], 0) };
 
-/// The bytes that a point with its z takes in memory.
-const POINT_BYTES: u64 = 24;
-/// The bytes that a triangle takes in memory.
-const TRIANGLE_BYTES: u64 = 12;
-
 /// Reads the points of an array. The third column is z.
 pub fn read_points(mut source: Source<'_>) -> Result<PointTable, Failure> {
-    let layout = source.open(&POINTS, POINT_BYTES)?;
+    let layout = source.open(&POINTS, Memory::check_points)?;
     let certain = source.certain_rows(&layout);
     let is_whole = |axis| layout.columns().any(|column| column.axis == axis && column.item.is_integer());
     let mut heights = Vec::new();
@@ -44,7 +40,7 @@ pub fn read_points(mut source: Source<'_>) -> Result<PointTable, Failure> {
 
 /// Reads the triangles of an array of integers.
 pub fn read_mesh(mut source: Source<'_>) -> Result<Vec<[u32; 3]>, Failure> {
-    let layout = source.open(&TRIANGLES, TRIANGLE_BYTES)?;
+    let layout = source.open(&TRIANGLES, Memory::check_triangles)?;
     if !layout.columns().all(|column| column.item.is_integer()) {
         return Err(Failure::input("the array holds floats, but triangles are integers: save array.astype('<u4')"));
     }

@@ -16,12 +16,12 @@ const MOST_NAMES: usize = 8;
 
 /// Reads the points of the array of this name, or else of the only array.
 pub fn read_points(input: Input, array: Option<&str>) -> Result<PointTable, Failure> {
-    let bound = input.bound();
+    let memory = input.memory();
     let mut archive = ZipArchive::new(input.into_seekable()?).map_err(|error| refuse(&error))?;
     let names: Vec<String> = archive.file_names().filter_map(|name| array_name(&name.ok()?)).collect();
     let name = choose(&names, array)?;
     let mut entry = archive.by_name(&format!("{name}{ENDING}")).map_err(|error| refuse(&error))?;
-    let table = npy::read_points(Source::of_entry(&mut entry, bound));
+    let table = npy::read_points(Source::of_entry(&mut entry, memory));
     table.map_err(|failure| failure.in_file(format_args!("array {}", quoted(name.as_bytes()))))
 }
 

@@ -9,6 +9,7 @@ use std::io::{self, Write};
 
 use crate::failure::{counted, quoted, Failure};
 use crate::formats::mesh_view::MeshView;
+use crate::memory::Memory;
 use crate::points::{Place, PointTable, DOUBLES};
 use crate::text;
 
@@ -60,8 +61,8 @@ const KEYWORDS: [&str; 42] = [
 ];
 
 /// Reads the vertices of a file as points.
-pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
-    let mut table = PointTable::of_rows([2, 3, 4]);
+pub fn read_points(bytes: &[u8], memory: Memory) -> Result<PointTable, Failure> {
+    let mut table = PointTable::of_rows([2, 3, 4]).within(memory);
     if text::rows(bytes).next().is_some_and(|(_, row)| row == format!("# {DOUBLES}").as_bytes()) {
         table.take_doubles();
     }
@@ -74,7 +75,7 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
 }
 
 /// Reads the faces, which must be triangles.
-pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
+pub fn read_mesh(bytes: &[u8], memory: Memory) -> Result<Vec<[u32; 3]>, Failure> {
     let mut triangles = Vec::new();
     for (row, values) in statements(bytes, b"f")? {
         let mut triangle = [0; 3];
@@ -89,7 +90,7 @@ pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
             let corners = counted(count, "corner");
             return Err(Failure::input(format!("row {row}: the face has {corners}, not 3")));
         }
-        triangles.push(triangle);
+        memory.push(&mut triangles, triangle)?;
     }
     Ok(triangles)
 }

@@ -13,12 +13,13 @@ use ply_rs_bw::parser::{Parser, Reader};
 use ply_rs_bw::ply::{ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType};
 
 use crate::failure::{counted, one_line, quoted, Failure};
+use crate::memory::Memory;
 use crate::points::{PointTable, DOUBLES};
 use crate::text;
 
 /// Reads the vertices of a file as points.
-pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
-    let mut table = PointTable::of_items("vertex");
+pub fn read_points(bytes: &[u8], memory: Memory) -> Result<PointTable, Failure> {
+    let mut table = PointTable::of_items("vertex").within(memory);
     let mut header = text::rows(bytes).map(|(_, row)| row).take_while(|&row| row != b"end_header");
     if header.any(|row| row == format!("comment {DOUBLES}").as_bytes()) {
         table.take_doubles();
@@ -38,7 +39,7 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
 }
 
 /// Reads the faces, which must be triangles.
-pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
+pub fn read_mesh(bytes: &[u8], memory: Memory) -> Result<Vec<[u32; 3]>, Failure> {
     let mut triangles = Vec::new();
     read_element(bytes, "face", |item, index| {
         let number = index + 1;
@@ -53,8 +54,7 @@ pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
             }
             *vertex = corner as u32;
         }
-        triangles.push(triangle);
-        Ok(())
+        memory.push(&mut triangles, triangle)
     })?;
     Ok(triangles)
 }

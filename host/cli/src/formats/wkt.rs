@@ -8,13 +8,14 @@
 //! Source: OGC 06-103r4, "Simple feature access, part 1", chapter 7.
 
 use crate::failure::{quoted, Failure};
+use crate::memory::Memory;
 use crate::points::PointTable;
 use crate::text;
 
 /// Reads the points of all geometries.
-pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
+pub fn read_points(bytes: &[u8], memory: Memory) -> Result<PointTable, Failure> {
     let bytes = text::without_mark(bytes)?;
-    let mut table = PointTable::of_items("point");
+    let mut table = PointTable::of_items("point").within(memory);
     let mut tokens = Tokens { all: bytes, at: 0 };
     // The number of collections that are open.
     let mut depth = 0usize;
@@ -229,17 +230,17 @@ mod tests {
         let text = b"POINT(1 2)\nSRID=4326;point z (3 4.50 -5e0)\nMULTIPOINT ((-1 2), EMPTY, (3 4 9))\n\
                      MultiPointZM(5 6 7 8,9 10 11 12) POINT EMPTY\nGEOMETRYCOLLECTION M (POINT M (1 1 1),\n \
                      GEOMETRYCOLLECTION EMPTY, GEOMETRYCOLLECTION (MULTIPOINT(2 3)))\n";
-        let table = read_points(text).expect("well-known text");
+        let table = read_points(text, Memory::ENDLESS).expect("well-known text");
         let found: Vec<[f64; 2]> = table.doubles().to_vec();
         let expected = [[1., 2.], [3., 4.5], [-1., 2.], [3., 4.], [5., 6.], [9., 10.], [1., 1.], [2., 3.]];
         assert_eq!(found, expected);
-        assert!(read_points(b"").expect("no points").is_empty());
-        assert!(read_points(b"POINT EMPTY").expect("no points").is_empty());
+        assert!(read_points(b"", Memory::ENDLESS).expect("no points").is_empty());
+        assert!(read_points(b"POINT EMPTY", Memory::ENDLESS).expect("no points").is_empty());
     }
 
     #[test]
     fn heights_are_kept_and_measures_are_not() {
-        let heights = |text: &str| read_points(text.as_bytes()).expect("points").heights().to_vec();
+        let heights = |text: &str| read_points(text.as_bytes(), Memory::ENDLESS).expect("points").heights().to_vec();
         assert_eq!(heights("POINT (1 2 3) POINT Z (4 5 6) POINTZM (1 2 7 9)"), [3.0, 6.0, 7.0]);
         assert!(heights("POINT M (1 2 3)").is_empty());
         assert!(heights("POINTM (1 2 3)").is_empty());
@@ -264,7 +265,7 @@ mod tests {
             ("POINT (1 2 x)", "point 1, z: 'x' is not a number"),
             ("POINT Z (1 2)", "point 1, z: the value is missing"),
         ] {
-            let failure = read_points(text.as_bytes()).expect_err(text);
+            let failure = read_points(text.as_bytes(), Memory::ENDLESS).expect_err(text);
             assert!(failure.message.contains(part), "{text}: {failure}");
         }
     }

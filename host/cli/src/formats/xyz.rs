@@ -7,13 +7,14 @@ use std::fmt::Display;
 use std::io::{self, Write};
 
 use crate::failure::{counted, quoted, Failure};
+use crate::memory::Memory;
 use crate::points::PointTable;
 use crate::text;
 
 /// Reads the points of a file.
-pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
+pub fn read_points(bytes: &[u8], memory: Memory) -> Result<PointTable, Failure> {
     let bytes = text::without_mark(bytes)?;
-    let mut table = PointTable::of_rows([1, 2, 3]);
+    let mut table = PointTable::of_rows([1, 2, 3]).within(memory);
     let mut width = 0;
     for (row, content) in text::rows(bytes) {
         let content = text::without_comment(content);

@@ -6,6 +6,7 @@ mod place;
 use std::borrow::Cow;
 
 use crate::failure::{quoted, Failure};
+use crate::memory::Memory;
 use crate::number::{self, Coordinate, Decimal, Number};
 use crate::text;
 
@@ -33,6 +34,7 @@ pub struct PointTable {
     has_fraction: bool,
     /// Whether the numbers of the text stand for the doubles nearest to them, as a mark in the file says.
     takes_doubles: bool,
+    memory: Memory,
     /// Coordinates that were rounded to the nearest double when they were added.
     rounded: usize,
 }
@@ -64,6 +66,7 @@ impl PointTable {
             beyond: None,
             has_fraction: false,
             takes_doubles: false,
+            memory: Memory::ENDLESS,
             rounded: 0,
         }
     }
@@ -86,6 +89,11 @@ impl PointTable {
         }
     }
 
+    /// The table, which refuses more points than this memory holds.
+    pub fn within(self, memory: Memory) -> Self {
+        Self { memory, ..self }
+    }
+
     /// Adds a point as it is written. Rows are counted from 1; a table of items ignores them. Anything but two finite
     /// numbers is refused with its place.
     pub fn push(&mut self, point: [&[u8]; 2], row: usize) -> Result<(), Failure> {
@@ -102,17 +110,18 @@ impl PointTable {
                 Number::Double(_) => self.has_fraction = true,
             }
         }
-        self.add_row(row);
+        self.add_row(row)?;
         self.rounded += self.coordinates.push(numbers);
         Ok(())
     }
 
     /// Adds a point of decimals, from a text row.
     #[inline]
-    pub fn push_decimals(&mut self, point: [Decimal; 2], row: usize) {
+    pub fn push_decimals(&mut self, point: [Decimal; 2], row: usize) -> Result<(), Failure> {
         self.has_fraction |= point[0].digits | point[1].digits > 0;
-        self.add_row(row);
+        self.add_row(row)?;
         self.rounded += self.coordinates.push(point.map(Number::Decimal));
+        Ok(())
     }
 
     /// Adds a point of doubles, from a file that stores doubles. Values that are not finite are refused.
@@ -121,7 +130,7 @@ impl PointTable {
             return Err(text::not_finite(&format!("'{}'", point[axis]), self.next_place(axis, row)));
         }
         self.has_fraction = true;
-        self.add_row(row);
+        self.add_row(row)?;
         self.rounded += self.coordinates.push_doubles(point);
         Ok(())
     }
@@ -162,11 +171,13 @@ impl PointTable {
         }
     }
 
-    fn add_row(&mut self, row: usize) {
+    #[inline]
+    fn add_row(&mut self, row: usize) -> Result<(), Failure> {
         let index = self.len();
         if let Origin::Rows(rows) = &mut self.origin {
             rows.push(index, row);
         }
+        self.memory.check_points(index as u64 + 1)
     }
 
     fn beyond_at(&self, point: [&[u8]; 2], axis: usize, row: usize) -> String {

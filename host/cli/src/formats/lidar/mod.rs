@@ -28,7 +28,7 @@ const BLOCK_BYTES: usize = 1 << 18;
 
 /// Reads the selected points of a file.
 pub fn read_points(input: Input, selection: &Selection) -> Result<PointTable, Failure> {
-    let memory = input.bound();
+    let memory = input.memory();
     let mut source = input.into_seekable()?;
     let header = header::read(&mut *source)?;
     let mut sieve = Sieve::new(&header, selection, memory);

@@ -4,14 +4,12 @@ use std::cmp::Ordering;
 
 use crate::failure::Failure;
 use crate::formats::selection::{Bounds, Selection};
+use crate::memory::Memory;
 use crate::number;
 use crate::points::{Coordinates, PointTable};
 
 use super::header::{refuse, Header};
 use super::scale::{Plane, Scale};
-
-/// Bytes that a point takes in memory: two coordinates and a height.
-const POINT_BYTES: u64 = 24;
 
 /// The selection, and the points taken so far.
 pub struct Sieve {
@@ -37,8 +35,8 @@ enum Points {
 }
 
 impl Sieve {
-    /// Makes the sieve of a file. Its points may take as many bytes as `memory`.
-    pub fn new(header: &Header, selection: &Selection, memory: u64) -> Self {
+    /// Makes the sieve of a file. Its points must fit the memory.
+    pub fn new(header: &Header, selection: &Selection, memory: Memory) -> Self {
         let scale = Scale::of(header);
         let within = match &selection.bounds {
             Some(bounds) => [0, 1].map(|axis| within(&scale, bounds, axis)),
@@ -60,7 +58,7 @@ impl Sieve {
             points,
             heights: Vec::new(),
             seen: 0,
-            most: memory / POINT_BYTES,
+            most: memory.most_points(),
         }
     }
 
@@ -97,7 +95,7 @@ impl Sieve {
         if self.heights.len() as u64 > self.most {
             let most = self.most;
             return Err(refuse(format!(
-                "the file has more than {most} points, which take half of the free memory: select some with --class \
+                "the file has more than {most} points, which is what the free memory holds: select some with --class \
                  or --bounds, or use a machine with more memory"
             )));
         }
