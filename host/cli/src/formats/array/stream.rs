@@ -29,8 +29,8 @@ impl<'a> Source<'a> {
         Self { bytes, size: None, memory }
     }
 
-    /// Reads the header. Refuses an array with more rows than `check` lets pass, and one whose file has another length than
-    /// its header promises.
+    /// Reads the header. Refuses an array with more rows than `check` lets pass, and one whose file has another length
+    /// than its header promises.
     pub fn open(&mut self, wanted: &Wanted, check: fn(Memory, u64) -> Result<(), Failure>) -> Result<Layout, Failure> {
         let (layout, header_bytes) = Layout::read(self.bytes, wanted)?;
         if let Some(size) = self.size {
