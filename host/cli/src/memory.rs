@@ -115,7 +115,7 @@ fn group_of(root: &Path) -> Option<u64> {
     left.min()
 }
 
-/// The memory that one control group leaves. Files that the system keeps in memory only to read them again count as free.
+/// The memory that one control group leaves. The pages of files that nobody used for a while count as free.
 fn left_in(folder: &Path, [limit, used, cached]: [&str; 3]) -> Option<u64> {
     let limit = number_behind(&folder.join(limit), "")?;
     let used = number_behind(&folder.join(used), "").unwrap_or(0);
@@ -153,7 +153,7 @@ mod tests {
     fn the_least_limit_counts() {
         let machine = ("proc/meminfo", "MemTotal: 9000000 kB\nMemAvailable:    2097152 kB\n".to_owned());
         assert_eq!(free("none", &[]), None);
-        assert_eq!(free("machine", &[machine.clone()]), Some(2048 * MIB));
+        assert_eq!(free("machine", std::slice::from_ref(&machine)), Some(2048 * MIB));
         let status = ("proc/self/status", "Name: x\nVmSize:\t  102400 kB\n".to_owned());
         let limits =
             |soft: &str| ("proc/self/limits", format!("Limit\nMax address space   {soft}   unlimited   bytes\n"));

@@ -1,8 +1,8 @@
 //! The lattice of a point set: whole steps of one length in which all its coordinates are integers.
 //!
 //! Triangulation in integers of up to 32 bits is the fastest, so a lattice is looked for first: the coordinates are
-//! whole numbers, or else multiples of a power of two below 1. A set without a lattice is triangulated on its doubles or
-//! long integers, exactly as well.
+//! whole numbers, or else multiples of a power of two below 1. A set without a lattice is triangulated on its doubles
+//! or long integers, exactly as well.
 
 use alloc::borrow::Cow;
 use alloc::vec::Vec;
@@ -104,8 +104,8 @@ impl Lattice {
     }
 
     /// The lattice of doubles, and the points on it: whole numbers if all are, else multiples of the largest power of
-    /// two, which is below 1, of which all are. `None` if a coordinate is infinite or not a number, or 9.2e18 steps or more in
-    /// magnitude, or if a span is 2^32 steps or more.
+    /// two, which is below 1, of which all are. `None` if a coordinate is infinite or not a number, or 9.2e18 steps or
+    /// more in magnitude, or if a span is 2^32 steps or more.
     pub fn of_doubles(points: &[[f64; 2]]) -> Option<(Self, Vec<Point>)> {
         let exponent = least_exponent(points)?;
         let step = if exponent == 0 { Step::Whole } else { Step::Binary { exponent } };
@@ -117,8 +117,8 @@ impl Lattice {
         Self::of_integers(&points?, step)
     }
 
-    /// The coordinates of a grid point as doubles. Points of the set that the lattice was made of have their coordinates
-    /// back, if these were doubles. Coordinates with more than 53 bits are rounded.
+    /// The coordinates of a grid point as doubles. Points of the set that the lattice was made of have their
+    /// coordinates back, if these were doubles. Coordinates with more than 53 bits are rounded.
     pub fn restore(&self, point: Point) -> [f64; 2] {
         self.steps(point).map(|steps| match self.step {
             Step::Whole => steps as f64,

@@ -160,7 +160,7 @@ impl PointTable {
     /// The sentence about a z that only some points have, and that is left out for that reason.
     pub fn left_out(&self) -> Option<String> {
         let index = self.without_height.filter(|_| self.has_height)?;
-        Some(format!("z is left out: {} has none", self.place(index, 2).owner()))
+        Some(format!("z is left out: {} has none", self.place(index, 2).item()))
     }
 
     /// The table, once all points are in it. Whole numbers beyond 64 bits are refused unless the set has fractions.
@@ -216,8 +216,8 @@ impl PointTable {
         self.coordinates.doubles()
     }
 
-    /// The number of coordinates that are rounded in [`doubles`](Self::doubles). Those of a file that stores doubles are
-    /// not.
+    /// The number of coordinates that are rounded in [`doubles`](Self::doubles). Those of a file that stores doubles
+    /// are not.
     pub fn rounded(&self) -> usize {
         self.rounded + self.coordinates.count_no_doubles()
     }

@@ -25,7 +25,7 @@ pub enum Place {
 
 impl Place {
     /// The row or the item without the coordinate, for messages.
-    pub fn owner(&self) -> String {
+    pub fn item(&self) -> String {
         match self {
             Self::Cell { row, .. } => format!("row {row}"),
             Self::Item { name, number, .. } => format!("{name} {number}"),

@@ -27,6 +27,9 @@ const TABLE_HEAD: u64 = 8;
 const TABLE_ROOM: u64 = 64;
 /// An upper bound for the bytes of an entry of the table, which has a number of bytes and a number of points.
 const ENTRY_ROOM: u64 = 32;
+/// More points than a byte of layers can hold. Each point has a symbol of a model in which all symbols together count
+/// up to 2^15 and each of the others at least 1, so the most frequent one of 128 still takes 0.0056 bits.
+const POINTS_OF_BYTE: u64 = 2048;
 /// The number of records that are decoded at once.
 const BLOCK: usize = 1024;
 
@@ -141,13 +144,17 @@ fn shares(total: u64, size: u64, count: u64) -> Option<Vec<u64>> {
     Some((0..count).map(|index| size.min(total.saturating_sub(index * size))).collect())
 }
 
-/// Refuses a layered chunk whose own count of points differs from `chunk`, or whose layers do not fill its bytes.
+/// Refuses a layered chunk whose own count of points differs from `chunk` or is too large for its bytes, or whose layers
+/// do not fill its bytes.
 fn check_layers(bytes: &[u8], chunk: &Chunk, header: &Header, packing: &Packing) -> Result<(), String> {
     let word = |place: usize| bytes.get(place..place + 4)?.try_into().ok().map(u32::from_le_bytes);
     let first = header.record_bytes;
     let count = word(first).ok_or("its first point is cut off")?;
     if u64::from(count) != chunk.points {
         return Err(format!("it has {count} points, but the header promises {}", chunk.points));
+    }
+    if chunk.points > chunk.bytes.saturating_mul(POINTS_OF_BYTE) {
+        return Err(format!("its {} bytes are too few for {count} points", chunk.bytes));
     }
     let layers = first + 4..first + 4 + 4 * packing.layers;
     let sizes = layers.clone().step_by(4).map(|place| word(place).map(u64::from));

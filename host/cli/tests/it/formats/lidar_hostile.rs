@@ -152,6 +152,23 @@ fn spoilt_files_never_panic() {
 }
 
 #[test]
+fn few_bytes_do_not_promise_many_points() {
+    let (name, file) = &samples()[3];
+    let start = word(file, 96);
+    // The size of a chunk stands in the record about the packing, the count of the points in the only chunk itself.
+    let size = (227..start).find(|&place| word(file, place) == 50_000).expect("the usual size of a chunk");
+    let count = (start + 8..file.len() - 4).find(|&place| word(file, place) == 300).expect("the count");
+    let many = u32::MAX - 1;
+    let file = with(&with(file, size, &many.to_le_bytes()), count, &many.to_le_bytes());
+    refuse(name, with_count(&file, many.into()), &["chunk 1 of", "too few for 4294967294 points"]);
+    // A file of one place is packed as tightly as can be.
+    let stored = vec![([7, 7, 7], 2); 400_000];
+    let packed = write(4, 6, true, AXES, &stored);
+    assert!(packed.len() < 60_000, "{} bytes", packed.len());
+    assert_eq!(read(&packed).map(|table| table.len()), Ok(400_000));
+}
+
+#[test]
 fn damage_is_reported_with_its_chunk() {
     let scratch = Scratch::new();
     let [.., (name, file)] = samples();

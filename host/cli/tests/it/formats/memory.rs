@@ -67,7 +67,7 @@ fn no_reader_takes_more_triangles_than_fit() {
         (MeshFormat::Obj, rows("f 1 2 3\n")),
         (MeshFormat::Ply, [head.as_bytes(), &rows("3 0 1 2\n")].concat()),
         (MeshFormat::Csv, rows("0,1,2\n")),
-        (MeshFormat::Json, format!("{{\"triangles\":[{}]}}", vec!["[0,1,2]"; 8].join(",")).into_bytes()),
+        (MeshFormat::Json, format!("{{\"triangles\":[{}]}}", ["[0,1,2]"; 8].join(",")).into_bytes()),
         (
             MeshFormat::Npy,
             [b"\x93NUMPY\x01\x00".as_slice(), &[array.len() as u8, 0], array.as_bytes(), &[1; 24]].concat(),
