@@ -60,7 +60,7 @@ pub fn read_mesh(bytes: &[u8], memory: Memory) -> Result<Vec<[u32; 3]>, Failure>
 pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
     write!(out, "{{")?;
     if mesh.points.needs_mark() {
-        write!(out, "\"numbers\":\"{DOUBLES}\",\n")?;
+        writeln!(out, "\"numbers\":\"{DOUBLES}\",")?;
     }
     write!(out, "\"points\":")?;
     write_list(out, mesh.positions().map(|([x, y], _)| format!("[{x},{y}]")))?;
