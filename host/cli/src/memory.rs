@@ -25,7 +25,7 @@ impl Memory {
     /// More memory than anything takes.
     pub const ENDLESS: Self = Self { bytes: u64::MAX };
 
-    /// So many bytes.
+    /// A memory of this many bytes.
     pub fn of_bytes(bytes: u64) -> Self {
         Self { bytes }
     }

@@ -117,7 +117,7 @@ fn some_hostile_sets_have_the_mesh_of_the_definition() {
 }
 
 #[test]
-#[ignore = "takes about a minute in release builds, and longer in others"]
+#[ignore = "takes a minute and a half in release builds, and longer in others"]
 fn all_hostile_sets_have_the_mesh_of_the_definition() {
     compare(82, 12_000, SMALL);
     compare(84, 300, MIDDLE);
