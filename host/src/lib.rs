@@ -44,8 +44,8 @@
 //!
 //! # Many small sets
 //!
-//! A [`Triangulator`] computes one small set after the other on the calling thread. The triangulator and the mesh keep
-//! their memory, so a set that has no more points than an earlier one allocates nothing.
+//! A [`Triangulator`] triangulates one small set after the other on the calling thread. The triangulator and the mesh
+//! keep their memory: a set of at most 2^21 points that has no more points than an earlier one allocates nothing.
 //!
 //! ```
 //! use incircle::{Mesh, Point, Triangulator};
@@ -145,9 +145,9 @@ pub mod order {
 /// Triangulates a set of points with the CPU triangulator, on all processors if the set is large.
 ///
 /// Points may be [`Point`]s, or pairs and arrays of `u32`, `i32`, `i64`, `f32` or `f64`: [`PlanePoint`] lists all
-/// types, among them those of the crate `glam` and, with the feature `geo-types`, of that crate. Each coordinate is
-/// taken as the exact number that it is. For another number of threads, a time limit or progress, open a [`Device`]
-/// instead. O(n) on even sets, O(n w) at worst with coordinates of `w` bits.
+/// types, among them those of the crate `glam` and, with the feature `geo-types`, of the crate `geo-types`. Each
+/// coordinate is taken as the exact number that it is. For another number of threads, a time limit or progress, open a
+/// [`Device`] instead. The cost is O(n) on even sets, and O(n w) at worst with coordinates of `w` bits.
 ///
 /// ```
 /// let mesh = incircle::triangulate(&[(0, 0), (9, 0), (3, 5), (9, 9)])?;

@@ -1,16 +1,16 @@
-//! Benchmarks of reading points: bytes a second of each format, on one thread, from memory.
+//! Benchmarks the reading of points from memory, on one thread. The figures are bytes a second for each format.
 //!
 //! `cargo bench -p incircle-cli --bench reading` prints the figures.
 
 use criterion::{criterion_group, criterion_main, Criterion, Throughput};
 use incircle_cli::formats::{csv, wkt, xyz};
 use incircle_cli::generate::SplitMix64;
-use incircle_cli::{Failure, PointTable};
+use incircle_cli::{Failure, Memory, PointTable};
 
-/// Points of a file.
+/// The number of points in a file.
 const POINTS: usize = 1_000_000;
 
-type Read = fn(&[u8]) -> Result<PointTable, Failure>;
+type Read = fn(&[u8], Memory) -> Result<PointTable, Failure>;
 
 /// A file whose rows are made from two random numbers of 24 bits.
 fn file(row: impl Fn(u64, u64) -> String) -> String {
@@ -43,7 +43,7 @@ fn reading(criterion: &mut Criterion) {
     group.sample_size(10);
     for (name, read, text) in &files {
         group.throughput(Throughput::Bytes(text.len() as u64));
-        group.bench_function(*name, |bencher| bencher.iter(|| read(text.as_bytes())));
+        group.bench_function(*name, |bencher| bencher.iter(|| read(text.as_bytes(), Memory::ENDLESS)));
     }
     group.finish();
 }

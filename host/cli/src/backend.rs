@@ -13,7 +13,7 @@ use crate::arguments::{BackendArguments, ConfigName, GridArguments, JobArguments
 use crate::failure::{failure_of, Exit, Failure};
 use crate::lattice::{Laid, Numbers};
 
-/// Bits of a coordinate of a model, unless its address says otherwise; the most that it can have.
+/// Bits of a coordinate of a model whose address names none, and the most that a model can have.
 pub const MODEL_COORD_BITS: u32 = 31;
 /// The smallest capacity that a model is made with.
 const LEAST_CAPACITY: usize = 4;
@@ -135,8 +135,8 @@ impl Choice {
         Ok(choice)
     }
 
-    /// The back end for points of a file. Coordinates have the bits of `--coord-bits` or of the address, or else the
-    /// most that the software takes, and [`CORE_COORD_BITS`] for a core.
+    /// The back end for points of a file. Coordinates have the bits of `--coord-bits` or of the address. If neither
+    /// names a number, they have [`MODEL_COORD_BITS`] in software and [`CORE_COORD_BITS`] in a core.
     pub fn for_points(arguments: &BackendArguments, grid: &GridArguments, default: &str) -> Result<Self, Failure> {
         let mut choice = Self::of(arguments, grid.checked()?.coord_bits, default)?;
         if choice.is_software() && bits_in(&choice.address).or(grid.coord_bits).is_none() {
@@ -155,7 +155,8 @@ impl Choice {
         }
     }
 
-    /// The points that the back end must hold for a job. A core counts distinct points, because it is small.
+    /// The number of points that the back end must hold for a job. For a core only distinct points count, because a
+    /// core is small.
     pub fn room_for(&self, numbers: &Numbers<'_>) -> usize {
         match numbers {
             Numbers::Grid(points) if self.is_core() => count_distinct(points),
@@ -192,9 +193,9 @@ fn once<T>(in_address: Option<T>, argument: Option<T>, name: &str) -> Result<Opt
 
 /// Opens the back end for jobs of up to `room` points, or, without that number, as large as possible.
 ///
-/// A model counts all points, a core distinct ones. A core in simulation has the chosen configuration, or else the
-/// smallest one that holds the points. The waveform of the back end `sim` goes to the file `trace`. Greeting a board
-/// takes no longer than `timeout`.
+/// For a model all points count, for a core distinct ones. A core in simulation has the chosen configuration, or else
+/// the smallest one that holds the points. The waveform of the back end `sim` goes to the file `trace`. Greeting a
+/// board takes no longer than `timeout`.
 pub fn open_with_room(
     choice: &Choice,
     room: Option<usize>,

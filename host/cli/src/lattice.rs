@@ -1,4 +1,5 @@
-//! The step from the numbers of a file to those that are triangulated, without rounding unless the user asks.
+//! From the numbers of a file to the numbers that are triangulated: the lattice of the points or, if the user asks for
+//! rounding, a grid.
 
 use std::borrow::Cow;
 
@@ -34,11 +35,11 @@ impl Numbers<'_> {
 pub struct Laid<'a> {
     /// All points, in input order.
     pub numbers: Numbers<'a>,
-    /// What the numbers are.
+    /// The kind of numbers.
     pub kind: Kind,
     /// Bits of the larger span, in steps; `None` for doubles, which have no steps.
     pub bits: Option<u32>,
-    /// The coordinates of the place from which steps are counted, for the report; `null` for doubles.
+    /// The coordinates of the place from which steps are counted, as JSON; `null` for doubles.
     pub offset: Value,
 }
 
@@ -47,13 +48,14 @@ pub struct Laid<'a> {
 pub enum Kind {
     /// Whole numbers.
     Whole,
-    /// Whole numbers of steps of this length, which is a decimal: a factor, and digits behind the point.
-    Decimal(i64, u32),
-    /// Whole numbers of steps of a power of two with this exponent.
+    /// Whole numbers of steps. The length of a step is the decimal `factor * 10^exponent`, with factor and exponent in
+    /// this order.
+    Decimal(i64, i32),
+    /// Whole numbers of steps. The length of a step is the power of two with this exponent.
     Binary(i32),
-    /// The doubles of the file, or those that are nearest to its decimals.
-    Doubles,
-    /// Points of a grid onto which the user had the points laid, with rounding.
+    /// The doubles in the file, or the doubles nearest to its decimals, with the number of coordinates that were rounded.
+    Doubles(usize),
+    /// Points of a grid, onto which the points of the file were rounded by `--quantize`.
     Quantized(Quantization),
 }
 
@@ -70,22 +72,37 @@ impl Laid<'_> {
     pub fn to_json(&self) -> Value {
         let (kind, scale) = match &self.kind {
             Kind::Whole => ("whole", json!(1)),
-            &Kind::Decimal(factor, digits) => ("decimal", json!(crate::number::nearest(factor.into(), digits))),
-            &Kind::Binary(exponent) => ("binary", json!(2f64.powi(exponent))),
-            Kind::Doubles => ("doubles", Value::Null),
+            &Kind::Decimal(factor, exponent @ ..=0) => {
+                ("decimal", json!(crate::number::nearest(factor.into(), exponent.unsigned_abs())))
+            }
+            &Kind::Decimal(factor, exponent) => ("decimal", json!(factor * 10i64.pow(exponent.unsigned_abs()))),
+            &Kind::Binary(exponent) => ("binary", json!(Step::Binary { exponent }.length())),
+            Kind::Doubles(_) => ("doubles", Value::Null),
             Kind::Quantized(quantization) => ("quantized", json!(1.0 / quantization.scale)),
         };
-        json!({ "kind": kind, "scale": scale, "offset": self.offset, "bits": self.bits })
+        let rounded = match self.kind {
+            Kind::Doubles(rounded) => json!(rounded),
+            // The report of the quantisation has the largest error.
+            Kind::Quantized(_) => Value::Null,
+            _ => json!(0),
+        };
+        json!({ "kind": kind, "scale": scale, "offset": self.offset, "bits": self.bits, "rounded": rounded })
     }
 
     /// The line of the report for people.
     pub fn line(&self) -> String {
         let steps = match &self.kind {
             Kind::Whole => "lattice: whole numbers".to_owned(),
-            &Kind::Decimal(1, digits) => format!("lattice: decimals, steps of 1e-{digits}"),
-            &Kind::Decimal(factor, digits) => format!("lattice: decimals, steps of {factor}e-{digits}"),
+            Kind::Decimal(factor, exponent) => format!("lattice: decimals, steps of {factor}e{exponent}"),
             Kind::Binary(exponent) => format!("lattice: steps of 2^{exponent}"),
-            Kind::Doubles => return "lattice: none of up to 32 bits; exact on the doubles".to_owned(),
+            Kind::Doubles(0) => return "lattice: none of up to 32 bits; exact on the doubles".to_owned(),
+            &Kind::Doubles(rounded) => {
+                let are = if rounded == 1 { "is" } else { "are" };
+                return format!(
+                    "lattice: none of up to 32 bits; exact on the nearest doubles ({} {are} rounded to them)",
+                    counted(rounded, "coordinate")
+                );
+            }
             Kind::Quantized(q) => {
                 let ([x, y], merged) = (q.offset, counted(q.merged, "point"));
                 return format!(
@@ -101,13 +118,19 @@ impl Laid<'_> {
         format!("{steps}, {}", counted(self.bits.unwrap_or_default() as usize, "bit"))
     }
 
-    /// Refuses points that a device with coordinates of `coord_bits` bits cannot take, with both ways out.
+    /// Refuses points that a device with coordinates of `coord_bits` bits cannot take. The message names both remedies.
     pub fn check_bits(&self, coord_bits: u32, device: &str) -> Result<(), Failure> {
         let have = match (&self.numbers, self.bits) {
             (Numbers::Grid(_), Some(bits)) if bits <= coord_bits => return Ok(()),
             (_, Some(bits)) => format!("the {} need {}", self.noun(), counted(bits as usize, "bit")),
             (_, None) => "the points lie on no lattice of up to 32 bits".to_owned(),
         };
+        if let Kind::Quantized(_) = self.kind {
+            return Err(Failure::input(format!(
+                "{have} after --quantize, but {device} has coordinates of {coord_bits} bits: give --coord-bits \
+                 {coord_bits}"
+            )));
+        }
         Err(Failure::input(format!(
             "{have}, but {device} has coordinates of {coord_bits} bits: give --backend cpu, which takes them exactly, \
              or --quantize fit, which rounds them"
@@ -117,26 +140,30 @@ impl Laid<'_> {
     fn noun(&self) -> String {
         match &self.kind {
             Kind::Whole => "whole numbers of the points".to_owned(),
-            &Kind::Decimal(1, digits) => format!("steps of 1e-{digits} in which the points lie"),
-            &Kind::Decimal(factor, digits) => format!("steps of {factor}e-{digits} in which the points lie"),
+            Kind::Decimal(factor, exponent) => format!("steps of {factor}e{exponent} in which the points lie"),
             Kind::Binary(exponent) => format!("steps of 2^{exponent} in which the points lie"),
-            Kind::Doubles | Kind::Quantized(_) => "points".to_owned(),
+            Kind::Doubles(_) | Kind::Quantized(_) => "points".to_owned(),
         }
     }
 }
 
-/// Finds the lattice of the points. The first that fits is taken: whole numbers, steps of a power of ten, steps of a
-/// power of two, each with spans below 2^32; else whole numbers of 64 bits, or doubles. With `how` the points are laid
-/// onto a grid of that many bits instead.
+/// Finds the lattice of the points. The first that fits is taken: whole numbers, steps of a power of ten (above 1 where
+/// whole numbers do not fit), steps of a power of two, each with spans below 2^32 steps. Without a lattice the points are
+/// whole numbers of 64 bits, or doubles. Steps of a power of two are tried only if every number is a double, so that no
+/// rounded number passes for the one in the file. If `how` is given, the points are laid onto a grid of that many bits
+/// instead.
 pub fn lay(table: &PointTable, how: Option<(Quantize, u32)>) -> Result<Laid<'_>, Failure> {
     if let Some((how, coord_bits)) = how {
         return lay_onto_grid(table, how, coord_bits);
     }
     match table.coordinates() {
         Coordinates::Steps { steps, unit } => {
-            let kind = if unit.is_whole() { Kind::Whole } else { Kind::Decimal(unit.factor, unit.digits) };
+            let kind = if unit.is_whole() { Kind::Whole } else { Kind::Decimal(unit.factor, -(unit.digits as i32)) };
             if let Some((lattice, grid)) = Lattice::of_integers(steps, Step::Whole) {
                 return Ok(on_lattice(grid, &lattice, kind, |steps, axis| decimal_json(unit, steps, axis)));
+            }
+            if let Some(laid) = lay_on_tens(steps).filter(|_| unit.is_whole()) {
+                return Ok(laid);
             }
             if is_taken_wide(unit) {
                 let numbers = Numbers::Whole(Cow::Borrowed(steps));
@@ -146,31 +173,51 @@ pub fn lay(table: &PointTable, how: Option<(Quantize, u32)>) -> Result<Laid<'_>,
         }
         Coordinates::Doubles(_) => {}
     }
-    let doubles = table.doubles();
-    let Some((lattice, grid)) = Lattice::of_doubles(&doubles) else {
-        return Ok(Laid { numbers: Numbers::Doubles(doubles), kind: Kind::Doubles, bits: None, offset: Value::Null });
+    let (doubles, rounded) = (table.doubles(), table.rounded());
+    // A lattice of rounded numbers is not that of the file.
+    let found = if rounded == 0 { Lattice::of_doubles(&doubles) } else { None };
+    let Some((lattice, grid)) = found else {
+        let (numbers, kind) = (Numbers::Doubles(doubles), Kind::Doubles(rounded));
+        return Ok(Laid { numbers, kind, bits: None, offset: Value::Null });
     };
-    let (kind, scale) = match lattice.step {
-        Step::Binary { exponent } => (Kind::Binary(exponent), 2f64.powi(exponent)),
-        _ => (Kind::Whole, 1.0),
+    let kind = match lattice.step {
+        Step::Binary { exponent } => Kind::Binary(exponent),
+        _ => Kind::Whole,
     };
-    Ok(on_lattice(grid, &lattice, kind, |steps, _| json!(steps as f64 * scale)))
+    Ok(on_lattice(grid, &lattice, kind, |steps, _| json!(steps as f64 * lattice.step.length())))
 }
 
-/// Points on a lattice of up to 32 bits; `value` gives the coordinate of a number of steps on an axis.
+/// Whole numbers on a lattice whose steps are a power of ten above 1.
+fn lay_on_tens(steps: &[[i64; 2]]) -> Option<Laid<'static>> {
+    let mut exponent = 18;
+    for value in steps.iter().flatten() {
+        while value % 10i64.pow(exponent) != 0 {
+            exponent -= 1;
+        }
+        if exponent == 0 {
+            return None;
+        }
+    }
+    let power = 10i64.pow(exponent);
+    let multiples: Vec<_> = steps.iter().map(|point| point.map(|value| value / power)).collect();
+    let (lattice, grid) = Lattice::of_integers(&multiples, Step::Whole)?;
+    Some(on_lattice(grid, &lattice, Kind::Decimal(1, exponent as i32), |multiple, _| json!(multiple * power)))
+}
+
+/// Makes the points of a lattice of up to 32 bits. `value` gives the coordinate for a number of steps on an axis.
 fn on_lattice(grid: Vec<Point>, lattice: &Lattice, kind: Kind, value: impl Fn(i64, usize) -> Value) -> Laid<'static> {
     let [x, y] = lattice.offset;
     let offset = json!([value(x, 0), value(y, 1)]);
     Laid { numbers: Numbers::Grid(grid), kind, bits: Some(lattice.bits), offset }
 }
 
-/// Whether steps are taken as they are even if their span is 2^32 or more. Decimals of a text are not: the nearest
-/// doubles, which usually were printed there, are quicker.
+/// Whether the points stay in steps even if a span is 2^32 steps or more. Decimals of a text do not: they usually are
+/// printed doubles, and the nearest doubles are quicker to triangulate.
 fn is_taken_wide(unit: &Unit) -> bool {
-    unit.is_whole() || *unit != Unit::of_digits(unit.digits)
+    unit.is_whole() || unit.is_stored
 }
 
-/// Bits of the larger span of points with at least one axis.
+/// The bits of the larger span of the points, in steps.
 fn wide_bits(steps: &[[i64; 2]]) -> u32 {
     let span = |axis: usize| {
         let values = || steps.iter().map(|point| point[axis]);
@@ -214,49 +261,4 @@ fn refuse(error: &Error, table: &PointTable) -> Failure {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn table(points: &[[&str; 2]]) -> PointTable {
-        let mut table = PointTable::of_rows([1, 2]);
-        for (index, point) in points.iter().enumerate() {
-            table.push(point.map(str::as_bytes), index + 1).expect("numbers");
-        }
-        table
-    }
-
-    fn lattice(points: &[[&str; 2]]) -> Value {
-        lay(&table(points), None).expect("finite numbers").to_json()
-    }
-
-    #[test]
-    fn the_first_lattice_that_fits_is_taken() {
-        let lattice_of = |points: &[[&str; 2]]| {
-            let found = lattice(points);
-            (found["kind"].clone(), found["scale"].clone(), found["offset"].clone(), found["bits"].clone())
-        };
-        let whole = lattice_of(&[["-363", "4"], ["7.0", "5"]]);
-        assert_eq!(whole, ("whole".into(), 1.into(), json!([-363, 4]), 9.into()));
-        let decimal = lattice_of(&[["-101.473911", "33"], ["5", "0.1"]]);
-        assert_eq!(decimal, ("decimal".into(), 1e-6.into(), json!([-101.473911, 0.1]), 27.into()));
-        // So many digits are too long for steps of a power of ten, but the number is 2^-25.
-        let binary = lattice_of(&[["0.0000000298023223876953125", "1"], ["0.5", "2"]]);
-        assert_eq!(binary, ("binary".into(), 2f64.powi(-25).into(), json!([2f64.powi(-25), 1.0]), 26.into()));
-        let doubles = lattice_of(&[["0.12345678901234567", "1e-5"], ["3", "2"]]);
-        assert_eq!(doubles, ("doubles".into(), Value::Null, Value::Null, Value::Null));
-        let wide = lattice_of(&[["9007199254740993", "0"], ["-4", "0"]]);
-        assert_eq!(wide, ("whole".into(), 1.into(), json!([0, 0]), 54.into()));
-    }
-
-    #[test]
-    fn a_device_refuses_what_it_cannot_hold() {
-        let table = table(&[["0", "0.5"], ["70000", "1"]]);
-        let laid = lay(&table, None).expect("decimals");
-        assert!(laid.check_bits(20, "model").is_ok());
-        let failure = laid.check_bits(16, "clock").expect_err("20 bits");
-        assert_eq!(failure.exit, Exit::Input);
-        for part in ["20 bits", "clock", "16 bits", "--backend cpu", "--quantize"] {
-            assert!(failure.message.contains(part), "{failure}");
-        }
-    }
-}
+mod tests;

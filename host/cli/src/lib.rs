@@ -15,6 +15,7 @@ mod help;
 mod input;
 mod interrupt;
 mod lattice;
+mod memory;
 mod number;
 mod numbers;
 mod output;
@@ -36,6 +37,7 @@ use clap::Parser;
 pub use failure::{Exit, Failure};
 pub use incircle_testkit as generate;
 pub use input::Input;
+pub use memory::Memory;
 pub use number::Coordinate;
 pub use points::{Coordinates, Place, PointTable, Unit};
 

@@ -1,13 +1,14 @@
-//! Numbers as they are written in a text, without rounding where that is possible.
+//! Numbers as they are written in a text, without rounding if the digits fit 64 bits.
 //!
 //! A text such as `-101.473911` is a decimal, and most decimals are no double. So a number is read as a whole number of
-//! steps of a power of ten, which is exact. Only numbers of more than 18 digits or so become the nearest double.
+//! steps of a power of ten, which is exact. Only a number of more than 18 or 19 digits becomes the nearest double.
 
 use std::cmp::Ordering;
 use std::fmt;
 
-/// Decimals with more digits behind the point than this are read as doubles, whose smallest has 324.
-const MOST_DIGITS: u32 = 400;
+/// Decimals with more digits behind the point than this are read as doubles. No double but 0 is nearest to a step of
+/// more digits, and reports tell the length of steps as doubles.
+const MOST_DIGITS: u32 = 323;
 /// Numbers with more digits behind the point than this are shown with an exponent.
 const MOST_DIGITS_SHOWN: u32 = 25;
 /// The most digits behind the point of a decimal with which coordinates are compared.
@@ -21,9 +22,31 @@ pub enum Number {
     /// A decimal, exactly.
     Decimal(Decimal),
     /// The nearest double of a whole number that is written without an exponent and is beyond 64 bits.
-    Beyond(f64),
+    Beyond(Nearest),
     /// The nearest double of any other number. Infinities and NaN are among them.
-    Double(f64),
+    Double(Nearest),
+}
+
+/// The double that is nearest to a number of a text.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nearest {
+    /// The double.
+    pub value: f64,
+    /// Whether the double is the number, and not only near to it.
+    pub is_exact: bool,
+}
+
+impl Number {
+    /// The double that is nearest to the number.
+    pub fn nearest(self) -> Nearest {
+        match self {
+            Self::Decimal(Decimal { steps, digits }) => {
+                let steps = i128::from(steps);
+                Nearest { value: nearest(steps, digits), is_exact: is_double(steps, digits) }
+            }
+            Self::Beyond(nearest) | Self::Double(nearest) => nearest,
+        }
+    }
 }
 
 /// The decimal `steps * 10^-digits`. The number of digits is the smallest possible one.
@@ -49,8 +72,8 @@ impl Decimal {
     }
 }
 
-/// Reads a number, without spaces around it; `None` if the text is none. Every text that the standard library reads as
-/// a double is a number.
+/// Reads a text as a number; `None` if the text is no number. Numbers are the texts that the standard library reads as
+/// doubles, without spaces around them.
 pub fn parse(text: &[u8]) -> Option<Number> {
     short(text).map(Number::Decimal).or_else(|| long(text))
 }
@@ -60,8 +83,8 @@ fn short(text: &[u8]) -> Option<Decimal> {
     leading(text).filter(|(_, rest)| rest.is_empty()).map(|(decimal, _)| decimal)
 }
 
-/// Reads a decimal without an exponent at the start of a text, and returns the rest of the text as well. Of a decimal
-/// with more than 18 digits, some are left in the rest.
+/// Reads a decimal without an exponent at the start of a text, and returns the rest of the text as well. If a
+/// decimal has more than 18 digits, the rest begins with some of them.
 #[inline]
 pub fn leading(text: &[u8]) -> Option<(Decimal, &[u8])> {
     let (sign, unsigned) = match text {
@@ -96,15 +119,42 @@ fn digits(text: &[u8], most: usize, mut steps: i64) -> (i64, &[u8]) {
 
 /// Reads any number. The standard library decides what is a number.
 fn long(text: &[u8]) -> Option<Number> {
-    let double: f64 = std::str::from_utf8(text).ok()?.parse().ok()?;
-    if !double.is_finite() {
-        return Some(if is_whole(text) { Number::Beyond(double) } else { Number::Double(double) });
+    let value: f64 = std::str::from_utf8(text).ok()?.parse().ok()?;
+    if let Some(decimal) = value.is_finite().then(|| exact(text)).flatten() {
+        return Some(Number::Decimal(decimal));
     }
-    Some(match exact(text) {
-        Some(decimal) => Number::Decimal(decimal),
-        None if is_whole(text) => Number::Beyond(double),
-        None => Number::Double(double),
-    })
+    let nearest = Nearest { value, is_exact: value.is_finite() && is_written_out(text, value) };
+    Some(if is_whole(text) { Number::Beyond(nearest) } else { Number::Double(nearest) })
+}
+
+/// The most digits of a double that is written out in full.
+const LONGEST_DOUBLE: usize = 767;
+
+/// Whether a valid number is equal to the double that is nearest to it.
+fn is_written_out(text: &[u8], value: f64) -> bool {
+    let number = significant(text);
+    let digit = |steps: i128, digit: &u8| steps.checked_mul(10)?.checked_add(i128::from(digit - b'0'));
+    let places = u32::try_from(number.0.len() as i64 - 1 - number.1);
+    if let (Some(steps), Ok(places)) = (number.0.iter().try_fold(0, digit), places) {
+        return value != 0.0 && is_double(steps, places);
+    }
+    // A text of few digits rarely passes the first comparison, which is much quicker than that of all digits.
+    let is_equal = |digits: usize| significant(format!("{value:.digits$e}").as_bytes()) == number;
+    value != 0.0 && number.0.len() <= LONGEST_DOUBLE && is_equal(number.0.len()) && is_equal(LONGEST_DOUBLE)
+}
+
+/// The digits of a valid number without zeros at either end, and the power of ten of the first digit.
+fn significant(text: &[u8]) -> (Vec<u8>, i64) {
+    let mut parts = text.splitn(2, |byte| byte.eq_ignore_ascii_case(&b'e'));
+    let mantissa = parts.next().unwrap_or_default();
+    let exponent = parts.next().and_then(|text| std::str::from_utf8(text).ok()?.parse().ok()).unwrap_or(0i64);
+    let point = mantissa.iter().position(|&byte| byte == b'.').unwrap_or(mantissa.len());
+    let whole = mantissa[..point].iter().filter(|byte| byte.is_ascii_digit()).count();
+    let digits = mantissa.iter().copied().filter(u8::is_ascii_digit);
+    let zeros = digits.clone().take_while(|&digit| digit == b'0').count();
+    let mut digits: Vec<u8> = digits.skip(zeros).collect();
+    digits.truncate(digits.iter().rposition(|&digit| digit != b'0').map_or(0, |last| last + 1));
+    (digits, exponent.saturating_add(whole as i64 - zeros as i64 - 1))
 }
 
 /// Whether a number is written as digits alone, perhaps with a sign.
@@ -152,13 +202,31 @@ pub fn nearest(steps: i128, digits: u32) -> f64 {
     format!("{steps}e-{digits}").parse().unwrap_or_default()
 }
 
+/// Whether `steps * 10^-digits` is a double.
+pub fn is_double(steps: i128, digits: u32) -> bool {
+    if steps == 0 {
+        return true;
+    }
+    // The number is a multiple of a power of two only if `5^digits` divides the steps. 5^54 is the last below 2^127.
+    let multiple = match i64::try_from(steps) {
+        Ok(steps) if digits <= 27 => {
+            let power = 5i64.pow(digits);
+            (steps % power == 0).then(|| i128::from(steps / power))
+        }
+        _ => 5i128.checked_pow(digits).filter(|power| steps % power == 0).map(|power| steps / power),
+    };
+    // The power of two is at least 2^-54, far above the smallest double.
+    multiple.is_some_and(|number| number.unsigned_abs() >> number.trailing_zeros() < 1 << f64::MANTISSA_DIGITS)
+}
+
 /// Compares a coordinate, exactly, with a decimal of up to [`MOST_DIGITS_COMPARED`] digits behind the point.
 pub fn compare(coordinate: Coordinate, with: Decimal) -> Ordering {
     match coordinate {
         Coordinate::Double(value) => compare_double(value, with),
         Coordinate::Decimal { steps, digits } => {
             let common = digits.max(with.digits);
-            // The other decimal is below 2^63 * 10^18, so one that does not fit is beyond it.
+            // The other decimal is below 2^63 * 10^18 in the common steps, so a value that overflows is farther from
+            // zero.
             let steps = 10i128.checked_pow(common - digits).and_then(|power| steps.checked_mul(power)).ok_or(steps);
             let with = i128::from(with.steps) * 10i128.pow(common - with.digits);
             steps.map_or_else(|beyond| beyond.cmp(&0), |steps| steps.cmp(&with))
@@ -173,7 +241,7 @@ fn compare_double(value: f64, with: Decimal) -> Ordering {
         // No double lies between a decimal and the double that is nearest to it.
         return value.total_cmp(&nearest);
     }
-    // The double is mantissa * 2^exponent. Both sides below are about steps * 2^53 at most.
+    // The double is mantissa * 2^exponent. Neither side of the comparison exceeds about steps * 2^53, which fits.
     let bits = value.to_bits();
     let mantissa = i128::from(bits & ((1 << 52) - 1) | 1 << 52) * if value < 0.0 { -1 } else { 1 };
     let exponent = ((bits >> 52) & 0x7ff) as i32 - 1075;
@@ -230,102 +298,4 @@ impl fmt::Display for Coordinate {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use incircle_testkit::SplitMix64;
-
-    fn decimal(text: &str) -> Option<(i64, u32)> {
-        match parse(text.as_bytes()) {
-            Some(Number::Decimal(Decimal { steps, digits })) => Some((steps, digits)),
-            _ => None,
-        }
-    }
-
-    #[test]
-    fn decimals_are_read_as_written() {
-        for (text, expected) in [
-            ("0", (0, 0)),
-            ("-0.000", (0, 0)),
-            ("-363", (-363, 0)),
-            ("+7", (7, 0)),
-            ("-101.473911", (-101_473_911, 6)),
-            ("1.50", (15, 1)),
-            (".5", (5, 1)),
-            ("5.", (5, 0)),
-            ("2.5e3", (2500, 0)),
-            ("25E-4", (25, 4)),
-            ("10e-4", (1, 3)),
-            ("1e-300", (1, 300)),
-            ("0e999999999999", (0, 0)),
-            ("9223372036854775807", (i64::MAX, 0)),
-            ("-9223372036854775808", (i64::MIN, 0)),
-            ("000000000000000000000000012.5000000000000000000000000", (125, 1)),
-        ] {
-            assert_eq!(decimal(text), Some(expected), "{text}");
-        }
-    }
-
-    #[test]
-    fn other_numbers_are_the_nearest_doubles() {
-        assert_eq!(parse(b"1e300"), Some(Number::Double(1e300)));
-        assert_eq!(parse(b"0.12345678901234567890123"), Some(Number::Double(0.123_456_789_012_345_68)));
-        assert_eq!(parse(b"9223372036854775808"), Some(Number::Beyond(9.223_372_036_854_776e18)));
-        assert_eq!(parse(b"1e-999"), Some(Number::Double(0.0)));
-        assert!(matches!(parse(b"-inf"), Some(Number::Double(value)) if value.is_infinite()));
-        assert!(matches!(parse(b"nan"), Some(Number::Double(value)) if value.is_nan()));
-        for bad in ["", "-", "+", ".", "1,5", "0x10", "1e", "--1", "1.2.3", "1_000", "e5", " 1"] {
-            assert_eq!(parse(bad.as_bytes()), None, "{bad}");
-        }
-    }
-
-    #[test]
-    fn the_standard_library_reads_the_same_numbers() {
-        let mut random = SplitMix64::new(7);
-        let alphabet = b"0123456789.-+eE0019.";
-        for _ in 0..200_000 {
-            let len = 1 + random.below(24) as usize;
-            let text: Vec<u8> = (0..len).map(|_| alphabet[random.below(alphabet.len() as u64) as usize]).collect();
-            let library = std::str::from_utf8(&text).expect("ASCII").parse::<f64>().ok();
-            let own = parse(&text).map(|number| match number {
-                Number::Decimal(Decimal { steps, digits }) => nearest(i128::from(steps), digits),
-                Number::Beyond(value) | Number::Double(value) => value,
-            });
-            // Minus zero is read as zero.
-            assert_eq!(
-                own.map(|value| value + 0.0),
-                library.map(|value| value + 0.0),
-                "{}",
-                String::from_utf8_lossy(&text)
-            );
-        }
-    }
-
-    #[test]
-    fn coordinates_are_compared_exactly() {
-        let with = |coordinate, steps, digits| compare(coordinate, Decimal { steps, digits });
-        // The double 0.1 is a little more than the decimal, and 0.3 a little less.
-        assert_eq!(with(Coordinate::Double(0.1), 1, 1), Ordering::Greater);
-        assert_eq!(with(Coordinate::Double(0.3), 3, 1), Ordering::Less);
-        assert_eq!(with(Coordinate::Double(-0.3), -3, 1), Ordering::Greater);
-        assert_eq!(with(Coordinate::Double(0.5), 5, 1), Ordering::Equal);
-        assert_eq!(with(Coordinate::Double(0.0), 0, 0), Ordering::Equal);
-        assert_eq!(with(Coordinate::Double(5e-324), 1, 18), Ordering::Less);
-        assert_eq!(with(Coordinate::Double(9_223_372_036_854_775_808.0), i64::MAX, 0), Ordering::Greater);
-        assert_eq!(with(Coordinate::Double(1e300), i64::MAX, 0), Ordering::Greater);
-        assert_eq!(with(Coordinate::Decimal { steps: 15, digits: 1 }, 150, 2), Ordering::Equal);
-        assert_eq!(with(Coordinate::Decimal { steps: i128::MIN, digits: 0 }, i64::MIN, 18), Ordering::Less);
-    }
-
-    #[test]
-    fn coordinates_are_shown_exactly() {
-        let shown = |steps, digits| Coordinate::Decimal { steps, digits }.to_string();
-        assert_eq!(shown(-101_473_911, 6), "-101.473911");
-        assert_eq!(shown(-5, 1), "-0.5");
-        assert_eq!(shown(1_050, 3), "1.05");
-        assert_eq!(shown(2_000, 3), "2");
-        assert_eq!(shown(9_007_199_254_740_993, 0), "9007199254740993");
-        assert_eq!(shown(12, 300), "12e-300");
-        assert_eq!(Coordinate::Double(0.1).to_string(), "0.1");
-        assert_eq!(Coordinate::Double(1e300).to_string(), "1e300");
-    }
-}
+mod tests;

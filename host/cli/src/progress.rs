@@ -90,7 +90,7 @@ impl<R: Read> Read for ReadMeter<R> {
 
 impl<R: Seek> Seek for ReadMeter<R> {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
-        // What counts is the place in the file, because a part may be read twice.
+        // The bar shows the place in the file, not the bytes read, because a part may be read twice.
         self.done = self.source.seek(to)?;
         Ok(self.done)
     }

@@ -19,6 +19,8 @@ pub struct RunReport<'a> {
     pub has_clock: bool,
     /// The points with their lattice.
     pub laid: &'a Laid<'a>,
+    /// The sentence about what was left out of the points, if anything was.
+    pub left_out: Option<String>,
     /// Seconds of the stages of the command, in the order in which they ran.
     pub stages: Vec<(&'static str, Duration)>,
 }
@@ -31,6 +33,7 @@ impl<'a> RunReport<'a> {
             backend: (backend.name, backend.config.map(|config| config.name)),
             has_clock: backend.has_clock(),
             laid,
+            left_out: None,
             stages: Vec::new(),
         }
     }
@@ -77,6 +80,7 @@ impl<'a> RunReport<'a> {
     pub fn lines(&self, verbose: bool) -> Vec<String> {
         let job = self.job;
         let mut lines = vec![self.laid.line()];
+        lines.extend(self.left_out.clone());
         lines.push(self.counts_line());
         if job.collinear {
             let why = if job.distinct < 3 { "fewer than three distinct points" } else { "all points lie on one line" };

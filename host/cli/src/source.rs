@@ -9,8 +9,8 @@ use crate::input::Input;
 use crate::path::{extension, is_standard, name};
 use crate::points::PointTable;
 
-/// Reads all points of a file or of standard input that the arguments select. The format is that of `--from`, or else
-/// the one of the extension, or CSV for standard input.
+/// Reads the points of a file or of standard input, those that the arguments select. The format is that of `--from`, or
+/// else that of the extension. Without `--from`, standard input is CSV.
 pub fn read_points(path: &Path, arguments: &ReadArguments, quiet: bool) -> Result<PointTable, Failure> {
     let format = match arguments.from {
         Some(format) => format,

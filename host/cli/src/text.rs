@@ -16,6 +16,11 @@ pub fn without_mark(bytes: &[u8]) -> Result<&[u8], Failure> {
     Ok(bytes.strip_prefix(UTF8_MARK).unwrap_or(bytes))
 }
 
+/// The text without its byte order mark, all of which must be UTF-8.
+pub fn utf8(bytes: &[u8]) -> Result<&str, Failure> {
+    std::str::from_utf8(without_mark(bytes)?).map_err(|_| Failure::input("the file is not UTF-8 text"))
+}
+
 /// The rows of a text with their numbers, counted from 1. Rows end in LF or CRLF; the last row may lack its end.
 pub fn rows(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
     let mut rest = bytes;
@@ -61,7 +66,7 @@ pub fn not_a_number(value: &[u8], place: Place) -> Failure {
 
 /// The failure of NaN, infinities, and numbers too large for a double.
 pub fn not_finite(shown: &str, place: Place) -> Failure {
-    Failure::input(format!("{place}: {shown} is not a finite number: a point needs two numbers"))
+    Failure::input(format!("{place}: {shown} is not a finite number"))
 }
 
 /// Parses a whole number from 0 to 2^32 - 1, which messages call `what`.

@@ -6,17 +6,17 @@
 //! ```
 //!
 //! The sets:
-//! - `uniform`: random doubles, and each point on the nearest place of a grid of 31 bits.
-//! - `whole`: the random places of that grid, in both columns. The doubles are triangulated as doubles, although they
-//!   have a lattice. Both meshes must be equal.
-//! - `lattice`: a square lattice of tenths, each coordinate moved by up to one unit in the last place; on the grid the
-//!   lattice is exact, and every square of it is a tie.
+//! - `uniform`: random doubles, and the same points moved to the nearest places of a grid of 31 bits.
+//! - `whole`: the grid points of `uniform`, as integers and as doubles. The doubles are triangulated as doubles,
+//!   although they have a lattice. Both meshes must be equal.
+//! - `lattice`: a square lattice of tenths, each coordinate moved by up to one unit in the last place. On the grid the
+//!   lattice is exact, and each of its squares is a tie.
 //! - `circle`: points of the unit circle, rounded to doubles and to the grid.
 //!
-//! A pair of runs is one call with the integers and one with the doubles, in turns of either order. The table has the
-//! median of the times and the median of the ratios within a pair, which other work on the machine disturbs less. A
-//! call includes the search for a lattice, except in the row `whole`. Untimed, the validator checks each mesh of
-//! doubles.
+//! A pair of runs is one call with the integers and one with the doubles; the next pair has them in the other order.
+//! The table has the median of the times and the median of the ratios within a pair. Other work on the machine disturbs
+//! these ratios less than the times. A call includes the search for a lattice, except for the doubles of `whole`.
+//! Before the timed calls, the validator checks each mesh of doubles.
 
 use std::hint::black_box;
 use std::num::NonZeroUsize;
@@ -28,10 +28,10 @@ use incircle_geometry::cpu::{connect, Connectivity};
 use incircle_geometry::{Mesh, PlanePoint, Point};
 use incircle_testkit::SplitMix64;
 
-/// The number of points and of pairs unless they are given.
+/// The numbers of points and of pairs if the arguments name none.
 const POINTS: usize = 1_000_000;
 const PAIRS: usize = 21;
-/// Places of the grid in a unit: the grid has 31 bits.
+/// The number of steps of the grid in a unit: the grid has 31 bits.
 const PLACES: f64 = (1u32 << 31) as f64;
 
 /// A set of points in both forms.
@@ -56,7 +56,7 @@ fn sets(count: usize) -> [Set; 4] {
     ]
 }
 
-/// The nearest place of a grid with so many places in a unit.
+/// The grid point nearest to a point, on a grid of 31 bits with `places` steps in a unit.
 fn on_grid(point: [f64; 2], places: f64) -> Point {
     let [x, y] = point.map(|value| ((value * places).round() as u32).min((1 << 31) - 1));
     Point::new(x, y)
@@ -84,7 +84,7 @@ fn circle(count: usize, random: &mut SplitMix64) -> Set {
     Set { name: "circle", integers, doubles, is_equal: false }
 }
 
-/// Seconds of one call, and what it found.
+/// Times one call. Returns the seconds, and the triangles, hull and duplicates.
 fn timed<P: PlanePoint>(points: &[P], looks_for_lattice: bool) -> (f64, Connectivity) {
     let start = Instant::now();
     let numbers = P::numbers(points);
@@ -129,7 +129,7 @@ fn measure(set: &Set, pairs: usize) -> Result<(), String> {
 }
 
 fn main() -> ExitCode {
-    // Cargo adds the option `--bench`.
+    // Cargo adds the option `--bench`, which is no number.
     let mut numbers = std::env::args().skip(1).filter_map(|word| word.parse().ok());
     let (points, pairs) = (numbers.next().unwrap_or(POINTS), numbers.next().unwrap_or(PAIRS));
     println!("{points} points, medians of {pairs} pairs, ns per point");

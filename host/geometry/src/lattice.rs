@@ -1,9 +1,8 @@
 //! The lattice of a point set: whole steps of one length in which all its coordinates are integers.
 //!
 //! Triangulation in integers of up to 32 bits is the fastest, so a lattice is looked for first: the coordinates are
-//! whole numbers, or else multiples of a power of two. Decimals are not recognised by themselves; a caller who has them
-//! as integers passes their step to [`Lattice::of_integers`]. A set without a lattice is triangulated on its doubles or
-//! long integers, exactly as well.
+//! whole numbers, or else multiples of a power of two below 1. A set without a lattice is triangulated on its doubles
+//! or long integers, exactly as well.
 
 use alloc::borrow::Cow;
 use alloc::vec::Vec;
@@ -17,11 +16,6 @@ use crate::point::Point;
 pub enum Step {
     /// Steps of 1: the coordinates are whole numbers.
     Whole,
-    /// Steps of `10^-digits`: the coordinates are decimals with up to so many digits behind the point.
-    Decimal {
-        /// Digits behind the point; negative if the coordinates are multiples of a power of ten.
-        digits: i32,
-    },
     /// Steps of `2^exponent`: the coordinates are doubles that share a grid.
     Binary {
         /// The exponent of the step.
@@ -29,12 +23,27 @@ pub enum Step {
     },
 }
 
+impl Step {
+    /// The length of a step. A power of two beyond the range of doubles is 0 or infinity.
+    ///
+    /// ```
+    /// use incircle_geometry::lattice::Step;
+    ///
+    /// assert_eq!(Step::Binary { exponent: -1074 }.length(), 5e-324);
+    /// ```
+    pub fn length(self) -> f64 {
+        match self {
+            Self::Whole => 1.0,
+            Self::Binary { exponent } => scaled(1.0, exponent),
+        }
+    }
+}
+
 impl fmt::Display for Step {
-    /// `1`, `1e-6` or `2^-20`.
+    /// `1` or `2^-20`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Whole => write!(f, "1"),
-            Self::Decimal { digits } => write!(f, "1e{}", -digits),
             Self::Binary { exponent } => write!(f, "2^{exponent}"),
         }
     }
@@ -95,8 +104,8 @@ impl Lattice {
     }
 
     /// The lattice of doubles, and the points on it: whole numbers if all are, else multiples of the largest power of
-    /// two that makes all whole. `None` if a coordinate is infinite or not a number, or 9.2e18 steps or more in
-    /// magnitude, or if a span is 2^32 steps or more.
+    /// two, which is below 1, of which all are. `None` if a coordinate is infinite or not a number, or 9.2e18 steps or
+    /// more in magnitude, or if a span is 2^32 steps or more.
     pub fn of_doubles(points: &[[f64; 2]]) -> Option<(Self, Vec<Point>)> {
         let exponent = least_exponent(points)?;
         let step = if exponent == 0 { Step::Whole } else { Step::Binary { exponent } };
@@ -108,13 +117,11 @@ impl Lattice {
         Self::of_integers(&points?, step)
     }
 
-    /// The coordinates of a grid point, as the nearest doubles.
+    /// The coordinates of a grid point as doubles. Points of the set that the lattice was made of have their
+    /// coordinates back, if these were doubles. Coordinates with more than 53 bits are rounded.
     pub fn restore(&self, point: Point) -> [f64; 2] {
         self.steps(point).map(|steps| match self.step {
             Step::Whole => steps as f64,
-            // Both operands are exact for up to 22 digits and 2^53 steps, so the quotient is rounded once.
-            Step::Decimal { digits } if digits >= 0 => steps as f64 / power_of_ten(digits),
-            Step::Decimal { digits } => steps as f64 * power_of_ten(-digits),
             Step::Binary { exponent } => scaled(steps as f64, exponent),
         })
     }
@@ -125,12 +132,12 @@ impl Lattice {
     }
 }
 
-/// The largest exponent, at most 0, of a power of two of which all coordinates are multiples. `None` if a coordinate is
-/// infinite or not a number, or if it is plain before the end that a span is 2^32 multiples or more: most sets without
-/// a lattice are recognised by their first points.
+/// The exponent of the largest power of two, at most 1, of which all coordinates are multiples. `None` if a coordinate
+/// is infinite or not a number, or as soon as the points read so far have a span of 2^33 multiples or more: most sets
+/// without a lattice are recognised by their first points.
 fn least_exponent(points: &[[f64; 2]]) -> Option<i32> {
     const POINTS: usize = 256;
-    // Twice as many steps as too many leave room for the rounding of the span.
+    // A lattice has spans below 2^32 steps. Twice that number leaves room for the rounding of the span.
     const STEPS: f64 = (1u64 << 33) as f64;
     let (mut least, mut low, mut high) = (0, [f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     for some in points.chunks(POINTS) {
@@ -147,11 +154,6 @@ fn least_exponent(points: &[[f64; 2]]) -> Option<i32> {
     Some(least)
 }
 
-/// `10^digits`, for no negative `digits`; exact up to 22.
-fn power_of_ten(digits: i32) -> f64 {
-    (0..digits).fold(1.0, |power, _| power * 10.0)
-}
-
 /// The exponent of the lowest bit that is set in a double; `None` for infinities and what is not a number, the
 /// largest exponent for zero.
 fn trailing_exponent(value: f64) -> Option<i32> {
@@ -165,13 +167,16 @@ fn trailing_exponent(value: f64) -> Option<i32> {
     }
 }
 
-/// `value * 2^exponent`, in two exact steps: a power beyond the range of doubles is the product of two within it.
+/// `value * 2^exponent`, exact if a double holds that: a power beyond the range of doubles is the product of two within
+/// it.
 fn scaled(value: f64, exponent: i32) -> f64 {
+    // Beyond these, a product with a number of up to 64 bits is 0 or infinity in any case.
+    let exponent = exponent.clamp(-2044, 2046);
     let half = exponent / 2;
     value * power_of_two(half) * power_of_two(exponent - half)
 }
 
-/// `2^exponent`, for exponents of normal doubles.
+/// `2^exponent`, for the exponents of normal doubles, -1022 to 1023.
 fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((1023 + exponent) as u64) << 52)
 }
@@ -247,7 +252,7 @@ mod tests {
 
     #[test]
     fn a_span_is_too_wide_wherever_it_shows() {
-        // 2^32 steps are too many and one less is not, whether early or late points show the span or the step.
+        // 2^32 steps are too many and 2^32 - 1 are not, whether early or late points show the span or the step.
         for (first, last) in [(0, 999), (999, 0), (0, 1), (500, 501)] {
             for exponent in [-60, -1, 0] {
                 let mut points = vec![[scaled(1.0, 8 + exponent), 0.0]; 1000];
@@ -283,12 +288,15 @@ mod tests {
     }
 
     #[test]
-    fn decimals_restore_the_nearest_doubles() {
-        let steps = [[-101_473_911, 33_000_001], [5, 0]];
-        let (lattice, grid) = Lattice::of_integers(&steps, Step::Decimal { digits: 6 }).expect("a narrow span");
-        assert_eq!(lattice.restore(grid[0]), [-101.473911, 33.000001]);
-        assert_eq!((lattice.restore(grid[1]), lattice.bits), ([0.000005, 0.0], 27));
-        assert_eq!(lattice.steps(grid[0]), steps[0]);
-        assert_eq!(lattice.step.to_string(), "1e-6");
+    fn steps_of_any_exponent_have_a_length() {
+        let length = |exponent| Step::Binary { exponent }.length();
+        assert_eq!([0, -1, 1, -1074, 1023].map(length), [1.0, 0.5, 2.0, 5e-324, f64::MAX / (2.0 - f64::EPSILON)]);
+        assert_eq!([-1075, i32::MIN].map(length), [0.0; 2]);
+        assert_eq!([1024, i32::MAX].map(length), [f64::INFINITY; 2]);
+        assert_eq!(Step::Whole.length(), 1.0);
+        assert_eq!(Step::Whole.to_string(), "1");
+        let lattice = Lattice { step: Step::Binary { exponent: i32::MIN }, offset: [i64::MIN, 0], bits: 1 };
+        assert_eq!(lattice.restore(Point::new(0, 1)), [0.0, 0.0]);
+        assert_eq!(lattice.step.to_string(), "2^-2147483648");
     }
 }

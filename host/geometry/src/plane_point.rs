@@ -16,9 +16,9 @@ mod sealed {
 /// the binary numbers that they hold. If the points have a [`Lattice`](crate::lattice::Lattice), the triangulation
 /// computes in its integers, else in the numbers as they were given.
 ///
-/// Implemented for `[T; 2]` and `(T, T)` with these `T`, and for [`Point`]. With the feature `glam` also for `UVec2`,
-/// `IVec2`, `I64Vec2`, `Vec2` and `DVec2` of that crate, and with the feature `geo-types` for `Point<T>` and `Coord<T>`
-/// of that crate with these `T`. The trait is sealed.
+/// The trait is implemented for [`Point`], and for `[T; 2]` and `(T, T)` where `T` is `u32`, `i32`, `i64`, `f32` or
+/// `f64`. The feature `glam` adds `UVec2`, `IVec2`, `I64Vec2`, `Vec2` and `DVec2` of the crate `glam`. The feature
+/// `geo-types` adds `Point<T>` and `Coord<T>` of the crate `geo-types` for the same `T`. The trait is sealed.
 pub trait PlanePoint: Copy + sealed::Sealed {
     /// The points in the numbers that they are made of.
     fn numbers(points: &[Self]) -> Numbers<'_>;

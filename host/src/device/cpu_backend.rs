@@ -171,7 +171,7 @@ fn error_of(error: cpu::Error) -> Error {
             Error::Cancelled { stage: stage_of(stage).name(), done, total }
         }
         // No other error arises here: the session has refused values that are not finite, and the CPU triangulator
-        // takes all 32 bits of a grid point. A later variant of the enum would be told as a job that ended early.
+        // takes all 32 bits of a grid point. A variant added to the enum later is reported as a cancelled job.
         _ => Error::Cancelled { stage: Stage::Order.name(), done: 0, total: 0 },
     }
 }

@@ -34,8 +34,8 @@ fn all_types_of_points_at_the_same_places_have_one_mesh() {
     );
 }
 
-/// Checks that a type of points has the mesh of the pairs with the same coordinates. `high` is the number beside
-/// `almost_high`, so the two become one if any digit is lost.
+/// Checks that points of a type have the mesh of the pairs with the same coordinates. `high` and `almost_high` are
+/// neighbours among the numbers of the type, so rounding would make them equal.
 fn has_the_mesh_of_pairs<N: Copy, P: PlanePoint + Debug + PartialEq>(
     [low, almost_high, high]: [N; 3],
     point: impl Fn(N, N) -> P,

@@ -40,7 +40,7 @@ pub enum Command {
     ///
     /// Only the triangles are checked, as indices into POINTS. Everything else in the mesh file is
     /// ignored: the vertices of OBJ and PLY; the points, hull and duplicates of JSON.
-    /// If 'triangulate' had --quantize or --coord-bits, give the same here.
+    /// If 'triangulate' had --quantize, --coord-bits, --class, --bounds or --array, give the same here.
     #[command(verbatim_doc_comment, after_help = help::VERIFY, after_long_help = help::VERIFY_LONG)]
     Verify(VerifyArguments),
     /// Make a set of points
@@ -183,13 +183,12 @@ pub struct GenerateArguments {
     /// Number of points, up to 536870911
     #[arg(short, value_name = "N", value_parser = whole_number(0, u32::MAX))]
     pub n: u32,
-    /// Kind of numbers that the coordinates are
+    /// Kind of numbers of the coordinates
     #[arg(long, value_enum, default_value_t = NumberKind::Whole)]
     pub numbers: NumberKind,
     /// Bits of a coordinate, counted in steps, 1 to 31 (default: 16; for decimal 28, for f32 24)
     ///
-    /// The numbers of f32 have up to 24 bits. Doubles have no steps, so --numbers double refuses
-    /// --bits.
+    /// --numbers f32 takes up to 24 bits. Doubles have no steps, so --numbers double refuses --bits.
     #[arg(long, value_parser = whole_number(1, 31), verbatim_doc_comment)]
     pub bits: Option<u32>,
     /// Seed; one seed gives the same points on every machine

@@ -43,6 +43,7 @@ pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
     let (mesh, about) = triangulate(&mut backend, &laid, arguments).map_err(in_file)?;
     watch.stages.extend(&about.stages);
     let mut report = RunReport::new(&about, &backend, &laid);
+    report.left_out = table.left_out();
     // Dropping the back end ends a simulation, which completes its waveform.
     drop(backend);
     watch.since = Instant::now();
@@ -118,7 +119,7 @@ fn format_of(arguments: &TriangulateArguments) -> Result<MeshFormat, Failure> {
     })
 }
 
-/// The mesh without its points, which the table of the file has.
+/// The mesh without its points, which are in the table of the file.
 struct Connections {
     triangles: Vec<[u32; 3]>,
     hull: Vec<u32>,
@@ -158,7 +159,7 @@ fn triangulate(
     solution
 }
 
-/// Triangulates points of one type of numbers.
+/// Triangulates points whose coordinates are numbers of one type.
 fn connect<P: PlanePoint>(
     session: &mut Session<'_>,
     points: &[P],

@@ -12,7 +12,8 @@ use std::io::{self, Write};
 use crate::failure::{counted, quoted, Failure};
 use crate::formats::csv_rows::{CsvRows, Values};
 use crate::formats::mesh_view::MeshView;
-use crate::points::{self, Place, PointTable};
+use crate::memory::Memory;
+use crate::points::{Place, PointTable};
 use crate::text;
 
 /// Names of the two columns in a header, in lower case.
@@ -20,17 +21,17 @@ const NAMES: [(&str, &str); 6] =
     [("x", "y"), ("lon", "lat"), ("lng", "lat"), ("long", "lat"), ("longitude", "latitude"), ("easting", "northing")];
 
 /// Reads the points of a file.
-pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
+pub fn read_points(bytes: &[u8], memory: Memory) -> Result<PointTable, Failure> {
     let mut rows = CsvRows::new(text::without_mark(bytes)?);
-    let mut table = PointTable::of_rows([1, 2]);
+    let mut table = PointTable::of_rows([1, 2, 3]).within(memory);
     let mut columns = [0, 1];
     let mut z = None;
     let mut width = 0;
     loop {
-        // Only rows of two columns can be pairs.
-        if width == 2 && columns == [0, 1] {
+        // The quick way reads rows of two columns, x and y. In a file with the header `x,z` one of the two is the z.
+        if width == 2 && columns == [0, 1] && z.is_none() {
             while let Some((row, pair)) = rows.next_pair() {
-                table.push_decimals(pair, row);
+                table.push_decimals(pair, row)?;
             }
         }
         let Some((row, values)) = rows.next()? else {
@@ -42,20 +43,21 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
             if !values.iter().any(text::looks_like_number) {
                 columns = named_columns(&values);
                 z = named_column(&values, "z");
-                table = PointTable::of_rows(columns.map(|column| column + 1));
+                table = PointTable::of_rows([columns[0], columns[1], z.unwrap_or(0)].map(|column| column + 1))
+                    .within(memory);
                 continue;
             }
         }
         refuse_other_width(&values, width, row)?;
         table.push(columns.map(|column| values.get(column)), row)?;
         if let Some(column) = z {
-            table.push_height(points::height(values.get(column)));
+            table.push_height(Some(values.get(column)), row)?;
         }
     }
 }
 
 /// Reads the triangles of a mesh.
-pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
+pub fn read_mesh(bytes: &[u8], memory: Memory) -> Result<Vec<[u32; 3]>, Failure> {
     let mut rows = CsvRows::new(text::without_mark(bytes)?);
     let mut triangles = Vec::new();
     let mut first = true;
@@ -76,7 +78,7 @@ pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
             let place = Place::Cell { row, column: column + 1 };
             *corner = text::whole(values.get(column), "a point index", place)?;
         }
-        triangles.push(triangle);
+        memory.push(&mut triangles, triangle)?;
     }
     Ok(triangles)
 }
@@ -125,4 +127,16 @@ fn refuse_other_width(record: &Values<'_>, width: usize, row: usize) -> Result<(
         "row {row} has {}, the first row has {width}: all rows need the same",
         counted(record.len(), "column")
     )))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_z_in_the_second_column_is_kept() {
+        let table = read_points(b"x,z\n0,5\n1,6\n2,7.5\n", Memory::ENDLESS).expect("points");
+        assert_eq!(table.heights(), [5.0, 6.0, 7.5]);
+        assert_eq!(table.doubles()[2], [2.0, 7.5]);
+    }
 }

@@ -10,6 +10,7 @@ use std::io::{self, Write};
 use crate::failure::{counted, Exit, Failure};
 use crate::formats::mesh_view::MeshView;
 use crate::formats::triangle;
+use crate::memory::Memory;
 use crate::points::Place;
 use crate::text;
 
@@ -18,7 +19,7 @@ const HEADER: triangle::Header =
 
 /// Reads the triangles of a mesh. A list that is longer or shorter than its first row promises fails
 /// verification, whatever it holds.
-pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
+pub fn read_mesh(bytes: &[u8], memory: Memory) -> Result<Vec<[u32; 3]>, Failure> {
     let (promised, rows) = triangle::open(bytes, &HEADER)?;
     let mut triangles = Vec::new();
     let mut first_id = 0;
@@ -27,7 +28,7 @@ pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
         if triangles.is_empty() {
             first_id = id;
         }
-        triangles.push([a, b, c]);
+        memory.push(&mut triangles, [a, b, c])?;
     }
     if triangles.len() as u64 != u64::from(promised) {
         let (found, promised) = (triangles.len(), counted(promised as usize, "triangle"));

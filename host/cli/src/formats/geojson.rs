@@ -3,90 +3,141 @@
 //! Points come from `Point` and `MultiPoint` geometries, bare or in features and collections, in the order of the file;
 //! heights are kept as z. Any other geometry is refused, because its corners would be lost silently.
 
+use std::fmt;
 use std::io::{self, Write};
 
-use geojson::{Feature, GeoJson, Geometry, GeometryValue, Position};
-
-use crate::failure::{one_line, Failure};
+use crate::failure::{counted, one_line, quoted, Failure};
+use crate::formats::json_text;
 use crate::formats::mesh_view::MeshView;
+use crate::memory::Memory;
 use crate::points::PointTable;
+use crate::text;
 
-/// The beginning of the message about a text that is no GeoJSON.
-pub const REFUSED: &str = "not GeoJSON: ";
+/// The most collections that may be in one another. RFC 7946 advises against any collection in a collection.
+const DEEPEST: usize = 32;
+/// The names of all types of geometry whose points are not read.
+const OTHERS: [&str; 4] = ["LineString", "MultiLineString", "Polygon", "MultiPolygon"];
 
 /// Reads the points of a file.
-pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
-    let bytes = crate::text::without_mark(bytes)?;
-    if bytes.trim_ascii().is_empty() {
+pub fn read_points(bytes: &[u8], memory: Memory) -> Result<PointTable, Failure> {
+    let text = text::utf8(bytes)?;
+    if text.trim_ascii().is_empty() {
         return Err(Failure::input("the file is empty: GeoJSON is an object such as a FeatureCollection"));
     }
-    let Ok(text) = std::str::from_utf8(bytes) else {
-        return Err(Failure::input("the file is not UTF-8 text"));
-    };
-    let document: GeoJson = text.parse().map_err(|error: geojson::Error| {
-        let message = error.to_string();
-        let message = message.strip_prefix("Error while deserializing GeoJSON: ").unwrap_or(&message);
-        Failure::input(format!("{REFUSED}{}", one_line(message)))
-    })?;
-    let mut table = PointTable::of_items("point");
-    match &document {
-        GeoJson::Geometry(geometry) => add_geometry(geometry, &mut table, "the geometry")?,
-        GeoJson::Feature(feature) => add_feature(feature, &mut table, 1)?,
-        GeoJson::FeatureCollection(collection) => {
-            for (index, feature) in collection.features.iter().enumerate() {
-                add_feature(feature, &mut table, index + 1)?;
+    let mut table = PointTable::of_items("point").within(memory);
+    let object = Object::of(text, Place::default())?;
+    match (object.kind.as_str(), object.features) {
+        ("FeatureCollection", Some(list)) if json_text::is_list(list) => json_text::each(list, |index, feature| {
+            let place = Place { feature: Some(index + 1), position: None };
+            let feature = Object::of(feature, place)?;
+            if feature.kind != "Feature" {
+                return Err(refuse(format!("{place} has the type {}", quoted(feature.kind.as_bytes()))));
             }
-        }
+            add_feature(&feature, &mut table, place)
+        })?,
+        ("FeatureCollection", _) => return Err(refuse("the collection has no list 'features'")),
+        ("Feature", _) => add_feature(&object, &mut table, Place { feature: Some(1), position: None })?,
+        _ => add_geometry(&object, &mut table, Place::default(), 0)?,
     }
     table.complete()
 }
 
-fn add_feature(feature: &Feature, table: &mut PointTable, number: usize) -> Result<(), Failure> {
-    match &feature.geometry {
-        Some(geometry) => add_geometry(geometry, table, &format!("feature {number}")),
-        None => Err(Failure::input(format!("feature {number} has no geometry, so no point"))),
+/// The failure of a text that is no GeoJSON.
+fn refuse(why: impl fmt::Display) -> Failure {
+    Failure::input(format!("not GeoJSON: {why}"))
+}
+
+/// A place in the file, for messages.
+#[derive(Clone, Copy, Default)]
+struct Place {
+    /// The number of the feature, counted from 1; `None` if the file is a geometry.
+    feature: Option<usize>,
+    /// The number of the position in a `MultiPoint`, counted from 1.
+    position: Option<usize>,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.feature {
+            Some(number) => write!(f, "feature {number}")?,
+            None => write!(f, "the geometry")?,
+        }
+        self.position.map_or(Ok(()), |number| write!(f, ", position {number},"))
     }
 }
 
-fn add_geometry(geometry: &Geometry, table: &mut PointTable, place: &str) -> Result<(), Failure> {
-    match &geometry.value {
-        GeometryValue::Point { coordinates } => add_position(coordinates, table, place),
-        GeometryValue::MultiPoint { coordinates } => {
-            coordinates.iter().try_for_each(|position| add_position(position, table, place))
-        }
-        // The recursion is bounded, because the JSON parser limits how deep collections nest.
-        GeometryValue::GeometryCollection { geometries } => {
-            geometries.iter().try_for_each(|inner| add_geometry(inner, table, place))
-        }
-        other => Err(Failure::input(format!("{place} is a {}: only Point and MultiPoint are read", other.type_name()))),
+/// The parts of an object of GeoJSON that are read, as texts.
+struct Object<'a> {
+    kind: String,
+    geometry: Option<&'a str>,
+    features: Option<&'a str>,
+    coordinates: Option<&'a str>,
+    geometries: Option<&'a str>,
+}
+
+impl<'a> Object<'a> {
+    fn of(text: &'a str, place: Place) -> Result<Self, Failure> {
+        let names = ["type", "geometry", "features", "coordinates", "geometries"];
+        let fields = json_text::fields(text, names).map_err(|error| match place.feature {
+            None => refuse(one_line(&error.to_string())),
+            // The file as a whole is JSON, so the value is no object.
+            Some(_) => refuse(format!("{place} is {}", quoted(text.as_bytes()))),
+        })?;
+        let [kind, geometry, features, coordinates, geometries] = fields;
+        let kind = kind.and_then(json_text::string).ok_or_else(|| match place.feature {
+            None => refuse("the object has no 'type'"),
+            Some(_) => refuse(format!("{place} has no 'type'")),
+        })?;
+        Ok(Self { kind, geometry, features, coordinates, geometries })
     }
 }
 
-fn add_position(position: &Position, table: &mut PointTable, place: &str) -> Result<(), Failure> {
-    match position.as_slice() {
-        // All numbers are finite: JSON has no NaN or infinity, and its parser refuses numbers too large for a double.
-        [x, y, rest @ ..] if x.is_finite() && y.is_finite() => {
-            push(table, [*x, *y])?;
-            table.push_height(rest.first().copied());
-            Ok(())
-        }
-        other => {
-            Err(Failure::input(format!("{place} has {} coordinates: a point needs two finite numbers", other.len())))
-        }
+fn add_feature(feature: &Object<'_>, table: &mut PointTable, place: Place) -> Result<(), Failure> {
+    match feature.geometry {
+        None | Some("null") => Err(Failure::input(format!("{place} has no geometry, so no point"))),
+        Some(geometry) => add_geometry(&Object::of(geometry, place)?, table, place, 0),
     }
 }
 
-/// Whole doubles from here on may stand for other numbers that were written.
-const LAST_EXACT: f64 = 9_007_199_254_740_992.0;
-
-/// Adds a point. The numbers of GeoJSON are doubles, and the shortest text of a double is the decimal that was written,
-/// if that had up to 15 digits.
-fn push(table: &mut PointTable, point: [f64; 2]) -> Result<(), Failure> {
-    if point.iter().any(|value| value.abs() >= LAST_EXACT) {
-        return table.push_doubles(point, 0);
+fn add_geometry(geometry: &Object<'_>, table: &mut PointTable, place: Place, depth: usize) -> Result<(), Failure> {
+    let list_of = |text: Option<&'_ str>| text.filter(|text| json_text::is_list(text)).is_some();
+    match geometry.kind.as_str() {
+        "Point" => add_position(geometry.coordinates.unwrap_or("null"), table, place),
+        "MultiPoint" if list_of(geometry.coordinates) => {
+            json_text::each(geometry.coordinates.unwrap_or_default(), |index, position| {
+                add_position(position, table, Place { position: Some(index + 1), ..place })
+            })
+        }
+        "GeometryCollection" if depth == DEEPEST => {
+            Err(refuse(format!("{place} has more than {DEEPEST} collections in one another")))
+        }
+        "GeometryCollection" if list_of(geometry.geometries) => {
+            json_text::each(geometry.geometries.unwrap_or_default(), |_, inner| {
+                add_geometry(&Object::of(inner, place)?, table, place, depth + 1)
+            })
+        }
+        "MultiPoint" => Err(refuse(format!("{place} has no list 'coordinates'"))),
+        "GeometryCollection" => Err(refuse(format!("{place} has no list 'geometries'"))),
+        other if OTHERS.contains(&other) => {
+            Err(Failure::input(format!("{place} is a {other}: only Point and MultiPoint are read")))
+        }
+        other => Err(refuse(format!("{place} has the type {}", quoted(other.as_bytes())))),
     }
-    let texts = point.map(|value| format!("{value:e}"));
-    table.push([texts[0].as_bytes(), texts[1].as_bytes()], 0)
+}
+
+/// Adds a point with its numbers as they are written. The third number is z.
+fn add_position(text: &str, table: &mut PointTable, place: Place) -> Result<(), Failure> {
+    let Some((numbers, count)) = json_text::numbers(text) else {
+        let shown = quoted(text.as_bytes());
+        return Err(Failure::input(format!("{place} has the coordinates {shown}: a point needs a list of numbers")));
+    };
+    if count < 2 {
+        let coordinates = counted(count, "coordinate");
+        return Err(Failure::input(format!("{place} has {coordinates}: a point needs two finite numbers")));
+    }
+    let [x, y, z] = numbers.map(str::as_bytes);
+    table.push([x, y], 0)?;
+    table.push_height((count > 2).then_some(z), 0)
 }
 
 /// Writes a feature for each triangle, with its number as `id` and its corners as the property `vertices`.

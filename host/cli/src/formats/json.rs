@@ -1,71 +1,68 @@
 //! JSON: one object with `points`, `triangles`, `hull` and `duplicates`.
 //!
 //! `points` has the input points `[x, y]`, `triangles` triples of indices into `points`, `hull` indices, and
-//! `duplicates` pairs `[index, lowest index at the same place]`.
+//! `duplicates` pairs `[index, lowest index at the same place]`. The key `numbers` with the value `doubles` says that the
+//! decimals in `points` stand for the nearest doubles.
 
 use std::io::{self, Write};
 
-use serde_json::Value;
-
 use crate::failure::{quoted, Failure};
-use crate::formats::geojson;
 use crate::formats::mesh_view::MeshView;
+use crate::formats::{geojson, json_text};
+use crate::memory::Memory;
 use crate::points::PointTable;
+use crate::text;
+
+/// The value of the key `numbers` where the decimals stand for doubles.
+const DOUBLES: &str = "doubles";
 
 /// Reads the list `points`, which has pairs of finite numbers, and ignores everything else in the object. An object
 /// without that list, or with the key `type` of GeoJSON, is read as GeoJSON.
-pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
-    let object: Result<Value, _> = serde_json::from_slice(crate::text::without_mark(bytes)?);
-    let own = object.as_ref().ok().filter(|object| object.get("type").is_none());
-    let Some(list) = own.and_then(|object| object.get("points")?.as_array()) else {
-        let fault = object.err();
-        return geojson::read_points(bytes).map_err(|failure| match fault {
-            Some(error) if failure.message.starts_with(geojson::REFUSED) => {
-                Failure::input(format!("not JSON: {error}"))
-            }
-            _ => failure,
-        });
+pub fn read_points(bytes: &[u8], memory: Memory) -> Result<PointTable, Failure> {
+    let (list, numbers) = match json_text::fields(text::utf8(bytes)?, ["type", "points", "numbers"]) {
+        Ok([None, Some(list), numbers]) if json_text::is_list(list) => (list, numbers),
+        Err(error) if !error.is_data() => return Err(json_text::refuse(&error)),
+        _ => return geojson::read_points(bytes, memory),
     };
-    let mut table = PointTable::of_items("point");
-    for (index, value) in list.iter().enumerate() {
-        let Some([Value::Number(x), Value::Number(y)]) = value.as_array().map(Vec::as_slice) else {
-            let shown = quoted(value.to_string().as_bytes());
-            return Err(Failure::input(format!("points[{index}] is {shown}, not two numbers")));
-        };
-        // The parser keeps whole numbers of 64 bits, and the shortest text of a double is the decimal that was written,
-        // if that had up to 15 digits.
-        table.push([x.to_string().as_bytes(), y.to_string().as_bytes()], 0)?;
+    let mut table = PointTable::of_items("point").within(memory);
+    if numbers.and_then(json_text::string).as_deref() == Some(DOUBLES) {
+        table.take_doubles();
     }
+    json_text::each(list, |index, item| match json_text::numbers(item) {
+        Some(([x, y, _], 2)) => table.push([x.as_bytes(), y.as_bytes()], 0),
+        _ => {
+            let shown = quoted(item.as_bytes());
+            Err(Failure::input(format!("points[{index}] is {shown}, not two numbers")))
+        }
+    })?;
     table.complete()
 }
 
 /// Reads the list `triangles` and ignores everything else in the object.
-pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
-    let bytes = crate::text::without_mark(bytes)?;
-    let object: Value = serde_json::from_slice(bytes).map_err(|error| Failure::input(format!("not JSON: {error}")))?;
-    let Some(list) = object.get("triangles").and_then(Value::as_array) else {
+pub fn read_mesh(bytes: &[u8], memory: Memory) -> Result<Vec<[u32; 3]>, Failure> {
+    let fields = json_text::fields(text::utf8(bytes)?, ["triangles"]);
+    let [list] = fields.or_else(|error| if error.is_data() { Ok([None]) } else { Err(json_text::refuse(&error)) })?;
+    let Some(list) = list.filter(|list| json_text::is_list(list)) else {
         return Err(Failure::input("the object has no list 'triangles'"));
     };
-    let triangles = list.iter().enumerate().map(|(index, value)| read_triangle(value, index));
-    triangles.collect()
-}
-
-fn read_triangle(value: &Value, index: usize) -> Result<[u32; 3], Failure> {
-    let corners = value.as_array().map(Vec::as_slice).unwrap_or_default();
-    let read = |corner: &Value| corner.as_u64().and_then(|number| u32::try_from(number).ok());
-    match corners {
-        [a, b, c] => read(a).zip(read(b)).zip(read(c)).map(|((a, b), c)| [a, b, c]),
-        _ => None,
-    }
-    .ok_or_else(|| {
-        let shown = quoted(value.to_string().as_bytes());
-        Failure::input(format!("triangles[{index}] is {shown}, not three point indices"))
-    })
+    let mut triangles = Vec::new();
+    json_text::each(list, |index, item| {
+        let triangle = serde_json::from_str(item).map_err(|_| {
+            let shown = quoted(item.as_bytes());
+            Failure::input(format!("triangles[{index}] is {shown}, not three point indices"))
+        })?;
+        memory.push(&mut triangles, triangle)
+    })?;
+    Ok(triangles)
 }
 
 /// Writes the object with one item per row.
 pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
-    write!(out, "{{\"points\":")?;
+    write!(out, "{{")?;
+    if mesh.points.needs_mark() {
+        writeln!(out, "\"numbers\":\"{DOUBLES}\",")?;
+    }
+    write!(out, "\"points\":")?;
     write_list(out, mesh.positions().map(|([x, y], _)| format!("[{x},{y}]")))?;
     write!(out, ",\n\"triangles\":")?;
     write_list(out, mesh.triangles.iter().map(|[a, b, c]| format!("[{a},{b},{c}]")))?;

@@ -24,9 +24,10 @@ impl MeshView<'_> {
     }
 
     /// The coordinates of all points in the numbers of the file, and the z, which is 0 if the file has none.
-    pub fn positions(&self) -> impl Iterator<Item = ([Coordinate; 2], f64)> + '_ {
+    pub fn positions(&self) -> impl Iterator<Item = ([Coordinate; 2], Coordinate)> + '_ {
         let heights = self.points.heights();
         let position = |index| [0, 1].map(|axis| self.points.coordinate(index, axis));
-        (0..self.points.len()).map(move |index| (position(index), heights.get(index).copied().unwrap_or(0.0)))
+        let height = |index| Coordinate::Double(heights.get(index).copied().unwrap_or(0.0));
+        (0..self.points.len()).map(move |index| (position(index), height(index)))
     }
 }

@@ -7,6 +7,7 @@ pub mod curve;
 pub mod ele;
 pub mod geojson;
 pub mod json;
+mod json_text;
 pub mod lidar;
 mod mesh_view;
 pub mod node;
@@ -53,13 +54,13 @@ pub enum PointFormat {
     Geojson,
     /// The list `points` of a JSON mesh, or GeoJSON
     Json,
-    /// LAS, LAZ or COPC of laser scanners
+    /// LAS, LAZ or COPC, from laser scanners
     Las,
-    /// An array of NumPy of shape (n, 2) or (n, 3)
+    /// An array of NumPy, of shape (n, 2) or (n, 3)
     Npy,
-    /// An archive of such arrays, see --array
+    /// An archive of arrays of NumPy; see --array
     Npz,
-    /// Points of WKT, well-known text
+    /// Points of WKT (well-known text)
     Wkt,
 }
 
@@ -87,20 +88,22 @@ impl PointFormat {
         names_of(Self::value_variants().iter())
     }
 
-    /// Reads all points of an input that are selected. Every wrong value is refused with its place.
+    /// Reads the selected points of an input. Every wrong value is refused with its place, and more points than the memory
+    /// of the input holds are refused while they are read.
     pub fn read(self, mut input: Input, selection: &Selection) -> Result<PointTable, Failure> {
+        let memory = input.memory();
         match self {
-            Self::Csv => csv::read_points(&input.into_bytes()?),
-            Self::Xyz => xyz::read_points(&input.into_bytes()?),
-            Self::Node => node::read_points(&input.into_bytes()?),
-            Self::Obj => obj::read_points(&input.into_bytes()?),
-            Self::Ply => ply::read_points(&input.into_bytes()?),
-            Self::Geojson => geojson::read_points(&input.into_bytes()?),
-            Self::Json => json::read_points(&input.into_bytes()?),
+            Self::Csv => csv::read_points(&some_bytes(input)?, memory),
+            Self::Xyz => xyz::read_points(&some_bytes(input)?, memory),
+            Self::Node => node::read_points(&some_bytes(input)?, memory),
+            Self::Obj => obj::read_points(&some_bytes(input)?, memory),
+            Self::Ply => ply::read_points(&some_bytes(input)?, memory),
+            Self::Geojson => geojson::read_points(&some_bytes(input)?, memory),
+            Self::Json => json::read_points(&some_bytes(input)?, memory),
             Self::Las => lidar::read_points(input, selection),
             Self::Npy => npy::read_points(array::Source::of_input(&mut input)),
             Self::Npz => npz::read_points(input, selection.array.as_deref()),
-            Self::Wkt => wkt::read_points(&input.into_bytes()?),
+            Self::Wkt => wkt::read_points(&some_bytes(input)?, memory),
         }
     }
 }
@@ -114,7 +117,7 @@ pub enum MeshFormat {
     Obj,
     /// PLY, ascii
     Ply,
-    /// PLY, binary, with doubles, little endian
+    /// PLY, binary: doubles, little endian
     PlyBinary,
     /// Legacy VTK, ascii
     Vtk,
@@ -124,7 +127,7 @@ pub enum MeshFormat {
     Json,
     /// Rows `a,b,c`
     Csv,
-    /// An array of NumPy of shape (m, 3), u4
+    /// An array of NumPy, of shape (m, 3) and type u4
     Npy,
     /// A picture
     Svg,
@@ -183,12 +186,13 @@ impl MeshFormat {
 
     /// Reads the triangles of a mesh as they stand in the file. Only their form is checked.
     pub fn read(self, mut input: Input) -> Result<Vec<[u32; 3]>, Failure> {
+        let memory = input.memory();
         match self {
-            Self::Ele => ele::read_mesh(&input.into_bytes()?),
-            Self::Obj => obj::read_mesh(&input.into_bytes()?),
-            Self::Ply | Self::PlyBinary => ply::read_mesh(&input.into_bytes()?),
-            Self::Json => json::read_mesh(&input.into_bytes()?),
-            Self::Csv => csv::read_mesh(&input.into_bytes()?),
+            Self::Ele => ele::read_mesh(&input.into_bytes()?, memory),
+            Self::Obj => obj::read_mesh(&input.into_bytes()?, memory),
+            Self::Ply | Self::PlyBinary => ply::read_mesh(&input.into_bytes()?, memory),
+            Self::Json => json::read_mesh(&input.into_bytes()?, memory),
+            Self::Csv => csv::read_mesh(&input.into_bytes()?, memory),
             Self::Npy => npy::read_mesh(array::Source::of_input(&mut input)),
             Self::Vtk | Self::Geojson | Self::Svg => {
                 let readable = Self::names(Self::is_readable);
@@ -196,6 +200,16 @@ impl MeshFormat {
             }
         }
     }
+}
+
+/// All bytes of an input of points. An input without a byte is refused, because a failed download or a command that
+/// ended early leaves such a file more often than somebody means a set without points.
+fn some_bytes(input: Input) -> Result<Vec<u8>, Failure> {
+    let bytes = input.into_bytes()?;
+    if bytes.is_empty() {
+        return Err(Failure::input("the file is empty: a set without points is a file with a header, such as 'x,y'"));
+    }
+    Ok(bytes)
 }
 
 /// The names of formats as a list, such as `csv, xyz or node`.

@@ -10,6 +10,7 @@ use std::io::{self, Write};
 
 use crate::failure::{counted, Failure};
 use crate::formats::triangle;
+use crate::memory::Memory;
 use crate::points::{Place, PointTable};
 use crate::text;
 
@@ -20,9 +21,9 @@ const HEADER: triangle::Header =
 const FIXED: usize = 3;
 
 /// Reads the points of a file.
-pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
+pub fn read_points(bytes: &[u8], memory: Memory) -> Result<PointTable, Failure> {
     let (promised, rows) = triangle::open(bytes, &HEADER)?;
-    let mut table = PointTable::of_rows([2, 3]);
+    let mut table = PointTable::of_rows([2, 3, 4]).within(memory);
     let mut base = 0;
     for (row, content) in rows {
         let count = table.len();

@@ -1,10 +1,12 @@
-//! `.npy`, the arrays of NumPy: points as an array of n rows and two or three columns, meshes as one of m rows and three.
+//! `.npy`, the arrays of NumPy: points as an array of n rows and two or three columns, meshes as one of m rows and
+//! three.
 //!
-//! Integers are taken as whole numbers and floats as the doubles that they are, in either byte order and in C or Fortran
-//! order. An array of records has the fields `x`, `y` and perhaps `z`.
+//! Integers are taken as whole numbers and floats as the doubles that they are, in either byte order and in C or
+//! Fortran order. An array of records has the fields `x`, `y` and perhaps `z`.
 
 use crate::failure::Failure;
 use crate::formats::array::{Cells, Source, Wanted};
+use crate::memory::Memory;
 use crate::points::{Coordinates, Place, PointTable, Unit};
 use crate::text;
 
@@ -12,14 +14,9 @@ const POINTS: Wanted =
     Wanted { item: "point", widths: &[2, 3], shapes: "(n, 2) or (n, 3)", fields: (&["x", "y", "z"], 2) };
 const TRIANGLES: Wanted = Wanted { item: "triangle", widths: &[3], shapes: "(m, 3)", fields: (&[], 0) };
 
-/// The bytes that a point with its z takes in memory.
-const POINT_BYTES: u64 = 24;
-/// The bytes that a triangle takes in memory.
-const TRIANGLE_BYTES: u64 = 12;
-
 /// Reads the points of an array. The third column is z.
 pub fn read_points(mut source: Source<'_>) -> Result<PointTable, Failure> {
-    let layout = source.open(&POINTS, POINT_BYTES)?;
+    let layout = source.open(&POINTS, Memory::check_points)?;
     let certain = source.certain_rows(&layout);
     let is_whole = |axis| layout.columns().any(|column| column.axis == axis && column.item.is_integer());
     let mut heights = Vec::new();
@@ -43,7 +40,7 @@ pub fn read_points(mut source: Source<'_>) -> Result<PointTable, Failure> {
 
 /// Reads the triangles of an array of integers.
 pub fn read_mesh(mut source: Source<'_>) -> Result<Vec<[u32; 3]>, Failure> {
-    let layout = source.open(&TRIANGLES, TRIANGLE_BYTES)?;
+    let layout = source.open(&TRIANGLES, Memory::check_triangles)?;
     if !layout.columns().all(|column| column.item.is_integer()) {
         return Err(Failure::input("the array holds floats, but triangles are integers: save array.astype('<u4')"));
     }
@@ -66,14 +63,14 @@ pub fn read_mesh(mut source: Source<'_>) -> Result<Vec<[u32; 3]>, Failure> {
     Ok(triangles)
 }
 
-/// An empty list with room for so many rows.
+/// An empty list with room for `rows` rows.
 fn with_room<T>(rows: usize) -> Result<Vec<T>, Failure> {
     let mut list = Vec::new();
     list.try_reserve_exact(rows).map_err(|_| Failure::input(format!("{rows} rows do not fit the memory")))?;
     Ok(list)
 }
 
-/// The rows of a list in which these cells stand, with their indices. The list grows as far as they need.
+/// The rows of the list into which `cells` go, with their indices. The list grows to hold them.
 fn rows_of<'a, T: Copy + Default>(
     list: &'a mut Vec<T>,
     cells: &Cells<'_>,
@@ -103,12 +100,15 @@ fn keep_integers(steps: &mut Vec<[i64; 2]>, cells: &Cells<'_>) -> Result<(), Fai
     let found = beyond.find_map(|(index, point)| Some((index, cells.beyond(point[axis])?)));
     found.map_or(Ok(()), |(index, value)| {
         let (place, most) = (place(index, axis), i64::MAX);
-        Err(Failure::input(format!("{place}: {value} is beyond 64 bits with a sign: whole numbers go up to {most}")))
+        Err(Failure::input(format!("{place}: {value} is beyond 64 bits: whole numbers go up to {most}")))
     })
 }
 
 fn keep_doubles(points: &mut Vec<[f64; 2]>, cells: &Cells<'_>) -> Result<(), Failure> {
     let axis = cells.axis.min(1);
+    if cells.item.is_integer() {
+        refuse_rounded(cells)?;
+    }
     let mut are_finite = true;
     let mut target = rows_of(points, cells);
     cells.doubles(|value| {
@@ -127,6 +127,26 @@ fn keep_doubles(points: &mut Vec<[f64; 2]>, cells: &Cells<'_>) -> Result<(), Fai
     found.map_or(Ok(()), |(index, point)| Err(text::not_finite(&format!("'{}'", point[axis]), place(index, axis))))
 }
 
+/// Refuses integers that no double holds, in a column whose points have a float as the other coordinate.
+fn refuse_rounded(cells: &Cells<'_>) -> Result<(), Failure> {
+    let mut index = cells.first;
+    let mut rounded = None;
+    cells.integers(|integer| {
+        let exact = cells.beyond(integer).map_or(i128::from(integer), i128::from);
+        if exact as f64 as i128 != exact {
+            rounded = rounded.or(Some((index, exact)));
+        }
+        index += 1;
+    });
+    rounded.map_or(Ok(()), |(index, integer)| {
+        let place = place(index, cells.axis);
+        Err(Failure::input(format!(
+            "{place}: no double is {integer}, but the other coordinate is a float, so both are taken as doubles: save \
+             both as integers"
+        )))
+    })
+}
+
 fn keep_heights(heights: &mut Vec<f64>, cells: &Cells<'_>) -> Result<(), Failure> {
     let mut target = rows_of(heights, cells);
     cells.doubles(|value| {
@@ -134,9 +154,11 @@ fn keep_heights(heights: &mut Vec<f64>, cells: &Cells<'_>) -> Result<(), Failure
             *height = value;
         }
     });
-    Ok(())
+    drop(target);
+    let found = heights.iter().enumerate().skip(cells.first).find(|(_, height)| !height.is_finite());
+    found.map_or(Ok(()), |(index, height)| Err(text::not_finite(&format!("'{height}'"), place(index, 2))))
 }
 
 fn place(index: usize, axis: usize) -> Place {
-    Place::Item { name: "point", number: index + 1, axis: if axis == 0 { 'x' } else { 'y' } }
+    Place::Item { name: "point", number: index + 1, axis: ['x', 'y', 'z'][axis.min(2)] }
 }

@@ -16,12 +16,12 @@ const MOST_NAMES: usize = 8;
 
 /// Reads the points of the array of this name, or else of the only array.
 pub fn read_points(input: Input, array: Option<&str>) -> Result<PointTable, Failure> {
-    let bound = input.bound();
+    let memory = input.memory();
     let mut archive = ZipArchive::new(input.into_seekable()?).map_err(|error| refuse(&error))?;
     let names: Vec<String> = archive.file_names().filter_map(|name| array_name(&name.ok()?)).collect();
     let name = choose(&names, array)?;
     let mut entry = archive.by_name(&format!("{name}{ENDING}")).map_err(|error| refuse(&error))?;
-    let table = npy::read_points(Source::of_entry(&mut entry, bound));
+    let table = npy::read_points(Source::of_entry(&mut entry, memory));
     table.map_err(|failure| failure.in_file(format_args!("array {}", quoted(name.as_bytes()))))
 }
 
@@ -29,7 +29,7 @@ fn array_name(file_name: &str) -> Option<String> {
     file_name.strip_suffix(ENDING).map(str::to_owned)
 }
 
-/// The array that is read.
+/// The name of the array to read: `wanted`, or else that of the only array.
 fn choose<'a>(names: &'a [String], wanted: Option<&str>) -> Result<&'a str, Failure> {
     let found = match (names, wanted) {
         ([], _) => return Err(Failure::input("the archive holds no array")),
@@ -42,7 +42,7 @@ fn choose<'a>(names: &'a [String], wanted: Option<&str>) -> Result<&'a str, Fail
             let wanted = quoted(wanted.as_bytes());
             Failure::input(format!("the archive has no array {wanted}: it has {}", list(names)))
         }
-        None => Failure::input(format!("the archive has several arrays, {}: choose one by --array", list(names))),
+        None => Failure::input(format!("the archive has several arrays, {}: choose one with --array", list(names))),
     })
 }
 
@@ -56,5 +56,8 @@ fn list(names: &[String]) -> String {
 }
 
 fn refuse(error: &ZipError) -> Failure {
-    Failure::input(format!("not an archive of arrays: {}", one_line(&error.to_string())))
+    Failure::input(format!(
+        "not an archive of arrays, or cut off ({}): save it again with numpy.savez",
+        one_line(&error.to_string())
+    ))
 }

@@ -2,13 +2,15 @@
 //!
 //! Points are the x and y of the vertices, and their z is kept; all other statements are ignored. Rows that do not
 //! start with a word of the format are refused, because a file of another kind must not pass for one without points.
+//! A first row with the mark of doubles says that the decimals stand for the nearest doubles.
 //! Meshes hold every input point as a vertex, at height 0 if the input has no z, so indices stay those of the input.
 
 use std::io::{self, Write};
 
 use crate::failure::{counted, quoted, Failure};
 use crate::formats::mesh_view::MeshView;
-use crate::points::{self, Place, PointTable};
+use crate::memory::Memory;
+use crate::points::{Place, PointTable, DOUBLES};
 use crate::text;
 
 /// The words that a statement can start with, including those of older versions. Source: Wavefront, Advanced
@@ -59,18 +61,21 @@ const KEYWORDS: [&str; 42] = [
 ];
 
 /// Reads the vertices of a file as points.
-pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
-    let mut table = PointTable::of_rows([2, 3]);
+pub fn read_points(bytes: &[u8], memory: Memory) -> Result<PointTable, Failure> {
+    let mut table = PointTable::of_rows([2, 3, 4]).within(memory);
+    if text::rows(bytes).next().is_some_and(|(_, row)| row == format!("# {DOUBLES}").as_bytes()) {
+        table.take_doubles();
+    }
     for (row, mut values) in statements(bytes, b"v")? {
         let point = [values.next().unwrap_or_default(), values.next().unwrap_or_default()];
         table.push(point, row)?;
-        table.push_height(values.next().and_then(points::height));
+        table.push_height(values.next(), row)?;
     }
     table.complete()
 }
 
 /// Reads the faces, which must be triangles.
-pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
+pub fn read_mesh(bytes: &[u8], memory: Memory) -> Result<Vec<[u32; 3]>, Failure> {
     let mut triangles = Vec::new();
     for (row, values) in statements(bytes, b"f")? {
         let mut triangle = [0; 3];
@@ -85,7 +90,7 @@ pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
             let corners = counted(count, "corner");
             return Err(Failure::input(format!("row {row}: the face has {corners}, not 3")));
         }
-        triangles.push(triangle);
+        memory.push(&mut triangles, triangle)?;
     }
     Ok(triangles)
 }
@@ -137,6 +142,9 @@ fn read_corner(value: &[u8], row: usize, column: usize) -> Result<u32, Failure> 
 
 /// Writes all input points and the triangles.
 pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
+    if mesh.points.needs_mark() {
+        writeln!(out, "# {DOUBLES}")?;
+    }
     for ([x, y], z) in mesh.positions() {
         writeln!(out, "v {x} {y} {z}")?;
     }

@@ -1,5 +1,7 @@
 //! Reading PLY, the Stanford polygon format: ascii and both binary forms.
 //!
+//! A comment with the mark of doubles says that the decimals of an ascii file stand for the nearest doubles.
+//!
 //! Points are `x`, `y` and `z` of the element `vertex`, triangles the list `vertex_indices` or `vertex_index` of
 //! `face`; everything else is ignored. `ply-rs-bw` decodes headers and binary elements, one element at a time, so the
 //! claims of a header alone allocate nothing.
@@ -11,12 +13,17 @@ use ply_rs_bw::parser::{Parser, Reader};
 use ply_rs_bw::ply::{ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType};
 
 use crate::failure::{counted, one_line, quoted, Failure};
-use crate::points::{self, PointTable};
+use crate::memory::Memory;
+use crate::points::{PointTable, DOUBLES};
 use crate::text;
 
 /// Reads the vertices of a file as points.
-pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
-    let mut table = PointTable::of_items("vertex");
+pub fn read_points(bytes: &[u8], memory: Memory) -> Result<PointTable, Failure> {
+    let mut table = PointTable::of_items("vertex").within(memory);
+    let mut header = text::rows(bytes).map(|(_, row)| row).take_while(|&row| row != b"end_header");
+    if header.any(|row| row == format!("comment {DOUBLES}").as_bytes()) {
+        table.take_doubles();
+    }
     read_element(bytes, "vertex", |item, _| {
         let [x, y, z] = item.position;
         match [x, y] {
@@ -26,21 +33,20 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
                 table.push([&texts[0], &texts[1]], 0)?;
             }
         }
-        table.push_height(z.and_then(|z| points::height(&z.into_text())));
-        Ok(())
+        table.push_height(z.map(Value::into_text).as_deref(), 0)
     })?;
     table.complete()
 }
 
 /// Reads the faces, which must be triangles.
-pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
+pub fn read_mesh(bytes: &[u8], memory: Memory) -> Result<Vec<[u32; 3]>, Failure> {
     let mut triangles = Vec::new();
     read_element(bytes, "face", |item, index| {
         let number = index + 1;
-        let Ok(corners) = <[f64; 3]>::try_from(item.corners.as_slice()) else {
-            let corners = counted(item.corners.len(), "corner");
-            return Err(Failure::input(format!("face {number} has {corners}, not 3")));
-        };
+        let (corners, count) = item.corners;
+        if count != 3 {
+            return Err(Failure::input(format!("face {number} has {}, not 3", counted(count, "corner"))));
+        }
         let mut triangle = [0; 3];
         for (vertex, corner) in triangle.iter_mut().zip(corners) {
             if !(corner >= 0.0 && corner <= f64::from(u32::MAX) && corner.fract() == 0.0) {
@@ -48,8 +54,7 @@ pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
             }
             *vertex = corner as u32;
         }
-        triangles.push(triangle);
-        Ok(())
+        memory.push(&mut triangles, triangle)
     })?;
     Ok(triangles)
 }
@@ -76,8 +81,11 @@ impl Value {
 struct Item {
     /// The properties `x`, `y` and `z`.
     position: [Option<Value>; 3],
-    corners: Vec<f64>,
+    corners: Corners,
 }
+
+/// The first three numbers of a list, and how many it has. A list of any length takes no memory so.
+type Corners = ([f64; 3], usize);
 
 impl Item {
     /// The place for a coordinate of this name, if there is one.
@@ -87,7 +95,7 @@ impl Item {
     }
 
     /// Keeps the numbers of a property if they are the corners of a face.
-    fn keep_corners(&mut self, name: &str, values: Vec<f64>) {
+    fn keep_corners(&mut self, name: &str, values: Corners) {
         if matches!(name, "vertex_indices" | "vertex_index") {
             self.corners = values;
         }
@@ -96,13 +104,13 @@ impl Item {
 
 impl PropertyAccess for Item {
     fn new() -> Self {
-        Self { position: [None, None, None], corners: Vec::new() }
+        Self { position: [None, None, None], corners: ([0.0; 3], 0) }
     }
 
     fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
         let values = numbers(property);
         match self.coordinate(name) {
-            Some(coordinate) => *coordinate = values.first().copied().map(Value::Double),
+            Some(coordinate) => *coordinate = (values.1 > 0).then_some(Value::Double(values.0[0])),
             None => self.keep_corners(name, values),
         }
         PropertyAccessResult::Set
@@ -110,19 +118,22 @@ impl PropertyAccess for Item {
 }
 
 /// The numbers of a property. Doubles hold each of its types exactly.
-fn numbers(property: Property) -> Vec<f64> {
-    fn all<T: Into<f64>>(list: Vec<T>) -> Vec<f64> {
-        list.into_iter().map(Into::into).collect()
+fn numbers(property: Property) -> Corners {
+    fn all<T: Into<f64> + Copy>(list: Vec<T>) -> Corners {
+        let mut first = [0.0; 3];
+        first.iter_mut().zip(&list).for_each(|(number, &value)| *number = value.into());
+        (first, list.len())
     }
+    let one = |value: f64| ([value, 0.0, 0.0], 1);
     match property {
-        Property::Char(value) => vec![value.into()],
-        Property::UChar(value) => vec![value.into()],
-        Property::Short(value) => vec![value.into()],
-        Property::UShort(value) => vec![value.into()],
-        Property::Int(value) => vec![value.into()],
-        Property::UInt(value) => vec![value.into()],
-        Property::Float(value) => vec![value.into()],
-        Property::Double(value) => vec![value],
+        Property::Char(value) => one(value.into()),
+        Property::UChar(value) => one(value.into()),
+        Property::Short(value) => one(value.into()),
+        Property::UShort(value) => one(value.into()),
+        Property::Int(value) => one(value.into()),
+        Property::UInt(value) => one(value.into()),
+        Property::Float(value) => one(value.into()),
+        Property::Double(value) => one(value),
         Property::ListChar(list) => all(list),
         Property::ListUChar(list) => all(list),
         Property::ListShort(list) => all(list),
@@ -130,7 +141,7 @@ fn numbers(property: Property) -> Vec<f64> {
         Property::ListInt(list) => all(list),
         Property::ListUInt(list) => all(list),
         Property::ListFloat(list) => all(list),
-        Property::ListDouble(list) => list,
+        Property::ListDouble(list) => all(list),
     }
 }
 
@@ -256,11 +267,14 @@ fn read_row(element: &ElementDef, rest: &mut &[u8], index: usize) -> Result<Item
             // A count that is not a whole number turns into zero, or into one that the row cannot hold.
             PropertyType::List(..) => number(words.next(), name)? as usize,
         };
-        let mut values = Vec::new();
-        for _ in 0..count {
-            values.push(number(words.next(), name)?);
+        let mut first = [0.0; 3];
+        for index in 0..count {
+            let value = number(words.next(), name)?;
+            if let Some(place) = first.get_mut(index) {
+                *place = value;
+            }
         }
-        item.keep_corners(name, values);
+        item.keep_corners(name, (first, count));
     }
     if words.next().is_some() {
         return Err(Failure::input(format!("{} {} has more values than the header promises", element.name, index + 1)));

@@ -1,19 +1,22 @@
 //! Writing PLY: all input points, at height 0 if they have no z, and the triangles.
 //!
-//! The ascii form has the numbers of the input as they are. The binary form, little endian, has doubles, so whole numbers
-//! that no double holds are refused before the work. A decimal is written as the nearest double, which is what readers
-//! make of its text as well.
+//! The ascii form has the numbers of the input as they are. The binary form, little endian, has doubles, so whole
+//! numbers that no double holds are refused before the work. A decimal is written as the nearest double, which is what
+//! readers make of its text as well.
 
 use std::io::{self, Write};
 
 use crate::failure::Failure;
 use crate::formats::mesh_view::MeshView;
 use crate::number::Coordinate;
-use crate::points::PointTable;
+use crate::points::{PointTable, DOUBLES};
+
+/// The name of the ascii form in the header.
+const ASCII: &str = "ascii";
 
 /// Writes the ascii form.
 pub fn write_ascii(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
-    write_header(mesh, "ascii", out)?;
+    write_header(mesh, ASCII, out)?;
     for ([x, y], z) in mesh.positions() {
         writeln!(out, "{x} {y} {z}")?;
     }
@@ -40,13 +43,16 @@ pub fn write_binary(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> 
 
 fn write_header(mesh: &MeshView<'_>, form: &str, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "ply\nformat {form} 1.0\ncomment Delaunay triangulation by incircle")?;
+    if form == ASCII && mesh.points.needs_mark() {
+        writeln!(out, "comment {DOUBLES}")?;
+    }
     writeln!(out, "element vertex {}", mesh.points.len())?;
     writeln!(out, "property double x\nproperty double y\nproperty double z")?;
     writeln!(out, "element face {}", mesh.triangles.len())?;
     writeln!(out, "property list uchar int vertex_indices\nend_header")
 }
 
-/// Refuses whole numbers that no double holds, which the binary form would change.
+/// Refuses whole numbers that no double equals, because the binary form would change them.
 pub fn check_binary(points: &PointTable) -> Result<(), Failure> {
     for index in 0..points.len() {
         for axis in [0, 1] {
@@ -54,7 +60,7 @@ pub fn check_binary(points: &PointTable) -> Result<(), Failure> {
             if !is_kept(coordinate) {
                 let place = points.place(index, axis);
                 return Err(Failure::input(format!(
-                    "{place}: no double is {coordinate}, and ply-binary holds doubles: choose a text format, such as \
+                    "{place}: {coordinate} is no double, and ply-binary holds doubles: choose a text format, such as \
                      ply or obj"
                 )));
             }
@@ -63,7 +69,7 @@ pub fn check_binary(points: &PointTable) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Whether the nearest double is the coordinate itself, or the coordinate is a decimal with a fraction.
+/// Whether a double equals the coordinate, or the coordinate is a decimal with a fraction, which may be rounded.
 fn is_kept(coordinate: Coordinate) -> bool {
     match coordinate {
         Coordinate::Decimal { steps, digits: 0 } => steps as f64 as i128 == steps,

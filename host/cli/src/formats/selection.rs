@@ -1,13 +1,13 @@
-//! Which points of a file are taken.
+//! The choice of the points that are taken from a file.
 
 use crate::number::Decimal;
 
-/// The choices that say which points of a file are taken.
+/// The options that select points of a file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Selection {
     /// The name of the array in an archive of arrays.
     pub array: Option<String>,
-    /// The classes of LiDAR points that are taken; all if there are none.
+    /// The classes of LiDAR points that are taken. If the list is empty, all classes are.
     pub classes: Vec<u8>,
     /// The rectangle whose points are taken.
     pub bounds: Option<Bounds>,

@@ -2,21 +2,22 @@
 //!
 //! A file holds any number of geometries, one after the other, also in a `GEOMETRYCOLLECTION`. Letters may be small or
 //! capital; `Z`, `M` and `ZM` stand behind the name of the geometry or not at all; `SRID=4326;` before a geometry, as
-//! PostGIS writes it, is ignored, and so is an `EMPTY` geometry. The numbers are taken as they are written, which is why
-//! no library reads them: those that read WKT make doubles of them. Other geometries are refused.
+//! PostGIS writes it, is ignored, and so is an `EMPTY` geometry. Other geometries are refused. The numbers are taken as
+//! they are written. Libraries for WKT make doubles of the numbers, so this module uses none.
 //!
 //! Source: OGC 06-103r4, "Simple feature access, part 1", chapter 7.
 
 use crate::failure::{quoted, Failure};
-use crate::points::{self, PointTable};
+use crate::memory::Memory;
+use crate::points::PointTable;
 use crate::text;
 
 /// Reads the points of all geometries.
-pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
+pub fn read_points(bytes: &[u8], memory: Memory) -> Result<PointTable, Failure> {
     let bytes = text::without_mark(bytes)?;
-    let mut table = PointTable::of_items("point");
+    let mut table = PointTable::of_items("point").within(memory);
     let mut tokens = Tokens { all: bytes, at: 0 };
-    // Collections that are open.
+    // The number of collections that are open.
     let mut depth = 0usize;
     while let Some(word) = tokens.next() {
         match word {
@@ -46,7 +47,7 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
 /// Which numbers a point has behind x and y.
 #[derive(Clone, Copy, PartialEq)]
 enum Dimensions {
-    /// No letter says it: a third number is z.
+    /// No letter is given, so a third number is z.
     Unsaid,
     /// A measure, which is not read.
     Measure,
@@ -54,15 +55,20 @@ enum Dimensions {
     Height,
 }
 
-/// Takes the comma between two geometries of a collection; nothing stands between two geometries outside of one.
+/// Takes the comma between two geometries of a collection, behind which another one must stand. Outside a collection
+/// nothing stands between two geometries.
 fn continue_list(tokens: &mut Tokens<'_>, depth: usize) -> Result<(), Failure> {
-    if depth == 0 || tokens.peek() == Some(b")") || tokens.take(b",") {
+    if depth == 0 || tokens.peek() == Some(b")") {
         return Ok(());
     }
-    Err(tokens.unexpected("',' or ')'"))
+    tokens.expect(b",", "',' or ')'")?;
+    if tokens.peek() == Some(b")") {
+        return Err(tokens.unexpected("another geometry of the collection"));
+    }
+    Ok(())
 }
 
-/// Takes the letters behind the name of a geometry and the parenthesis; `None` for an empty geometry.
+/// Takes the letters behind the name of a geometry, and the opening parenthesis; `None` for an empty geometry.
 fn open(tokens: &mut Tokens<'_>) -> Result<Option<Dimensions>, Failure> {
     let mut dimensions = Dimensions::Unsaid;
     for (letters, meaning) in [("ZM", Dimensions::Height), ("Z", Dimensions::Height), ("M", Dimensions::Measure)] {
@@ -86,34 +92,34 @@ fn read_geometry<'a>(tokens: &mut Tokens<'a>, mut word: &'a [u8], table: &mut Po
         tokens.expect(b";", "';' behind the number of the SRID")?;
         word = tokens.next().unwrap_or_default();
     }
-    // Some programs write the letters at the name: POINTZ.
+    // Some programs join the letters to the name: POINTZ.
     let name = word.to_ascii_uppercase();
     let (name, attached) = match name.as_slice() {
         [name @ .., b'Z', b'M'] | [name @ .., b'Z'] => (name, Dimensions::Height),
         [name @ .., b'M'] => (name, Dimensions::Measure),
         name => (name, Dimensions::Unsaid),
     };
-    let is_multiple = match name {
-        b"POINT" => false,
-        b"MULTIPOINT" => true,
-        _ => {
-            let (row, word) = (tokens.row(), quoted(word));
-            return Err(Failure::input(format!(
-                "row {row}: {word} is neither POINT nor MULTIPOINT nor a collection of them: other geometries are no \
-                 points"
-            )));
-        }
-    };
+    if name != b"POINT" && name != b"MULTIPOINT" {
+        let (row, word) = (tokens.row(), quoted(word));
+        return Err(Failure::input(format!(
+            "row {row}: {word} is neither POINT nor MULTIPOINT nor a collection of them: other geometries are no points"
+        )));
+    }
     let Some(dimensions) = open(tokens)? else {
         return Ok(());
     };
     let dimensions = if attached == Dimensions::Unsaid { dimensions } else { attached };
-    if !is_multiple {
+    if name == b"POINT" {
         read_point(tokens, dimensions, table)?;
         return tokens.expect(b")", "')' behind the numbers of the point");
     }
+    read_multiple(tokens, dimensions, table)
+}
+
+/// Reads the points of a `MULTIPOINT` and the closing parenthesis.
+fn read_multiple(tokens: &mut Tokens<'_>, dimensions: Dimensions, table: &mut PointTable) -> Result<(), Failure> {
     loop {
-        // The points of a MULTIPOINT have parentheses of their own, or none.
+        // Each point has parentheses of its own, or none.
         if tokens.take(b"(") {
             read_point(tokens, dimensions, table)?;
             tokens.expect(b")", "')' behind the numbers of the point")?;
@@ -140,13 +146,13 @@ fn read_point(tokens: &mut Tokens<'_>, dimensions: Dimensions, table: &mut Point
     }
     if count < 2 {
         let row = tokens.row();
-        return Err(Failure::input(format!("row {row}: a point has {count} numbers, not two or more")));
+        return Err(Failure::input(format!("row {row}: a point needs two numbers or more, but this one has {count}")));
     }
     // The table names points by their numbers; counting the rows up to each point would take quadratic time.
     table.push([numbers[0], numbers[1]], 0)?;
-    let has_height = count > 2 && dimensions != Dimensions::Measure;
-    table.push_height(has_height.then(|| points::height(numbers[2])).flatten());
-    Ok(())
+    // A point that the letter Z promises a height needs one.
+    let has_height = dimensions == Dimensions::Height || count > 2 && dimensions == Dimensions::Unsaid;
+    table.push_height(has_height.then_some(numbers[2]), 0)
 }
 
 /// Whether a byte is a token by itself.
@@ -205,7 +211,7 @@ impl<'a> Tokens<'a> {
     /// The failure of a token that is not what the grammar wants.
     fn unexpected(&mut self, what: &str) -> Failure {
         let found = self.peek().map_or_else(|| "the end of the file".to_owned(), quoted);
-        Failure::input(format!("row {}: there is {found} where {what} must stand", self.row()))
+        Failure::input(format!("row {}: expected {what}, but found {found}", self.row()))
     }
 
     /// The row of the next token, counted from 1.
@@ -224,17 +230,17 @@ mod tests {
         let text = b"POINT(1 2)\nSRID=4326;point z (3 4.50 -5e0)\nMULTIPOINT ((-1 2), EMPTY, (3 4 9))\n\
                      MultiPointZM(5 6 7 8,9 10 11 12) POINT EMPTY\nGEOMETRYCOLLECTION M (POINT M (1 1 1),\n \
                      GEOMETRYCOLLECTION EMPTY, GEOMETRYCOLLECTION (MULTIPOINT(2 3)))\n";
-        let table = read_points(text).expect("well-known text");
+        let table = read_points(text, Memory::ENDLESS).expect("well-known text");
         let found: Vec<[f64; 2]> = table.doubles().to_vec();
         let expected = [[1., 2.], [3., 4.5], [-1., 2.], [3., 4.], [5., 6.], [9., 10.], [1., 1.], [2., 3.]];
         assert_eq!(found, expected);
-        assert!(read_points(b"").expect("no points").is_empty());
-        assert!(read_points(b"POINT EMPTY").expect("no points").is_empty());
+        assert!(read_points(b"", Memory::ENDLESS).expect("no points").is_empty());
+        assert!(read_points(b"POINT EMPTY", Memory::ENDLESS).expect("no points").is_empty());
     }
 
     #[test]
     fn heights_are_kept_and_measures_are_not() {
-        let heights = |text: &str| read_points(text.as_bytes()).expect("points").heights().to_vec();
+        let heights = |text: &str| read_points(text.as_bytes(), Memory::ENDLESS).expect("points").heights().to_vec();
         assert_eq!(heights("POINT (1 2 3) POINT Z (4 5 6) POINTZM (1 2 7 9)"), [3.0, 6.0, 7.0]);
         assert!(heights("POINT M (1 2 3)").is_empty());
         assert!(heights("POINTM (1 2 3)").is_empty());
@@ -244,19 +250,22 @@ mod tests {
     fn wrong_texts_are_refused_with_their_row() {
         for (text, part) in [
             ("POINT (1 2)\nLINESTRING (1 2, 3 4)", "row 2: 'LINESTRING' is neither POINT"),
-            ("POINT (1)", "row 1: a point has 1 numbers"),
-            ("POINT (1 2", "row 1: there is the end of the file where ')'"),
-            ("POINT 1 2", "row 1: there is '1' where '(' or EMPTY"),
-            ("POINT (1 2 3 4 5)", "row 1: there is '5' where ')'"),
+            ("POINT (1)", "row 1: a point needs two numbers or more, but this one has 1"),
+            ("POINT (1 2", "row 1: expected ')' behind the numbers of the point, but found the end of the file"),
+            ("POINT 1 2", "row 1: expected '(' or EMPTY, but found '1'"),
+            ("POINT (1 2 3 4 5)", "behind the numbers of the point, but found '5'"),
             ("POINT (1 x)", "point 1, y: 'x' is not a number"),
-            ("MULTIPOINT (1 2; 3 4)", "row 1: there is ';' where"),
-            ("GEOMETRYCOLLECTION (POINT (1 2)", "where ',' or ')'"),
+            ("MULTIPOINT (1 2; 3 4)", "but found ';'"),
+            ("GEOMETRYCOLLECTION (POINT (1 2)", "expected ',' or ')'"),
             ("GEOMETRYCOLLECTION (", "another geometry of the collection"),
-            ("SRID=4326 POINT (1 2)", "where ';'"),
+            ("GEOMETRYCOLLECTION (POINT (1 2),)", "row 1: expected another geometry of the collection"),
+            ("SRID=4326 POINT (1 2)", "expected ';'"),
             (")", "row 1: ')' is neither"),
             ("POINT (nan 1)", "not a finite number"),
+            ("POINT (1 2 x)", "point 1, z: 'x' is not a number"),
+            ("POINT Z (1 2)", "point 1, z: the value is missing"),
         ] {
-            let failure = read_points(text.as_bytes()).expect_err(text);
+            let failure = read_points(text.as_bytes(), Memory::ENDLESS).expect_err(text);
             assert!(failure.message.contains(part), "{text}: {failure}");
         }
     }

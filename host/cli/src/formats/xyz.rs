@@ -7,13 +7,14 @@ use std::fmt::Display;
 use std::io::{self, Write};
 
 use crate::failure::{counted, quoted, Failure};
-use crate::points::{self, PointTable};
+use crate::memory::Memory;
+use crate::points::PointTable;
 use crate::text;
 
 /// Reads the points of a file.
-pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
+pub fn read_points(bytes: &[u8], memory: Memory) -> Result<PointTable, Failure> {
     let bytes = text::without_mark(bytes)?;
-    let mut table = PointTable::of_rows([1, 2]);
+    let mut table = PointTable::of_rows([1, 2, 3]).within(memory);
     let mut width = 0;
     for (row, content) in text::rows(bytes) {
         let content = text::without_comment(content);
@@ -39,7 +40,7 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
         }
         let mut words = text::words(content);
         table.push([words.next().unwrap_or_default(), words.next().unwrap_or_default()], row)?;
-        table.push_height(words.next().and_then(points::height));
+        table.push_height(words.next(), row)?;
     }
     table.complete()
 }

@@ -9,8 +9,8 @@ pub const GRID_BITS: u32 = 31;
 
 /// The last coordinate of that grid.
 const LAST: f64 = ((1u64 << GRID_BITS) - 1) as f64;
-/// Half a step of that grid where the shape of a set counts. The mantissa of pi takes all bits, and a step that is a
-/// short binary fraction would make short binary fractions of all coordinates.
+/// Half a step of that grid, for sets whose shape counts. The mantissa of pi uses all its bits. A step that is a short
+/// binary fraction would make short binary fractions of all coordinates.
 const HALF_STEP: f64 = std::f64::consts::FRAC_PI_4 / (1u64 << GRID_BITS) as f64;
 
 /// A set in doubles.
@@ -27,7 +27,8 @@ impl DoubleSet {
         Self { distribution, seed: SplitMix64::new(seed).next_u64() }
     }
 
-    /// The coordinates of a point of the grid. Equal points give equal coordinates, and order plays no part.
+    /// The coordinates of a point of the grid. They depend on the point, the set and the seed, but not on the order of
+    /// the points.
     pub fn place(&self, point: [u32; 2]) -> [f64; 2] {
         match self.distribution {
             Distribution::Lattice | Distribution::RotatedLattice | Distribution::Box => point.map(spread),
@@ -61,7 +62,7 @@ impl DoubleSet {
     }
 }
 
-/// The double that is nearest to so many steps from the middle of the grid.
+/// The double nearest to a coordinate of the grid, counted from the middle of the grid.
 fn spread(value: u32) -> f64 {
     (2.0 * f64::from(value) - LAST) * HALF_STEP
 }

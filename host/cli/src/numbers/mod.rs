@@ -25,18 +25,18 @@ const SINGLE_BITS: u32 = f32::MANTISSA_DIGITS;
 pub enum NumberKind {
     /// Whole numbers from 0 to 2^BITS - 1
     Whole,
-    /// Whole numbers from -2^(BITS-1) to 2^(BITS-1) - 1, the same points moved
+    /// The points of 'whole', moved: from -2^(BITS-1) to 2^(BITS-1) - 1
     Signed,
-    /// Decimals with six digits behind the point, 'signed' in steps of 0.000001
+    /// Decimals with six digits: the numbers of 'signed' in steps of 0.000001
     Decimal,
     /// Doubles between -1 and 1 with mantissas of 53 bits
     Double,
-    /// Numbers that are exactly an f32, 'signed' in steps of 2^-(BITS-1), so from -1 to 1
+    /// Numbers that are exactly an f32: 'signed' in steps of 2^-(BITS-1), from -1 to 1
     F32,
 }
 
 impl NumberKind {
-    /// The bits of the grid on which a set is made, where `chosen` is the choice of the user.
+    /// The bits of the grid on which a set is made: `chosen`, or else the default of the kind of numbers.
     pub fn bits(self, chosen: Option<u32>) -> Result<u32, Failure> {
         match (self, chosen) {
             (Self::Double, Some(bits)) => Err(Failure::usage(format!(
@@ -84,7 +84,7 @@ impl Stored for SixDigits {
     }
 }
 
-/// Writes a decimal with so many digits behind the point, and without a point if there are none.
+/// Writes a decimal with `digits` digits behind the point, and without a point if `digits` is 0.
 fn write_digits(
     f: &mut fmt::Formatter<'_>,
     is_negative: bool,
@@ -126,7 +126,8 @@ pub struct Single {
 }
 
 impl Single {
-    /// The number of so many steps from the middle of a grid of `bits` bits, at most 24. The grid lies from -1 to 1.
+    /// The number that lies `steps` steps from the middle of a grid of `bits` bits, at most 24. The grid goes from -1
+    /// to 1.
     pub fn new(steps: i32, bits: u32) -> Self {
         Self { steps, digits: bits - 1 }
     }

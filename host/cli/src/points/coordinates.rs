@@ -1,40 +1,48 @@
-//! The coordinates of a file, in numbers that hold them without rounding where there are such.
+//! The coordinates of the points of a file: in exact steps if these fit 64 bits, else in doubles.
 
 use std::borrow::Cow;
 
 use crate::number::{self, Coordinate, Decimal, Number};
 
-/// The meaning of steps: a coordinate is `(steps * factor + offset) * 10^-digits`.
+/// How steps become coordinates: `(steps * factor + offset) * 10^-digits`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unit {
     /// Digits behind the point.
     pub digits: u32,
-    /// The length of a step, in the last digit; positive.
+    /// The length of a step, in units of the last digit; positive.
     pub factor: i64,
-    /// The coordinates of the place at step 0, in the last digit.
+    /// The coordinates of the place at step 0, in units of the last digit.
     pub offset: [i128; 2],
+    /// Whether the file stores the steps as integers. The steps of a text are made of its decimals.
+    pub is_stored: bool,
 }
 
 impl Unit {
-    /// The unit of decimals with so many digits behind the point.
+    /// The unit of decimals with `digits` digits behind the point.
     pub fn of_digits(digits: u32) -> Self {
-        Self { digits, factor: 1, offset: [0; 2] }
+        Self { digits, factor: 1, offset: [0; 2], is_stored: false }
     }
 
     /// Whether steps are whole numbers.
     pub fn is_whole(&self) -> bool {
-        *self == Self::of_digits(0)
+        Self { is_stored: false, ..*self } == Self::of_digits(0)
     }
 
-    /// The coordinate of a step on an axis.
+    /// The coordinate for a number of steps on an axis.
     pub fn coordinate(&self, steps: i64, axis: usize) -> Coordinate {
-        let steps = i128::from(steps) * i128::from(self.factor) + self.offset[axis];
-        Coordinate::Decimal { steps, digits: self.digits }
+        let (steps, digits) = self.decimal(steps, axis);
+        Coordinate::Decimal { steps, digits }
     }
 
-    /// The double that is nearest to the coordinate of a step on an axis.
+    /// The double nearest to the coordinate for a number of steps on an axis.
     pub fn nearest(&self, steps: i64, axis: usize) -> f64 {
-        number::nearest(i128::from(steps) * i128::from(self.factor) + self.offset[axis], self.digits)
+        let (steps, digits) = self.decimal(steps, axis);
+        number::nearest(steps, digits)
+    }
+
+    /// The coordinate of a step on an axis, in the last digit, and its digits behind the point.
+    fn decimal(&self, steps: i64, axis: usize) -> (i128, u32) {
+        (i128::from(steps) * i128::from(self.factor) + self.offset[axis], self.digits)
     }
 }
 
@@ -45,14 +53,14 @@ pub enum Coordinates {
     Steps {
         /// The coordinates of each point, in steps.
         steps: Vec<[i64; 2]>,
-        /// The meaning of the steps.
+        /// How the steps become coordinates.
         unit: Unit,
     },
     /// Doubles.
     Doubles(Vec<[f64; 2]>),
 }
 
-/// An empty list, to which numbers as written are added.
+/// Makes an empty list of steps, which are whole numbers.
 impl Default for Coordinates {
     fn default() -> Self {
         Self::Steps { steps: Vec::new(), unit: Unit::of_digits(0) }
@@ -68,29 +76,43 @@ impl Coordinates {
         }
     }
 
-    /// Adds a point as it is written. As long as all coordinates are decimals of one length of step whose steps fit 64
-    /// bits, they stay exact; otherwise all become the nearest doubles.
-    pub fn push(&mut self, point: [Number; 2]) {
+    /// Adds a point as it is written. The coordinates stay exact as long as all are decimals whose steps of one common
+    /// length fit 64 bits. Otherwise all coordinates become the nearest doubles. Returns how many coordinates were
+    /// rounded, earlier ones included.
+    pub fn push(&mut self, point: [Number; 2]) -> usize {
         if let [Number::Decimal(x), Number::Decimal(y)] = point {
             if self.push_decimals(x, y).is_some() {
-                return;
+                return 0;
             }
         }
-        let point = point.map(|number| match number {
-            Number::Decimal(Decimal { steps, digits }) => number::nearest(i128::from(steps), digits),
-            Number::Beyond(value) | Number::Double(value) => value,
-        });
-        self.push_doubles(point);
+        let point = point.map(Number::nearest);
+        let rounded = point.iter().filter(|nearest| !nearest.is_exact).count();
+        rounded + self.push_doubles(point.map(|nearest| nearest.value))
     }
 
-    /// Adds a point of doubles. All earlier coordinates become doubles, too.
-    pub fn push_doubles(&mut self, point: [f64; 2]) {
+    /// Adds a point of doubles. All earlier coordinates become doubles, too; returns how many of them were rounded.
+    pub fn push_doubles(&mut self, point: [f64; 2]) -> usize {
+        let mut rounded = 0;
         if let Self::Steps { .. } = self {
+            rounded = self.count_no_doubles();
             *self = Self::Doubles(self.doubles().into_owned());
         }
         if let Self::Doubles(points) = self {
             // Adding zero turns minus zero into zero.
             points.push(point.map(|value| value + 0.0));
+        }
+        rounded
+    }
+
+    /// The number of coordinates that are no doubles.
+    pub fn count_no_doubles(&self) -> usize {
+        match self {
+            Self::Steps { steps, unit } => steps
+                .iter()
+                .flat_map(|point| [0, 1].map(|axis| unit.decimal(point[axis], axis)))
+                .filter(|&(steps, digits)| !number::is_double(steps, digits))
+                .count(),
+            Self::Doubles(_) => 0,
         }
     }
 

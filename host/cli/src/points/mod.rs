@@ -6,6 +6,7 @@ mod place;
 use std::borrow::Cow;
 
 use crate::failure::{quoted, Failure};
+use crate::memory::Memory;
 use crate::number::{self, Coordinate, Decimal, Number};
 use crate::text;
 
@@ -13,22 +14,34 @@ pub use coordinates::{Coordinates, Unit};
 pub use place::Place;
 use place::{Origin, Rows};
 
+/// The mark of a text file whose coordinates are doubles. It stands in a comment, so other programs ignore it.
+pub const DOUBLES: &str = "incircle: the coordinates are doubles";
+
 /// The points of a file, each with its place for messages.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointTable {
     coordinates: Coordinates,
     /// The z of the first points, up to the first one that has none.
     heights: Vec<f64>,
+    /// The index of the first point that has no z, if the format can have one.
+    without_height: Option<usize>,
+    /// Whether a point has a z.
+    has_height: bool,
     origin: Origin,
-    columns: [usize; 2],
+    columns: [usize; 3],
     /// The message about the first whole number beyond 64 bits. Such a number is an error if all numbers are whole.
     beyond: Option<String>,
     has_fraction: bool,
+    /// Whether the numbers of the text stand for the doubles nearest to them, as a mark in the file says.
+    takes_doubles: bool,
+    memory: Memory,
+    /// Coordinates that were rounded to the nearest double when they were added.
+    rounded: usize,
 }
 
 impl PointTable {
-    /// Makes an empty table of text rows whose coordinates stand in these columns, counted from 1.
-    pub fn of_rows(columns: [usize; 2]) -> Self {
+    /// Makes an empty table of text rows whose x, y and z stand in these columns, counted from 1.
+    pub fn of_rows(columns: [usize; 3]) -> Self {
         Self::new(Coordinates::default(), Origin::Rows(Rows::default()), columns)
     }
 
@@ -39,11 +52,46 @@ impl PointTable {
 
     /// Makes a table of items of this name with these coordinates, which must be finite.
     pub fn of_coordinates(name: &'static str, coordinates: Coordinates) -> Self {
-        Self::new(coordinates, Origin::Items(name), [1, 2])
+        Self::new(coordinates, Origin::Items(name), [1, 2, 3])
     }
 
-    fn new(coordinates: Coordinates, origin: Origin, columns: [usize; 2]) -> Self {
-        Self { coordinates, heights: Vec::new(), origin, columns, beyond: None, has_fraction: false }
+    fn new(coordinates: Coordinates, origin: Origin, columns: [usize; 3]) -> Self {
+        Self {
+            coordinates,
+            heights: Vec::new(),
+            without_height: None,
+            has_height: false,
+            origin,
+            columns,
+            beyond: None,
+            has_fraction: false,
+            takes_doubles: false,
+            memory: Memory::ENDLESS,
+            rounded: 0,
+        }
+    }
+
+    /// Takes all further numbers as the doubles nearest to them, because the file has the mark [`DOUBLES`].
+    pub fn take_doubles(&mut self) {
+        self.takes_doubles = true;
+    }
+
+    /// Whether a text of the coordinates needs the mark [`DOUBLES`]. A double is written in the fewest digits that tell it
+    /// from all other doubles, and the decimal that stands there is often another number.
+    pub fn needs_mark(&self) -> bool {
+        let is_written = |value: f64| {
+            let text = Coordinate::Double(value).to_string();
+            number::parse(text.as_bytes()).is_some_and(|number| number.nearest().is_exact)
+        };
+        match &self.coordinates {
+            Coordinates::Doubles(points) => !points.iter().flatten().all(|&value| is_written(value)),
+            Coordinates::Steps { .. } => false,
+        }
+    }
+
+    /// The table, which refuses more points than this memory holds.
+    pub fn within(self, memory: Memory) -> Self {
+        Self { memory, ..self }
     }
 
     /// Adds a point as it is written. Rows are counted from 1; a table of items ignores them. Anything but two finite
@@ -51,6 +99,9 @@ impl PointTable {
     pub fn push(&mut self, point: [&[u8]; 2], row: usize) -> Result<(), Failure> {
         let number = |axis: usize| number_at(point[axis], || self.next_place(axis, row));
         let numbers = [number(0)?, number(1)?];
+        if self.takes_doubles {
+            return self.push_doubles(numbers.map(|number| number.nearest().value), row);
+        }
         for (axis, number) in numbers.iter().enumerate() {
             match number {
                 Number::Decimal(decimal) => self.has_fraction |= decimal.digits > 0,
@@ -59,17 +110,18 @@ impl PointTable {
                 Number::Double(_) => self.has_fraction = true,
             }
         }
-        self.add_row(row);
-        self.coordinates.push(numbers);
+        self.add_row(row)?;
+        self.rounded += self.coordinates.push(numbers);
         Ok(())
     }
 
     /// Adds a point of decimals, from a text row.
     #[inline]
-    pub fn push_decimals(&mut self, point: [Decimal; 2], row: usize) {
+    pub fn push_decimals(&mut self, point: [Decimal; 2], row: usize) -> Result<(), Failure> {
         self.has_fraction |= point[0].digits | point[1].digits > 0;
-        self.add_row(row);
-        self.coordinates.push(point.map(Number::Decimal));
+        self.add_row(row)?;
+        self.rounded += self.coordinates.push(point.map(Number::Decimal));
+        Ok(())
     }
 
     /// Adds a point of doubles, from a file that stores doubles. Values that are not finite are refused.
@@ -78,23 +130,37 @@ impl PointTable {
             return Err(text::not_finite(&format!("'{}'", point[axis]), self.next_place(axis, row)));
         }
         self.has_fraction = true;
-        self.add_row(row);
-        self.coordinates.push_doubles(point);
+        self.add_row(row)?;
+        self.rounded += self.coordinates.push_doubles(point);
         Ok(())
     }
 
-    /// Gives the last point a z. If one point has none, or one that is not finite, no point of the table has one.
-    pub fn push_height(&mut self, z: Option<f64>) {
-        if let Some(z) = z.filter(|z| z.is_finite() && self.heights.len() + 1 == self.len()) {
-            self.heights.push(z);
+    /// Gives the last point its z as it is written, as the nearest double. Anything but a finite number is refused. If
+    /// one point has no z, no point of the table has one.
+    pub fn push_height(&mut self, z: Option<&[u8]>, row: usize) -> Result<(), Failure> {
+        let index = self.len().saturating_sub(1);
+        let Some(text) = z else {
+            self.without_height.get_or_insert(index);
+            return Ok(());
+        };
+        let height = number_at(text, || self.place_in(row, index, 2))?.nearest().value;
+        self.has_height = true;
+        if self.without_height.is_none() {
+            self.heights.push(height);
         }
+        Ok(())
     }
 
-    /// The table with the z of its points. If there is none for a point, or one that is not finite, no point has one.
+    /// The table with the z of its points, which must be finite; an empty list if they have none.
     pub fn with_heights(mut self, heights: Vec<f64>) -> Self {
-        let is_complete = heights.len() == self.len() && heights.iter().all(|z| z.is_finite());
-        self.heights = if is_complete { heights } else { Vec::new() };
+        self.heights = heights;
         self
+    }
+
+    /// The sentence about a z that only some points have, and that is left out for that reason.
+    pub fn left_out(&self) -> Option<String> {
+        let index = self.without_height.filter(|_| self.has_height)?;
+        Some(format!("z is left out: {} has none", self.place(index, 2).item()))
     }
 
     /// The table, once all points are in it. Whole numbers beyond 64 bits are refused unless the set has fractions.
@@ -105,17 +171,19 @@ impl PointTable {
         }
     }
 
-    fn add_row(&mut self, row: usize) {
+    #[inline]
+    fn add_row(&mut self, row: usize) -> Result<(), Failure> {
         let index = self.len();
         if let Origin::Rows(rows) = &mut self.origin {
             rows.push(index, row);
         }
+        self.memory.check_points(index as u64 + 1)
     }
 
     fn beyond_at(&self, point: [&[u8]; 2], axis: usize, row: usize) -> String {
         format!(
-            "{}: {} is beyond 64 bits: whole numbers go from {} to {}; with an exponent, as in 1e20, numbers are \
-             doubles",
+            "{}: {} is beyond 64 bits: whole numbers go from {} to {}; a number with an exponent, as in 1e20, is \
+             taken as a double",
             self.next_place(axis, row),
             quoted(point[axis]),
             i64::MIN,
@@ -148,16 +216,22 @@ impl PointTable {
         self.coordinates.doubles()
     }
 
+    /// The number of coordinates that are rounded in [`doubles`](Self::doubles). Those of a file that stores doubles
+    /// are not.
+    pub fn rounded(&self) -> usize {
+        self.rounded + self.coordinates.count_no_doubles()
+    }
+
     /// The z of the points; empty if they have none.
     pub fn heights(&self) -> &[f64] {
-        if self.heights.len() == self.len() {
+        if self.without_height.is_none() && self.heights.len() == self.len() {
             &self.heights
         } else {
             &[]
         }
     }
 
-    /// The place of coordinate `axis`, 0 or 1, of the point at `index`, for messages.
+    /// The place of coordinate `axis`, 0 to 2, of the point at `index`, for messages.
     pub fn place(&self, index: usize, axis: usize) -> Place {
         let row = match &self.origin {
             Origin::Rows(rows) => rows.of(index),
@@ -173,17 +247,17 @@ impl PointTable {
 
     fn place_in(&self, row: usize, index: usize, axis: usize) -> Place {
         match self.origin {
-            Origin::Rows(_) => Place::Cell { row, column: self.columns[axis.min(1)] },
-            Origin::Items(name) => Place::Item { name, number: index + 1, axis: if axis == 0 { 'x' } else { 'y' } },
+            Origin::Rows(_) => Place::Cell { row, column: self.columns[axis.min(2)] },
+            Origin::Items(name) => Place::Item { name, number: index + 1, axis: ['x', 'y', 'z'][axis.min(2)] },
         }
     }
 }
 
-/// Reads a number at a place, which is any finite one, with spaces around it or without.
+/// Reads the number at a place. Any finite number is taken, with spaces around it or without.
 fn number_at(value: &[u8], place: impl Fn() -> Place) -> Result<Number, Failure> {
     let trimmed = value.trim_ascii();
     match number::parse(trimmed) {
-        Some(Number::Double(double) | Number::Beyond(double)) if !double.is_finite() => {
+        Some(Number::Double(nearest) | Number::Beyond(nearest)) if !nearest.value.is_finite() => {
             Err(text::not_finite(&quoted(trimmed), place()))
         }
         Some(number) => Ok(number),
@@ -191,17 +265,12 @@ fn number_at(value: &[u8], place: impl Fn() -> Place) -> Result<Number, Failure>
     }
 }
 
-/// Reads a z as the nearest double; `None` if the value is no number.
-pub fn height(value: &[u8]) -> Option<f64> {
-    std::str::from_utf8(value.trim_ascii()).ok()?.parse().ok()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn table(points: &[[&str; 2]]) -> Result<PointTable, Failure> {
-        let mut table = PointTable::of_rows([1, 2]);
+        let mut table = PointTable::of_rows([1, 2, 3]);
         for (index, point) in points.iter().enumerate() {
             table.push(point.map(str::as_bytes), index + 1)?;
         }

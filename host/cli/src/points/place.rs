@@ -18,9 +18,19 @@ pub enum Place {
         name: &'static str,
         /// The number of the item.
         number: usize,
-        /// The coordinate, `x` or `y`.
+        /// The coordinate, `x`, `y` or `z`.
         axis: char,
     },
+}
+
+impl Place {
+    /// The row or the item without the coordinate, for messages.
+    pub fn item(&self) -> String {
+        match self {
+            Self::Cell { row, .. } => format!("row {row}"),
+            Self::Item { name, number, .. } => format!("{name} {number}"),
+        }
+    }
 }
 
 impl fmt::Display for Place {

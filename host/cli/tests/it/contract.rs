@@ -35,7 +35,6 @@ fn ties_take_the_smallest_of_the_four() {
 fn sets_without_triangles_are_answers() {
     let scratch = Scratch::new();
     let sets = [
-        ("none", ""),
         ("header", "x,y\n"),
         ("one", "3,4\n"),
         ("two", "3,4\n5,6\n"),
@@ -68,7 +67,7 @@ fn json_report_has_all_keys() {
     assert_eq!(report["quantisation"], Value::Null);
     assert_eq!(report["counters"]["insertions"], 5);
     assert_eq!(report["coord_bits"], 31);
-    let lattice = serde_json::json!({ "kind": "whole", "scale": 1, "offset": [0, 0], "bits": 4 });
+    let lattice = serde_json::json!({ "kind": "whole", "scale": 1, "offset": [0, 0], "bits": 4, "rounded": 0 });
     assert_eq!(report["lattice"], lattice);
     assert_eq!((&report["contexts"], &report["latency"]), (&Value::from(1), &Value::Null));
     // The software model has no clock, and one context: these are there, and 0.
@@ -125,7 +124,8 @@ fn numbers_are_taken_as_they_are_written() {
 
     scratch.write("f.csv", "-1.5,0\n1.5,0\n0,1\n0,0.5\n");
     let run = scratch.run("triangulate f.csv -o f.obj --json").ok();
-    let lattice = serde_json::json!({ "kind": "decimal", "scale": 0.1, "offset": [-1.5, 0.0], "bits": 5 });
+    let lattice =
+        serde_json::json!({ "kind": "decimal", "scale": 0.1, "offset": [-1.5, 0.0], "bits": 5, "rounded": 0 });
     assert_eq!(report(&run.stdout)["lattice"], lattice);
     // The mesh has the coordinates of the file.
     assert!(scratch.read("f.obj").starts_with("v -1.5 0 0\nv 1.5 0 0\nv 0 1 0\nv 0 0.5 0\nf "));

@@ -27,5 +27,6 @@ mod formats {
     mod hostile;
     mod lidar;
     mod lidar_hostile;
+    mod memory;
     mod packed;
 }

@@ -93,11 +93,6 @@ impl<C: Coordinate> Kernel for Filtered<C> {
     }
 
     #[inline(always)]
-    fn site(seen: Seen<C>) -> FilteredSite<C> {
-        seen.site
-    }
-
-    #[inline(always)]
     fn is_left(Ends { a, b, bounds }: Ends<Self>, seen: Seen<C>) -> bool {
         bounds.side(seen.view).unwrap_or_else(|| Self::orient2d(a, b, seen.site)).is_gt()
     }
@@ -119,11 +114,10 @@ impl<C: Coordinate> Kernel for Filtered<C> {
     }
 }
 
-/// Whether the point of `c` lies to the left of the base edge and that of `q` inside the circle, where the bounds leave
-/// it open.
+/// The answer of `is_left_and_inside` if the bounds leave it open, by exact predicates.
 #[inline(never)]
 fn is_exactly_left_and_inside<C: Coordinate>(ends: Ends<Filtered<C>>, c: Seen<C>, q: Seen<C>) -> bool {
-    let Ends { a, b, bounds } = ends;
+    let Ends { a, b, .. } = ends;
     // Around a vertex with two half-edges the vertex behind the candidate is the other end of the base edge.
     if q.site == a || q.site == b || !Filtered::is_left(ends, c) {
         return false;
@@ -131,6 +125,6 @@ fn is_exactly_left_and_inside<C: Coordinate>(ends: Ends<Filtered<C>>, c: Seen<C>
     match incircle_of(a.0, b.0, c.site.0, q.site.0) {
         Ordering::Greater => true,
         Ordering::Less => false,
-        Ordering::Equal => tie_is_inside::<Filtered<C>>(a, b, bounds, c.site, q),
+        Ordering::Equal => tie_is_inside::<Filtered<C>>(a, b, c.site, q.site, Filtered::is_left(ends, q)),
     }
 }

@@ -1,9 +1,9 @@
 //! The distinct points of doubles or long integers along a Z-curve.
 //!
 //! A grid of up to 2^31 cells a side lies over all points, and the points stand along the Z-curve through its cells.
-//! Points of one cell stand in lexicographic order. The grid is as fine as the words allow that are sorted (`sites`),
-//! or finer if many points share cells. Rounding decides in which cell a point is, and never more than
-//! that: a cell's number rises with the coordinate, so that cuts between cells separate points.
+//! Points of one cell stand in lexicographic order. The grid is as fine as the words that are sorted allow (`sites`),
+//! or finer if many points share cells. Rounding affects only the cell of a point. The number of a cell never falls as
+//! the coordinate rises, so cuts between cells separate the points.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -77,7 +77,8 @@ impl Grid {
 pub(super) fn sort<C: Coordinate>(points: &[[C; 2]], threads: usize) -> FilteredSites<C> {
     let bits = sites::exact_bits(points.len(), threads).min(MOST_BITS);
     let mut cells = Grid::sorted_cells(points, bits, threads);
-    // On a coarse grid crowds of points share cells, and their cuts alternate no longer.
+    // If crowds of points share cells of a coarse grid, the cuts between these points no longer alternate between the
+    // axes.
     if bits < MOST_BITS && cells.duplicates.len() > points.len() / CROWDED {
         cells = Grid::sorted_cells(points, MOST_BITS, threads);
     }
@@ -86,7 +87,7 @@ pub(super) fn sort<C: Coordinate>(points: &[[C; 2]], threads: usize) -> Filtered
     let mut all =
         Taken { places: pages::with_room(points.len()), ids: pages::with_room(points.len()), duplicates: Vec::new() };
     for (cell, first) in distinct.into_iter().zip(firsts) {
-        let cell = [cell.x, cell.y];
+        let cell = [cell.x(), cell.y()];
         let others = groups.of_first(first);
         if others.is_empty() {
             all.keep(first, Place { cell, rank: 0 });

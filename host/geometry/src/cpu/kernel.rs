@@ -15,10 +15,10 @@ pub(super) trait Kernel: Copy + Sync + 'static {
     type Seen: Copy;
     /// The place of a point in the tree of cuts.
     type Place: Copy + Send + Sync;
-    /// What the predicates need to know of a set of points beforehand.
+    /// What a kernel computes once for a set of points, so that the predicates cost less.
     type Bounds: Copy;
 
-    /// The bounds for all points in the bounding box of these. Kernels that need no bounds leave the function uncalled.
+    /// The bounds for all points in the bounding box of `sites`. A kernel that needs no bounds does not call `sites`.
     fn bounds<const N: usize>(sites: impl FnOnce() -> [Self::Site; N]) -> Self::Bounds;
 
     /// Swaps the axes of a point, so that points compare by y, then x.
@@ -27,23 +27,20 @@ pub(super) trait Kernel: Copy + Sync + 'static {
     /// The turn from `a` over `b` to `c`: `Greater` if it is counter-clockwise, `Equal` if the three lie on a line.
     fn orient2d(a: Self::Site, b: Self::Site, c: Self::Site) -> Ordering;
 
-    /// The turn from `a` over `b` to `c`, as `orient2d`, which the bounds make cheaper.
+    /// The turn from `a` over `b` to `c`: the answer of `orient2d`, at less cost thanks to the bounds.
     #[inline(always)]
     fn turn(ends: Ends<Self>, c: Self::Site) -> Ordering {
         Self::orient2d(ends.a, ends.b, c)
     }
 
-    /// Views the base edge from a point.
+    /// The view of the base edge from a point.
     fn see(ends: Ends<Self>, site: Self::Site) -> Self::Seen;
-
-    /// The point of a view.
-    fn site(seen: Self::Seen) -> Self::Site;
 
     /// Whether the point lies strictly to the left of the base edge.
     fn is_left(ends: Ends<Self>, seen: Self::Seen) -> bool;
 
-    /// Whether the point of `c` lies to the left of the base edge, and that of `q` inside the circle through both ends
-    /// of the edge and the point of `c`. If `q` lies on the circle, the tie rule decides: the lexicographically
+    /// Whether the point of `c` lies to the left of the base edge, and the point of `q` inside the circle through both
+    /// ends of the edge and the point of `c`. If `q` lies on the circle, the tie rule decides: the lexicographically
     /// smallest of the four points is lowered on the lifted paraboloid.
     ///
     /// The answer is `false` for a `q` that does not lie to the left: the merge asks only where no such point can be
@@ -64,13 +61,13 @@ pub(super) struct Ends<K: Kernel> {
     pub(super) bounds: K::Bounds,
 }
 
-/// Decides a tie: `a`, `b`, `c`, `q` lie on one circle, or `q` is on the line of `a` and `b`.
+/// Decides a tie: `a`, `b`, `c`, `q` lie on one circle, or `q` is on the line of `a` and `b`. Given are all four points
+/// and whether `q` lies to the left of the edge from `a` to `b`.
 #[inline(never)]
-pub(super) fn tie_is_inside<K: Kernel>(a: K::Site, b: K::Site, bounds: K::Bounds, c: K::Site, q: K::Seen) -> bool {
-    if !K::is_left(Ends { a, b, bounds }, q) {
+pub(super) fn tie_is_inside<K: Kernel>(a: K::Site, b: K::Site, c: K::Site, q: K::Site, q_is_left: bool) -> bool {
+    if !q_is_left {
         return false;
     }
-    let q = K::site(q);
     let smallest = a.min(b).min(c).min(q);
     // Lowering a corner moves `q` inside iff the other three turn right around that corner. Lowering `q` always moves
     // it inside, and lowering `c` never does, because `c` and `q` lie on one side of the edge.

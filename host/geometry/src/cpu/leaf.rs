@@ -154,7 +154,7 @@ mod tests {
 
     #[test]
     fn four_turns_tell_the_order_of_four_vertices() {
-        let at = |k: u32| Site { x: k % 5, y: k / 5 };
+        let at = |k: u32| Site::at(k % 5, k / 5);
         let is_left = |a: Site, b: Site, c: Site| Integers::<Wide>::orient2d(a, b, c).is_gt();
         let mut found = [0; 8];
         for all in (0..25u32.pow(4)).map(|k| [k % 25, k / 25 % 25, k / 625 % 25, k / 15_625].map(at)) {

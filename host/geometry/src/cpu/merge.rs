@@ -41,31 +41,21 @@ pub(super) enum Cut {
     Horizontal,
 }
 
-/// The base edge, from `a` in the first part to `b` in the second. The gap that is still to be filled lies to the left
-/// of the base edge.
-#[derive(Clone, Copy)]
-struct Base {
-    /// The half of the base edge that begins at `a`.
-    at_a: u32,
-    /// The half of the base edge that begins at `b`.
-    at_b: u32,
-    a: u32,
-    b: u32,
-}
-
-/// A vertex of one part that may become the third corner of the next triangle: the end of `edge`, which begins at `a`
-/// or `b`; and the next vertex around `a` or `b`, away from the base edge.
+/// A vertex of one part that may become the third corner of the next triangle, and the next vertex around `a` or `b`,
+/// away from the base edge.
+///
+/// A base edge leads from `a` in the first part to `b` in the second, and is given as its half that begins at `a`. The
+/// gap that is still to be filled lies to the left of the base edge. Numbers of vertices are read again where they are
+/// needed: registers are scarcer in this loop than reads from the cache.
 #[derive(Clone, Copy)]
 struct Candidate<K: Kernel> {
+    /// The half-edge from `a` or `b` to the vertex.
     edge: u32,
-    end: u32,
-    /// The site of `end`.
+    /// The site of the vertex.
     site: K::Site,
-    /// The half-edge after `edge`, and the one after that.
+    /// The half-edge after `edge`.
     after: u32,
-    after_next: u32,
-    end_of_next: u32,
-    /// The site of `end_of_next`, to which `after` leads.
+    /// The site to which `after` leads.
     behind: K::Site,
 }
 
@@ -78,11 +68,13 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
         // `zip` may remove the half-edges of vertices that are ends of the first or the last base edge. The vertices
         // stay, so both are remembered, and such a half-edge is replaced by that of the base edge.
         let outermost = self.outermost(&one, &other, cut).map(|e| (e, self.origin(e)));
+        let a = self.origin(first);
         let last = self.zip(first, bounds);
+        let b = self.end(last);
         let [left, right, bottom, top] = outermost.map(|(e, vertex)| {
-            let e = if vertex == first.a { first.at_a } else { e };
-            if vertex == last.b {
-                last.at_b
+            let e = if vertex == a { first } else { e };
+            if vertex == b {
+                last ^ 1
             } else {
                 e
             }
@@ -90,9 +82,9 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
         Part { left, right, bottom, top, is_vertex: false }
     }
 
-    /// Makes the first base edge. All points of both parts lie on its line or to its left.
+    /// Makes the first base edge and returns its half at `a`. All points of both parts lie on its line or to its left.
     #[inline(always)]
-    fn lower_tangent(&mut self, one: &Part, other: &Part, cut: Cut, bounds: K::Bounds) -> Base {
+    fn lower_tangent(&mut self, one: &Part, other: &Part, cut: Cut, bounds: K::Bounds) -> u32 {
         let (facing, mut rdi) = match cut {
             Cut::Vertical => (one.right, other.left),
             Cut::Horizontal => (one.top, other.bottom),
@@ -116,10 +108,10 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
         self.first_edge((ldi, one.is_vertex), (rdi, other.is_vertex))
     }
 
-    /// Makes the edge between the origins of two half-edges along the hulls. A single vertex already has a
-    /// pair for the edge.
+    /// Makes the edge between the origins of two half-edges along the hulls, and returns its half at the first origin.
+    /// A single vertex already has a pair for the edge.
     #[inline(always)]
-    fn first_edge(&mut self, (ldi, a_is_vertex): (u32, bool), (rdi, b_is_vertex): (u32, bool)) -> Base {
+    fn first_edge(&mut self, (ldi, a_is_vertex): (u32, bool), (rdi, b_is_vertex): (u32, bool)) -> u32 {
         let (a, b) = (self.origin(ldi), self.origin(rdi));
         let at_a = match (a_is_vertex, b_is_vertex) {
             (true, _) => ldi,
@@ -137,15 +129,15 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
         } else {
             self.insert(at_b, a, self.previous(rdi), rdi);
         }
-        Base { at_a, at_b, a, b }
+        at_a
     }
 
     /// Fills the gap with triangles from the first base edge on; returns the last base edge.
     #[inline(always)]
-    fn zip(&mut self, mut base: Base, bounds: K::Bounds) -> Base {
-        let mut ends = Ends { a: self.site(base.a), b: self.site(base.b), bounds };
-        let mut one = self.candidate::<true>(self.next(base.at_a));
-        let mut other = self.candidate::<false>(self.previous(base.at_b));
+    fn zip(&mut self, mut base: u32, bounds: K::Bounds) -> u32 {
+        let mut ends = Ends { a: self.from(base), b: self.to(base), bounds };
+        let mut one = self.candidate::<true>(self.next(base));
+        let mut other = self.candidate::<false>(self.previous(base ^ 1));
         loop {
             let from_one = self.advance::<true>(&mut one, ends);
             let from_other = self.advance::<false>(&mut other, ends);
@@ -159,20 +151,19 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
             if other_is_valid & (!one_is_valid | K::is_left_and_inside(ends, from_one, from_other)) {
                 let back = other.edge ^ 1;
                 let previous = self.previous(back);
-                self.insert(pair, other.end, base.at_a, one.edge);
-                self.insert(pair ^ 1, base.a, previous, back);
-                base = Base { at_a: pair, at_b: pair ^ 1, a: base.a, b: other.end };
+                self.insert(pair, self.end(other.edge), base, one.edge);
+                self.insert(pair ^ 1, self.end(base ^ 1), previous, back);
                 ends.b = other.site;
                 other = self.candidate::<false>(previous);
             } else {
                 let back = one.edge ^ 1;
                 let next = self.next(back);
-                self.insert(pair ^ 1, one.end, other.edge, base.at_b);
-                self.insert(pair, base.b, back, next);
-                base = Base { at_a: pair, at_b: pair ^ 1, a: one.end, b: base.b };
+                self.insert(pair ^ 1, self.end(one.edge), other.edge, base ^ 1);
+                self.insert(pair, self.end(base), back, next);
                 ends.a = one.site;
                 one = self.candidate::<true>(next);
             }
+            base = pair;
         }
     }
 
@@ -180,8 +171,7 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
     #[inline(always)]
     fn candidate<const OF_A: bool>(&self, edge: u32) -> Candidate<K> {
         let (after, end) = self.beside::<OF_A>(edge);
-        let (after_next, end_of_next) = self.beside::<OF_A>(after);
-        Candidate { edge, end, site: self.site(end), after, after_next, end_of_next, behind: self.site(end_of_next) }
+        Candidate { edge, site: self.site(end), after, behind: self.to(after) }
     }
 
     /// Finds the first vertex of one part that a circle through `a` and `b` meets as it grows to the left, from the
@@ -195,17 +185,9 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
                 return seen;
             }
             self.remove(candidate.edge);
-            let Candidate { after, after_next, end_of_next, behind: site, .. } = *candidate;
-            let (after_that, end) = self.beside::<OF_A>(after_next);
-            *candidate = Candidate {
-                edge: after,
-                end: end_of_next,
-                site,
-                after: after_next,
-                after_next: after_that,
-                end_of_next: end,
-                behind: self.site(end),
-            };
+            let Candidate { after, behind: site, .. } = *candidate;
+            let (after_that, _) = self.beside::<OF_A>(after);
+            *candidate = Candidate { edge: after, site, after: after_that, behind: self.to(after_that) };
             seen = behind;
         }
     }

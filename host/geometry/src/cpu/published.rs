@@ -8,10 +8,10 @@ use std::ops::ControlFlow;
 use incircle_testkit::{delaunay_of_doubles, hull_of_doubles, orient2d_of_doubles};
 
 use super::triangulator::{connect, triangulate};
-use crate::double::orient2d;
+use crate::double::{incircle, orient2d};
 use crate::plane_point::PlanePoint;
 
-/// The most points for which the slow definition is compared.
+/// The most points of a set that is also compared with the slow definition of the mesh.
 const FEW: usize = 20;
 
 fn check(name: &str, points: &[[f64; 2]]) {
@@ -86,8 +86,8 @@ fn reported_points_have_the_mesh_of_the_definition() {
 }
 
 /// The three grids of L. Kettner, K. Mehlhorn, S. Pion, S. Schirra and C. Yap, "Classroom examples of robustness
-/// problems in geometric computations", Computational Geometry 40 (2008), section 3: a point moves in units in the last
-/// place beside two others.
+/// problems in geometric computations", Computational Geometry 40 (2008), section 3: a point takes 256 by 256 places,
+/// one unit in the last place apart, near the line through two other points.
 #[test]
 fn the_classroom_grids_have_exact_signs_and_meshes() {
     let grids = [
@@ -120,8 +120,8 @@ fn the_classroom_grids_have_exact_signs_and_meshes() {
     }
 }
 
-/// The points of section 4 of the same work, which make a convex hull with rounded predicates fail: a point outside
-/// sees no edge (A1), a point inside sees one (A2), a point outside sees all (B1).
+/// The points of section 4 of the same work, for which rounded predicates make a convex hull fail: a point outside sees
+/// no edge (A1), a point inside sees an edge (A2), a point outside sees all edges (B1).
 #[test]
 fn the_classroom_hulls_are_right() {
     let sees_none = [
@@ -151,5 +151,49 @@ fn the_classroom_hulls_are_right() {
         for count in 3..=points.len() {
             check(name, &points[..count]);
         }
+    }
+}
+
+/// The four points of report 48 of georust/robust on GitHub, nearly on the unit circle, and the signs that exact
+/// arithmetic gives: a term that was left out there gave the opposite ones.
+#[test]
+fn reported_circles_have_exact_signs_and_meshes() {
+    let outside = [
+        [2.104_554_160_052_428_8e-15, -1.000_000_000_000_001_6],
+        [1.000_000_000_000_005, -3.350_874_324_301_223e-16],
+        [7.553_997_323_229_233e-15, 0.999_999_999_999_995_8],
+        [-0.999_999_999_999_992_2, -7.073_397_829_693_697e-15],
+    ];
+    let inside = [
+        [9.128_561_612_013_288e-15, -1.000_000_000_000_002_9],
+        [1.000_000_000_000_004_4, -5.451_395_142_523_081e-15],
+        [3.851_214_418_148_064e-15, 0.999_999_999_999_996_1],
+        [-0.999_999_999_999_994_6, -6.679_796_034_108_508_4e-15],
+    ];
+    for (points, sign) in [(outside, Ordering::Less), (inside, Ordering::Greater)] {
+        let [a, b, c, d] = points;
+        assert_eq!(incircle(a, b, c, d), sign);
+        check("robust 48", &points);
+    }
+}
+
+/// The grid beside a line, and the circles of all sizes, with which mourner/robust-predicates on GitHub tests its
+/// predicates.
+#[test]
+fn circles_of_all_sizes_and_places_beside_a_line_have_exact_signs() {
+    let step = 2f64.powi(-43) / 128.0;
+    for (i, j) in (0..128).flat_map(|i| (0..128).map(move |j| (i, j))) {
+        let p = [0.95 + step * f64::from(i), 0.95 + step * f64::from(j)];
+        assert_eq!(orient2d(p, [18.0; 2], [16.8; 2]), orient2d_of_doubles(p, [18.0; 2], [16.8; 2]), "{p:?}");
+    }
+    let mut x = 1e-64;
+    for _ in 0..128 {
+        // The three points turn left, so that `Greater` is inside.
+        let [a, b, c] = [[0.0, x], [-x, -x], [x, -x]];
+        assert_eq!(incircle(a, b, c, [0.0, 0.0]), Ordering::Greater, "{x}");
+        assert_eq!(incircle(a, b, c, [0.0, 2.0 * x]), Ordering::Less, "{x}");
+        assert_eq!(incircle(a, b, c, a), Ordering::Equal, "{x}");
+        check("circle", &[a, b, c, [0.0, 0.0], [0.0, 2.0 * x]]);
+        x *= 10.0;
     }
 }

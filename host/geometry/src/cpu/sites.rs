@@ -85,18 +85,19 @@ struct Curve {
     index_bits: u32,
 }
 
-/// The most bits that name a bucket, for so many points and threads.
+/// The most bits that name a bucket, for this number of points and of threads.
 fn bucket_bits(points: usize, threads: usize) -> u32 {
     let average = BUCKET.max(CHUNK * threads);
     (points / average).max(1).ilog2().min(MOST_BUCKETS_BITS)
 }
 
-/// The number of bits of an index.
+/// The number of bits of an index into a list of this many points.
 fn index_bits(points: usize) -> u32 {
     usize::BITS - points.saturating_sub(1).leading_zeros()
 }
 
-/// The most bits of a coordinate with which words have whole positions, for so many points and threads.
+/// The most bits that coordinates may have so that words hold whole positions, for this number of points and of
+/// threads.
 pub(super) fn exact_bits(points: usize, threads: usize) -> u32 {
     (u64::BITS + bucket_bits(points, threads) - index_bits(points)) / 2
 }
@@ -247,8 +248,8 @@ impl Kept<'_> {
         }
     }
 
-    /// Takes the sorted words of a bucket that have only the leading bits of their positions. `found` is the room for
-    /// their points.
+    /// Takes the sorted words of a bucket if they hold only the leading bits of their positions. `found` is memory for
+    /// the points of these words.
     fn take_rounded(&mut self, words: &mut [Placed], points: &[Point], found: &mut Vec<Point>, curve: Curve) {
         let groups = words.chunk_by_mut(|one, other| (one.0 ^ other.0) & !curve.indices() == 0);
         for group in groups.filter(|group| group.len() > 1) {

@@ -21,13 +21,13 @@ fn coordinate(bits: u32) -> impl Strategy<Value = u32> {
 }
 
 fn site(bits: u32) -> impl Strategy<Value = Site> {
-    (coordinate(bits), coordinate(bits)).prop_map(|(x, y)| Site { x, y })
+    (coordinate(bits), coordinate(bits)).prop_map(|(x, y)| Site::at(x, y))
 }
 
 /// The 3x3 determinant of the points seen from `d` and lifted: positive if `d` lies inside the circle of a
 /// counter-clockwise triangle. For coordinates of up to 31 bits the determinant fits 128 bits.
 fn lifted(a: Site, b: Site, c: Site, d: Site) -> i128 {
-    let seen = |p: Site| [i128::from(p.x) - i128::from(d.x), i128::from(p.y) - i128::from(d.y)];
+    let seen = |p: Site| [i128::from(p.x()) - i128::from(d.x()), i128::from(p.y()) - i128::from(d.y())];
     let [a, b, c] = [a, b, c].map(seen);
     let lift = |v: [i128; 2]| v[0] * v[0] + v[1] * v[1];
     let minor = |u: [i128; 2], v: [i128; 2]| u[0] * v[1] - u[1] * v[0];
@@ -52,7 +52,7 @@ fn conflicts(a: Site, b: Site, c: Site, q: Site) -> bool {
 
 /// Compares all ties of a small grid with the definition; returns how many there are.
 fn ties_are_decided<W: Width>() -> usize {
-    let grid: Vec<Site> = (0..16).map(|k| Site { x: k / 4, y: k % 4 }).collect();
+    let grid: Vec<Site> = (0..16).map(|k| Site::at(k / 4, k % 4)).collect();
     let mut ties = 0;
     for (&a, &b) in grid.iter().flat_map(|a| grid.iter().map(move |b| (a, b))) {
         let ends = Ends { a, b, bounds: () };
@@ -60,7 +60,7 @@ fn ties_are_decided<W: Width>() -> usize {
         for (&c, &q) in seen.iter().flat_map(|c| seen.iter().map(move |q| (c, q))).filter(|(c, q)| c.site != q.site) {
             let [c_is_left, q_is_left] = [c, q].map(|seen| Integers::<W>::is_left(ends, seen));
             let determinant = lifted(a, b, c.site, q.site);
-            // A tie with a point that does not lie to the left is refused.
+            // At a tie with a point that does not lie to the left, the answer is no.
             let is_inside = (determinant != 0 || q_is_left) && conflicts(a, b, c.site, q.site);
             assert_eq!(Integers::<W>::is_left_and_inside(ends, c, q), c_is_left && is_inside);
             ties += usize::from(c_is_left && q_is_left && determinant == 0);
@@ -197,7 +197,7 @@ proptest! {
 
     #[test]
     fn the_widest_determinants_have_the_right_sign(a in site(32), b in site(32), c in site(32), q in site(32)) {
-        let [at_a, at_b, at_c, at_q] = [a, b, c, q].map(|p| [f64::from(p.x), f64::from(p.y)]);
+        let [at_a, at_b, at_c, at_q] = [a, b, c, q].map(|p| [f64::from(p.x()), f64::from(p.y())]);
         let found = Widest::determinant(Widest::view(a, b, c), Widest::view(a, b, q)).cmp(&0);
         prop_assert_eq!(found, incircle_of_doubles(at_a, at_b, at_c, at_q));
         prop_assert_eq!(Widest::view(a, b, c).cross.cmp(&0), orient2d_of_doubles(at_a, at_b, at_c));
@@ -242,7 +242,7 @@ proptest! {
             prop_assert_eq!(lowest(points[duplicate.index as usize]), Some(duplicate.of));
             prop_assert!(duplicate.of < duplicate.index);
         }
-        let position = |site: &Site| position(Point::new(site.x, site.y));
+        let position = |site: &Site| position(Point::new(site.x(), site.y()));
         prop_assert!(sorted.sites.windows(2).all(|pair| position(&pair[0]) < position(&pair[1])));
     }
 }
@@ -255,7 +255,8 @@ fn words_are_exact_up_to_the_bits_that_say_so() {
             assert!((22..=32).contains(&bits), "{points} points, {threads} threads: {bits}");
         }
     }
-    // Points in the corners of the widest square whose words are exact, and one bit beyond, are all kept.
+    // All points near the corners of a square are kept, in the widest square whose words are exact and in one of one
+    // bit more.
     for bits in [exact_bits(5000, 1), exact_bits(5000, 1) + 1] {
         let last = ((1u64 << bits) - 1) as u32;
         let near = |k: u32| Point::new(if k & 1 == 0 { k } else { last - k }, if k & 2 == 0 { k } else { last - k });
@@ -263,6 +264,6 @@ fn words_are_exact_up_to_the_bits_that_say_so() {
         let Sites { sites, ids, duplicates, bits: found } = sort(&points, 1);
         assert_eq!((sites.len(), duplicates.len(), found), (5000, 0, bits));
         assert!(ids.iter().zip(&sites).all(|(&id, &site)| Site::from(points[id as usize]) == site));
-        assert!(sites.is_sorted_by_key(|site| position(Point::new(site.x, site.y))));
+        assert!(sites.is_sorted_by_key(|site| position(Point::new(site.x(), site.y()))));
     }
 }

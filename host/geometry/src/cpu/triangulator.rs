@@ -58,8 +58,8 @@ pub struct Progress {
 /// work ends with [`Error::Cancelled`].
 pub type Watch<'w> = &'w mut dyn FnMut(Progress) -> ControlFlow<()>;
 
-/// The reasons why [`triangulate`] returns no mesh. A [`Triangulator`](super::Triangulator) fails for too many points
-/// alone.
+/// The reasons why [`triangulate`] returns no mesh. The only error of a [`Triangulator`](super::Triangulator) is
+/// [`Error::TooManyPoints`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {

@@ -49,16 +49,31 @@ pub(super) const NARROW_BITS: u32 = 16;
 /// Cross and dot products fit 64 bits if coordinates have up to this many bits.
 pub(super) const WIDE_BITS: u32 = 31;
 
-/// A point of the grid.
+/// A point of the grid: x above y in one word, which compilers keep in one register and compare at once.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Zeroable)]
-pub(super) struct Site {
-    pub(super) x: u32,
-    pub(super) y: u32,
+pub(super) struct Site(u64);
+
+impl Site {
+    #[inline(always)]
+    pub(super) fn at(x: u32, y: u32) -> Self {
+        Self(u64::from(x) << 32 | u64::from(y))
+    }
+
+    #[inline(always)]
+    pub(super) fn x(self) -> u32 {
+        (self.0 >> 32) as u32
+    }
+
+    #[inline(always)]
+    pub(super) fn y(self) -> u32 {
+        self.0 as u32
+    }
 }
 
 impl From<Point> for Site {
+    #[inline(always)]
     fn from(point: Point) -> Self {
-        Self { x: point.x, y: point.y }
+        Self::at(point.x, point.y)
     }
 }
 
@@ -91,7 +106,7 @@ pub(super) trait Width: Copy + Sync + 'static {
 #[inline(always)]
 fn view_in_64_bits(a: Site, b: Site, p: Site) -> View<i64> {
     let minus = |one: u32, other: u32| i64::from(one) - i64::from(other);
-    let (ax, ay, bx, by) = (minus(a.x, p.x), minus(a.y, p.y), minus(b.x, p.x), minus(b.y, p.y));
+    let (ax, ay, bx, by) = (minus(a.x(), p.x()), minus(a.y(), p.y()), minus(b.x(), p.x()), minus(b.y(), p.y()));
     View { cross: ax * by - ay * bx, dot: ax * bx + ay * by }
 }
 
@@ -154,7 +169,7 @@ impl Width for Widest {
     #[inline(always)]
     fn view(a: Site, b: Site, p: Site) -> View<i128> {
         let minus = |one: u32, other: u32| i64::from(one) - i64::from(other);
-        let (ax, ay, bx, by) = (minus(a.x, p.x), minus(a.y, p.y), minus(b.x, p.x), minus(b.y, p.y));
+        let (ax, ay, bx, by) = (minus(a.x(), p.x()), minus(a.y(), p.y()), minus(b.x(), p.x()), minus(b.y(), p.y()));
         let times = |one: i64, other: i64| i128::from(one) * i128::from(other);
         View { cross: times(ax, by) - times(ay, bx), dot: times(ax, bx) + times(ay, by) }
     }
@@ -192,7 +207,7 @@ impl<W: Width> Kernel for Integers<W> {
 
     #[inline(always)]
     fn swapped(site: Site) -> Site {
-        Site { x: site.y, y: site.x }
+        Site(site.0.rotate_left(32))
     }
 
     #[inline(always)]
@@ -206,11 +221,6 @@ impl<W: Width> Kernel for Integers<W> {
     }
 
     #[inline(always)]
-    fn site(seen: Self::Seen) -> Site {
-        seen.site
-    }
-
-    #[inline(always)]
     fn is_left(_: Ends<Self>, seen: Self::Seen) -> bool {
         seen.view.cross > W::Product::default()
     }
@@ -220,12 +230,15 @@ impl<W: Width> Kernel for Integers<W> {
     fn is_left_and_inside(ends: Ends<Self>, c: Self::Seen, q: Self::Seen) -> bool {
         let determinant = W::if_left(c.view.cross, W::determinant(c.view, q.view));
         let zero = W::Determinant::default();
-        determinant > zero || (determinant == zero && tie_is_inside::<Self>(ends.a, ends.b, (), c.site, q))
+        if determinant == zero {
+            return tie_is_inside::<Self>(ends.a, ends.b, c.site, q.site, Self::is_left(ends, q));
+        }
+        determinant > zero
     }
 
     #[inline(always)]
     fn level(one: Site, other: Site) -> u32 {
-        level(one.x ^ other.x, one.y ^ other.y)
+        level(one.x() ^ other.x(), one.y() ^ other.y())
     }
 }
 

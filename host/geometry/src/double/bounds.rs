@@ -1,4 +1,4 @@
-//! The filter of the CPU triangulator, whose bounds hold for a whole set of points.
+//! The filter of the CPU triangulator, with bounds that hold for a whole set of points.
 //!
 //! **The bounds.** Let `M` be the larger of width and height of the set, as a rounded difference, and `u = 2^-53`.
 //! Rounding never changes the order of two numbers, so each rounded difference of two coordinates is at most `M` in
@@ -10,19 +10,21 @@
 //!   from its factors and `4 u M⁴` from its own rounding, `36 u M⁴` in all, and so has `dot(d) cross(c)`. The last
 //!   subtraction adds at most `8 u M⁴`. The sum is `(80 u + O(u²)) M⁴`.
 //!
-//! The bounds below are 9 u and 96 u: the room is for the terms of `u²` and for the rounding of `M²` and `M⁴`.
+//! The bounds below are `9 u M²` and `96 u M⁴`, so there is room for the terms of `u²` and for the rounding of `M²` and
+//! `M⁴`.
 //!
-//! **Underflow** adds at most `2^-1075` to each product. With `M >= 2^-240` that is less than `2^-500` of the bound of
-//! a cross product, `9 u M²`, and, after multiplication by `2 M²`, of the bound of the determinant, `96 u M⁴ >=
-//! 2^-1007`; the products of the determinant itself add less than `2^-60` of it. All this is hidden in the room.
-//! **Overflow** does not occur for `M <= 2^250`. Sets of other sizes get infinite bounds, above which no number lies.
+//! **Underflow** adds at most `2^-1075` to each product. For `M >= 2^-240` that is less than `2^-500` of the bound of a
+//! cross product, `9 u M²`. After multiplication by `2 M²` it is less than `2^-500` of the bound of the determinant,
+//! `96 u M⁴ >= 2^-1007`. The products of the determinant itself add less than `2^-60` of that bound. The room above
+//! covers all of these. **Overflow** does not occur for `M <= 2^250`. Sets of other sizes get infinite bounds, which no
+//! number exceeds.
 
 use core::cmp::Ordering;
 
 use super::coordinate::Coordinate;
 use super::view::{sign, View, UNIT};
 
-/// Sizes of a set between these powers of two have finite bounds.
+/// The least and the largest size of a set that has finite bounds.
 const LEAST: f64 = power_of_two(-240);
 const MOST: f64 = power_of_two(250);
 
@@ -38,7 +40,7 @@ pub(crate) struct Bounds {
 }
 
 impl Bounds {
-    /// The bounds for all points in the bounding box of these.
+    /// The bounds for all points in the bounding box of `points`.
     #[inline(always)]
     pub(crate) fn of<C: Coordinate, const N: usize>(points: [[C; 2]; N]) -> Self {
         let extent = |axis: usize| {
@@ -55,15 +57,15 @@ impl Bounds {
         Self { cross: 9.0 * UNIT * square, determinant: 96.0 * UNIT * (square * square) }
     }
 
-    /// The side on which the point of a view lies, if the filter can tell: `Greater` is left.
+    /// The side of the edge on which the point of a view lies, if the filter can tell: `Greater` is left.
     #[inline(always)]
     pub(crate) fn side(self, view: View) -> Option<Ordering> {
         (view.cross.abs() > self.cross).then(|| sign(view.cross))
     }
 
-    /// Whether the point of `c` lies to the left of the edge, and that of `q` inside the circle through the edge and
-    /// the point of `c`, if the filter can tell. All comparisons are made, because no processor would predict branches
-    /// between them.
+    /// Whether the point of `c` lies to the left of the edge, and the point of `q` inside the circle through both ends
+    /// of the edge and the point of `c`, if the filter can tell. The code makes all comparisons, because no processor
+    /// would predict branches between them.
     #[inline(always)]
     pub(crate) fn is_left_and_inside(self, c: View, q: View) -> Option<bool> {
         let determinant = c.determinant(q);

@@ -1,8 +1,8 @@
 //! The two predicates for points of doubles: exact signs for all finite coordinates, whatever their exponents.
 //!
 //! A filter in floating-point arithmetic decides nearly all cases; what it leaves open is decided by integers that hold
-//! the whole determinant (`exact`). There is no epsilon: the filter's bound is proved, and beyond
-//! it nothing is rounded.
+//! the whole determinant (`exact`). There is no epsilon: the bounds of the filter are proved, and the integers are
+//! never rounded.
 //!
 //! **The filter's bounds.** Let `u = 2^-53`. A rounded difference, product or sum is the true one times `1 + d` with
 //! `|d| <= u`, if nothing overflows or underflows. So `cross = ax by - ay bx`, worked out from rounded differences,
@@ -15,7 +15,7 @@
 //! decides. **Underflow** adds at most `2^-1075` to each product: where a size is at least `2^-960` that is less than
 //! `2^-115` of it, and hidden in the room above; below it the exact stage decides.
 //!
-//! The CPU triangulator asks a cheaper filter first, whose bounds are those of a whole set of points (`bounds`).
+//! The CPU triangulator asks a cheaper filter first, with bounds that hold for a whole set of points (`bounds`).
 
 mod big;
 mod bounds;

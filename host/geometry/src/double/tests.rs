@@ -68,8 +68,8 @@ fn the_corners_of_a_rotated_square_are_on_one_circle_up_to_their_last_bit() {
     }
 }
 
-/// Compares the filter with bounds of a set with integers of any size; returns how many of both questions about the
-/// points it answers.
+/// Checks the filter with these bounds of a set against integers of any size. Returns how many of the two questions
+/// about the points the filter answers.
 fn answers_of_bounds(bounds: Bounds, [a, b, c, q]: [[f64; 2]; 4]) -> usize {
     let (from_c, from_q) = (View::of(a, b, c), View::of(a, b, q));
     let side = bounds.side(from_c);
@@ -95,7 +95,8 @@ fn bounds_of_a_set_never_contradict_integers_of_any_size() {
         });
         answers[kind as usize] += answers_of_bounds(Bounds::of(points), points);
     }
-    // Points at random are far from any circle; denormals and the largest doubles are left to the exact stage.
+    // Random points (kind 2) rarely lie near one circle. Denormals (3) and the largest doubles (4) have infinite
+    // bounds.
     assert!(answers[2] > 8000 && answers[3] == 0 && answers[4] == 0, "{answers:?}");
 }
 
@@ -106,7 +107,8 @@ fn bounds_of_a_set_hold_for_all_scales() {
         let scale = 2f64.powi(exponent / 2) * 2f64.powi(exponent - exponent / 2);
         let mut answers = 0;
         for _ in 0..500 {
-            // Corners of a square, on a circle but for some units in the last place; in every fourth round one is away.
+            // The corners of a square, within some units in the last place of one circle. In every fourth round, one
+            // corner lies away from it.
             let away = if random.once_in(4) { 0.1 } else { 0.0 };
             let mut near = |value: f64| scale * (value + random.below(8) as f64 * f64::EPSILON);
             let points = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [away, 1.0]].map(|point| point.map(&mut near));

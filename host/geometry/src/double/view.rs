@@ -1,4 +1,4 @@
-//! An edge as it is seen from a point, in floating-point arithmetic: what both filters decide by.
+//! An edge seen from a point, in floating-point arithmetic. Both filters decide by such views.
 
 use core::cmp::Ordering;
 
@@ -7,8 +7,8 @@ use super::coordinate::Coordinate;
 /// The unit of rounding of a double.
 pub(super) const UNIT: f64 = f64::EPSILON / 2.0;
 
-/// The edge from `a` to `b`, seen from a point: rounded cross and dot product of the vectors from the point to both
-/// ends (`cpu/view.rs` says what they are good for).
+/// The edge from `a` to `b`, seen from a point: the rounded cross and dot products of the vectors from the point to
+/// both ends. `cpu/view.rs` shows how the two decide orient2d and incircle.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct View {
     pub(super) cross: f64,

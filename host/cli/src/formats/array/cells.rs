@@ -21,7 +21,7 @@ pub struct Item {
 }
 
 impl Item {
-    /// The type with this description; `None` if it is no integer of up to 64 bits, `f4` or `f8`.
+    /// The type with this description; `None` if the type is neither an integer of up to 64 bits nor `f4` nor `f8`.
     pub fn of(dtype: &DType) -> Option<Self> {
         let DType::Plain(named) = dtype else {
             return None;
@@ -49,7 +49,7 @@ pub struct Cells<'a> {
     pub bytes: &'a [u8],
     /// The number of bytes of a row.
     pub stride: usize,
-    /// The place of the number in its row.
+    /// The place of the number in its row, in bytes.
     pub offset: usize,
     /// The type of the numbers.
     pub item: Item,
@@ -65,8 +65,8 @@ impl Cells<'_> {
         self.first + self.bytes.len() / self.stride.max(1)
     }
 
-    /// Calls `put` with all numbers of a column of integers. Integers of 2^63 and more come as negative ones, for which
-    /// [`Cells::beyond`] holds.
+    /// Calls `put` with all numbers of a column of integers. An integer of 2^63 or more comes as a negative one;
+    /// [`Cells::beyond`] tells it.
     pub fn integers(&self, mut put: impl FnMut(i64)) {
         match (self.item.kind, self.item.size) {
             (Kind::Signed, 1) => self.each(|cell| put(i8::from_le_bytes(cell).into())),

@@ -1,7 +1,7 @@
 //! The header of an array: the type and the places of its numbers.
 //!
-//! `npyz` reads the text of the header. The text is bounded in length and depth before, so that no claim of a file
-//! takes memory or stack.
+//! `npyz` reads the text of the header. The length of the text and the depth of its brackets are checked first, so that
+//! no file can exhaust memory or stack by its header.
 //!
 //! Source: the page "numpy.lib.format" of NumPy.
 
@@ -17,16 +17,16 @@ use crate::input::unreadable;
 const MAGIC: &[u8] = b"\x93NUMPY";
 /// The number of bytes of the magic and the version.
 const VERSION_END: usize = 8;
-/// Most bytes of the text of a header. The text of an array of numbers has about 100.
+/// The most bytes that the text of a header may have. The text for an array of numbers has about 100.
 const LONGEST_TEXT: u64 = 1 << 16;
-/// Most brackets in the text that are open at a time. A list of fields with shapes has four.
+/// The most brackets that may be open at a time in the text. A list of fields with shapes has four.
 const DEEPEST: usize = 8;
-/// Most bytes of a row.
+/// The most bytes that a row may have.
 pub const LONGEST_ROW: usize = 1 << 20;
 
-/// What the rows of an array are to be.
+/// What an array must hold.
 pub struct Wanted {
-    /// The name of one row.
+    /// What one row stands for, such as `point`, for messages.
     pub item: &'static str,
     /// The numbers of columns that an array may have.
     pub widths: &'static [u64],
@@ -41,7 +41,7 @@ pub struct Wanted {
 pub struct Column {
     /// The number of the column.
     pub axis: usize,
-    /// The place of the number in its row.
+    /// The place of the number in its row, in bytes.
     pub offset: usize,
     /// The type of the numbers.
     pub item: Item,
@@ -95,7 +95,7 @@ impl Layout {
             (DType::Record(fields), &[rows]) => (rows, vec![pass_of_fields(&fields, wanted)?]),
             (dtype @ DType::Plain(_), &[rows, width]) if wanted.widths.contains(&width) => {
                 let item = Item::of(&dtype).ok_or_else(|| wrong_type(&dtype))?;
-                // The width is 2 or 3, as `wanted` says.
+                // The conversion loses nothing: `wanted` allows widths of 2 and 3 only.
                 (rows, passes_of_items(item, width as usize, header.order()))
             }
             _ => {
@@ -132,7 +132,7 @@ fn read_text(source: &mut dyn Read) -> Result<Vec<u8>, Failure> {
     let promised = bytes.len() as u64 + length;
     read_more(source, length, &mut bytes)?;
     if (bytes.len() as u64) < promised.max(VERSION_END as u64 + length_bytes) {
-        return Err(unclear("the file ends in it"));
+        return Err(unclear("the file ends within it"));
     }
     let mut depth = 0usize;
     for byte in &bytes[VERSION_END..] {

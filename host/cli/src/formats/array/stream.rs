@@ -6,31 +6,32 @@ use super::cells::Cells;
 use super::header::{Layout, Wanted, LONGEST_ROW};
 use crate::failure::{counted, Failure};
 use crate::input::{unreadable, Input};
+use crate::memory::Memory;
 
 /// The bytes of an array, with its header.
 pub struct Source<'a> {
     bytes: &'a mut dyn Read,
     /// The number of bytes, if that is known before they are read.
     size: Option<u64>,
-    /// The most bytes that the numbers may take in memory.
-    bound: u64,
+    /// The memory that the numbers, and what is made of them, may take.
+    memory: Memory,
 }
 
 impl<'a> Source<'a> {
     /// An array in a file.
     pub fn of_input(input: &'a mut Input) -> Self {
-        let (size, bound) = (input.size(), input.bound());
-        Self { bytes: input, size: (size > 0).then_some(size), bound }
+        let (size, memory) = (input.size(), input.memory());
+        Self { bytes: input, size: (size > 0).then_some(size), memory }
     }
 
     /// An array in an archive. The archive says how large it is, but only the bytes that are read prove it.
-    pub fn of_entry(bytes: &'a mut dyn Read, bound: u64) -> Self {
-        Self { bytes, size: None, bound }
+    pub fn of_entry(bytes: &'a mut dyn Read, memory: Memory) -> Self {
+        Self { bytes, size: None, memory }
     }
 
-    /// Reads the header. Refuses an array whose numbers would take too much memory, at `row_bytes` a row, and one whose
-    /// file has another length than its header promises.
-    pub fn open(&mut self, wanted: &Wanted, row_bytes: u64) -> Result<Layout, Failure> {
+    /// Reads the header. An array is refused if it has more rows than `check` lets pass, or if the file has another length
+    /// than its header promises.
+    pub fn open(&mut self, wanted: &Wanted, check: fn(Memory, u64) -> Result<(), Failure>) -> Result<Layout, Failure> {
         let (layout, header_bytes) = Layout::read(self.bytes, wanted)?;
         if let Some(size) = self.size {
             let found = size.saturating_sub(header_bytes);
@@ -42,18 +43,12 @@ impl<'a> Source<'a> {
                 return Err(too_long(&layout, &left));
             }
         }
-        if (layout.rows as u64).saturating_mul(row_bytes) > self.bound {
-            return Err(Failure::input(format!(
-                "the {}s of the array take more than {} MiB, which is half of the free memory: triangulate a part of \
-                 them, or use a machine with more memory",
-                wanted.item,
-                self.bound >> 20
-            )));
-        }
+        check(self.memory, layout.rows as u64)?;
         Ok(layout)
     }
 
-    /// The number of rows for which memory can be taken before they are read: those that the file has for certain.
+    /// The number of rows for which memory is taken before they are read: all rows if the length of the file proves
+    /// that they are there, else none.
     pub fn certain_rows(&self, layout: &Layout) -> usize {
         if self.size.is_some() {
             layout.rows
@@ -68,7 +63,7 @@ impl<'a> Source<'a> {
         layout: &Layout,
         mut take: impl FnMut(&Cells<'_>) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
-        // A piece has at least one row, and no row is longer than this.
+        // No row is longer than this, so a piece has at least one row.
         let mut piece = vec![0; LONGEST_ROW];
         let mut done = 0;
         for pass in &layout.passes {
@@ -87,14 +82,14 @@ impl<'a> Source<'a> {
                 }
             }
         }
-        // Reading to the end also lets an archive compare the check sum.
+        // An archive compares its check sum when the entry is read to its end.
         if self.fill(&mut [0])? > 0 {
             return Err(too_long(layout, "bytes"));
         }
         Ok(())
     }
 
-    /// Fills `bytes`, unless the file ends before.
+    /// Fills `bytes`, or its beginning if the file ends first. Returns the number of bytes read.
     fn fill(&mut self, bytes: &mut [u8]) -> Result<usize, Failure> {
         let mut count = 0;
         while count < bytes.len() {

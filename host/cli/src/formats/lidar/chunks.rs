@@ -1,12 +1,13 @@
 //! The packed points of a LAZ file, chunk by chunk.
 //!
-//! A table at the end says how many bytes each chunk has, and, if chunks differ in length, how many points. The bytes
-//! must fill the place between the header and the table exactly, and the points must be those of the header, before a
-//! chunk is decoded. A chunk must end where its last point ends, so a count that is too small is found out.
+//! A table at the end says how many bytes each chunk has, and, if chunks differ in length, how many points. Before any
+//! chunk is decoded, two sums are checked: the chunks must fill the bytes between the header and the table exactly, and
+//! must have as many points as the header promises. A chunk must end where its last point ends, which reveals a count
+//! that is too small.
 
 use std::io::{Cursor, Read, Seek, SeekFrom};
 
-use laz::laszip::ChunkTable;
+use laz::laszip::{ChunkTable, ChunkTableEntry};
 use laz::record::{LayeredPointRecordDecompressor, RecordDecompressor, SequentialPointRecordDecompressor};
 use laz::DecompressionSelection;
 
@@ -18,15 +19,18 @@ use super::header::{read_at, refuse, Header};
 use super::packing::Packing;
 use super::sieve::Sieve;
 
-/// Bytes of the place of the table, which stands before the first chunk.
+/// Bytes before the first chunk, which hold the place of the table.
 const PLACE_BYTES: u64 = 8;
 /// Bytes of the head of the table: its version and the number of chunks.
 const TABLE_HEAD: u64 = 8;
-/// More bytes than the head and the end of a table take.
+/// An upper bound for the bytes of the head and the end of a table.
 const TABLE_ROOM: u64 = 64;
-/// More bytes than an entry of the table takes, with a number of bytes and one of points.
+/// An upper bound for the bytes of an entry of the table, which has a number of bytes and a number of points.
 const ENTRY_ROOM: u64 = 32;
-/// The records that are decoded at once.
+/// More points than a byte of layers can hold. Each point has a symbol of a model in which all symbols together count
+/// up to 2^15 and each of the others at least 1, so the most frequent one of 128 still takes 0.0056 bits.
+const POINTS_OF_BYTE: u64 = 2048;
+/// The number of records that are decoded at once.
 const BLOCK: usize = 1024;
 
 /// A chunk, by its number of bytes and of points.
@@ -50,11 +54,11 @@ pub fn read<R: Read + Seek + ?Sized>(
         source.take(chunk.bytes).read_to_end(&mut bytes).map_err(|error| unreadable(&error))?;
         let at = |why: String| refuse(format!("chunk {} of {}: {why}", index + 1, chunks.len()));
         if chunk.points == 0 && chunk.bytes < header.record_bytes as u64 {
-            // Some programs end with an empty chunk, of no bytes or of those that end the packing.
+            // Some programs write an empty last chunk, with no bytes or with the few that end the packing.
             continue;
         }
         if chunk.points == 0 {
-            return Err(at(format!("it has {} bytes, but by the header no points", chunk.bytes)));
+            return Err(at(format!("it has {} bytes, but the header leaves it no points", chunk.bytes)));
         }
         if packing.is_layered {
             check_layers(&bytes, chunk, header, packing).map_err(at)?;
@@ -81,9 +85,15 @@ fn read_table<R: Read + Seek + ?Sized>(
         // A program that could not go back to the start puts the place at the end of the file.
         place = place_at(source, header.file_bytes.saturating_sub(PLACE_BYTES))?;
     }
-    let head = if place >= start { read_at(source, place, TABLE_HEAD)? } else { Vec::new() };
+    // A file that was cut off has points where its table would be, and its place is beyond all files.
+    let is_inside = (start..header.file_bytes).contains(&place);
+    let head = if is_inside { read_at(source, place, TABLE_HEAD)? } else { Vec::new() };
     let Ok([_, _, _, _, count @ ..]) = <[u8; 8]>::try_from(head) else {
-        return Err(refuse("the table of chunks at the end of the points is missing: the file is cut off or damaged"));
+        return Err(refuse(format!(
+            "the table of chunks behind the points is missing: the file of {} bytes is cut off or damaged, so copy or \
+             download it again",
+            header.file_bytes
+        )));
     };
     let (count, room) = (u32::from_le_bytes(count), place - start);
     // Every chunk but an empty last one begins with a point that is not packed.
@@ -101,28 +111,31 @@ fn read_table<R: Read + Seek + ?Sized>(
     if sum != Some(room) {
         return Err(refuse(format!("the {count} chunks of the table do not fill the {room} bytes of the points")));
     }
-    let points: Option<Vec<u64>> = if has_points {
-        let given: Vec<u64> = table.as_ref().iter().map(|entry| entry.point_count).collect();
-        let sum = given.iter().try_fold(0u64, |sum, &points| sum.checked_add(points));
-        (sum == Some(header.count)).then_some(given)
-    } else {
-        shares(header.count, packing.vlr.chunk_size().into(), count.into())
-    };
-    let points = points.ok_or_else(|| {
+    let points = points_of_chunks(table.as_ref(), header, packing).ok_or_else(|| {
         let (promised, count) = (header.count, counted(count as usize, "chunk"));
-        refuse(format!("the header promises {promised} points, which are not those of {count} in the file"))
+        refuse(format!("the header promises {promised} points, but the file has {count} with another number of points"))
     })?;
     Ok(sizes.zip(points).map(|(bytes, points)| Chunk { bytes, points }).collect())
 }
 
-/// The number at a place, or zero if the file ends before it.
+/// The number of points in each chunk; `None` if they are not those that the header promises.
+fn points_of_chunks(table: &[ChunkTableEntry], header: &Header, packing: &Packing) -> Option<Vec<u64>> {
+    if !packing.vlr.uses_variable_size_chunks() {
+        return shares(header.count, packing.vlr.chunk_size().into(), table.len() as u64);
+    }
+    let given: Vec<u64> = table.iter().map(|entry| entry.point_count).collect();
+    let sum = given.iter().try_fold(0u64, |sum, &points| sum.checked_add(points));
+    (sum == Some(header.count)).then_some(given)
+}
+
+/// The 64-bit number at a place of the file, or zero if the file ends before it.
 fn place_at<R: Read + Seek + ?Sized>(source: &mut R, place: u64) -> Result<u64, Failure> {
     let bytes = read_at(source, place, PLACE_BYTES)?;
     Ok(bytes.try_into().map_or(0, u64::from_le_bytes))
 }
 
-/// The points of chunks that all have `size` points but for the last, behind which there may be an empty one; `None` if
-/// `total` is not that of so many chunks.
+/// The number of points in each of `count` chunks that have `total` points in all. Every chunk has `size` points, but
+/// the last one may have fewer, and an empty chunk may follow it. `None` if `count` chunks cannot have `total` points.
 fn shares(total: u64, size: u64, count: u64) -> Option<Vec<u64>> {
     let full = total.div_ceil(size);
     if count != full && count != full + 1 {
@@ -131,13 +144,17 @@ fn shares(total: u64, size: u64, count: u64) -> Option<Vec<u64>> {
     Some((0..count).map(|index| size.min(total.saturating_sub(index * size))).collect())
 }
 
-/// Refuses a chunk of layers whose own count is another, or whose layers do not fill it.
+/// Refuses a layered chunk whose own count of points differs from `chunk` or is too large for its bytes, or whose layers
+/// do not fill its bytes.
 fn check_layers(bytes: &[u8], chunk: &Chunk, header: &Header, packing: &Packing) -> Result<(), String> {
     let word = |place: usize| bytes.get(place..place + 4)?.try_into().ok().map(u32::from_le_bytes);
     let first = header.record_bytes;
     let count = word(first).ok_or("its first point is cut off")?;
     if u64::from(count) != chunk.points {
         return Err(format!("it has {count} points, but the header promises {}", chunk.points));
+    }
+    if chunk.points > chunk.bytes.saturating_mul(POINTS_OF_BYTE) {
+        return Err(format!("its {} bytes are too few for {count} points", chunk.bytes));
     }
     let layers = first + 4..first + 4 + 4 * packing.layers;
     let sizes = layers.clone().step_by(4).map(|place| word(place).map(u64::from));

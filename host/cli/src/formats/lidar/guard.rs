@@ -12,9 +12,10 @@ thread_local! {
     static IS_GUARDED: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Does the work; `None` if the work panicked. A panic prints nothing.
+/// Calls `work`; the result is `None` if `work` panics. The panic prints nothing.
 ///
-/// What the work changed is left as the panic found it, so the caller must not use it afterwards.
+/// A panic leaves everything that `work` was changing as it is at that moment, so the caller must not use it
+/// afterwards.
 pub fn guarded<T>(work: impl FnOnce() -> T) -> Option<T> {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {

@@ -33,7 +33,7 @@ pub struct Header {
     pub data_start: u64,
     /// The length of the file.
     pub file_bytes: u64,
-    /// The place of what follows the points, if the header names it.
+    /// The place of the first thing behind the points, if the header names one.
     pub tail: Option<u64>,
     /// The lengths of a step in x, y and z.
     pub scale: [f64; 3],
@@ -105,7 +105,12 @@ fn padded(bytes: &[u8]) -> [u8; LONGEST] {
 pub fn read_at<R: Read + Seek + ?Sized>(source: &mut R, place: u64, len: u64) -> Result<Vec<u8>, Failure> {
     let mut bytes = Vec::new();
     let mut read = || -> io::Result<usize> {
-        source.seek(SeekFrom::Start(place))?;
+        // A file may have a million short records: a relative seek keeps what the reader has buffered.
+        let by = i128::from(place) - i128::from(source.stream_position()?);
+        match i64::try_from(by) {
+            Ok(by) => source.seek_relative(by)?,
+            Err(_) => source.seek(SeekFrom::Start(place)).map(drop)?,
+        }
         source.take(len).read_to_end(&mut bytes)
     };
     read().map_err(|error| unreadable(&error))?;
@@ -149,7 +154,7 @@ fn record_form(block: &Block) -> Result<(u8, bool, usize), Failure> {
     Ok((format, code & PACKED != 0, record_bytes))
 }
 
-/// The number of points. LAS 1.4 has it twice: in 64 bits, and for older readers in 32 bits or as zero.
+/// The number of points. LAS 1.4 stores the number twice: in 64 bits, and for older readers in 32 bits or as zero.
 fn count(block: &Block, minor: usize, format: u8) -> Result<u64, Failure> {
     let short = u64::from(u32::from_le_bytes(block.at(107)));
     if minor < 4 {
@@ -158,7 +163,7 @@ fn count(block: &Block, minor: usize, format: u8) -> Result<u64, Failure> {
     let long = u64::from_le_bytes(block.at(247));
     if short != 0 && short != long {
         return Err(refuse(format!(
-            "the header promises {long} points of format {format} in one place, {short} in another"
+            "the header promises {long} points of format {format} in one place, and {short} in another"
         )));
     }
     Ok(long)

@@ -2,8 +2,8 @@
 //!
 //! A file has x, y and z of each point as integers of 32 bits, and in its header a scale and an offset for each axis.
 //! The integers become the steps of the points, so nothing is rounded. COPC is a LAZ file whose chunks differ in
-//! length; all its points are read, in the order of the file. `laz` decodes the chunks of LAZ; the header and all
-//! counts are read and checked here, so that a claim of the file alone allocates nothing.
+//! length; all its points are read, in the order of the file. `laz` decodes the chunks of LAZ. This module reads and
+//! checks the header and all counts, so that a claim of the file alone allocates nothing.
 
 mod chunks;
 mod guard;
@@ -23,12 +23,12 @@ use header::{refuse, Header};
 use packing::Packing;
 use sieve::Sieve;
 
-/// Bytes that are read at once from a file that is not packed.
+/// The number of bytes that are read at once from a file that is not packed.
 const BLOCK_BYTES: usize = 1 << 18;
 
-/// Reads the points of a file that are selected.
+/// Reads the selected points of a file.
 pub fn read_points(input: Input, selection: &Selection) -> Result<PointTable, Failure> {
-    let memory = input.bound();
+    let memory = input.memory();
     let mut source = input.into_seekable()?;
     let header = header::read(&mut *source)?;
     let mut sieve = Sieve::new(&header, selection, memory);

@@ -1,4 +1,4 @@
-//! The record in which LAZ describes its packing, checked against the header before a decoder is made of it.
+//! The record in which LAZ describes its packing, checked against the header before a decoder is made from it.
 
 use laz::LazVlr;
 
@@ -6,7 +6,7 @@ use crate::failure::{one_line, Failure};
 
 use super::header::{refuse, Header};
 
-/// Bytes of the record before the list of items.
+/// The number of bytes of the record before the list of items.
 const HEAD_BYTES: usize = 34;
 /// Bytes of an item in the list.
 const ITEM_BYTES: usize = 6;
@@ -21,11 +21,11 @@ const EXTRA_LAYERED: u16 = 14;
 
 /// How points are packed.
 pub struct Packing {
-    /// The record as the decoder takes it.
+    /// The record in the form that the decoder takes.
     pub vlr: LazVlr,
     /// Whether each field of a chunk has layers of its own.
     pub is_layered: bool,
-    /// The layers of a chunk, if there are any.
+    /// The number of layers in a chunk, if the packing has layers.
     pub layers: usize,
 }
 
@@ -53,7 +53,7 @@ impl Packing {
         let found: Vec<[u16; 3]> = (0..items).map(item).collect();
         check_items(&found, header)?;
         let layers = found.iter().map(|&[kind, size, _]| layers_of(kind, size)).sum();
-        // The decoder takes a list of items without anything behind it.
+        // The decoder takes a list of items and ignores the bytes behind it.
         let vlr = LazVlr::read_from(record).map_err(|error| refuse(one_line(&error.to_string())))?;
         Ok(Self { vlr, is_layered, layers })
     }
@@ -93,8 +93,8 @@ fn items_of(format: u8) -> &'static [(u16, u16)] {
     }
 }
 
-/// Refuses items that are not those of the point format, each as `[kind, bytes, version]`. The decoder would take them
-/// at their word.
+/// Refuses items that are not those of the point format, each as `[kind, bytes, version]`. The decoder would trust
+/// them.
 fn check_items(found: &[[u16; 3]], header: &Header) -> Result<(), Failure> {
     let expected = items_of(header.format);
     let bytes = |items: &[[u16; 3]]| items.iter().map(|item| usize::from(item[1])).sum::<usize>();

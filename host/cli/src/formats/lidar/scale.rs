@@ -1,5 +1,5 @@
-//! The meaning of the integers of a LAS file: a coordinate is `integer * scale + offset`, which is computed exactly if
-//! scale and offset are decimals.
+//! The coordinates for which the integers of a LAS file stand: `integer * scale + offset`, computed exactly if scale
+//! and offset are decimals.
 
 use crate::number::{self, Coordinate, Decimal, Number};
 use crate::points::Unit;
@@ -9,7 +9,7 @@ use super::header::Header;
 /// The most digits behind the point of a scale or an offset. Powers of ten up to this one fit 64 bits.
 const MOST_DIGITS: u32 = 18;
 
-/// The meaning of the integers of a file.
+/// How the integers of a file become coordinates.
 #[derive(Clone, Debug)]
 pub struct Scale {
     scale: [f64; 3],
@@ -18,18 +18,18 @@ pub struct Scale {
     height: Option<Line>,
 }
 
-/// The meaning of the integers of x and y, as steps of one length: `steps = integer * multiple + start`.
+/// How the integers of x and y become steps of one length: `steps = integer * multiple + start`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Plane {
-    /// The meaning of the steps.
+    /// How the steps become coordinates.
     pub unit: Unit,
-    /// The steps of an integer on each axis.
+    /// The number of steps from one integer to the next, on each axis.
     pub multiple: [i64; 2],
-    /// The steps of the integer 0 on each axis.
+    /// The steps for the integer 0, on each axis.
     pub start: [i64; 2],
 }
 
-/// Decimals of one axis: a coordinate is `(integer * factor + offset) * 10^-digits`.
+/// How the integers of one axis become decimals: `(integer * factor + offset) * 10^-digits`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Line {
     factor: i64,
@@ -71,21 +71,22 @@ impl Plane {
         let (x, y) = (x.in_digits(digits)?, y.in_digits(digits)?);
         let factor = greatest_divisor(x.factor, y.factor);
         let multiple = [x.factor / factor, y.factor / factor];
-        // An integer has 32 bits, so that its steps fit 64 bits.
+        // An integer has 32 bits, so with multiples of 31 bits the steps fit 64 bits.
         if multiple.iter().any(|&multiple| multiple > i64::from(i32::MAX)) {
             return None;
         }
-        let unit = Unit { digits, factor, offset: [x.offset.into(), y.offset.into()] };
+        let unit = Unit { digits, factor, offset: [x.offset.into(), y.offset.into()], is_stored: true };
         let plane = Self { unit, multiple, start: [0, 0] };
         let is_near = |offset: i64| offset.unsigned_abs() < 1 << 62;
         if (digits, factor) == (0, 1) && is_near(x.offset) && is_near(y.offset) {
-            // Whole numbers are taken as whole numbers, with the offset in them.
-            return Some(Self { unit: Unit::of_digits(0), start: [x.offset, y.offset], ..plane });
+            // For whole numbers the offset becomes a part of the steps, so that the steps are the coordinates.
+            let unit = Unit { is_stored: true, ..Unit::of_digits(0) };
+            return Some(Self { unit, start: [x.offset, y.offset], ..plane });
         }
         Some(plane)
     }
 
-    /// The steps of an integer on an axis.
+    /// The steps for an integer on an axis.
     pub fn steps(&self, integer: i32, axis: usize) -> i64 {
         i64::from(integer) * self.multiple[axis] + self.start[axis]
     }
@@ -100,7 +101,7 @@ fn greatest_divisor(mut a: i64, mut b: i64) -> i64 {
 }
 
 impl Scale {
-    /// The meaning of the integers of a file with this header.
+    /// The coordinates for the integers of a file with this header.
     pub fn of(header: &Header) -> Self {
         let Header { scale, offset, .. } = *header;
         let line = |axis: usize| Line::of(scale[axis], offset[axis]);
@@ -113,13 +114,13 @@ impl Scale {
         self.plane
     }
 
-    /// The double of an integer on an axis, by the formula of LAS.
+    /// The coordinate for an integer on an axis as a double, by the formula of LAS.
     pub fn double(&self, integer: i32, axis: usize) -> f64 {
         // Adding zero turns minus zero into zero.
         f64::from(integer) * self.scale[axis] + self.offset[axis] + 0.0
     }
 
-    /// The coordinate of an integer on axis 0 or 1.
+    /// The coordinate for an integer on axis 0 or 1.
     pub fn coordinate(&self, integer: i32, axis: usize) -> Coordinate {
         match &self.plane {
             Some(plane) => plane.unit.coordinate(plane.steps(integer, axis), axis),
@@ -127,7 +128,8 @@ impl Scale {
         }
     }
 
-    /// The height of an integer: the double that is nearest to the decimal, or else by the formula of LAS.
+    /// The height for an integer: the double nearest to the decimal. If scale and offset are no decimals, the formula
+    /// of LAS is computed in doubles.
     pub fn height(&self, integer: i32) -> f64 {
         match self.height {
             Some(Line { factor, offset, digits }) => {
@@ -149,14 +151,14 @@ mod tests {
     #[test]
     fn decimals_have_a_common_step() {
         let common = |digits, factor, offset, multiple, start| {
-            Some(Plane { unit: Unit { digits, factor, offset }, multiple, start })
+            Some(Plane { unit: Unit { digits, factor, offset, is_stored: true }, multiple, start })
         };
         let same = plane([0.001, 500_000.0], [0.001, -4_100_000.5]);
         assert_eq!(same, common(3, 1, [500_000_000, -4_100_000_500], [1, 1], [0, 0]));
         assert_eq!(plane([0.25, 0.0], [0.25, 0.0]), common(2, 25, [0, 0], [1, 1], [0, 0]));
         assert_eq!(plane([0.01, 0.0], [0.025, 1.0]), common(3, 5, [0, 1000], [2, 5], [0, 0]));
         assert_eq!(plane([1e-7, 0.0], [1e-7, 0.0]), common(7, 1, [0, 0], [1, 1], [0, 0]));
-        // Whole numbers are whole, wherever they begin.
+        // Whole numbers count in steps of 1, whatever their offset.
         assert_eq!(plane([1.0, 7.0], [2.0, -3.0]), common(0, 1, [0, 0], [1, 2], [7, -3]));
         assert_eq!(plane([1e-19, 0.0], [1e-19, 0.0]), None);
         assert_eq!(plane([1.0, 0.0], [1e-12, 0.0]), None);

@@ -1,30 +1,28 @@
-//! The records of a LAS file that are taken as points.
+//! The sieve takes the selected points out of the records of a LAS file.
 
 use std::cmp::Ordering;
 
 use crate::failure::Failure;
 use crate::formats::selection::{Bounds, Selection};
+use crate::memory::Memory;
 use crate::number;
 use crate::points::{Coordinates, PointTable};
 
 use super::header::{refuse, Header};
 use super::scale::{Plane, Scale};
 
-/// Bytes that a point takes in memory: two coordinates and a height.
-const POINT_BYTES: u64 = 24;
-
-/// Takes the points that are selected out of records.
+/// The selection, and the points taken so far.
 pub struct Sieve {
     scale: Scale,
     record_bytes: usize,
-    /// The place of the class in a record, and the bits of that byte that it has.
+    /// The byte of a record that has the class, and a mask for the bits of the class in that byte.
     class: (usize, u8),
     classes: Option<Box<[bool; 256]>>,
-    /// The integers of x and y that are within the bounds.
+    /// The least and the greatest integer within the bounds, for x and for y.
     within: [(i64, i64); 2],
     points: Points,
     heights: Vec<f64>,
-    /// The records seen so far.
+    /// The number of records seen so far.
     seen: u64,
     /// The most points for which there is memory.
     most: u64,
@@ -37,8 +35,8 @@ enum Points {
 }
 
 impl Sieve {
-    /// Makes the sieve of a file. Its points may take as many bytes as `memory`.
-    pub fn new(header: &Header, selection: &Selection, memory: u64) -> Self {
+    /// Makes the sieve of a file. Its points must fit the memory.
+    pub fn new(header: &Header, selection: &Selection, memory: Memory) -> Self {
         let scale = Scale::of(header);
         let within = match &selection.bounds {
             Some(bounds) => [0, 1].map(|axis| within(&scale, bounds, axis)),
@@ -53,23 +51,23 @@ impl Sieve {
         Self {
             scale,
             record_bytes: header.record_bytes,
-            // The first formats have the class in five bits, beside three flags.
+            // The formats before LAS 1.4 have the class in five bits, beside three flags.
             class: if header.is_extended() { (16, 0xff) } else { (15, 0x1f) },
             classes,
             within,
             points,
             heights: Vec::new(),
             seen: 0,
-            most: memory / POINT_BYTES,
+            most: memory.most_points(),
         }
     }
 
-    /// Whether the classes of points matter.
+    /// Whether points are selected by class.
     pub fn wants_class(&self) -> bool {
         self.classes.is_some()
     }
 
-    /// Takes points out of whole records, which follow those of the last call.
+    /// Takes the selected points out of whole records, which follow those of the last call.
     pub fn take(&mut self, records: &[u8]) -> Result<(), Failure> {
         for record in records.chunks_exact(self.record_bytes) {
             self.seen += 1;
@@ -88,12 +86,16 @@ impl Sieve {
                 Points::Steps(plane, steps) => steps.push([plane.steps(x, 0), plane.steps(y, 1)]),
                 Points::Doubles(doubles) => doubles.push(finite(&self.scale, [x, y], self.seen)?),
             }
-            self.heights.push(self.scale.height(integer(8)));
+            let height = self.scale.height(integer(8));
+            if !height.is_finite() {
+                return Err(beyond_doubles(self.seen));
+            }
+            self.heights.push(height);
         }
         if self.heights.len() as u64 > self.most {
             let most = self.most;
             return Err(refuse(format!(
-                "the file has more than {most} points, which take half of the free memory: select some with --class \
+                "the file has more than {most} points, which is what the free memory holds: select some with --class \
                  or --bounds, or use a machine with more memory"
             )));
         }
@@ -110,18 +112,22 @@ impl Sieve {
     }
 }
 
-/// The doubles of a point. A scale or an offset near the largest double can make them infinite, which is refused.
+/// The coordinates of a point as doubles. A scale or an offset near the largest double can make a coordinate infinite,
+/// which is refused.
 fn finite(scale: &Scale, integers: [i32; 2], number: u64) -> Result<[f64; 2], Failure> {
     let point = [scale.double(integers[0], 0), scale.double(integers[1], 1)];
     if point.iter().all(|value| value.is_finite()) {
         return Ok(point);
     }
-    Err(refuse(format!(
-        "point {number} is beyond the largest double: the scale or the offset in the header is too large"
-    )))
+    Err(beyond_doubles(number))
 }
 
-/// The integers of an axis whose coordinates are within the bounds, as the lowest and the highest one.
+/// The failure of a point with an infinite coordinate.
+fn beyond_doubles(number: u64) -> Failure {
+    refuse(format!("point {number} is beyond the largest double: the scale or the offset in the header is too large"))
+}
+
+/// The lowest and the highest integer of an axis whose coordinates are within the bounds.
 fn within(scale: &Scale, bounds: &Bounds, axis: usize) -> (i64, i64) {
     let compare = |integer: i32, bound| number::compare(scale.coordinate(integer, axis), bound);
     let low = first(|integer| compare(integer, bounds.low[axis]) != Ordering::Less);
@@ -129,7 +135,8 @@ fn within(scale: &Scale, bounds: &Bounds, axis: usize) -> (i64, i64) {
     (low, beyond - 1)
 }
 
-/// The lowest 32-bit integer for which `holds`, which must hold for all higher ones, too; 2^31 if there is none.
+/// The lowest 32-bit integer for which `holds` is true; 2^31 if there is none. `holds` must be true for all higher
+/// integers, too.
 fn first(holds: impl Fn(i32) -> bool) -> i64 {
     let (mut low, mut high) = (i64::from(i32::MIN), i64::from(i32::MAX) + 1);
     while low < high {

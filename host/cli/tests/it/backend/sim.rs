@@ -110,7 +110,7 @@ fn the_report_says_the_bits_of_the_grid() {
 #[test]
 fn sets_without_triangles() {
     let scratch = Scratch::new();
-    for points in ["", "3,4\n", "3,4\n5,6\n", "3,4\n3,4\n", "0,0\n2,2\n1,1\n7,7\n"] {
+    for points in ["x,y\n", "3,4\n", "3,4\n5,6\n", "3,4\n3,4\n", "0,0\n2,2\n1,1\n7,7\n"] {
         scratch.write("p.csv", points);
         let report = compare(&scratch, "", "");
         assert_eq!(report["cycles"], 0);

@@ -48,7 +48,10 @@ fn no_points_are_possible() {
     let scratch = Scratch::new();
     scratch.run("generate lattice -n 0 -o p.csv").ok();
     assert_eq!(scratch.read("p.csv"), "");
-    scratch.run("triangulate p.csv -o m.ele").ok();
+    for name in ["p.node", "p.npy"] {
+        scratch.run(&format!("generate lattice -n 0 -o {name}")).ok();
+        scratch.run(&format!("triangulate {name} -o m.ele")).ok();
+    }
 }
 
 #[test]

@@ -5,7 +5,7 @@ use incircle_testkit::{generate, Distribution};
 use npyz::{Deserialize, NpyFile};
 use serde_json::{json, Value};
 
-/// The value of an option with which every kind of numbers is made, and the kind of lattice in text.
+/// The values of `--numbers`, each with the kind of lattice that its points have in a text file.
 const KINDS: [(&str, &str); 5] =
     [("whole", "whole"), ("signed", "whole"), ("decimal", "decimal"), ("double", "doubles"), ("f32", "binary")];
 
@@ -74,14 +74,16 @@ fn steps_are_those_of_the_grid() {
         scratch.run(&format!("generate lattice -n 25 {options} -o p.csv")).ok();
         lattice_of(&scratch, "p.csv")
     };
-    let whole = |offset: i64| json!({ "kind": "whole", "scale": 1, "offset": [offset, offset], "bits": 9 });
+    let whole =
+        |offset: i64| json!({ "kind": "whole", "scale": 1, "offset": [offset, offset], "bits": 9, "rounded": 0 });
     assert_eq!(lattice("--bits 9"), whole(0));
     assert_eq!(lattice("--bits 9 --numbers signed"), whole(-256));
-    let decimal = json!({ "kind": "decimal", "scale": 1e-6, "offset": [-134.217728, -134.217728], "bits": 28 });
+    let low = -134.217728;
+    let decimal = json!({ "kind": "decimal", "scale": 1e-6, "offset": [low, low], "bits": 28, "rounded": 0 });
     assert_eq!(lattice("--numbers decimal"), decimal);
     let binary = lattice("--numbers f32");
     assert_eq!((&binary["kind"], &binary["offset"]), (&json!("binary"), &json!([-1.0, -1.0])));
-    // Few bits are also few decimals, and those come first.
+    // With few bits the numbers are also short decimals, and the command looks for decimals first.
     assert_eq!(lattice("--numbers f32 --bits 5")["kind"], "decimal");
 }
 

@@ -64,16 +64,18 @@ fn long_lines_and_wrong_encodings() {
 
 #[test]
 fn empty_files() {
-    accept("p.csv", "", 0);
+    for name in ["p.csv", "p.tsv", "p.xyz", "p.node", "p.obj", "p.ply", "p.geojson", "p.json", "p.wkt"] {
+        refuse(name, "", &["the file is empty", "'x,y'"]);
+    }
     accept("p.csv", "\n\n", 0);
     accept("p.csv", "x,y\r\n", 0);
-    accept("p.xyz", "", 0);
     accept("p.xyz", "x y z\n# nothing\n", 0);
-    accept("p.obj", "", 0);
+    accept("p.obj", "# nothing\n", 0);
+    accept("p.wkt", "POINT EMPTY\n", 0);
     accept("p.node", "0 2 0 0\n", 0);
     accept("p.geojson", r#"{"type":"FeatureCollection","features":[]}"#, 0);
-    refuse("p.node", "", &["empty", "N 2"]);
-    refuse("p.ply", "", &["PLY header"]);
+    refuse("p.node", "\n", &["empty", "N 2"]);
+    refuse("p.ply", "\n", &["PLY header"]);
     refuse("p.geojson", " ", &["empty"]);
 }
 
@@ -109,6 +111,39 @@ fn obj_of_wrong_form() {
     refuse("p.obj", b"v 0 0 0\nv 1 0 0\n\x8f\x01\xfe\n", &["row 3", "UTF-8"]);
     refuse("p.obj", b"# \0\n", &["row 1", "UTF-8"]);
     accept("p.obj", "# a\nmtllib a.mtl\no a\nv 0 0 0\nv 5 0 0\n\tv 0 5 0\nparm u 0 \\\n 1 2\ns off\nend\n", 1);
+}
+
+#[test]
+fn heights_that_are_no_finite_numbers() {
+    refuse("p.csv", "x,y,z\n0,0,1\n1,0,\n", &["row 3, column 3", "missing"]);
+    refuse("p.csv", "z,x,y\n1,0,0\nnan,1,0\n", &["row 3, column 1", "'nan'", "finite"]);
+    refuse("p.xyz", "0 0 1\n1 0 inf\n", &["row 2, column 3", "'inf'"]);
+    refuse("p.xyz", "0 0 1\n1 0 a\n", &["row 2, column 3", "'a'", "not a number"]);
+    refuse("p.obj", "v 0 0 0\nv 1 0 1e999\n", &["row 2, column 4", "finite"]);
+    refuse("p.geojson", r#"{"type":"Point","coordinates":[1,2,1e999]}"#, &["point 1, z", "finite"]);
+    let ply = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
+    refuse("p.ply", format!("{ply}end_header\n1 2 nan\n"), &["vertex 1, z", "'nan'"]);
+}
+
+#[test]
+fn heights_of_some_points_are_left_out_with_a_word() {
+    let scratch = Scratch::new();
+    let files = [
+        ("p.obj", "v 0 0 7\nv 4 0\nv 0 4 1\n", "row 2"),
+        ("p.wkt", "POINT (0 0) POINT (4 0 5) POINT (0 4)", "point 1"),
+        ("p.geojson", r#"{"type":"MultiPoint","coordinates":[[0,0,1],[4,0,2],[0,4]]}"#, "point 3"),
+    ];
+    for (name, content, first) in files {
+        scratch.write(name, content);
+        let run = scratch.run(&format!("triangulate {name} -o m.obj")).ok();
+        assert!(run.stderr.contains(&format!("z is left out: {first} has none\n")), "{run:?}");
+        assert!(scratch.read("m.obj").starts_with("v 0 0 0\n"), "{name}");
+    }
+    for (name, content) in [("p.obj", "v 0 0\nv 4 0\nv 0 4\n"), ("p.wkt", "POINT M (0 0 1) POINT (4 0) POINT (0 4)")] {
+        scratch.write(name, content);
+        let run = scratch.run(&format!("triangulate {name} -o m.obj")).ok();
+        assert!(!run.stderr.contains("left out"), "{run:?}");
+    }
 }
 
 #[test]

@@ -61,7 +61,22 @@ fn ply_that_holds_more_than_it_promises() {
 fn geojson_of_wrong_form() {
     refuse("p.geojson", "{", &["GeoJSON"]);
     refuse("p.geojson", r#"{"type":"Point","coordinates":[1]}"#, &["p.geojson"]);
-    refuse("p.geojson", r#"{"type":"Point","coordinates":[1,1e999]}"#, &["GeoJSON"]);
+    refuse("p.geojson", r#"{"type":"Point","coordinates":[1,1e999]}"#, &["point 1, y", "'1e999'", "finite"]);
+    refuse("p.geojson", r#"{"type":"Point","coordinates":[1,"2"]}"#, &["the geometry", "list of numbers"]);
+    refuse("p.geojson", r#"{"type":"Point","coordinates":[1,2],}"#, &["GeoJSON", "line 1 column 37"]);
+    refuse("p.geojson", r#"{"type":"Circle","coordinates":[1,2]}"#, &["GeoJSON", "'Circle'"]);
+    refuse("p.geojson", r#"{"coordinates":[1,2]}"#, &["GeoJSON", "no 'type'"]);
+    refuse("p.geojson", r#"{"type":"MultiPoint","coordinates":[[1,2],[3]]}"#, &["position 2", "1 coordinate"]);
+    let second = r#"{"type":"FeatureCollection","features":[
+        {"type":"Feature","geometry":{"type":"Point","coordinates":[1,2]}},
+        {"type":"Feature","geometry":{"type":"MultiPoint","coordinates":[[1,2],[3,null]]}}]}"#;
+    refuse("p.geojson", second, &["feature 2, position 2", "'[3,null]'"]);
+    let nested = |depth| {
+        let open = r#"{"type":"GeometryCollection","geometries":["#.repeat(depth);
+        format!("{open}{{\"type\":\"Point\",\"coordinates\":[1,2]}}{}", "]}".repeat(depth))
+    };
+    accept("p.geojson", nested(32), 0);
+    refuse("p.geojson", nested(33), &["32 collections"]);
     refuse("p.geojson", r#"{"type":"LineString","coordinates":[[1,2],[3,4]]}"#, &["LineString"]);
     let no_geometry =
         r#"{"type":"FeatureCollection","features":[{"type":"Feature","geometry":null,"properties":null}]}"#;
@@ -75,7 +90,8 @@ fn geojson_of_wrong_form() {
 fn json_points_of_wrong_form() {
     refuse("p.json", r#"{"points":[[0,0],[1,2,3]]}"#, &["points[1]", "'[1,2,3]'"]);
     refuse("p.json", r#"{"points":[[0,null]]}"#, &["points[0]"]);
-    refuse("p.json", r#"{"points":[[0,1e999]]}"#, &["not JSON", "out of range"]);
+    refuse("p.json", r#"{"points":[[0,1e999]]}"#, &["point 1, y", "'1e999'", "finite"]);
+    refuse("p.json", r#"{"points":[[0,1]}"#, &["not JSON", "line 1 column 17"]);
     refuse("p.json", r#"{"points":[[0,0],[1,9223372036854775808]]}"#, &["point 2, y", "beyond 64 bits"]);
     // An object with a `type` is read as GeoJSON.
     let named = r#"{"type":"LineString","coordinates":[[1,2],[3,4]],"points":[[0,0]]}"#;

@@ -108,7 +108,7 @@ fn meshes_can_be_read_back() {
 #[test]
 fn points_are_read_back_from_json() {
     let scratch = Scratch::new();
-    for points in [rows(|_, x, y| format!("{x},{y}")), "0.1,1e300\n-3e299,0\n7,0\n".to_owned(), String::new()] {
+    for points in [rows(|_, x, y| format!("{x},{y}")), "0.1,1e300\n-3e299,0\n7,0\n".to_owned(), "x,y\n".to_owned()] {
         scratch.write("p.csv", points);
         scratch.run("triangulate p.csv -o m.json").ok();
         scratch.run("triangulate m.json -o again.json").ok();
@@ -118,6 +118,29 @@ fn points_are_read_back_from_json() {
     let run =
         scratch.run_with_input("triangulate - --from json -o - --format csv", br#"{"points":[[0,0],[1,0],[0,1]]}"#);
     assert_eq!(run.ok().stdout, "0,1,2\n");
+}
+
+#[test]
+fn numbers_of_json_are_those_that_are_written() {
+    let scratch = Scratch::new();
+    // Doubles would make one point of the first two, and 9007199254740992 of the others.
+    let points = ["0.123456789012345678", "0.123456789012345679", "1.5", "2"].map(|x| format!("[{x}, 1.50]")).join(",");
+    let whole = ["9007199254740993", "9007199254740992", "-9223372036854775808"].map(|x| format!("[{x},7]")).join(",");
+    for list in [points, whole] {
+        scratch.write("p.json", format!("{{\"points\":[{list}]}}"));
+        scratch.write("p.geojson", format!("{{\"coordinates\":[{list}],\"type\":\"MultiPoint\"}}"));
+        scratch.write("p.csv", list.replace("],[", "\n").replace(['[', ']'], "") + "\n");
+        scratch.run("triangulate p.csv -o csv.json").ok();
+        for name in ["p.json", "p.geojson"] {
+            scratch.run(&format!("triangulate {name} -o m.json")).ok();
+            assert_eq!(scratch.read("m.json"), scratch.read("csv.json"), "{name}");
+            // What the command writes reads back to the same.
+            scratch.run("triangulate m.json -o again.json").ok();
+            assert_eq!(scratch.read("again.json"), scratch.read("m.json"), "{name}");
+        }
+    }
+    let beyond = r#"{"type":"MultiPoint","coordinates":[[0,0],[1,9223372036854775808]]}"#;
+    crate::common::refuse("p.geojson", beyond, &["point 2, y", "beyond 64 bits"]);
 }
 
 #[test]
@@ -146,6 +169,18 @@ fn text_formats_say_what_they_should() {
         vtk.ends_with("POINTS 4 double\n0.5 0 0\n4 0 0\n0 4 0\n4 0 0\nCELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n5\n"),
         "{vtk}"
     );
+}
+
+#[test]
+fn heights_are_written_like_coordinates() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", "x,y,z\n0,0,1e300\n4,0,-2.5e-9\n0,4,7\n");
+    for (format, start) in [("obj", "v "), ("ply", ""), ("vtk", "")] {
+        scratch.run(&format!("triangulate p.csv -o m.{format}")).ok();
+        let mesh = scratch.read(&format!("m.{format}"));
+        let rows = format!("{start}0 0 1e300\n{start}4 0 -2.5e-9\n{start}0 4 7\n");
+        assert!(mesh.contains(&rows), "{mesh}");
+    }
 }
 
 #[test]
@@ -218,7 +253,7 @@ fn the_airports_of_the_world_become_a_picture() {
     assert!(scratch.read("world.svg").len() < 1_500_000);
     let run = scratch.run(&format!("triangulate {data} -o world.ele --quantize fit --coord-bits 16 --json")).ok();
     let report: Value = serde_json::from_str(&run.stdout).expect("the report is JSON");
-    // On a grid of 16 bits 27 more fall together.
+    // On a grid of 16 bits, 27 more airports fall onto others.
     assert_eq!((&report["distinct"], &report["quantisation"]["merged"]), (&28_266.into(), &27.into()));
     scratch.run(&format!("verify {data} world.ele --quantize fit --coord-bits 16")).ok();
 }

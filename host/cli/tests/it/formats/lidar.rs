@@ -44,7 +44,7 @@ fn csv(points: &[Stored]) -> String {
 fn the_stored_integers_are_the_steps() {
     let points = points(3000, 1);
     let steps: Vec<_> = points.iter().map(|&([x, y, _], _)| [i64::from(x), i64::from(y)]).collect();
-    let unit = Unit { digits: 3, factor: 1, offset: [500_000_000, -4_100_000_500] };
+    let unit = Unit { digits: 3, factor: 1, offset: [500_000_000, -4_100_000_500], is_stored: true };
     let heights: Vec<f64> = points.iter().map(|&([_, _, z], _)| (10_000.0 + f64::from(z)) / 100.0).collect();
     for (minor, format) in FORMATS {
         for is_packed in [false, true] {
@@ -83,7 +83,7 @@ fn scales_that_are_no_common_decimals_give_doubles() {
     assert_eq!(found, (Coordinates::Doubles(doubles.to_vec()), vec![0.5, 0.0]));
     // Two decimals are brought to one length of step.
     let found = read(&write(2, 0, false, [(0.01, 0.0), (0.025, 1.0), (1.0, 0.0)], &stored));
-    let unit = Unit { digits: 3, factor: 5, offset: [0, 1000] };
+    let unit = Unit { digits: 3, factor: 5, offset: [0, 1000], is_stored: true };
     let steps = stored.map(|([i, j, _], _)| [i64::from(i) * 2, i64::from(j) * 5]);
     assert_eq!(found.0, Coordinates::Steps { steps: steps.to_vec(), unit });
 }
@@ -121,11 +121,17 @@ fn the_report_names_the_lattice() {
         serde_json::from_str::<Value>(&run.stdout).expect("JSON")["lattice"].clone()
     };
     let found = lattice((0.25, 10.0), (0.25, -1.5));
-    assert_eq!(found, json!({ "kind": "decimal", "scale": 0.25, "offset": [10.0, -1.5], "bits": 4 }));
+    assert_eq!(found, json!({ "kind": "decimal", "scale": 0.25, "offset": [10.0, -1.5], "bits": 4, "rounded": 0 }));
     let found = lattice((1.0, 400_000.0), (1.0, -3.0));
-    assert_eq!(found, json!({ "kind": "whole", "scale": 1, "offset": [400_000, -3], "bits": 4 }));
+    assert_eq!(found, json!({ "kind": "whole", "scale": 1, "offset": [400_000, -3], "bits": 4, "rounded": 0 }));
+    // Two scales widen the span to 2^33 steps and more, and the steps stay integers.
+    let ends: [Stored; 3] = [([0, 0, 0], 0), ([0, i32::MAX, 0], 0), ([1, i32::MIN, 0], 0)];
+    scratch.write("p.las", write(2, 0, false, [(0.001, 0.0), (0.002, 0.0), (1.0, 0.0)], &ends));
+    let run = scratch.run("triangulate p.las -o m.ele --json").ok();
+    let found = &serde_json::from_str::<Value>(&run.stdout).expect("JSON")["lattice"];
+    assert_eq!((&found["kind"], &found["bits"]), (&"decimal".into(), &33.into()), "{found}");
     let found = lattice((1e-25, 0.0), (0.1, 0.0));
-    assert_eq!(found, json!({ "kind": "doubles", "scale": null, "offset": null, "bits": null }));
+    assert_eq!(found, json!({ "kind": "doubles", "scale": null, "offset": null, "bits": null, "rounded": 0 }));
 }
 
 #[test]
@@ -167,7 +173,7 @@ fn edges_of_bounds_are_exact() {
     assert_eq!(count("0.3,-1,0.6,1"), 4);
     assert_eq!(count("0.300000000000000001,-1,0.599999999999999999,0"), 2);
     assert_eq!(count("-9e18,-9e18,9e18,9e18"), 10);
-    // These coordinates are doubles; that of 3 is 0.30000000000000004, above the decimal 0.3.
+    // These coordinates are doubles. The integer 3 gives 0.30000000000000004, which is above the decimal 0.3.
     scratch.write("p.las", write(2, 0, false, [(0.1, 0.0), (1e-30, 0.0), (1.0, 0.0)], &stored));
     assert_eq!(count("0.3,-1,0.30000000000000004,1"), 0);
     assert_eq!(count("0.3,-1,0.300000000000000045,1"), 1);

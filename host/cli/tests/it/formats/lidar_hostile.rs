@@ -78,11 +78,11 @@ fn wrong_counts_are_refused() {
         for count in [0, 1, 299, 301, 1 << 20, most] {
             refuse(name, with_count(&file, count), &["points"]);
         }
-        // Without points there is nothing to read, however large the claim.
+        // A file that ends before its points is refused, however many its header promises.
         let empty = &file[..word(&file, 96)];
         refuse(name, with_count(empty, most), &[]);
     }
-    // What follows the points must have its place in the header.
+    // Bytes behind the points are refused unless the header names their place.
     let (_, file) = &samples()[1];
     let longer = [&file[..], &[0; 92]].concat();
     refuse("new.las", &longer, &["92 bytes after"]);
@@ -92,12 +92,16 @@ fn wrong_counts_are_refused() {
     refuse("new.las", named, &[short]);
 }
 
+/// A cut file is read from the disk, where a place beyond all files is an error of the system, unlike in memory.
 #[test]
-fn cut_files_are_refused() {
+fn cut_files_are_refused_with_a_sentence_of_the_format() {
+    let scratch = Scratch::new();
     for (name, file) in samples() {
         for len in (0..file.len()).step_by(37).chain([file.len() - 1]) {
-            let failure = read(&file[..len]).expect_err(name);
-            assert!(failure.message.len() < 400, "{failure}");
+            let path = scratch.write(name, &file[..len]);
+            let input = Input::open(&path, true).expect("the file is there");
+            let failure = PointFormat::Las.read(input, &Selection::default()).expect_err(name);
+            assert!(failure.message.len() < 400 && !failure.message.contains("os error"), "{len} bytes: {failure}");
         }
     }
 }
@@ -148,10 +152,27 @@ fn spoilt_files_never_panic() {
 }
 
 #[test]
+fn few_bytes_do_not_promise_many_points() {
+    let (name, file) = &samples()[3];
+    let start = word(file, 96);
+    // The size of a chunk stands in the record about the packing, the count of the points in the only chunk itself.
+    let size = (227..start).find(|&place| word(file, place) == 50_000).expect("the usual size of a chunk");
+    let count = (start + 8..file.len() - 4).find(|&place| word(file, place) == 300).expect("the count");
+    let many = u32::MAX - 1;
+    let file = with(&with(file, size, &many.to_le_bytes()), count, &many.to_le_bytes());
+    refuse(name, with_count(&file, many.into()), &["chunk 1 of", "too few for 4294967294 points"]);
+    // A file of one place is packed as tightly as can be.
+    let stored = vec![([7, 7, 7], 2); 400_000];
+    let packed = write(4, 6, true, AXES, &stored);
+    assert!(packed.len() < 60_000, "{} bytes", packed.len());
+    assert_eq!(read(&packed).map(|table| table.len()), Ok(400_000));
+}
+
+#[test]
 fn damage_is_reported_with_its_chunk() {
     let scratch = Scratch::new();
     let [.., (name, file)] = samples();
-    // The count of the second chunk, behind its first point, no longer fits.
+    // The second chunk has its count behind its first point. The edit makes the count wrong.
     let start = word(&file, 96) + 8;
     let second = (start..file.len() - 4).find(|&place| word(&file, place) == 200).expect("the count");
     scratch.write(name, with(&file, second, &199u32.to_le_bytes()));

@@ -14,9 +14,9 @@ const ID_BITS: u32 = 21;
 /// Most points for which a triangle fits a word.
 pub(super) const MOST: usize = 1 << ID_BITS;
 
-/// Most sites whose half-edges, half a megabyte, stay in a second-level cache.
+/// The most sites whose half-edges (half a megabyte) stay in a second-level cache.
 const IN_CACHE: usize = short::MOST;
-/// Edges that are processed together: they take 5 kB.
+/// The number of edges that are processed together. They take 5 kB.
 const BLOCK: usize = 256;
 
 /// The memory to sort triangles.
@@ -115,7 +115,7 @@ impl SmallCollect {
 struct Edge {
     smaller: u32,
     larger: u32,
-    /// The next half-edge counter-clockwise.
+    /// The next half-edge counter-clockwise around the end with the smaller id.
     next: u32,
     /// Whether there is a triangle to the left of the edge.
     is_inside: bool,
@@ -129,7 +129,7 @@ fn edge<H: Halves + ?Sized>(halves: &H, ids: &[u32], pair: u32) -> Option<Edge> 
         return None;
     }
     let [to, from] = ends.map(|end| ids[(end & !H::GAP) as usize]);
-    // An index instead of a branch, because no processor predicts which end has the smaller id.
+    // The comparison is an index and no branch, because no processor predicts which end has the smaller id.
     let Half { next, end, .. } = halves.half(2 * pair + u32::from(to < from));
     Some(Edge { smaller: from.min(to), larger: from.max(to), next, is_inside: end & H::GAP == 0 })
 }

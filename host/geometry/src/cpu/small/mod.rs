@@ -38,7 +38,7 @@ use crate::point::Point;
 /// before, of up to 2^21 points. A triangulator takes up to 150 bytes for each point of its largest set, and half a
 /// megabyte, of which a small set touches only the beginning.
 ///
-/// The library `incircle` has this type as `incircle::Triangulator`, and its errors as `incircle::TriangulatorError`.
+/// In the library `incircle` this type is `incircle::Triangulator`, and its error is `incircle::TriangulatorError`.
 ///
 /// ```
 /// use incircle_geometry::cpu::Triangulator;
@@ -84,7 +84,8 @@ impl Triangulator {
     /// four lists. Coordinates may have all 32 bits. Cost: O(n log n) at worst and O(n) on even sets.
     ///
     /// # Errors
-    /// [`Error::TooManyPoints`] beyond [`MAX_POINTS`](crate::MAX_POINTS), and no other. The mesh then stays as it was.
+    /// Only [`Error::TooManyPoints`], for more than [`MAX_POINTS`](crate::MAX_POINTS) points. The mesh then stays as it
+    /// was.
     pub fn triangulate_into(&mut self, points: &[Point], mesh: &mut Mesh) -> Result<(), Error> {
         check(points.len())?;
         let Mesh { points: own, triangles, hull, duplicates } = mesh;
