@@ -127,8 +127,7 @@ impl Logic for VisitCase {
         self.is_in_conflict.next = self.verdict.val().conflict & (!self.is_corner.val());
         self.looks_again.next = self.walk_is_torn.q.val()
             | (self.walk_counts.q.val() & self.is_in_conflict.val() & self.context_is_busy.q.val());
-        self.found.next.walks_on =
-            self.walk_counts.q.val() & (!self.verdict.val().conflict) & (!self.is_corner.val());
+        self.found.next.walks_on = self.walk_counts.q.val() & (!self.verdict.val().conflict) & (!self.is_corner.val());
         self.found.next.walk_duplicate = self.walk_counts.q.val() & self.is_corner.val();
         self.found.next.locates =
             self.walk_counts.q.val() & self.is_in_conflict.val() & (!self.context_is_busy.q.val());

@@ -40,8 +40,8 @@ use super::next_point::Passed;
 use super::plan_table::PlanTable;
 use super::start_pointer::StartPointer;
 use crate::engine::types::{
-    context_bits, ContextId, ContextState, Deal, Outcome, SoloStart, Start, TriangleId, VertexId,
-    CONTEXT_BITS, TRIANGLE_BITS, VERTEX_BITS,
+    context_bits, ContextId, ContextState, Deal, Outcome, SoloStart, Start, TriangleId, VertexId, CONTEXT_BITS,
+    TRIANGLE_BITS, VERTEX_BITS,
 };
 use crate::leaf::LutMemory;
 use crate::prelude::*;
