@@ -5026,7 +5026,7 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,limits,deal,arri
     reg  dispatcher$is_done;
     reg  [28:0] dispatcher$outcome;
     reg  dispatcher$may_ask;
-    reg  [71:0] dispatcher$committed;
+    reg  [56:0] dispatcher$committed;
     reg  [5:0] dispatcher$released;
     reg  [4:0] dispatcher$solo;
     wire  [36:0] dispatcher$start;
@@ -5066,7 +5066,7 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,limits,deal,arri
     reg  commits$seeds;
     reg  commits$solo_inserts;
     wire  [109:0] commits$write;
-    wire  [71:0] commits$committed;
+    wire  [56:0] commits$committed;
     wire  [14:0] commits$records;
     wire  [14:0] commits$fresh;
     wire  commits$is_at_work;
@@ -5639,7 +5639,7 @@ module incircle_core_logic$engine$insertions$attempts$meaning(clock,early,seeded
     reg  visits_root;
     reg  tests;
     reg  foreign;
-    reg  is_located;
+    reg  is_in_conflict;
     reg  is_corner;
     reg  is_live;
     reg  looks_again;
@@ -5781,16 +5781,16 @@ module incircle_core_logic$engine$insertions$attempts$meaning(clock,early,seeded
         found[(64'h2)+:(1)] = rooted$q;
         found[(64'h3)+:(1)] = tested$q;
         found[(64'h4)+:(1)] = looked$q;
-        is_located = verdict[(64'h1)+:(1)] & (~verdict[(64'h2)+:(1)]);
-        is_corner = verdict[(64'h1)+:(1)] & verdict[(64'h2)+:(1)];
-        looks_again = walk_is_torn$q | (walk_counts$q & is_located & context_is_busy$q);
-        found[(64'h7)+:(1)] = walk_counts$q & (~verdict[(64'h1)+:(1)]);
+        is_corner = verdict[(64'h2)+:(1)];
+        is_in_conflict = verdict[(64'h0)+:(1)] & (~is_corner);
+        looks_again = walk_is_torn$q | (walk_counts$q & is_in_conflict & context_is_busy$q);
+        found[(64'h7)+:(1)] = walk_counts$q & (~verdict[(64'h0)+:(1)]) & (~is_corner);
         found[(64'h10)+:(1)] = walk_counts$q & is_corner;
-        found[(64'h8)+:(1)] = walk_counts$q & is_located & (~context_is_busy$q);
+        found[(64'h8)+:(1)] = walk_counts$q & is_in_conflict & (~context_is_busy$q);
         found[(64'he)+:(1)] = root_is_refused$q;
-        found[(64'h9)+:(1)] = root_is_held$q & is_located;
+        found[(64'h9)+:(1)] = root_is_held$q & is_in_conflict;
         found[(64'h11)+:(1)] = root_is_held$q & is_corner;
-        found[(64'ha)+:(1)] = root_is_held$q & (~verdict[(64'h1)+:(1)]);
+        found[(64'ha)+:(1)] = root_is_held$q & (~verdict[(64'h0)+:(1)]) & (~is_corner);
         is_live = test_counts$q & (~drains);
         passes = is_live & verdict[(64'h0)+:(1)] & (~is_full);
         found[(64'hf)+:(1)] = test_is_refused$q & (~drains);
@@ -5800,7 +5800,7 @@ module incircle_core_logic$engine$insertions$attempts$meaning(clock,early,seeded
         asks_again = root_is_awaited$q | (test_is_awaited$q & (~drains));
         found[(64'h6)+:(1)] = asks_again;
         found[(64'h5)+:(1)] = looks_again | asks_again;
-        found[(64'h12)+:(1)] = walk_is_torn$q | (walk_counts$q & (~is_corner)) | (root_is_held$q & is_located) | passes | asks_again;
+        found[(64'h12)+:(1)] = walk_is_torn$q | (walk_counts$q & (~is_corner)) | (root_is_held$q & is_in_conflict) | passes | asks_again;
         found[(64'h13)+:(1)] = may_ask_anyway$q | (test_counts$q & verdict[(64'h0)+:(1)]);
     end
     
@@ -6927,7 +6927,7 @@ module incircle_core_logic$engine$insertions$commits(clock,reset,clears,last_id,
     input wire  seeds;
     input wire  solo_inserts;
     output reg  [109:0] write;
-    output reg  [71:0] committed;
+    output reg  [56:0] committed;
     output reg  [14:0] records;
     output reg  [14:0] fresh;
     output reg  is_at_work;
@@ -6952,7 +6952,7 @@ module incircle_core_logic$engine$insertions$commits(clock,reset,clears,last_id,
     reg  [14:0] star$fresh;
     wire  star$takes_fresh;
     wire  [109:0] star$write;
-    wire  [71:0] star$committed;
+    wire  [56:0] star$committed;
     wire  star$is_at_work;
     reg  ids$clock;
     reg  ids$reset;
@@ -10032,7 +10032,7 @@ module incircle_core_logic$engine$insertions$commits$star(clock,reset,head,head_
     input wire  [14:0] fresh;
     output reg  takes_fresh;
     output reg  [109:0] write;
-    output reg  [71:0] committed;
+    output reg  [56:0] committed;
     output reg  is_at_work;
     
     // Stub signals
@@ -10248,7 +10248,6 @@ module incircle_core_logic$engine$insertions$commits$star(clock,reset,head,head_
         write = request$q;
         committed[(64'h0)+:(1)] = steps$is_close;
         committed[(64'h1)+:(56)] = ring$q;
-        committed[(64'h39)+:(15)] = first$q[(64'h20)+:(15)];
         is_at_work = steps$is_at_work;
         steps$reset = reset;
         steps$head = head;
@@ -11405,7 +11404,7 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,built
     input wire  is_done;
     input wire  [28:0] outcome;
     input wire  may_ask;
-    input wire  [71:0] committed;
+    input wire  [56:0] committed;
     input wire  [5:0] released;
     input wire  [4:0] solo;
     output reg  [36:0] start;
@@ -11439,7 +11438,7 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,built
     reg  [28:0] flags$outcome;
     reg  [36:0] flags$start;
     reg  [5:0] flags$released;
-    reg  [71:0] flags$committed;
+    reg  [56:0] flags$committed;
     reg  flags$solo_ends;
     wire  [133:0] flags$contexts;
     wire  flags$takes_priority;
@@ -11455,7 +11454,6 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,built
     reg  starter$is_done;
     reg  starter$is_blocked;
     reg  [28:0] starter$outcome;
-    reg  [71:0] starter$committed;
     wire  [36:0] starter$start;
     wire  [35:0] starter$solo_start;
     reg  finished_points$clock;
@@ -11529,7 +11527,6 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,built
         .is_done(starter$is_done),
         .is_blocked(starter$is_blocked),
         .outcome(starter$outcome),
-        .committed(starter$committed),
         .start(starter$start),
         .solo_start(starter$solo_start)
     );
@@ -11607,7 +11604,6 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,built
         starter$is_done = is_done;
         starter$is_blocked = may_ask;
         starter$outcome = found$q;
-        starter$committed = committed;
         start = starter$start;
         solo_start = starter$solo_start;
         taken1$d = starter$start[(64'h15)+:(1)] & (~reset);
@@ -11784,7 +11780,7 @@ module incircle_core_logic$engine$insertions$dispatcher$flags(clock,reset,clears
     input wire  [28:0] outcome;
     input wire  [36:0] start;
     input wire  [5:0] released;
-    input wire  [71:0] committed;
+    input wire  [56:0] committed;
     input wire  solo_ends;
     output reg  [133:0] contexts;
     output reg  takes_priority;
@@ -11991,7 +11987,7 @@ module incircle_core_logic$engine$insertions$dispatcher$found(d,q,clock);
 endmodule // incircle_core_logic$engine$insertions$dispatcher$found
 
 
-module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clears,deal,arrived,came,seeded,contexts,solo_is_at_work,is_done,is_blocked,outcome,committed,start,solo_start);
+module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clears,deal,arrived,came,seeded,contexts,solo_is_at_work,is_done,is_blocked,outcome,start,solo_start);
     
     // Module arguments
     input wire  clock;
@@ -12006,7 +12002,6 @@ module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clea
     input wire  is_done;
     input wire  is_blocked;
     input wire  [28:0] outcome;
-    input wire  [71:0] committed;
     output reg  [36:0] start;
     output reg  [35:0] solo_start;
     
@@ -12041,12 +12036,6 @@ module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clea
     reg  roots$write_enable;
     reg  [4:0] roots$read_address;
     wire  [14:0] roots$read_data;
-    reg  hints$clock;
-    reg  [4:0] hints$write_address;
-    reg  [14:0] hints$write_data;
-    reg  hints$write_enable;
-    reg  [4:0] hints$read_address;
-    wire  [14:0] hints$read_data;
     reg  pointer$clock;
     reg  pointer$restarts;
     reg  [4:0] pointer$contexts;
@@ -12073,11 +12062,9 @@ module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clea
     reg  check$may_be_starting;
     wire  check$wants_again;
     wire  check$wants_new;
-    wire  check$tries_again;
-    wire  check$is_hinted;
+    wire  check$has_root;
     
     // Local signals
-    reg  [55:0] job;
     reg  [4:0] contexts_at_work;
     reg  wants;
     reg  lacks_port;
@@ -12133,14 +12120,6 @@ module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clea
         .read_address(roots$read_address),
         .read_data(roots$read_data)
     );
-    incircle_core_logic$engine$insertions$dispatcher$starter$hints hints(
-        .clock(hints$clock),
-        .write_address(hints$write_address),
-        .write_data(hints$write_data),
-        .write_enable(hints$write_enable),
-        .read_address(hints$read_address),
-        .read_data(hints$read_data)
-    );
     incircle_core_logic$engine$insertions$dispatcher$starter$pointer pointer(
         .clock(pointer$clock),
         .restarts(pointer$restarts),
@@ -12172,8 +12151,7 @@ module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clea
         .may_be_starting(check$may_be_starting),
         .wants_again(check$wants_again),
         .wants_new(check$wants_new),
-        .tries_again(check$tries_again),
-        .is_hinted(check$is_hinted)
+        .has_root(check$has_root)
     );
     
     // Update code
@@ -12194,7 +12172,6 @@ module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clea
         pointer$clock = clock;
         plans$clock = clock;
         roots$clock = clock;
-        hints$clock = clock;
         one_turn = 32'h1;
         contexts_at_work = deal[(64'h0)+:(5)];
         points$read_address = pointer$pointer[(64'h0)+:(5)];
@@ -12213,7 +12190,6 @@ module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clea
         check$all_work = all_work$q;
         check$may_be_starting = (wants_again$q | wants_new$q) & (contexts_at_work == one_turn);
         roots$read_address = passed$q[(64'h0)+:(5)];
-        hints$read_address = passed$q[(64'h0)+:(5)];
         wants = (wants_again$q | wants_new$q) & (~contexts[(64'h7f)+:(1)]);
         lacks_port = wants_new$q & came;
         moves = ~(wants & (is_done | lacks_port));
@@ -12238,10 +12214,6 @@ module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clea
         roots$write_address = outcome[(64'h0)+:(5)];
         roots$write_data = outcome[(64'he)+:(15)];
         roots$write_enable = outcome[(64'hd)+:(1)];
-        job = committed[(64'h1)+:(56)];
-        hints$write_address = job[(64'h0)+:(5)];
-        hints$write_data = committed[(64'h39)+:(15)];
-        hints$write_enable = committed[(64'h0)+:(1)];
         if (is_taken & candidate$q[(64'h14)+:(1)]) begin
             all_work$d = 1'b1;
         end
@@ -12259,10 +12231,7 @@ module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clea
             wants_new$d = check$wants_new;
             candidate$d[(64'h42)+:(1)] = passed$q[(64'h0)+:(5)] == contexts[(64'h80)+:(5)];
             candidate$d[(64'h33)+:(15)] = plans$following[(64'h10)+:(15)];
-            if (check$is_hinted) begin
-                candidate$d[(64'h33)+:(15)] = hints$read_data;
-            end
-            if (check$tries_again) begin
+            if (check$has_root) begin
                 candidate$d[(64'h33)+:(15)] = roots$read_data;
             end
             passed$d[(64'h0)+:(5)] = pointer$pointer[(64'h0)+:(5)];
@@ -12320,7 +12289,7 @@ module incircle_core_logic$engine$insertions$dispatcher$starter$candidate(d,q,cl
 endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$candidate
 
 
-module incircle_core_logic$engine$insertions$dispatcher$starter$check(contexts,passed,arrived,seeded,is_planned,rests_over,all_work,may_be_starting,wants_again,wants_new,tries_again,is_hinted);
+module incircle_core_logic$engine$insertions$dispatcher$starter$check(contexts,passed,arrived,seeded,is_planned,rests_over,all_work,may_be_starting,wants_again,wants_new,has_root);
     
     // Module arguments
     input wire  [133:0] contexts;
@@ -12333,8 +12302,7 @@ module incircle_core_logic$engine$insertions$dispatcher$starter$check(contexts,p
     input wire  may_be_starting;
     output reg  wants_again;
     output reg  wants_new;
-    output reg  tries_again;
-    output reg  is_hinted;
+    output reg  has_root;
     
     // Local signals
     reg  [4:0] index;
@@ -12373,34 +12341,10 @@ module incircle_core_logic$engine$insertions$dispatcher$starter$check(contexts,p
         end
         is_there = is_planned & (passed[(64'h5)+:(15)] < arrived);
         wants_new = is_asleep & (~will_retry) & is_there & may_work;
-        tries_again = will_retry;
-        is_hinted = hinted[index];
+        has_root = will_retry | hinted[index];
     end
     
 endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$check
-
-
-module incircle_core_logic$engine$insertions$dispatcher$starter$hints(clock,write_address,write_data,write_enable,read_address,read_data);
-    
-    // Module arguments
-    input wire  clock;
-    input wire  [4:0] write_address;
-    input wire  [14:0] write_data;
-    input wire  write_enable;
-    input wire  [4:0] read_address;
-    output reg  [14:0] read_data;
-    
-    // Update code (custom)
-    wire unused_write_address = &{1'b0, write_address[4:4]};
-    wire unused_read_address = &{1'b0, read_address[4:4]};
-    (* ram_style = "distributed" *)
-    reg [14:0] memory [0:15];
-    wire [14:0] word = memory[read_address[3:0]];
-    always @(posedge clock) begin
-        if (write_enable) memory[write_address[3:0]] <= write_data;
-    end
-    always @(*) read_data = word;
-endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$hints
 
 
 module incircle_core_logic$engine$insertions$dispatcher$starter$passed(d,q,clock);
@@ -18071,6 +18015,11 @@ module incircle_core_logic$engine$pipeline$judge$verdict_logic(turned,signs,verd
     reg  [1:0] third_slot;
     reg  is_second;
     reg  is_third;
+    reg  faces_second;
+    reg  faces_third;
+    reg  is_end0;
+    reg  is_end1;
+    reg  is_end2;
     reg  infinite1;
     reg  infinite2;
     reg  is_beyond;
@@ -18102,22 +18051,27 @@ module incircle_core_logic$engine$pipeline$judge$verdict_logic(turned,signs,verd
         end
         is_beyond = (~edges[(64'h0)+:(1)]) & (~edges[(64'h3)+:(1)]);
         is_on_hull_line = edges[(64'h3)+:(1)];
-        is_between = order[(64'h1)+:(1)] ^ order[(64'h2)+:(1)];
+        is_end0 = order[(64'h3)+:(1)];
+        is_end1 = order[(64'h4)+:(1)];
+        is_end2 = order[(64'h5)+:(1)];
+        is_between = (order[(64'h1)+:(1)] ^ order[(64'h2)+:(1)]) & (~is_end1) & (~is_end2);
         if (infinite1) begin
             is_beyond = (~edges[(64'h1)+:(1)]) & (~edges[(64'h4)+:(1)]);
             is_on_hull_line = edges[(64'h4)+:(1)];
-            is_between = order[(64'h2)+:(1)] ^ order[(64'h0)+:(1)];
+            is_between = (order[(64'h2)+:(1)] ^ order[(64'h0)+:(1)]) & (~is_end2) & (~is_end0);
         end
         if (infinite2) begin
             is_beyond = (~edges[(64'h2)+:(1)]) & (~edges[(64'h5)+:(1)]);
             is_on_hull_line = edges[(64'h5)+:(1)];
-            is_between = order[(64'h0)+:(1)] ^ order[(64'h1)+:(1)];
+            is_between = (order[(64'h0)+:(1)] ^ order[(64'h1)+:(1)]) & (~is_end0) & (~is_end1);
         end
+        faces_second = edges[(64'h1)+:(1)];
+        faces_third = edges[(64'h2)+:(1)];
         takes_tie = (order[(64'h1)+:(1)] & order[(64'h2)+:(1)]) | (order[(64'h6)+:(1)] & order[(64'h7)+:(1)]);
-        if (is_second) begin
+        if (faces_second) begin
             takes_tie = (order[(64'h2)+:(1)] & order[(64'h0)+:(1)]) | (order[(64'h8)+:(1)] & (~order[(64'h6)+:(1)]));
         end
-        if (is_third) begin
+        if (faces_third) begin
             takes_tie = (order[(64'h0)+:(1)] & order[(64'h1)+:(1)]) | ((~order[(64'h7)+:(1)]) & (~order[(64'h8)+:(1)]));
         end
         if (is_ghost) begin

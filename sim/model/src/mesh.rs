@@ -192,7 +192,7 @@ impl Mesh {
         v.iter().position(|&v| v == self.infinite)
     }
 
-    /// Whether `p` conflicts with `u`, a record rotated so that slot 0 is opposite the edge that faces `p`.
+    /// Whether `p`, which is no vertex of the mesh, conflicts with `u`.
     #[inline]
     fn in_conflict(&self, u: &Record, p: Point) -> bool {
         let at = |k: usize| self.points[u.v[k] as usize];

@@ -49,17 +49,32 @@ pub fn incircle(r: [Point; 3], p: Point) -> i128 {
     i128::from(cross(u, v)) * i128::from(dot(a, b)) - i128::from(cross(a, b)) * i128::from(dot(u, v))
 }
 
-/// Whether `p` conflicts with the finite triangle `r`, whose edge `r[1] r[2]` faces `p`.
+/// Whether `p`, which is no vertex of the finite triangle `r`, conflicts with it.
 ///
-/// A point inside the circumcircle conflicts. On the circle the tie rule decides: the diagonal ends in the
-/// lexicographically smallest of the four points, so `r` conflicts iff the smallest is `p` or `r[0]`, the vertex
-/// opposite the edge.
+/// A point inside the circumcircle conflicts. On the circle the tie rule decides. Such a point lies beyond exactly one
+/// side of the triangle, and the diagonal ends in the lexicographically smallest of the four points. So `r` conflicts
+/// iff the smallest is `p` or the vertex opposite that side.
 #[inline]
 pub fn finite_conflict(r: [Point; 3], p: Point) -> bool {
     match incircle(r, p) {
-        0 => p.min(r[0]) < r[1].min(r[2]),
+        0 => takes_tie(r, facing_slot(r, p), p),
         value => value > 0,
     }
+}
+
+/// The slot opposite the side of `r` beyond which `p` lies, a point on the circumcircle and no vertex.
+fn facing_slot(r: [Point; 3], p: Point) -> usize {
+    match () {
+        () if orient2d(r[2], r[0], p) < 0 => 1,
+        () if orient2d(r[0], r[1], p) < 0 => 2,
+        () => 0,
+    }
+}
+
+/// Whether the tie rule lets `r` conflict with `p`, a point on the circumcircle beyond the side opposite `slot`.
+#[inline]
+pub(crate) fn takes_tie(r: [Point; 3], slot: usize, p: Point) -> bool {
+    p.min(r[slot]) < r[(slot + 1) % 3].min(r[(slot + 2) % 3])
 }
 
 /// Whether `p` conflicts with the ghost triangle of a hull edge that runs from `a` to `b` as seen from outside.
@@ -68,7 +83,7 @@ pub fn finite_conflict(r: [Point; 3], p: Point) -> bool {
 #[inline]
 pub fn ghost_conflict(a: Point, b: Point, p: Point) -> bool {
     match orient2d(a, b, p) {
-        0 => (p < a) != (p < b),
+        0 => (p < a) != (p < b) && p != a && p != b,
         value => value > 0,
     }
 }

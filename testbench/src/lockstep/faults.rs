@@ -84,17 +84,21 @@ pub const FAULTS: &[Fault] = &[
             piece("job = @;", "star$committed[(64'h1)+:(56)]", "commit[(64'h1)+:(56)]"),
         ],
     },
-    // L5: a locked root counts as holding the point, without a second look.
+    // L5: a locked root counts as in conflict with the point, without a second look.
     Fault {
         name: "root",
         pieces: &[
-            piece("found[(64'h9)+:(1)] = @;", "root_is_held$q & is_located", "root_is_held$q"),
+            piece("found[(64'h9)+:(1)] = @;", "root_is_held$q & is_in_conflict", "root_is_held$q"),
             piece(
                 "found[(64'h12)+:(1)] = @;",
-                "walk_is_torn$q | (walk_counts$q & (~is_corner)) | (root_is_held$q & is_located) | passes | asks_again",
+                "walk_is_torn$q | (walk_counts$q & (~is_corner)) | (root_is_held$q & is_in_conflict) | passes | asks_again",
                 "walk_is_torn$q | (walk_counts$q & (~is_corner)) | root_is_held$q | passes | asks_again",
             ),
-            piece("found[(64'ha)+:(1)] = @;", "root_is_held$q & (~verdict[(64'h1)+:(1)])", "1'b0"),
+            piece(
+                "found[(64'ha)+:(1)] = @;",
+                "root_is_held$q & (~verdict[(64'h0)+:(1)]) & (~is_corner)",
+                "1'b0",
+            ),
             piece("found[(64'h11)+:(1)] = @;", "root_is_held$q & is_corner", "1'b0"),
         ],
     },
@@ -120,6 +124,35 @@ pub const FAULTS: &[Fault] = &[
             "met_clear3$q | (takes3$q & found_set$q & (~holder_is_own))",
             "met_clear3$q | (takes3$q & found_set$q)",
         )],
+    },
+    // L10: a walk goes on until a record holds the point.
+    Fault {
+        name: "walk_end",
+        pieces: &[
+            piece(
+                "looks_again = @;",
+                "walk_is_torn$q | (walk_counts$q & is_in_conflict & context_is_busy$q)",
+                "walk_is_torn$q | (walk_counts$q & verdict[(64'h1)+:(1)] & (~is_corner) & context_is_busy$q)",
+            ),
+            piece(
+                "found[(64'h7)+:(1)] = @;",
+                "walk_counts$q & (~verdict[(64'h0)+:(1)]) & (~is_corner)",
+                "walk_counts$q & (~verdict[(64'h1)+:(1)])",
+            ),
+            piece(
+                "found[(64'h8)+:(1)] = @;",
+                "walk_counts$q & is_in_conflict & (~context_is_busy$q)",
+                "walk_counts$q & verdict[(64'h1)+:(1)] & (~is_corner) & (~context_is_busy$q)",
+            ),
+        ],
+    },
+    // L10: the edge across which a record was reached decides a tie.
+    Fault {
+        name: "tie_side",
+        pieces: &[
+            piece("faces_second = @;", "edges[(64'h1)+:(1)]", "is_second"),
+            piece("faces_third = @;", "edges[(64'h2)+:(1)]", "is_third"),
+        ],
     },
     // The watchdog, and each place that hears of it except `CommandGate`. A core that
     // gets stuck over a lock has its first triangle already, so the gate holds nothing

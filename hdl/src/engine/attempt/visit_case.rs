@@ -2,8 +2,9 @@
 //!
 //! 1. A root visit or a test that meets a foreign lock aborts its attempt (L1). If its context holds the priority, the
 //!    record is visited again instead (L2).
-//! 2. A walk holds no locks, and makes its visit again if the record is not written yet or is being written (L7), or if
-//!    the record holds the point while the context still has locks of its last point (L6).
+//! 2. A walk ends at the first record that conflicts with the point (L10). It holds no locks, and makes its visit again
+//!    if the record is not written yet or is being written (L7), or if the record conflicts with the point while the
+//!    context still has locks of its last point (L6).
 //! 3. The root is visited again under its lock, because the findings of the walk need not be true any more (L5).
 //! 4. At most one of `looks` to `root_duplicate` in the case is high, except that `waits` comes with `revisits`. None
 //!    is high for a test of an attempt that drains.
@@ -12,14 +13,14 @@
 //!
 //! Latency: 1 clock from the early inputs; none from `verdict`, `drains` and `is_full`.
 //!
-//! A walk ends at a record that holds its point. The record is visited again as root and opens the cavity. Then another
+//! A walk ends at a record that conflicts with its point. The record is visited again as root and opens the cavity. Then another
 //! context holds the lock of a neighbour:
 //! ```text
 //! early_done      ___/^^\__/^^\__/^^\________
 //! early.rotates   _______________/^^\________
 //! early.locks     _________/^^^^^^^^\________
 //! early.foreign   _______________/^^\________
-//! located         ______/^^\__/^^\___________
+//! conflict        ______/^^\__/^^\___________
 //! is_walk         ______/^^\_________________
 //! locates         ______/^^\_________________
 //! opens           ____________/^^\___________
@@ -72,7 +73,7 @@ pub struct VisitCase {
     visits_root: Signal<Local, Bit>,
     tests: Signal<Local, Bit>,
     foreign: Signal<Local, Bit>,
-    is_located: Signal<Local, Bit>,
+    is_in_conflict: Signal<Local, Bit>,
     is_corner: Signal<Local, Bit>,
     is_live: Signal<Local, Bit>,
     looks_again: Signal<Local, Bit>,
@@ -120,19 +121,23 @@ impl Logic for VisitCase {
         // L7: a torn record says nothing about the point.
         //
         // L6: a root visit logs its lock in the lists of the context, which the commit or release still due reads.
-        self.is_located.next = self.verdict.val().located & (!self.verdict.val().falls_onto_corner);
-        self.is_corner.next = self.verdict.val().located & self.verdict.val().falls_onto_corner;
+        //
+        // L10: the cavity is the same from any of its records, so the walk ends at the first one that it meets.
+        self.is_corner.next = self.verdict.val().falls_onto_corner;
+        self.is_in_conflict.next = self.verdict.val().conflict & (!self.is_corner.val());
         self.looks_again.next = self.walk_is_torn.q.val()
-            | (self.walk_counts.q.val() & self.is_located.val() & self.context_is_busy.q.val());
-        self.found.next.walks_on = self.walk_counts.q.val() & (!self.verdict.val().located);
+            | (self.walk_counts.q.val() & self.is_in_conflict.val() & self.context_is_busy.q.val());
+        self.found.next.walks_on = self.walk_counts.q.val() & (!self.verdict.val().conflict) & (!self.is_corner.val());
         self.found.next.walk_duplicate = self.walk_counts.q.val() & self.is_corner.val();
-        self.found.next.locates = self.walk_counts.q.val() & self.is_located.val() & (!self.context_is_busy.q.val());
+        self.found.next.locates =
+            self.walk_counts.q.val() & self.is_in_conflict.val() & (!self.context_is_busy.q.val());
 
         // L5: only findings under the lock count, because another context may have changed the root after the walk.
         self.found.next.aborts_root = self.root_is_refused.q.val();
-        self.found.next.opens = self.root_is_held.q.val() & self.is_located.val();
+        self.found.next.opens = self.root_is_held.q.val() & self.is_in_conflict.val();
         self.found.next.root_duplicate = self.root_is_held.q.val() & self.is_corner.val();
-        self.found.next.root_changed = self.root_is_held.q.val() & (!self.verdict.val().located);
+        self.found.next.root_changed =
+            self.root_is_held.q.val() & (!self.verdict.val().conflict) & (!self.is_corner.val());
 
         // L1: a foreign lock aborts the attempt whatever the verdict, because the other context may be about
         // to change the record.
@@ -150,7 +155,7 @@ impl Logic for VisitCase {
         self.found.next.revisits = self.looks_again.val() | self.asks_again.val();
         self.found.next.asks = self.walk_is_torn.q.val()
             | (self.walk_counts.q.val() & (!self.is_corner.val()))
-            | (self.root_is_held.q.val() & self.is_located.val())
+            | (self.root_is_held.q.val() & self.is_in_conflict.val())
             | self.passes.val()
             | self.asks_again.val();
         self.found.next.may_ask =

@@ -87,7 +87,6 @@ impl Logic for Commit {
         self.write.next = self.request.q.val();
         self.committed.next.valid = self.steps.is_close.val();
         self.committed.next.job = self.ring.q.val();
-        self.committed.next.hint = self.first.q.val().cavity_record;
         self.is_at_work.next = self.steps.is_at_work.val();
 
         // The id of the next record must be known before the current one is written, which names it as neighbour.

@@ -113,7 +113,6 @@ impl Logic for Dispatcher {
         self.starter.is_done.next = self.is_done.val();
         self.starter.is_blocked.next = self.may_ask.val();
         self.starter.outcome.next = self.found.q.val();
-        self.starter.committed.next = self.committed.val();
         self.start.next = self.starter.start.val();
         self.solo_start.next = self.starter.solo_start.val();
 

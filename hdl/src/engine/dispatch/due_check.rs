@@ -32,9 +32,9 @@ pub struct DueCheck {
     /// The context is due for a retry; or it is due with a new point (`wants_new`).
     pub wants_again: Signal<Out, Bit>,
     pub wants_new: Signal<Out, Bit>,
-    /// The next start of the context is a retry, due or not; the context has had a commit (`is_hinted`).
-    pub tries_again: Signal<Out, Bit>,
-    pub is_hinted: Signal<Out, Bit>,
+    /// The next walk of the context starts at its last root: the start is a retry, due or not, or the context has had a
+    /// commit.
+    pub has_root: Signal<Out, Bit>,
     index: Signal<Local, ContextId>,
     asleep: Signal<Local, ContextSet>,
     retrying: Signal<Local, ContextSet>,
@@ -81,7 +81,6 @@ impl Logic for DueCheck {
         self.is_there.next = self.is_planned.val() & (self.passed.val().id < self.arrived.val());
         self.wants_new.next =
             self.is_asleep.val() & (!self.will_retry.val()) & self.is_there.val() & self.may_work.val();
-        self.tries_again.next = self.will_retry.val();
-        self.is_hinted.next = self.hinted.val().get_bit(self.index.val().index());
+        self.has_root.next = self.will_retry.val() | self.hinted.val().get_bit(self.index.val().index());
     }
 }

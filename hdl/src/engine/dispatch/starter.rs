@@ -7,8 +7,8 @@
 //!    taken vertex 16, no other context works, except in a batch (L8).
 //! 3. A start waits while the queue or the port of the vertex memory may be taken. While a start is due, the pointer
 //!    waits in every clock in which a visit completes, because the visits that follow are known late.
-//! 4. The walk of a new point starts at the star of the context's last commit, or at the first record of its mesh if
-//!    there was no commit.
+//! 4. A walk starts at the root of the context's last attempt, or at the first record of its mesh if the context has had
+//!    no commit.
 //! 5. A context that asks for a solo insertion starts it when all contexts rest and the pointer has passed it.
 //! 6. In the first round of the pointer no context starts: `PlanTable` writes down the first vertex of each.
 //! 7. The pointer is two contexts ahead. In the clock after it has stood at a context, the next vertex of that context
@@ -40,8 +40,8 @@ use super::next_point::Passed;
 use super::plan_table::PlanTable;
 use super::start_pointer::StartPointer;
 use crate::engine::types::{
-    context_bits, CommitJob, Committed, ContextId, ContextState, Deal, Outcome, SoloStart, Start, TriangleId, VertexId,
-    CONTEXT_BITS, TRIANGLE_BITS, VERTEX_BITS,
+    context_bits, ContextId, ContextState, Deal, Outcome, SoloStart, Start, TriangleId, VertexId, CONTEXT_BITS,
+    TRIANGLE_BITS, VERTEX_BITS,
 };
 use crate::leaf::LutMemory;
 use crate::prelude::*;
@@ -84,10 +84,8 @@ pub struct Starter {
     /// A visit completes; the queue may be taken at this edge by the visits that follow (`is_blocked`).
     pub is_done: Signal<In, Bit>,
     pub is_blocked: Signal<In, Bit>,
-    /// The consequences of a visit, among them the record at which a retry starts.
+    /// The consequences of a visit, among them the record at which the next walk starts.
     pub outcome: Signal<In, Outcome>,
-    /// A commit whose star is the hint of the context's next walk.
-    pub committed: Signal<In, Committed>,
     /// A context that starts to walk.
     pub start: Signal<Out, Start>,
     /// A context starts the solo insertion of its point.
@@ -103,11 +101,9 @@ pub struct Starter {
     all_work: DFF<Bit>,
     points: LutMemory<CONTEXT_BITS, VERTEX_BITS>,
     roots: LutMemory<CONTEXT_BITS, TRIANGLE_BITS>,
-    hints: LutMemory<CONTEXT_BITS, TRIANGLE_BITS>,
     pointer: StartPointer,
     plans: PlanTable,
     check: DueCheck,
-    job: Signal<Local, CommitJob>,
     contexts_at_work: Signal<Local, ContextId>,
     wants: Signal<Local, Bit>,
     lacks_port: Signal<Local, Bit>,
@@ -121,7 +117,7 @@ impl Starter {
     pub fn new(config: Config) -> Self {
         let bits = context_bits(config);
         let table = || LutMemory::new(bits, VERTEX_BITS);
-        Self { points: table(), plans: PlanTable::new(config), roots: table(), hints: table(), ..Self::default() }
+        Self { points: table(), plans: PlanTable::new(config), roots: table(), ..Self::default() }
     }
 }
 
@@ -129,7 +125,7 @@ impl Logic for Starter {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, passed, passed_point, candidate, wants_again, wants_new, all_work);
-        clock!(self, clock, points, pointer, plans, roots, hints);
+        clock!(self, clock, points, pointer, plans, roots);
         self.one_turn.next = 1.into();
         self.contexts_at_work.next = self.deal.val().contexts;
 
@@ -151,7 +147,6 @@ impl Logic for Starter {
         self.check.may_be_starting.next =
             (self.wants_again.q.val() | self.wants_new.q.val()) & (self.contexts_at_work.val() == self.one_turn.val());
         self.roots.read_address.next = self.passed.q.val().context;
-        self.hints.read_address.next = self.passed.q.val().context;
 
         // The pointer moves on `is_done` and not on `is_blocked`, which comes too late in the clock to steer it. A
         // start that is made while the pointer waits must not be made twice, so each start clears its own wish below.
@@ -183,10 +178,6 @@ impl Logic for Starter {
         self.roots.write_address.next = self.outcome.val().context;
         self.roots.write_data.next = self.outcome.val().root;
         self.roots.write_enable.next = self.outcome.val().root_enable;
-        self.job.next = self.committed.val().job;
-        self.hints.write_address.next = self.job.val().context;
-        self.hints.write_data.next = self.committed.val().hint;
-        self.hints.write_enable.next = self.committed.val().valid;
 
         // L8: context 0 alone takes points until it has taken vertex 16.
         if self.is_taken.val() & self.candidate.q.val().is_dealt {
@@ -206,10 +197,7 @@ impl Logic for Starter {
             self.wants_new.d.next = self.check.wants_new.val();
             self.candidate.d.next.is_solo = self.passed.q.val().context == self.contexts.val().solo_context;
             self.candidate.d.next.from = self.plans.following.val().first_record;
-            if self.check.is_hinted.val() {
-                self.candidate.d.next.from = self.hints.read_data.val();
-            }
-            if self.check.tries_again.val() {
+            if self.check.has_root.val() {
                 self.candidate.d.next.from = self.roots.read_data.val();
             }
             self.passed.d.next.context = self.pointer.pointer.val().turn;

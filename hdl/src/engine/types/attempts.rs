@@ -55,13 +55,13 @@ crate::packed! {
         /// The same visit is made again; with `waits`, because a foreign lock holds up the context with the priority.
         pub revisits: bool,
         pub waits: bool,
-        /// The walk goes on to a neighbour (`walks_on`), or its record holds the point and the
+        /// The walk goes on to a neighbour (`walks_on`), or its record conflicts and the
         /// root visit follows (`locates`).
         pub walks_on: bool,
         pub locates: bool,
-        /// The root is locked and holds the point: the cavity opens with the tests of the three neighbours.
+        /// The root is locked and conflicts with the point: the cavity opens with the tests of the three neighbours.
         pub opens: bool,
-        /// The root is locked, but no longer holds the point.
+        /// The root is locked, but no longer conflicts with the point.
         pub root_changed: bool,
         /// The tested record joins the cavity and its entry splits in two; or it stays and its
         /// entry is final (`settles`).

@@ -60,8 +60,6 @@ crate::packed! {
     pub struct Committed {
         pub valid: bool,
         pub job: CommitJob,
-        /// A record of the new star, where the next walk of the context starts.
-        pub hint: TriangleId,
     }
 
     /// The lock of record `id` is cleared at this edge.

@@ -81,7 +81,7 @@ crate::packed! {
         pub retrying: ContextSet,
         /// A commit or a release of the context is due.
         pub busy: ContextSet,
-        /// The context has had a point; it has had a commit (`hinted`), so its next walk has a hint.
+        /// The context has had a point; it has had a commit (`hinted`), so it has a root at which its next walk starts.
         pub began: ContextSet,
         pub hinted: ContextSet,
         /// The priority is held by `priority_context`. Once that context has met 8 foreign locks (`is_urgent`),

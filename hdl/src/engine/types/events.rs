@@ -17,7 +17,7 @@ crate::packed! {
         /// A solo insertion has finished a flip.
         pub flip: bool,
         /// An attempt aborts at a foreign lock; or (`root_changed`) a root visit finds that the root no
-        /// longer holds the point.
+        /// longer conflicts with the point.
         pub aborts: bool,
         pub root_changed: bool,
         /// A context takes the priority.

@@ -16,7 +16,8 @@
 //!
 //! Lock rules (see `docs/engine.md`): L7, the visit of a record that is not written yet, or is being written in the
 //! same clock, is marked `again` ([`VisitPipeline`]). The locks themselves, with their holders
-//! (L9), lie in [`LockStore`](crate::mesh::LockStore).
+//! (L9), lie in [`LockStore`](crate::mesh::LockStore). L10, the side that faces the point decides a tie
+//! ([`VerdictLogic`]).
 
 mod issue;
 mod push_port;

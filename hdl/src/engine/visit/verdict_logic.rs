@@ -4,10 +4,10 @@
 //! 1. A triangle conflicts with the point if the point lies inside its circumcircle, or on the circle and the tie rule
 //!    says so: the diagonal ends in the lexicographically smallest of the four points.
 //! 2. A ghost triangle conflicts if the point lies strictly beyond its hull edge, or on the line of the edge and
-//!    strictly between its ends. (Of the two ends, the lower one counts as between. A point there is a duplicate, and
-//!    no cavity is dug for it.)
-//! 3. Corners come as stored, but the record comes rotated. Only the tie rule depends on the rotation: it asks for the
-//!    diagonal that ends in the first corner. The three corners of a triangle differ.
+//!    strictly between its ends.
+//! 3. Corners come as stored, but the record comes rotated, and the verdict does not depend on the rotation. A point on
+//!    the circle that is no corner lies beyond exactly one side. The tie rule asks for the diagonal that ends in the
+//!    corner opposite that side. In a tie of a corner `conflict` is arbitrary.
 //! 4. A walk ends in a triangle that has the point on the right of no side, and in a ghost triangle whose hull edge has
 //!    the point strictly beyond. A walk leaves a triangle across the most negative side, the first one of equals, and a
 //!    ghost triangle across its only finite side. Walks do not rotate their records, so the `walk_next` of a triangle,
@@ -34,6 +34,11 @@ pub struct VerdictLogic {
     third_slot: Signal<Local, Slot>,
     is_second: Signal<Local, Bit>,
     is_third: Signal<Local, Bit>,
+    faces_second: Signal<Local, Bit>,
+    faces_third: Signal<Local, Bit>,
+    is_end0: Signal<Local, Bit>,
+    is_end1: Signal<Local, Bit>,
+    is_end2: Signal<Local, Bit>,
     infinite1: Signal<Local, Bit>,
     infinite2: Signal<Local, Bit>,
     is_beyond: Signal<Local, Bit>,
@@ -73,27 +78,39 @@ impl Logic for VerdictLogic {
         // whose sign means something.
         self.is_beyond.next = (!self.edges.val().e0_negative) & (!self.edges.val().e0_zero);
         self.is_on_hull_line.next = self.edges.val().e0_zero;
-        self.is_between.next = self.order.val().p_before_r1 ^ self.order.val().p_before_r2;
+        self.is_end0.next = self.order.val().p_equals_r0;
+        self.is_end1.next = self.order.val().p_equals_r1;
+        self.is_end2.next = self.order.val().p_equals_r2;
+        self.is_between.next = (self.order.val().p_before_r1 ^ self.order.val().p_before_r2)
+            & (!self.is_end1.val())
+            & (!self.is_end2.val());
         if self.infinite1.val() {
             self.is_beyond.next = (!self.edges.val().e1_negative) & (!self.edges.val().e1_zero);
             self.is_on_hull_line.next = self.edges.val().e1_zero;
-            self.is_between.next = self.order.val().p_before_r2 ^ self.order.val().p_before_r0;
+            self.is_between.next = (self.order.val().p_before_r2 ^ self.order.val().p_before_r0)
+                & (!self.is_end2.val())
+                & (!self.is_end0.val());
         }
         if self.infinite2.val() {
             self.is_beyond.next = (!self.edges.val().e2_negative) & (!self.edges.val().e2_zero);
             self.is_on_hull_line.next = self.edges.val().e2_zero;
-            self.is_between.next = self.order.val().p_before_r0 ^ self.order.val().p_before_r1;
+            self.is_between.next = (self.order.val().p_before_r0 ^ self.order.val().p_before_r1)
+                & (!self.is_end0.val())
+                & (!self.is_end1.val());
         }
 
-        // A tie is a conflict if the diagonal from the point to the first corner ends in the smallest of the four
-        // points: min(p, r0) < min(r1, r2), with rotated corners.
+        // L10: a tie is a conflict if the diagonal from the point to the corner opposite the side that faces it ends in
+        // the smallest of the four points: min(p, r0) < min(r1, r2), with that corner as r0. Where the visit came from
+        // says nothing, because the root need not hold the point.
+        self.faces_second.next = self.edges.val().e1_negative;
+        self.faces_third.next = self.edges.val().e2_negative;
         self.takes_tie.next = (self.order.val().p_before_r1 & self.order.val().p_before_r2)
             | (self.order.val().r0_before_r1 & self.order.val().r0_before_r2);
-        if self.is_second.val() {
+        if self.faces_second.val() {
             self.takes_tie.next = (self.order.val().p_before_r2 & self.order.val().p_before_r0)
                 | (self.order.val().r1_before_r2 & (!self.order.val().r0_before_r1));
         }
-        if self.is_third.val() {
+        if self.faces_third.val() {
             self.takes_tie.next = (self.order.val().p_before_r0 & self.order.val().p_before_r1)
                 | ((!self.order.val().r0_before_r2) & (!self.order.val().r1_before_r2));
         }

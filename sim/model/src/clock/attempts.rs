@@ -127,12 +127,17 @@ impl Outcome {
         if done.again {
             return self.again(done);
         }
-        if !done.located {
-            self.push = Some(Bundle::look(context, done.walk_next));
-        } else if done.falls_onto_corner {
+        // L10: the first record on the walk that conflicts with the point is the root, whether it holds the point or not.
+        let ends = match around.defect {
+            Some(Defect::WalksToTheEnd) => done.located,
+            _ => done.conflict,
+        };
+        if done.falls_onto_corner {
             self.duplicate = true;
             self.returns_priority = true;
             self.sleeps = true;
+        } else if !ends {
+            self.push = Some(Bundle::look(context, done.walk_next));
         } else if around.is_busy(context) {
             return self.again(done);
         } else {
@@ -145,7 +150,7 @@ impl Outcome {
     fn root(mut self, done: &Completion, around: &Around) -> Self {
         let record = done.visit.record;
         let trusts = around.defect == Some(Defect::TrustsTheWalk);
-        let (located, on_corner) = (done.located || trusts, done.falls_onto_corner && !trusts);
+        let (conflict, on_corner) = (done.conflict || trusts, done.falls_onto_corner && !trusts);
         // L1, L2: another context holds the lock of the root.
         if done.foreign {
             if around.holds_priority(self.context) {
@@ -157,14 +162,14 @@ impl Outcome {
             return self.abort(record);
         }
         self.lock = Some((0, record));
-        if located && !on_corner {
+        if conflict && !on_corner {
             self.push = Some(Bundle::tests(done));
             self.attempt = Some(Attempt { outstanding: 3, count: 3, logged: 1, ..Attempt::default() });
             self.root = Some(record);
             return self;
         }
         self.release = Some(ReleaseJob { context: self.context, locks: 1 });
-        if located {
+        if on_corner {
             self.duplicate = true;
             self.returns_priority = true;
             self.sleeps = true;
@@ -267,7 +272,8 @@ impl Attempt {
 #[derive(Clone, Debug)]
 pub(super) struct Tables {
     pub attempts: Vec<Attempt>,
-    /// The record at which a context starts to walk when it tries its point again.
+    /// The record at which a context starts to walk: the root of its last attempt, or the record to which its walk goes
+    /// on if that root has changed.
     pub root: Vec<u32>,
 }
 

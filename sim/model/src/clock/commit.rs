@@ -122,7 +122,6 @@ impl Commit {
                 let n = [self.first.outside_record, self.second_id, self.before_id];
                 self.write = Write::record(self.current_id, v, n);
                 self.written[0] = Some(self.fresh);
-                memory.hint[self.job.context] = self.first.cavity_record;
                 self.state = State::Idle;
                 self.load(head);
             }

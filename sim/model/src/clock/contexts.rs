@@ -20,7 +20,7 @@ pub(super) struct Contexts {
     pub busy: Set,
     /// Contexts that have had a point.
     pub began: Set,
-    /// Contexts that have had a commit, so that their hint is valid.
+    /// Contexts that have had a commit, so that they have a root at which the next walk can start.
     pub hinted: Set,
     /// The context that holds the priority: it waits at foreign locks instead of aborting.
     pub priority_context: Option<usize>,

@@ -27,4 +27,8 @@ pub enum Defect {
     AllFromTheStart,
     /// L9: a lock does not name its holder, so a context's own locks count as foreign.
     TakesOwnForForeign,
+    /// L10: a walk goes on until a record holds the point.
+    WalksToTheEnd,
+    /// L10: the edge across which a record was reached decides a tie.
+    TiesByTheWayIn,
 }

@@ -74,8 +74,6 @@ pub(super) struct Memory {
     pub point_id: Vec<u32>,
     pub position: Vec<Point>,
     pub since: Vec<u32>,
-    /// The hint of each context: the record at which its next walk starts.
-    pub hint: Vec<u32>,
 }
 
 impl Memory {
@@ -95,7 +93,6 @@ impl Memory {
             point_id: vec![0; contexts],
             position: vec![Point::default(); contexts],
             since: vec![0; contexts],
-            hint: vec![0; contexts],
         }
     }
 

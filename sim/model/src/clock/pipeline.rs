@@ -7,7 +7,7 @@ use super::defect::Defect;
 use super::memory::Memory;
 use super::wires::{Registers, Wires};
 use crate::mesh::Record;
-use crate::predicate::{finite_conflict, ghost_conflict, orient2d};
+use crate::predicate::{finite_conflict, ghost_conflict, incircle, orient2d, takes_tie};
 use std::collections::VecDeque;
 
 /// Number of clocks from the issue register, which addresses the triangle memory, to the completion register: record 2,
@@ -119,7 +119,8 @@ pub(super) struct Completion {
     pub again: bool,
     /// Whether the record conflicts with the context's point.
     pub conflict: bool,
-    /// Whether the record holds the point, and whether the point equals one of the record's vertices.
+    /// Whether the record holds the point, which only a solo insertion asks; and whether the point equals one of the
+    /// record's vertices.
     pub located: bool,
     pub falls_onto_corner: bool,
     /// The record at which a walk goes on.
@@ -215,7 +216,12 @@ fn complete(visit: Visit, was: &Registers, wires: &Wires, memory: &mut Memory, d
     let ghost = infinite.iter().position(|&is| is);
     let (conflict, located, walk_next) = match ghost {
         Some(g) => (ghost_conflict(r[(g + 1) % 3], r[(g + 2) % 3], p), sides[g] > 0, record.n[g]),
-        None => (finite_conflict(r, p), sides[lowest] >= 0, record.n[lowest]),
+        None => {
+            // L10: the side that faces the point decides a tie, not the edge across which the record was reached.
+            let by_entry = defect == Some(Defect::TiesByTheWayIn) && incircle(r, p) == 0;
+            let conflict = if by_entry { takes_tie(r, 0, p) } else { finite_conflict(r, p) };
+            (conflict, sides[lowest] >= 0, record.n[lowest])
+        }
     };
     let falls_onto_corner = ghost.is_none() && r.contains(&p);
     let turn = sides[2].signum() as i32;

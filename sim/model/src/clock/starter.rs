@@ -63,7 +63,7 @@ impl Starter {
 
     /// The walk of the context that the pointer left last, if one is due. If only one context works, it may be starting
     /// at this very edge, and then nothing is due.
-    fn due(&self, was: &Registers, tables: &Tables, memory: &Memory, defect: Option<Defect>) -> Option<Start> {
+    fn due(&self, was: &Registers, tables: &Tables, defect: Option<Defect>) -> Option<Start> {
         let Passed { context, id } = self.passed;
         let bit = 1 << context;
         let flags = &was.contexts;
@@ -86,10 +86,10 @@ impl Starter {
         };
         let ready = self.is_planned && id < was.command.arrived && works;
         let start = match flags.hinted & bit {
-            // Without a hint, the walk starts at the first record of the job.
+            // Without a root, the walk starts at the first record of the job.
             0 if was.command.batch => 4 * context as u32,
             0 => 0,
-            _ => memory.hint[context],
+            _ => tables.root[context],
         };
         ready.then(|| Start { context, id: Some(id), push: Bundle::look(context, start) })
     }
@@ -108,7 +108,7 @@ impl Starter {
         if !wires.start_is_held {
             let context = was.starter.turn;
             let is_solo = was.contexts.solo == Some(self.passed.context);
-            let due = was.starter.due(was, tables, memory, defect);
+            let due = was.starter.due(was, tables, defect);
             self.candidate = Candidate { due, is_solo };
             self.passed = Passed { context, id: next_id(was, context, memory) };
             self.turn += 1;

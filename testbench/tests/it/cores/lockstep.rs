@@ -295,6 +295,7 @@ fn cores_without_a_rule_of_the_engine_are_caught() {
     expect_caught(FAULTY, &["release", "root", "busy"], SMALL, &jobs); // L4, L5 and L6
     expect_caught(FAULTY, &["torn"], SMALL, &jobs); // L7, of records that are being written
     expect_caught(FAULTY, &["first_round", "own_lock"], SMALL, &jobs); // L8 and L9
+    expect_caught(FAULTY, &["walk_end", "tie_side"], SMALL, &jobs); // L10
 }
 
 #[test]

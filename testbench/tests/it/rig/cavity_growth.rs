@@ -177,11 +177,11 @@ impl Context {
         if done.lock.again {
             return Outcome { revisit: true, ..Outcome::default() };
         }
-        if !done.finding.located {
-            return Outcome { push: self.push(&[look]), ..Outcome::default() };
-        }
         if done.finding.falls_onto_corner {
             return Outcome { duplicate: true, returns_priority: true, ..Outcome::default() };
+        }
+        if !done.finding.conflict {
+            return Outcome { push: self.push(&[look]), ..Outcome::default() };
         }
         if around.is_busy {
             return Outcome { revisit: true, ..Outcome::default() };
@@ -204,12 +204,12 @@ impl Context {
             };
         }
         let (lock, release) = (Some((0, record)), Some(release_job(self.index, 1)));
-        if !done.finding.located {
-            let root = Some(done.finding.walk_next);
-            return Outcome { root, lock, release, will_retry: true, root_changed: true, ..Outcome::default() };
-        }
         if done.finding.falls_onto_corner {
             return Outcome { root, lock, release, duplicate: true, returns_priority: true, ..Outcome::default() };
+        }
+        if !done.finding.conflict {
+            let root = Some(done.finding.walk_next);
+            return Outcome { root, lock, release, will_retry: true, root_changed: true, ..Outcome::default() };
         }
         self.growth = Growth { log: vec![record], closed_edges: [(record, 3)].into(), ..Growth::default() };
         let test = |entry, after, neighbour| {

@@ -99,8 +99,16 @@ impl Mesh {
         }
         let [apex, a, b] = v.map(|v| self.at(v));
         match lifted([apex, a, b], p) {
-            // By the tie rule, the diagonal starts at the smallest of the four points.
-            0 => [apex, p].contains(&[apex, a, b, p].into_iter().min().unwrap_or(p)),
+            // By the tie rule, the diagonal from `p` starts at the smallest of the four points or ends there. It crosses
+            // the side that faces `p`.
+            0 => {
+                let opposite = match () {
+                    () if area(b, apex, p) < 0 => a,
+                    () if area(apex, a, p) < 0 => b,
+                    () => apex,
+                };
+                [opposite, p].contains(&[apex, a, b, p].into_iter().min().unwrap_or(p))
+            }
             inside => inside > 0,
         }
     }

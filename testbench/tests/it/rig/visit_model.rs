@@ -8,11 +8,11 @@ use crate::rig::stepper::bundles::{turned, Finding, LockFinding};
 /// hold only if it is not turned.
 pub const VERDICT_PARTS: [&str; 3] = ["verdict[0+:1]", "verdict[1+:2]", "verdict[3+:17]"];
 
-/// The parts of a verdict; `None` where a part is arbitrary: a tie of corners that fall together, or bits for
-/// which no turned record is visited.
-pub fn verdict_parts(verdict: u128, slot: usize, r: [Point; 3]) -> [Option<u128>; 3] {
-    let differ = r[0] != r[1] && r[1] != r[2] && r[2] != r[0];
-    [differ.then_some(verdict & 1), Some(verdict >> 1 & 3), (slot == 0).then_some(verdict >> 3)]
+/// The parts of a verdict about `p`; `None` where a part is arbitrary: a tie unless the corners turn left and `p` is none
+/// of them, or bits for which no turned record is visited.
+pub fn verdict_parts(verdict: u128, slot: usize, r: [Point; 3], p: Point) -> [Option<u128>; 3] {
+    let counts = incircle(r, p) != 0 || orientation(r[0], r[1], r[2]) > 0 && !r.contains(&p);
+    [counts.then_some(verdict & 1), Some(verdict >> 1 & 3), (slot == 0).then_some(verdict >> 3)]
 }
 
 /// A point; points compare by `x`, then by `y`.
@@ -114,21 +114,20 @@ impl Record {
         let (conflict, located, falls_onto_corner, next);
         if let Some(k) = self.v.iter().position(|vertex| *vertex == infinite) {
             let (a, b) = (r[(k + 1) % 3], r[(k + 2) % 3]);
-            // The lower end counts as between. A point on that end is on a vertex, so it is a duplicate,
-            // for which no cavity is opened.
-            let is_between = a.min(b) <= p && p < a.max(b);
+            let is_between = a.min(b) < p && p < a.max(b);
             conflict = side[k] > 0 || (side[k] == 0 && is_between);
             located = side[k] > 0;
             falls_onto_corner = false;
             next = k;
         } else {
             let inside = incircle(r, p);
-            let takes_tie = p.min(r[0]) < r[1].min(r[2]);
+            let lowest = side.iter().min();
+            next = side.iter().position(|side| Some(side) == lowest).unwrap_or(0);
+            // A point on the circle lies beyond one side at most.
+            let takes_tie = p.min(r[next]) < r[(next + 1) % 3].min(r[(next + 2) % 3]);
             conflict = inside > 0 || (inside == 0 && takes_tie);
             located = side.iter().all(|side| *side >= 0);
             falls_onto_corner = r.contains(&p);
-            let lowest = side.iter().min();
-            next = side.iter().position(|side| Some(side) == lowest).unwrap_or(0);
         }
         let (is_left, is_straight, walk_next) = (side[2] > 0, side[2] == 0, self.n[next]);
         Finding { conflict, located, falls_onto_corner, is_left, is_straight, walk_next }.verdict()

@@ -208,7 +208,8 @@ fn records_being_written_are_read_again() {
 /// and the next visit of the walk comes later than that.
 #[test]
 fn new_records_are_met_when_all_are_written() {
-    let jobs = Jobs { contexts: 1, ring: 64, points: |random| sets::parabola(random, 250), most: 60 };
+    let points = |random: &mut Random| sets::started(sets::wheel_from_outside(random, 120));
+    let jobs = Jobs { contexts: 8, ring: 64, points, most: 60 };
     assert!(differ(&jobs.cycles(Defect::ReadsTheUnwritten)));
 }
 
@@ -224,4 +225,21 @@ fn one_context_begins() {
 fn own_locks_are_told_from_foreign_ones() {
     CROWD.expect(Defect::TakesOwnForForeign, |found| *found == Symptom::Stuck);
     Jobs { contexts: 1, ..CROWD }.expect(Defect::TakesOwnForForeign, |found| *found == Symptom::Stuck);
+}
+
+/// L10: a walk ends at the first record that conflicts with the point. The cavity is the same from any of its records,
+/// so a longer walk costs only cycles.
+#[test]
+fn walks_end_at_the_cavity() {
+    let jobs = Jobs { contexts: 1, ..CROWD };
+    let cycles = jobs.cycles(Defect::WalksToTheEnd);
+    assert!(cycles.iter().all(|(with, without)| with <= without) && differ(&cycles), "{cycles:?}");
+}
+
+/// L10: the side of a record that faces the point decides a tie. The root need not hold the point, so a test may come to
+/// a record from the side on which the point lies, and the edge that it comes across says nothing.
+#[test]
+fn the_side_that_faces_the_point_decides_a_tie() {
+    let jobs = Jobs { contexts: 1, ring: 32, points: |random| sets::started(sets::boxed(random, 60, 12)), most: 200 };
+    jobs.expect(Defect::TiesByTheWayIn, Symptom::is_wrong);
 }

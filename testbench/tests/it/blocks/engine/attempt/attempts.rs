@@ -160,7 +160,7 @@ impl Rig {
             lock.again = self.one_in(8);
         }
         if !visit.rotates && visit.locks {
-            finding.located &= !self.one_in(8);
+            finding.conflict &= !self.one_in(8);
             finding.falls_onto_corner |= self.one_in(8);
         }
         if lock.foreign || lock.again {

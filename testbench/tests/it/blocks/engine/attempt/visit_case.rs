@@ -60,7 +60,7 @@ impl Bits {
 
     /// The case of the visit, by the rules.
     fn case(&self) -> Option<&'static str> {
-        let Finding { conflict, located, falls_onto_corner, .. } = self.finding;
+        let Finding { conflict, falls_onto_corner, .. } = self.finding;
         if !self.done {
             return None;
         }
@@ -75,19 +75,19 @@ impl Bits {
             };
         }
         if self.locks {
-            return Some(match (self.lock.foreign, located) {
+            return Some(match (self.lock.foreign, conflict) {
                 (true, _) if self.holds_priority => "revisits",
                 (true, _) => "aborts_root",
+                _ if falls_onto_corner => "root_duplicate",
                 (_, false) => "root_changed",
-                (_, true) if falls_onto_corner => "root_duplicate",
                 (_, true) => "opens",
             });
         }
-        Some(match (self.lock.again, located) {
+        Some(match (self.lock.again, conflict) {
             _ if !self.seeded => "looks",
             (true, _) => "revisits",
+            _ if falls_onto_corner => "walk_duplicate",
             (_, false) => "walks_on",
-            (_, true) if falls_onto_corner => "walk_duplicate",
             (_, true) if self.is_busy => "revisits",
             (_, true) => "locates",
         })
@@ -158,8 +158,8 @@ fn visit_case_shows_the_wave_of_its_header() {
     let mut block = Stepper::new("visit_case", VisitCase::default(), 2);
     let nothing = || Bits { seeded: true, ..Bits::of(0) };
     let at = |clock: usize| match clock {
-        1 => Bits { done: true, finding: Finding { located: true, ..Finding::default() }, ..nothing() },
-        3 => Bits { done: true, locks: true, finding: Finding { located: true, ..Finding::default() }, ..nothing() },
+        1 => Bits { done: true, finding: Finding { conflict: true, ..Finding::default() }, ..nothing() },
+        3 => Bits { done: true, locks: true, finding: Finding { conflict: true, ..Finding::default() }, ..nothing() },
         5 => {
             let lock = LockFinding { foreign: true, ..LockFinding::default() };
             Bits { done: true, rotates: true, locks: true, lock, ..nothing() }
@@ -178,7 +178,7 @@ fn visit_case_shows_the_wave_of_its_header() {
             ("early.rotates", Cell::Bit(upcoming.rotates)),
             ("early.locks", Cell::Bit(upcoming.locks)),
             ("early.foreign", Cell::Bit(upcoming.lock.foreign)),
-            ("located", Cell::Bit(bits.finding.located)),
+            ("conflict", Cell::Bit(bits.finding.conflict)),
             ("is_walk", Cell::Bit(bits.done && !bits.locks)),
             ("locates", Cell::Bit(case == Some("locates"))),
             ("opens", Cell::Bit(case == Some("opens"))),

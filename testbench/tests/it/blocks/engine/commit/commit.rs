@@ -209,7 +209,6 @@ impl CommitRig {
         }
         if let Some((ring, _)) = self.work.as_ref().filter(|_| ends) {
             block.expect("committed_job", ring.job());
-            block.expect("hint", ring.entries[0].cavity_record);
         }
         block.edge();
         self.edge(drive, act, takes);

@@ -11,7 +11,7 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     Starter,
-    [reset, clears, deal, arrived, came, seeded, contexts, solo_is_at_work, is_done, is_blocked, outcome, committed],
+    [reset, clears, deal, arrived, came, seeded, contexts, solo_is_at_work, is_done, is_blocked, outcome],
     [start, solo_start],
     clock
 );
@@ -23,7 +23,8 @@ struct Life {
     will_retry: bool,
     busy: bool,
     began: bool,
-    hint: Option<u64>,
+    /// The context has had a commit.
+    hinted: bool,
     root: u64,
     /// The vertex that the context took last.
     last: Option<u64>,
@@ -149,10 +150,10 @@ impl Rig {
             sight,
             is_due: is_due && !life.awake && !starts_now && !inputs.solo,
             will_retry: life.will_retry,
-            record: if life.will_retry {
-                life.root
-            } else {
-                life.hint.unwrap_or(if self.is_batch { 4 * sight.context } else { 0 })
+            record: match life.will_retry || life.hinted {
+                true => life.root,
+                false if self.is_batch => 4 * sight.context,
+                false => 0,
             },
             is_solo: inputs.special == sight.context,
         })
@@ -165,10 +166,9 @@ impl Rig {
     }
 
     fn drive(&mut self, inputs: &Inputs) {
-        let (root, hint) = match inputs.deed {
-            Some((context, Deed::Sleeps { root, .. })) => (Some((context, root)), None),
-            Some((context, Deed::IsFreed { hint })) => (None, Some((context, hint))),
-            None => (None, None),
+        let root = match inputs.deed {
+            Some((context, Deed::Sleeps { root, .. })) => Some((context, root)),
+            Some((_, Deed::IsFreed)) | None => None,
         };
         for (port, value) in [
             ("reset", inputs.reset),
@@ -182,12 +182,11 @@ impl Rig {
             ("is_done", inputs.is_done),
             ("is_blocked", inputs.is_blocked),
             ("root_enable", root.is_some()),
-            ("committed_valid", hint.is_some()),
         ] {
             self.block.set(port, value);
         }
         self.block.set("deal", self.deal().bits());
-        let (root, hint) = (root.unwrap_or((1, 0x7fff)), hint.unwrap_or((0, 0x7fff)));
+        let root = root.unwrap_or((1, 0x7fff));
         for (port, value) in [
             ("solo_context", inputs.special),
             ("priority_context", inputs.special),
@@ -196,11 +195,9 @@ impl Rig {
             ("retrying", self.set(|life| life.will_retry)),
             ("busy", self.set(|life| life.busy)),
             ("began", self.set(|life| life.began)),
-            ("hinted", self.set(|life| life.hint.is_some())),
+            ("hinted", self.set(|life| life.hinted)),
             ("outcome_context", root.0),
             ("root", root.1),
-            ("committed_job_context", hint.0),
-            ("hint", hint.1),
         ] {
             self.block.set(port, value);
         }
@@ -277,7 +274,7 @@ impl Rig {
                     (life.awake, life.root, life.will_retry) = (false, root, will_retry);
                     life.busy |= busy;
                 }
-                Deed::IsFreed { hint } => (life.hint, life.busy) = (Some(hint), false),
+                Deed::IsFreed => (life.hinted, life.busy) = (true, false),
             }
         }
         if inputs.reset || inputs.clears {
@@ -344,18 +341,18 @@ fn job(rig: &mut Rig, random: &mut SplitMix64, points: u64, tally: &mut Tally) {
 enum Deed {
     /// The context falls asleep, to try again from this root or not, with a commit or release due or not.
     Sleeps { root: u64, will_retry: bool, busy: bool },
-    /// The commit of the context ends and leaves this hint, and its locks are released.
-    IsFreed { hint: u64 },
+    /// The commit of the context ends, and its locks are released.
+    IsFreed,
 }
 
 /// Lets some context fall asleep, or frees it.
 fn deed(rig: &Rig, random: &mut SplitMix64) -> Option<(u64, Deed)> {
     let context = random.below(rig.contexts);
-    let [root, hint] = [(); 2].map(|()| random.below(1 << 15));
+    let root = random.below(1 << 15);
     let [ends, will_retry, busy, is_freed] = [4, 3, 3, 6].map(|times| random.below(times) == 0);
     let life = &rig.lives[context as usize];
     let sleeps = (life.awake && ends).then_some(Deed::Sleeps { root, will_retry, busy });
-    let frees = (!life.awake && life.busy && is_freed).then_some(Deed::IsFreed { hint });
+    let frees = (!life.awake && life.busy && is_freed).then_some(Deed::IsFreed);
     sleeps.or(frees).map(|deed| (context, deed))
 }
 

@@ -95,7 +95,7 @@ fn verdict_logic_agrees_with_the_geometry() {
             seen[2] += usize::from(incircle(r, p) == 0 && !r.contains(&p));
             seen[3] += usize::from(record.v.contains(&INFINITE));
             seen[4] += usize::from(slot > 0 && incircle(r, p) == 0 && verdict & 1 == 1);
-            verdict_parts(verdict, slot, r).to_vec()
+            verdict_parts(verdict, slot, r, p).to_vec()
         },
     );
     assert!(

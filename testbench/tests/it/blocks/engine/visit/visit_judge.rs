@@ -41,7 +41,7 @@ fn visit_judge_answers_ten_clocks_after_the_corners() {
                 for (bit, count) in seen.iter_mut().enumerate() {
                     *count += usize::from(verdict >> bit & 1 == 1);
                 }
-                verdict_parts(verdict, slot, [r0, r1, r2]).to_vec()
+                verdict_parts(verdict, slot, [r0, r1, r2], p).to_vec()
             });
             cycle += 1;
             parts.unwrap_or(vec![None; VERDICT_PARTS.len()])

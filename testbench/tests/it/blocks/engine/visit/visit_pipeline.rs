@@ -381,7 +381,7 @@ impl Visits {
             if let (Some(record), Some(corners)) = (flight.record, flight.corners) {
                 let verdict = record.verdict(flight.slot, corners, p, self.infinite);
                 flight.verdict = Some(verdict);
-                flight.parts = verdict_parts(verdict, flight.slot, corners);
+                flight.parts = verdict_parts(verdict, flight.slot, corners, p);
             }
         }
     }
