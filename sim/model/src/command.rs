@@ -229,18 +229,13 @@ impl CommandModel {
                 let words = self.identity.to_words();
                 self.answer(opcode, Status::Ok, &words);
             }
-            Some(Opcode::Clear) if protocol::command_contexts(word) > self.identity.contexts => {
-                self.answer(opcode, Status::BadContexts, &[]);
-            }
-            Some(Opcode::Clear) => {
-                let jobs = match protocol::command_contexts(word) {
-                    _ if !protocol::command_starts_batch(word) => 1,
-                    0 => self.identity.contexts,
-                    asked => asked,
-                };
-                self.mesh.clear_for(jobs);
-                self.answer(opcode, Status::Ok, &[]);
-            }
+            Some(Opcode::Clear) => match self.jobs_of(word) {
+                Some(jobs) => {
+                    self.mesh.clear_for(jobs);
+                    self.answer(opcode, Status::Ok, &[]);
+                }
+                None => self.answer(opcode, Status::BadContexts, &[]),
+            },
             Some(Opcode::Insert) => self.awaited = Awaited::InsertCount,
             Some(Opcode::Read) => self.awaited = Awaited::ReadFirst(Range::Records),
             Some(Opcode::Triangles) => self.awaited = Awaited::ReadFirst(Range::Vertices),
@@ -252,6 +247,22 @@ impl CommandModel {
             Some(Opcode::Latencies) => self.answer(opcode, Status::Ok, &[0; protocol::LATENCY_BUCKETS]),
             None => self.answer(opcode, Status::UnknownOpcode, &[]),
         }
+    }
+
+    /// Number of jobs that a `Clear` begins. `None` if it names more contexts than there are, or a number of jobs that
+    /// does not divide that of the contexts.
+    fn jobs_of(&self, word: u32) -> Option<u32> {
+        let built = self.identity.contexts;
+        let contexts = match protocol::command_contexts(word) {
+            0 => built,
+            asked => asked,
+        };
+        let jobs = match crate::command_jobs(word) {
+            _ if !protocol::command_starts_batch(word) => 1,
+            0 => contexts,
+            asked => asked,
+        };
+        (contexts <= built && contexts % jobs == 0).then_some(jobs)
     }
 
     fn answer(&mut self, opcode: u8, status: Status, payload: &[u32]) {

@@ -114,7 +114,7 @@ impl Responder {
     fn wait(&mut self, was: &Registers, latencies: &Latencies) {
         let after = match was.responder.state {
             State::Idle => {
-                if was.command.state == CommandState::Answer && !latencies.sweeps() && !was.command.clears {
+                if was.command.state == CommandState::Answer && !latencies.sweeps() && !was.command.is_clearing() {
                     self.state = State::Prepare;
                 }
                 return;

@@ -24,7 +24,8 @@ fn command(random: &mut SplitMix64) -> Vec<u32> {
         0 => vec![command_word(Opcode::Hello)],
         1 | 2 => {
             let contexts = [0, random.below(6) as u32, random.below(300) as u32][random.below(3) as usize];
-            vec![if random.below(2) == 0 { clear_word(contexts) } else { batch_word(contexts) }]
+            let jobs = [0, 1 + random.below(6) as u32, random.below(128) as u32][random.below(3) as usize] << 9;
+            vec![if random.below(2) == 0 { clear_word(contexts) } else { batch_word(contexts) | jobs }]
         }
         3 => vec![command_word(Opcode::Counters)],
         4 => vec![(random.below(256) as u32 | 8) << 24],
@@ -151,6 +152,7 @@ impl Rig {
         for (port, expected) in [
             ("came", reference.came.is_some()),
             ("clears", reference.clears),
+            ("is_checking", reference.checked.is_some()),
             ("answers", reference.answers_now()),
             ("inserting", reference.inserting),
             ("reading", reference.reading),
