@@ -2,15 +2,16 @@
 //! each has a mesh of its own.
 //!
 //! 1. The low byte of the word is the number of contexts; 0 means all.
-//! 2. Bit 8 begins a batch: each of the contexts has a mesh of its own, and the first points are three for each.
-//! 3. A refused `Clear` changes nothing. After a reset there is no batch.
+//! 2. Bit 8 begins a batch: each of the contexts has a mesh of its own, and the first points are three for each. A batch
+//!    of another number of meshes, in bits 15 to 9, is refused.
+//! 3. A refused `Clear` changes nothing but the tag, in bits 23 to 16. After a reset there is no batch, and the tag is 0.
 //!
 //! Latency: 1 clock, 2 to `deal.dealt_from`.
 
 use super::types::{Clearing, TakenWord, Word};
 use crate::engine::Deal;
 use crate::prelude::*;
-use incircle_protocol::{Opcode, CLEAR_BATCH, FIRST_ROUND};
+use incircle_protocol::{Opcode, CLEAR_BATCH, CLEAR_MESHES_SHIFT, CLEAR_TAG_SHIFT, FIRST_ROUND, MAX_SIDE_BY_SIDE};
 
 #[derive(LogicBlock, Default)]
 pub struct ClearCommand {
@@ -29,12 +30,16 @@ pub struct ClearCommand {
     batch: DFF<Bit>,
     dealt: DFF<Bits<7>>,
     refusing: DFF<Bit>,
+    tag: DFF<Bits<8>>,
     word: Signal<Local, Word>,
     code: Signal<Local, Bits<8>>,
     asked: Signal<Local, Bits<8>>,
     wide_built: Signal<Local, Bits<8>>,
     is_clear: Signal<Local, Bit>,
     asks_too_much: Signal<Local, Bit>,
+    meshes: Signal<Local, Bits<7>>,
+    shares_contexts: Signal<Local, Bit>,
+    is_impossible: Signal<Local, Bit>,
     is_granted: Signal<Local, Bit>,
     wide_working: Signal<Local, Bits<7>>,
     twice_working: Signal<Local, Bits<7>>,
@@ -44,14 +49,19 @@ pub struct ClearCommand {
 
 // The kernel holds the numbers as literals, because rust-hdl allows no constants there. A changed protocol fails here.
 const _: () = assert!(
-    Opcode::Clear as u8 == 2 && CLEAR_BATCH == 1 << 8 && FIRST_ROUND == 16,
+    Opcode::Clear as u8 == 2
+        && CLEAR_BATCH == 1 << 8
+        && CLEAR_MESHES_SHIFT == 9
+        && MAX_SIDE_BY_SIDE == 127
+        && CLEAR_TAG_SHIFT == 16
+        && FIRST_ROUND == 16,
     "the numbers of this block follow the protocol"
 );
 
 impl Logic for ClearCommand {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, clears, working, batch, dealt, refusing);
+        dff_setup!(self, clock, clears, working, batch, dealt, refusing, tag);
         self.clear_code.next = 2.into();
         self.all_contexts.next = 0.into();
         self.clearing.next.clears = self.clears.q.val();
@@ -59,6 +69,7 @@ impl Logic for ClearCommand {
         self.deal.next.is_batch = self.batch.q.val();
         self.deal.next.dealt_from = self.dealt.q.val();
         self.clearing.next.is_refused = self.refusing.q.val();
+        self.clearing.next.tag = self.tag.q.val();
 
         self.word.next = self.taken.val().word;
         self.code.next = self.word.val().get_bits::<8>(24);
@@ -66,10 +77,16 @@ impl Logic for ClearCommand {
         self.wide_built.next = bit_cast::<8, 5>(self.built.val());
         self.is_clear.next = self.code.val() == self.clear_code.val();
         self.asks_too_much.next = self.asked.val() > self.wide_built.val();
-        self.is_granted.next = self.taken.val().is_command & self.is_clear.val() & (!self.asks_too_much.val());
+        self.meshes.next = self.word.val().get_bits::<7>(9);
+        self.shares_contexts.next = self.word.val().get_bit(8) & self.meshes.val().any();
+        self.is_impossible.next = self.asks_too_much.val() | self.shares_contexts.val();
+        self.is_granted.next = self.taken.val().is_command & self.is_clear.val() & (!self.is_impossible.val());
         self.clears.d.next = self.is_granted.val();
         if self.taken.val().is_command {
-            self.refusing.d.next = self.is_clear.val() & self.asks_too_much.val();
+            self.refusing.d.next = self.is_clear.val() & self.is_impossible.val();
+        }
+        if self.taken.val().is_command & self.is_clear.val() {
+            self.tag.d.next = self.word.val().get_bits::<8>(16);
         }
         if self.is_granted.val() {
             self.batch.d.next = self.word.val().get_bit(8);
@@ -87,6 +104,7 @@ impl Logic for ClearCommand {
         if self.reset.val() {
             self.clears.d.next = false;
             self.batch.d.next = false;
+            self.tag.d.next = 0.into();
             self.dealt.d.next = 16.into();
             self.working.d.next = self.built.val();
         }

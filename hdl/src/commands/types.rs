@@ -30,8 +30,10 @@ crate::packed! {
     pub struct Clearing {
         /// Forget the mesh at this edge.
         pub clears: bool,
-        /// The last command is a `Clear` that asks for more contexts than the core has.
+        /// The last command is a `Clear` that asks for what cannot be had.
         pub is_refused: bool,
+        /// The tag of the last `Clear`, refused or not.
+        pub tag: Bits<8>,
     }
 
     /// Counts of the points since the last `Clear`.

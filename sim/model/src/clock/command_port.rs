@@ -3,7 +3,10 @@
 //! Hardware twin: the block `CommandPort`.
 
 use super::wires::{Registers, Wires};
-use incircle_protocol::{command_contexts, command_opcode, command_starts_batch, Config, Opcode, FIRST_ROUND, PADDING};
+use incircle_protocol::{
+    command_contexts, command_meshes, command_opcode, command_starts_batch, command_tag, Config, Opcode, FIRST_ROUND,
+    PADDING,
+};
 
 /// The meaning of the next word, or the event that is awaited.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -34,8 +37,10 @@ pub(super) struct CommandPort {
     pub contexts: u32,
     /// Whether each context has a mesh of its own.
     pub batch: bool,
-    /// Whether a `Clear` asked for more contexts than there are.
+    /// Whether a `Clear` asked for what cannot be had.
     pub is_refused: bool,
+    /// The tag of the last `Clear`, refused or not.
+    pub tag: u8,
     /// Whether the mesh is forgotten at the next edge.
     pub clears: bool,
     /// Set from a job's first point until its last lock is released.
@@ -110,8 +115,13 @@ impl CommandPort {
         let opcode = command_opcode(word);
         let contexts = command_contexts(word);
         self.opcode = opcode;
-        self.is_refused = opcode == Opcode::Clear as u8 && contexts > config.contexts;
-        self.clears = opcode == Opcode::Clear as u8 && !self.is_refused;
+        let is_clear = opcode == Opcode::Clear as u8;
+        let shares_contexts = command_starts_batch(word) && command_meshes(word) != 0;
+        self.is_refused = is_clear && (contexts > config.contexts || shares_contexts);
+        self.clears = is_clear && !self.is_refused;
+        if is_clear {
+            self.tag = command_tag(word);
+        }
         if self.clears {
             self.contexts = if contexts == 0 { config.contexts } else { contexts };
             self.batch = command_starts_batch(word);

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use crate::rig::stepper::bundles::Deal;
-use incircle_protocol::{command_starts_batch, Opcode, FIRST_ROUND, PADDING};
+use incircle_protocol::{command_meshes, command_starts_batch, command_tag, Opcode, FIRST_ROUND, PADDING};
 
 /// Capacity of the core, and number of its contexts.
 #[derive(Clone, Copy, Debug)]
@@ -57,6 +57,8 @@ pub struct Reference {
     pub is_batch: bool,
     pub dealt_from: u64,
     pub is_refused: Option<bool>,
+    /// The tag of the last `Clear`, refused or not.
+    pub tag: u8,
     /// All words of the command have come; an insert settles before it is answered.
     pub is_complete: bool,
     pub settles: bool,
@@ -103,8 +105,12 @@ impl Reference {
                 self.opcode = Some(opcode);
                 let asked = word & 0xff;
                 let is_clear = opcode == Opcode::Clear as u8;
-                self.is_refused = Some(is_clear && asked > shape.contexts);
-                self.clears = is_clear && asked <= shape.contexts;
+                let shares_contexts = command_starts_batch(word) && command_meshes(word) > 0;
+                self.is_refused = Some(is_clear && (asked > shape.contexts || shares_contexts));
+                self.clears = is_clear && self.is_refused == Some(false);
+                if is_clear {
+                    self.tag = command_tag(word);
+                }
                 if self.clears {
                     self.contexts = if asked == 0 { shape.contexts } else { asked };
                     self.is_batch = command_starts_batch(word);
