@@ -5,7 +5,7 @@
 //! 2. Bit 8 begins a batch of as many jobs as bits 15 to 9 say; 0 means one for each context. Outside a batch there is
 //!    one job.
 //! 3. A number of jobs that does not divide that of the contexts is refused, and so are more contexts than there are. A
-//!    refused `Clear` changes nothing. After a reset there is no batch.
+//!    refused `Clear` changes nothing but the tag, in bits 23 to 16. After a reset there is no batch, and the tag is 0.
 //! 4. To divide, the block counts the contexts of one member of each team after another (`is_checking`) until it has
 //!    reached the number of contexts or passed it.
 //!
@@ -15,7 +15,7 @@
 use super::types::{Clearing, TakenWord, Word};
 use crate::engine::Deal;
 use crate::prelude::*;
-use incircle_protocol::{Opcode, CLEAR_BATCH};
+use incircle_protocol::{Opcode, CLEAR_BATCH, CLEAR_MESHES_SHIFT, CLEAR_TAG_SHIFT, MAX_SIDE_BY_SIDE};
 
 #[derive(LogicBlock, Default)]
 pub struct ClearCommand {
@@ -34,6 +34,7 @@ pub struct ClearCommand {
     jobs: DFF<Bits<5>>,
     dealt: DFF<Bits<7>>,
     refusing: DFF<Bit>,
+    tag: DFF<Bits<8>>,
     /// The numbers that are being checked, and the contexts that are counted.
     checking: DFF<Bit>,
     wanted: DFF<Bits<5>>,
@@ -59,19 +60,26 @@ pub struct ClearCommand {
 }
 
 // The kernel holds the numbers as literals, because rust-hdl allows no constants there. A changed protocol fails here.
-const _: () =
-    assert!(Opcode::Clear as u8 == 2 && CLEAR_BATCH == 1 << 8, "the numbers of this block follow the protocol");
+const _: () = assert!(
+    Opcode::Clear as u8 == 2
+        && CLEAR_BATCH == 1 << 8
+        && CLEAR_MESHES_SHIFT == 9
+        && MAX_SIDE_BY_SIDE == 127
+        && CLEAR_TAG_SHIFT == 16,
+    "the numbers of this block follow the protocol"
+);
 
 impl Logic for ClearCommand {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, clears, working, jobs, dealt, refusing);
+        dff_setup!(self, clock, clears, working, jobs, dealt, refusing, tag);
         dff_setup!(self, clock, checking, wanted, wanted_jobs, is_batch, counted);
         self.clear_code.next = 2.into();
         self.all_contexts.next = 0.into();
         self.clearing.next.clears = self.clears.q.val();
         self.clearing.next.is_checking = self.checking.q.val();
         self.clearing.next.is_refused = self.refusing.q.val();
+        self.clearing.next.tag = self.tag.q.val();
         self.deal.next.contexts = self.working.q.val();
         self.deal.next.jobs = self.jobs.q.val();
         self.deal.next.dealt_from = self.dealt.q.val();
@@ -82,6 +90,9 @@ impl Logic for ClearCommand {
         self.wide_built.next = bit_cast::<8, 5>(self.built.val());
         self.is_clear.next = self.code.val() == self.clear_code.val();
         self.asks_too_much.next = self.asked.val() > self.wide_built.val();
+        if self.taken.val().is_command & self.is_clear.val() {
+            self.tag.d.next = self.word.val().get_bits::<8>(16);
+        }
         if self.taken.val().is_command {
             self.refusing.d.next = self.is_clear.val() & self.asks_too_much.val();
             self.checking.d.next = self.is_clear.val() & (!self.asks_too_much.val());
@@ -123,6 +134,7 @@ impl Logic for ClearCommand {
             self.clears.d.next = false;
             self.checking.d.next = false;
             self.jobs.d.next = 1.into();
+            self.tag.d.next = 0.into();
             self.dealt.d.next = 3.into();
             self.working.d.next = self.built.val();
         }

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::time::Duration;
 
-use incircle_protocol::{infinite_vertex, Command, Layout, RecordRange};
+use incircle_protocol::{infinite_vertex, Clear, Command, Layout, RecordRange};
 
 use super::assemble::{check_last_half, checked_record, Assembly};
 use super::group::{Group, Ordered};
@@ -103,10 +103,8 @@ impl Load {
     /// The command of a step, if it has one, with its range of the points that are sent.
     pub(crate) fn bare_command(&self, step: &Step, capabilities: Capabilities) -> Option<Command<Range<usize>>> {
         Some(match step {
-            Step::Clear if self.group.is_shared => {
-                Command::Clear { contexts: self.group.jobs.len() as u32, is_batch: true }
-            }
-            Step::Clear => Command::Clear { contexts: self.group.contexts, is_batch: false },
+            Step::Clear if self.group.is_shared => Command::Clear(Clear::batch(self.group.jobs.len() as u32)),
+            Step::Clear => Command::Clear(Clear::one_mesh(self.group.contexts)),
             Step::Insert(points) => Command::Insert { count: points.len() as u32, points: points.clone() },
             Step::Read(records) => read_out(records.clone(), capabilities),
             Step::Counters => Command::Counters,

@@ -18,9 +18,4 @@ pub mod stream;
 
 pub use clock::{ClockModel, Defect, Inputs, Outputs, Write};
 pub use command::{CommandModel, ModelError};
-
-/// Number of jobs in the word of a `Clear` (until the protocol has it).
-pub(crate) fn command_jobs(word: u32) -> u32 {
-    word >> 9 & 0x7f
-}
 pub use mesh::{Approach, Counts, Insertion, Mesh, Record};

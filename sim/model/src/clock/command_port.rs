@@ -3,7 +3,9 @@
 //! Hardware twin: the block `CommandPort`.
 
 use super::wires::{Registers, Wires};
-use incircle_protocol::{command_contexts, command_opcode, command_starts_batch, Config, Opcode, PADDING};
+use incircle_protocol::{
+    command_contexts, command_meshes, command_opcode, command_starts_batch, command_tag, Config, Opcode, PADDING,
+};
 
 /// The meaning of the next word, or the event that is awaited.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -48,6 +50,8 @@ pub(super) struct CommandPort {
     checked: Option<Check>,
     /// Whether a `Clear` asked for more contexts than there are, or for a number of jobs that does not divide them.
     pub is_refused: bool,
+    /// The tag of the last `Clear`, refused or not.
+    pub tag: u8,
     /// Whether the mesh is forgotten at the next edge.
     pub clears: bool,
     /// Set from a job's first point until its last lock is released.
@@ -135,10 +139,14 @@ impl CommandPort {
         let opcode = command_opcode(word);
         let asked = command_contexts(word);
         self.opcode = opcode;
-        self.is_refused = opcode == Opcode::Clear as u8 && asked > config.contexts;
-        if opcode == Opcode::Clear as u8 && !self.is_refused {
+        let is_clear = opcode == Opcode::Clear as u8;
+        self.is_refused = is_clear && asked > config.contexts;
+        if is_clear {
+            self.tag = command_tag(word);
+        }
+        if is_clear && !self.is_refused {
             let contexts = if asked == 0 { config.contexts } else { asked };
-            self.checked = Some(match crate::command_jobs(word) {
+            self.checked = Some(match command_meshes(word) {
                 // Outside a batch nothing has to be counted.
                 _ if !command_starts_batch(word) => Check { contexts, jobs: 1, sum: contexts - 1 },
                 0 => Check { contexts, jobs: contexts, sum: 0 },

@@ -8,7 +8,7 @@
 
 use crate::rig::lockstep::{ordered, word, Rig};
 use incircle_protocol::{
-    batch_word, clear_word, command_word, Config, Counter, Opcode, FULL, LARGE, PADDING, SMALL, TINY,
+    batch_word, clear_word, command_word, Config, Counter, Opcode, CLEAR_TAG_SHIFT, FULL, LARGE, PADDING, SMALL, TINY,
 };
 use incircle_testbench::lockstep::{Job, Lockstep, Mismatch, Stalls, FAULTS};
 use incircle_testkit::{Distribution, SplitMix64};
@@ -166,8 +166,8 @@ fn any_command(random: &mut SplitMix64, config: Config) -> Vec<u32> {
         1 => vec![command(Opcode::Read), below(records + 4), below(20)],
         2 => vec![command(Opcode::Read), u32::MAX - below(3), below(5)],
         3 => vec![command(Opcode::Counters)],
-        4 => vec![clear_word(below(4))],
-        5 => vec![batch_word(below(u64::from(config.contexts) + 2))],
+        4 => vec![clear_word(below(4)) | below(256) << CLEAR_TAG_SHIFT],
+        5 => vec![batch_word(below(u64::from(config.contexts) + 2)) | below(256) << CLEAR_TAG_SHIFT],
         6 => vec![command(Opcode::Triangles), below(records), below(14)],
         7 => vec![PADDING; below(4) as usize + 1],
         8 => vec![command(Opcode::Clear)],

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use crate::rig::stepper::bundles::Deal;
-use incircle_protocol::{command_starts_batch, Opcode, PADDING};
+use incircle_protocol::{command_meshes, command_starts_batch, command_tag, Opcode, PADDING};
 
 /// Capacity of the core, and number of its contexts.
 #[derive(Clone, Copy, Debug)]
@@ -59,6 +59,8 @@ pub struct Reference {
     /// A `Clear` of this many contexts and jobs is being checked, for so many more clocks.
     pub checked: Option<(u32, u32, u32)>,
     pub is_refused: Option<bool>,
+    /// The tag of the last `Clear`, refused or not.
+    pub tag: u8,
     /// All words of the command have come; an insert settles before it is answered.
     pub is_complete: bool,
     pub settles: bool,
@@ -105,6 +107,9 @@ impl Reference {
                 let asked = word & 0xff;
                 let is_clear = opcode == Opcode::Clear as u8;
                 self.is_refused = Some(is_clear && asked > shape.contexts);
+                if is_clear {
+                    self.tag = command_tag(word);
+                }
                 if is_clear && asked <= shape.contexts {
                     let contexts = if asked == 0 { shape.contexts } else { asked };
                     self.checked = Some(check(contexts, word));
@@ -177,7 +182,7 @@ impl Reference {
 /// The numbers of contexts and jobs of a `Clear`, and the clocks that their check takes: one for each context of a team,
 /// or one outside a batch.
 pub fn check(contexts: u32, word: u32) -> (u32, u32, u32) {
-    match word >> 9 & 0x7f {
+    match command_meshes(word) {
         _ if !command_starts_batch(word) => (contexts, 1, 1),
         0 => (contexts, contexts, 1),
         jobs => (contexts, jobs, contexts.div_ceil(jobs)),

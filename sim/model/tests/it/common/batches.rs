@@ -2,11 +2,11 @@
 
 use super::mesh_check::{canonical, records_of};
 use incircle_model::CommandModel;
-use incircle_protocol::{batch_word, clear_word, command_word, infinite_vertex, Config, Layout, Opcode};
+use incircle_protocol::{clear_word, command_word, infinite_vertex, Clear, Config, Layout, Meshes, Opcode};
 
 /// The `Clear` for a batch of `jobs` jobs on this many contexts, in teams of equal size.
 pub fn teams_word(contexts: u32, jobs: u32) -> u32 {
-    batch_word(contexts) | jobs << 9
+    Clear { contexts, meshes: Meshes::SideBySide(jobs), tag: 0 }.word()
 }
 
 /// The points of each job, from the points of a batch in the order in which they are sent.

@@ -4,7 +4,9 @@ use crate::rig::command_reference::check;
 use crate::rig::stepper::bundles::Deal;
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::commands::ClearCommand;
-use incircle_protocol::{clear_word, command_word, Opcode, MAX_CONTEXTS};
+use incircle_protocol::{
+    clear_word, command_tag, command_word, Opcode, CLEAR_BATCH, CLEAR_MESHES_SHIFT, CLEAR_TAG_SHIFT, MAX_CONTEXTS,
+};
 use incircle_testkit::SplitMix64;
 
 named_ports!(ClearCommand, [reset, built, taken], [clearing, deal], clock);
@@ -20,6 +22,7 @@ struct Reference {
     /// The first vertex that is dealt follows a clock later.
     dealt_from: u64,
     is_refused: Option<bool>,
+    tag: u8,
     /// Contexts and jobs of a `Clear` that is being checked, and the number of clocks to go.
     checked: Option<(u32, u32, u32)>,
 }
@@ -44,6 +47,9 @@ impl Reference {
         let word = word?;
         let (is_clear, asked) = (word >> 24 == Opcode::Clear as u32, word & 0xff);
         self.is_refused = Some(is_clear && asked > built);
+        if is_clear {
+            self.tag = command_tag(word);
+        }
         if is_clear && asked <= built {
             self.checked = Some(check(if asked == 0 { built } else { asked }, word));
         }
@@ -64,11 +70,13 @@ fn clear_command_is_granted_or_refused() {
         }
         let wanted = [0, built, built + 1, random.below(256) as u32][random.below(4) as usize];
         let jobs = [0, 1, 1 + random.below(8) as u32, random.below(128) as u32][random.below(4) as usize];
+        let rest = jobs << CLEAR_MESHES_SHIFT | (random.below(1 << 8) as u32) << CLEAR_TAG_SHIFT;
         let word = match random.below(4) {
             0 => command_word(Opcode::Insert) | wanted,
             1 => random.next_u64() as u32,
-            // The bits of the tag do not count, so they are random.
-            kind => clear_word(wanted) | (kind as u32 - 2) << 8 | jobs << 9 | (random.below(1 << 8) as u32) << 16,
+            // Outside a batch, the number of jobs does not count.
+            2 => clear_word(wanted) | rest,
+            _ => clear_word(wanted) | CLEAR_BATCH | rest,
         };
         // The core takes no other command while one is at work.
         let accepts = reference.checked.is_none() && random.below(2) == 0;
@@ -80,6 +88,7 @@ fn clear_command_is_granted_or_refused() {
         if clock > 1 {
             block.expect("clears", reference.clears);
             block.expect("is_checking", reference.checked.is_some());
+            block.expect("tag", u32::from(reference.tag));
             let Reference { contexts, jobs, dealt_from, .. } = reference;
             block.expect("deal", Deal { contexts: contexts.into(), jobs: jobs.into(), dealt_from }.bits());
         }
