@@ -24,28 +24,28 @@ pub struct OpenTeams {
     /// The team that is asked about.
     pub asked: Signal<In, ContextId>,
     pub is_open: Signal<Out, Bit>,
-    table: LutMemory<CONTEXT_BITS, 1>,
+    flags: LutMemory<CONTEXT_BITS, 1>,
 }
 
 impl OpenTeams {
     pub fn new(config: Config) -> Self {
-        Self { table: LutMemory::new(context_bits(config), 1), ..Self::default() }
+        Self { flags: LutMemory::new(context_bits(config), 1), ..Self::default() }
     }
 }
 
 impl Logic for OpenTeams {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, table);
-        self.table.read_address.next = self.asked.val();
-        self.is_open.next = self.table.read_data.val().get_bit(0);
-        self.table.write_address.next = self.opened.val();
-        self.table.write_data.next = 1.into();
-        self.table.write_enable.next = self.opens.val();
+        clock!(self, clock, flags);
+        self.flags.read_address.next = self.asked.val();
+        self.is_open.next = self.flags.read_data.val().any();
+        self.flags.write_address.next = self.opened.val();
+        self.flags.write_data.next = 1.into();
+        self.flags.write_enable.next = self.opens.val();
         if self.planned.val().valid {
-            self.table.write_address.next = self.planned.val().team;
-            self.table.write_data.next = 0.into();
-            self.table.write_enable.next = true;
+            self.flags.write_address.next = self.planned.val().team;
+            self.flags.write_data.next = 0.into();
+            self.flags.write_enable.next = true;
         }
     }
 }

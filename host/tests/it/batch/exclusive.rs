@@ -33,7 +33,7 @@ fn card(beat_bits: u32, mischief: Mischief) -> Device {
 }
 
 fn watched_card(beat_bits: u32, mischief: Mischief) -> (Device, MemoryCard) {
-    let core = ModelCore::of(SMALL).expect("possible").with_contexts(SMALL.contexts);
+    let core = ModelCore::of(Config { points: 512, ..SMALL }).expect("possible").with_contexts(5);
     let card = MemoryCard::of(core, beat_bits, mischief);
     let transport = PcieTransport::new("pcie:memory".to_owned(), card.files()).expect("a sound card");
     (Device::from_transport(Box::new(transport)), card)
@@ -245,7 +245,7 @@ fn lies_about_exclusive_jobs_end_in_typed_errors() {
 #[test]
 fn the_clocks_of_exclusive_jobs_are_all_there_are() {
     let mut random = Random(79);
-    let jobs: Vec<Vec<Point>> = (0..5).map(|_| random.points(900, 1 << 16)).collect();
+    let jobs: Vec<Vec<Point>> = (0..5).map(|_| random.points(4500, 1 << 16)).collect();
     let mut device = Device::clock_model(FULL).expect("possible");
     let mut session = device.session().expect("a session");
     let before = session.clocks().expect("a clock");
