@@ -11,9 +11,8 @@ use crate::status::Status;
 pub enum Opcode {
     /// Ask the device for its [`Identity`](crate::Identity). No arguments.
     Hello = 1,
-    /// Forget all points, triangles and counters. The low byte of the command word is the number of contexts that work
-    /// from now on, 0 for all; see [`clear_word`]. With [`CLEAR_BATCH`] each of these contexts works on a mesh of its
-    /// own; see [`batch_word`]. No arguments, no payload. The time does not depend on what the device holds.
+    /// Forget all points, triangles and counters, and begin the job that a [`Clear`] describes. No arguments, no
+    /// payload. The time does not depend on what the device holds.
     Clear = 2,
     /// Insert points. The arguments are the number of points and the points themselves. The answer, an
     /// [`InsertReport`](crate::InsertReport), comes when the last point is in.
@@ -55,23 +54,89 @@ pub const fn command_word(opcode: Opcode) -> u32 {
     (opcode as u32) << 24
 }
 
-/// The word of a [`Clear`](Opcode::Clear) for this many contexts; 0 stands for all that the device has.
-///
-/// The word can name at most 255 contexts. A larger number becomes 255, which every device refuses.
-pub const fn clear_word(contexts: u32) -> u32 {
-    command_word(Opcode::Clear) | if contexts > 255 { 255 } else { contexts }
+/// The job that a `Clear` begins.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Clear {
+    /// Number of contexts that work from now on; 0 stands for all that an engine has.
+    pub contexts: u32,
+    /// Number of meshes, and how the contexts share them.
+    pub meshes: Meshes,
+    /// The job's tag, which the host chooses. The header of every answer repeats the tag of the last `Clear`.
+    pub tag: u8,
 }
 
-/// The bit of a [`Clear`](Opcode::Clear) that starts a batch.
+/// The meshes of a job, which the contexts work on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Meshes {
+    /// One mesh, for all contexts.
+    #[default]
+    One,
+    /// A batch with a mesh for each context.
+    OnePerContext,
+    /// A batch of this many meshes, 1 to [`MAX_SIDE_BY_SIDE`]. The number must divide that of the contexts, and each
+    /// mesh has an equal share of them.
+    SideBySide(u32),
+}
+
+/// The bit of a [`Clear`] that begins a batch.
 pub const CLEAR_BATCH: u32 = 1 << 8;
+/// Lowest bit of the number of meshes in the word of a [`Clear`] that begins a batch; 0 stands for one for each context.
+pub const CLEAR_MESHES_SHIFT: u32 = 9;
+/// Largest number of meshes that the word of a [`Clear`] can name.
+pub const MAX_SIDE_BY_SIDE: u32 = 127;
+/// Lowest bit of the tag in the word of a [`Clear`].
+pub const CLEAR_TAG_SHIFT: u32 = 16;
 
-/// The word of a [`Clear`](Opcode::Clear) for a batch: from then on each of this many contexts works on a
-/// mesh of its own.
-pub const fn batch_word(contexts: u32) -> u32 {
-    clear_word(contexts) | CLEAR_BATCH
+impl Clear {
+    /// One mesh for this many contexts, 0 for all, with the tag 0.
+    pub const fn one_mesh(contexts: u32) -> Self {
+        Self { contexts, meshes: Meshes::One, tag: 0 }
+    }
+
+    /// A batch with a mesh for each of this many contexts, 0 for all, with the tag 0.
+    pub const fn batch(contexts: u32) -> Self {
+        Self { contexts, meshes: Meshes::OnePerContext, tag: 0 }
+    }
+
+    /// The command word.
+    ///
+    /// The word can name at most 255 contexts and [`MAX_SIDE_BY_SIDE`] meshes. Larger numbers become these, which every
+    /// device refuses.
+    pub const fn word(self) -> u32 {
+        let contexts = if self.contexts > 255 { 255 } else { self.contexts };
+        let meshes = match self.meshes {
+            Meshes::One => 0,
+            Meshes::OnePerContext => CLEAR_BATCH,
+            Meshes::SideBySide(meshes) => {
+                let meshes = if meshes > MAX_SIDE_BY_SIDE { MAX_SIDE_BY_SIDE } else { meshes };
+                CLEAR_BATCH | meshes << CLEAR_MESHES_SHIFT
+            }
+        };
+        command_word(Opcode::Clear) | (self.tag as u32) << CLEAR_TAG_SHIFT | meshes | contexts
+    }
+
+    /// The `Clear` of this command word.
+    pub const fn from_word(word: u32) -> Self {
+        let meshes = match command_meshes(word) {
+            _ if !command_starts_batch(word) => Meshes::One,
+            0 => Meshes::OnePerContext,
+            meshes => Meshes::SideBySide(meshes),
+        };
+        Self { contexts: command_contexts(word), meshes, tag: command_tag(word) }
+    }
 }
 
-/// Whether a `Clear` starts a batch.
+/// The word of a [`Clear`] for one mesh and this many contexts, 0 for all, with the tag 0.
+pub const fn clear_word(contexts: u32) -> u32 {
+    Clear::one_mesh(contexts).word()
+}
+
+/// The word of a [`Clear`] for a batch with a mesh for each of this many contexts, 0 for all, with the tag 0.
+pub const fn batch_word(contexts: u32) -> u32 {
+    Clear::batch(contexts).word()
+}
+
+/// Whether the word of a `Clear` begins a batch.
 pub const fn command_starts_batch(word: u32) -> bool {
     word & CLEAR_BATCH != 0
 }
@@ -81,15 +146,40 @@ pub const fn command_contexts(word: u32) -> u32 {
     word & 0xff
 }
 
+/// The number of meshes in the word of a `Clear`, which counts only in a batch: 0 for one for each context.
+pub const fn command_meshes(word: u32) -> u32 {
+    word >> CLEAR_MESHES_SHIFT & MAX_SIDE_BY_SIDE
+}
+
+/// The tag in the word of a `Clear`.
+pub const fn command_tag(word: u32) -> u8 {
+    (word >> CLEAR_TAG_SHIFT) as u8
+}
+
 /// The opcode byte of a command word, known or not.
 pub const fn command_opcode(word: u32) -> u8 {
     (word >> 24) as u8
 }
 
-/// The first word of an answer: the opcode in the top byte, the status in the next, zeros below. For an unknown opcode
-/// the device sends the byte back as it came.
+/// The first word of an answer of engine 0 in a job with the tag 0: the opcode in the top byte, the status in the next,
+/// zeros below. For an unknown opcode the device sends the byte back as it came. [`signed_header`] adds the rest.
 pub const fn answer_header(opcode: u8, status: crate::status::Status) -> u32 {
     (opcode as u32) << 24 | (status as u32) << 16
+}
+
+/// The same header from this engine, in a job with this tag.
+pub const fn signed_header(header: u32, engine: u8, tag: u8) -> u32 {
+    header & 0xffff_0000 | (engine as u32) << 8 | tag as u32
+}
+
+/// The number of the engine in the header of an answer.
+pub const fn answer_engine(header: u32) -> u8 {
+    (header >> 8) as u8
+}
+
+/// The tag in the header of an answer: that of the last `Clear`, or 0 if there was none since the reset.
+pub const fn answer_tag(header: u32) -> u8 {
+    header as u8
 }
 
 /// The opcode byte in the header of an answer.
@@ -114,16 +204,8 @@ pub const COMMAND_HEAD_WORDS: usize = 3;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Command<P> {
     Hello,
-    Clear {
-        /// Number of contexts that work from now on; 0 stands for all that the device has.
-        contexts: u32,
-        /// Whether each context works on a mesh of its own.
-        is_batch: bool,
-    },
-    Insert {
-        count: u32,
-        points: P,
-    },
+    Clear(Clear),
+    Insert { count: u32, points: P },
     Read(RecordRange),
     Counters,
     Latencies,
@@ -143,7 +225,7 @@ impl<P> Command<P> {
     pub const fn opcode(&self) -> Opcode {
         match self {
             Self::Hello => Opcode::Hello,
-            Self::Clear { .. } => Opcode::Clear,
+            Self::Clear(_) => Opcode::Clear,
             Self::Insert { .. } => Opcode::Insert,
             Self::Read(_) => Opcode::Read,
             Self::Counters => Opcode::Counters,
@@ -156,7 +238,7 @@ impl<P> Command<P> {
     pub const fn bare(&self) -> Command<()> {
         match self {
             Self::Hello => Command::Hello,
-            Self::Clear { contexts, is_batch } => Command::Clear { contexts: *contexts, is_batch: *is_batch },
+            Self::Clear(clear) => Command::Clear(*clear),
             Self::Insert { count, .. } => Command::Insert { count: *count, points: () },
             Self::Read(range) => Command::Read(*range),
             Self::Counters => Command::Counters,
@@ -169,7 +251,7 @@ impl<P> Command<P> {
     pub fn map<Q>(self, form: impl FnOnce(P) -> Q) -> Command<Q> {
         match self {
             Self::Hello => Command::Hello,
-            Self::Clear { contexts, is_batch } => Command::Clear { contexts, is_batch },
+            Self::Clear(clear) => Command::Clear(clear),
             Self::Insert { count, points } => Command::Insert { count, points: form(points) },
             Self::Read(range) => Command::Read(range),
             Self::Counters => Command::Counters,
@@ -182,8 +264,7 @@ impl<P> Command<P> {
     pub const fn head(&self) -> ([u32; COMMAND_HEAD_WORDS], usize) {
         let word = command_word(self.opcode());
         match self {
-            Self::Clear { contexts, is_batch: false } => ([clear_word(*contexts), 0, 0], 1),
-            Self::Clear { contexts, is_batch: true } => ([batch_word(*contexts), 0, 0], 1),
+            Self::Clear(clear) => ([clear.word(), 0, 0], 1),
             Self::Insert { count, .. } => ([word, *count, 0], 2),
             Self::Read(range) | Self::Triangles(range) => ([word, range.first, range.count], 3),
             Self::Hello | Self::Counters | Self::Latencies => ([word, 0, 0], 1),
@@ -203,7 +284,7 @@ impl<P> Command<P> {
     pub const fn payload_words(&self, layout: Layout) -> u64 {
         match self {
             Self::Hello => IDENTITY_WORDS as u64,
-            Self::Clear { .. } => 0,
+            Self::Clear(_) => 0,
             Self::Insert { .. } => INSERT_REPORT_WORDS as u64,
             Self::Read(range) => range.count as u64 * layout.record_words as u64,
             Self::Counters => COUNTER_WORDS as u64,
@@ -282,9 +363,7 @@ impl CommandReader {
         };
         Some(Ok(match (opcode, arguments) {
             (Opcode::Hello, _) => Command::Hello,
-            (Opcode::Clear, _) => {
-                Command::Clear { contexts: command_contexts(word), is_batch: command_starts_batch(word) }
-            }
+            (Opcode::Clear, _) => Command::Clear(Clear::from_word(word)),
             (Opcode::Counters, _) => Command::Counters,
             (Opcode::Latencies, _) => Command::Latencies,
             (Opcode::Insert, &[count]) => Command::Insert { count, points: () },
@@ -307,11 +386,12 @@ mod tests {
     const WIDE: Layout = Layout { point_words: 2, record_words: 6 };
     const RANGE: RecordRange = RecordRange { first: 7, count: 11 };
 
-    fn commands(layout: Layout) -> [Command<Vec<u32>>; 9] {
+    fn commands(layout: Layout) -> [Command<Vec<u32>>; 10] {
         [
             Command::Hello,
-            Command::Clear { contexts: 3, is_batch: false },
-            Command::Clear { contexts: 255, is_batch: true },
+            Command::Clear(Clear::one_mesh(3)),
+            Command::Clear(Clear::batch(255)),
+            Command::Clear(Clear { contexts: 16, meshes: Meshes::SideBySide(4), tag: 0xa5 }),
             Command::insert(vec![0x0400_0000, 0, 5, 6], layout),
             Command::insert(vec![], layout),
             Command::Read(RANGE),
@@ -344,10 +424,11 @@ mod tests {
 
     #[test]
     fn every_command_has_the_words_of_the_page() {
-        let page: [&[u32]; 9] = [
+        let page: [&[u32]; 10] = [
             &[0x0100_0000],
             &[0x0200_0003],
             &[0x0200_01ff],
+            &[0x02a5_0910],
             &[0x0300_0000, 4, 0x0400_0000, 0, 5, 6],
             &[0x0300_0000, 0],
             &[0x0400_0000, 7, 11],
@@ -356,18 +437,36 @@ mod tests {
             &[0x0700_0000, 7, 11],
         ];
         assert_eq!(commands(NARROW).map(|command| words(&command)), page);
-        assert_eq!(words(&commands(WIDE)[3])[..2], [0x0300_0000, 2]);
+        assert_eq!(words(&commands(WIDE)[4])[..2], [0x0300_0000, 2]);
     }
 
     #[test]
     fn every_answer_has_its_length() {
         let lengths = |layout| commands(layout).map(|command| command.payload_words(layout));
-        assert_eq!(lengths(NARROW), [7, 0, 0, 5, 5, 33, 25, 128, 17]);
-        assert_eq!(lengths(WIDE), [7, 0, 0, 5, 5, 66, 25, 128, 33]);
+        assert_eq!(lengths(NARROW), [7, 0, 0, 0, 5, 5, 33, 25, 128, 17]);
+        assert_eq!(lengths(WIDE), [7, 0, 0, 0, 5, 5, 66, 25, 128, 33]);
         let all = RecordRange { first: 0, count: u32::MAX };
         let commands = [Command::<()>::Read(all), Command::Triangles(all)];
         assert_eq!(commands.map(|command| command.payload_words(WIDE)), [6, 3].map(|ids| ids * u64::from(u32::MAX)));
         assert_eq!(answer_head(Opcode::Read, 9), [0x0400_0000, 9]);
+    }
+
+    #[test]
+    fn a_header_names_its_engine_and_its_job() {
+        let header = signed_header(answer_header(3, Status::Stuck), 2, 0xc1);
+        assert_eq!(header, 0x0306_02c1);
+        assert_eq!((answer_opcode(header), answer_status(header)), (3, 6));
+        assert_eq!((answer_engine(header), answer_tag(header)), (2, 0xc1));
+        assert_eq!(signed_header(header, 0, 0), answer_header(3, Status::Stuck));
+    }
+
+    #[test]
+    fn numbers_that_the_word_cannot_name_become_the_largest() {
+        let clear = Clear { contexts: 1000, meshes: Meshes::SideBySide(1000), tag: 0 };
+        let named = Clear { contexts: 255, meshes: Meshes::SideBySide(MAX_SIDE_BY_SIDE), tag: 0 };
+        assert_eq!(Clear::from_word(clear.word()), named);
+        // Outside a batch, nothing is said of the meshes.
+        assert_eq!(Clear::from_word(0x0200_fe03), Clear::one_mesh(3));
     }
 
     #[test]

@@ -16,7 +16,7 @@ pub struct Config {
 /// A core for tests and drawings: a wave fits on a page, and boundary lists overflow often.
 pub const TINY: Config = Config { name: "tiny", points: 8, ring: 6, contexts: 2 };
 /// A core for a small board.
-pub const SMALL: Config = Config { name: "small", points: 1024, ring: 32, contexts: 4 };
+pub const SMALL: Config = Config { name: "small", points: 1024, ring: 32, contexts: 16 };
 /// A core for an ECP5-85F.
 pub const FULL: Config = Config { name: "full", points: 8192, ring: 32, contexts: 16 };
 /// The largest core that ids of 15 bits allow, for simulation.

@@ -3,6 +3,9 @@
 /// Number of words of an [`Identity`].
 pub const IDENTITY_WORDS: usize = 7;
 
+/// Lowest bit of the number of engines in the sixth word of an identity.
+pub const ENGINES_SHIFT: u32 = 8;
+
 /// The properties that a device reports, in the order of their words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Identity {
@@ -14,17 +17,19 @@ pub struct Identity {
     pub core_version: u32,
     /// Bits of one coordinate, 1 to 31.
     pub coord_bits: u32,
-    /// Number of points that the memory holds.
+    /// Number of points that the memory of an engine holds.
     pub capacity: u32,
-    /// Number of contexts, which is the number of insertions in progress at a time.
+    /// Number of contexts of an engine, which is the number of its insertions in progress at a time.
     pub contexts: u32,
+    /// Number of engines. Each has a memory of this capacity and takes whole jobs.
+    pub engines: u32,
     /// Number of boundary edges that a context's list holds. A point with a longer boundary becomes a
     /// solo insertion, by flips.
     pub ring_capacity: u32,
 }
 
 impl Identity {
-    /// The identity as words, in the order of the fields.
+    /// The identity as words, in the order of the fields; contexts and engines share a word.
     pub const fn to_words(self) -> [u32; IDENTITY_WORDS] {
         [
             self.magic,
@@ -32,20 +37,28 @@ impl Identity {
             self.core_version,
             self.coord_bits,
             self.capacity,
-            self.contexts,
+            self.contexts_word(),
             self.ring_capacity,
         ]
     }
 
-    /// The identity from words in the order of the fields. No value is checked.
+    /// The word with the number of contexts in the low byte and that of engines above it.
+    pub const fn contexts_word(self) -> u32 {
+        self.engines << ENGINES_SHIFT | self.contexts
+    }
+
+    /// The identity from words in the order of the fields. No value is checked. A device of version 1.2 says 0 in place
+    /// of the number of engines, and has one.
     pub const fn from_words(words: [u32; IDENTITY_WORDS]) -> Self {
+        let engines = words[5] >> ENGINES_SHIFT;
         Self {
             magic: words[0],
             protocol_version: words[1],
             core_version: words[2],
             coord_bits: words[3],
             capacity: words[4],
-            contexts: words[5],
+            contexts: words[5] & ((1 << ENGINES_SHIFT) - 1),
+            engines: if engines == 0 { 1 } else { engines },
             ring_capacity: words[6],
         }
     }

@@ -17,9 +17,10 @@ mod status;
 mod stream;
 
 pub use command::{
-    answer_head, answer_header, answer_opcode, answer_status, batch_word, clear_word, command_contexts, command_opcode,
-    command_starts_batch, command_word, Command, CommandReader, Opcode, RecordRange, ANSWER_HEAD_WORDS, CLEAR_BATCH,
-    COMMAND_HEAD_WORDS, PADDING,
+    answer_engine, answer_head, answer_header, answer_opcode, answer_status, answer_tag, batch_word, clear_word,
+    command_contexts, command_meshes, command_opcode, command_starts_batch, command_tag, command_word, signed_header,
+    Clear, Command, CommandReader, Meshes, Opcode, RecordRange, ANSWER_HEAD_WORDS, CLEAR_BATCH, CLEAR_MESHES_SHIFT,
+    CLEAR_TAG_SHIFT, COMMAND_HEAD_WORDS, MAX_SIDE_BY_SIDE, PADDING,
 };
 pub use config::{
     patience, Config, ConfigError, FIRST_ROUND, FULL, LARGE, MAX_CONTEXTS, MAX_MODEL_POINTS, MAX_POINTS, MAX_RING,
@@ -32,7 +33,7 @@ pub use frame::{
     MAX_DEVICE_FRAME, MAX_FIFO_BYTES, MAX_LINK_CLOCK_HZ, MAX_PAYLOAD, MAX_SILENCE_MS, MAX_STEP, MIN_FIFO_BYTES,
     MIN_LINK_CLOCK_HZ, PHASE_BITS, SILENCE_MS, STATUS_BAD_RATE, STATUS_BUSY, STATUS_DROPPED, STATUS_OPEN, WINDOW,
 };
-pub use layout::{Identity, InsertReport, Layout, IDENTITY_WORDS, INSERT_REPORT_WORDS, NARROW_ID_BITS};
+pub use layout::{Identity, InsertReport, Layout, ENGINES_SHIFT, IDENTITY_WORDS, INSERT_REPORT_WORDS, NARROW_ID_BITS};
 pub use status::Status;
 pub use stream::{
     StreamRegister, BEAT_BITS, CONTROL_RESET, ERROR_ANSWER_STATUS, ERROR_PARTIAL_BEAT, REGISTER_SPACE,
@@ -42,8 +43,10 @@ pub use stream::{
 
 /// First word of the identity: the letters `inCi`.
 pub const MAGIC: u32 = 0x696e_4369;
-/// Version of the protocol, `major << 16 | minor`. A host refuses a device with another major version.
-pub const PROTOCOL_VERSION: u32 = 1 << 16 | 2;
+/// Version of the protocol, `major << 16 | minor`.
+pub const PROTOCOL_VERSION: u32 = 2 << 16;
+/// The oldest version that a host still serves. Its devices have one engine, no tags and no [`Meshes::SideBySide`].
+pub const OLDEST_PROTOCOL_VERSION: u32 = 1 << 16 | 2;
 /// Bits of one coordinate in the core.
 pub const CORE_COORD_BITS: u32 = 16;
 /// Largest coordinate width that any device takes; only the software model goes beyond [`CORE_COORD_BITS`].
@@ -76,4 +79,4 @@ pub const fn infinite_vertex(points: u32) -> u32 {
 }
 
 /// Version of the core, and of the model that predicts it: `major << 16 | minor << 8 | patch`.
-pub const CORE_VERSION: u32 = 2 << 8;
+pub const CORE_VERSION: u32 = 3 << 8;

@@ -15,7 +15,8 @@ pub enum Status {
     Collinear = 3,
     /// The memory is full. Points beyond the capacity were refused; all others are in, and the mesh is valid.
     Full = 4,
-    /// A [`Clear`](crate::Opcode::Clear) named more contexts than the core has, and nothing was cleared.
+    /// A [`Clear`](crate::Opcode::Clear) named more contexts than the core has, or a number of meshes that does not
+    /// divide them, and nothing was cleared.
     BadContexts = 5,
     /// No insertion ended for longer than the longest one can take: the device has a fault and must be reset.
     Stuck = 6,

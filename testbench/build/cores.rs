@@ -8,7 +8,7 @@ use super::faults::{Fault, Piece, FAULTS};
 
 const ONE_CONTEXT: Config = Config { contexts: 1, ..SMALL };
 const ONE_CONTEXT_LONG_LIST: Config = Config { ring: 64, contexts: 1, ..SMALL };
-const SIXTEEN_CONTEXTS: Config = Config { contexts: 16, ..SMALL };
+const TWELVE_CONTEXTS: Config = Config { contexts: 12, ..SMALL };
 
 /// Name and Verilog of every core; each has the probe.
 pub fn all() -> Vec<(&'static str, String)> {
@@ -22,7 +22,7 @@ pub fn all() -> Vec<(&'static str, String)> {
         ("core_small_ring9", core(ring9)),
         ("core_small_ring64", core(ring64)),
         ("core_small_one", core(ONE_CONTEXT)),
-        ("core_small_sixteen", core(SIXTEEN_CONTEXTS)),
+        ("core_small_twelve", core(TWELVE_CONTEXTS)),
         ("core_full", core(FULL)),
         ("core_large", core(LARGE)),
         ("faulty_core_small", with_switches(SMALL)),

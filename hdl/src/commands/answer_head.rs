@@ -3,12 +3,14 @@
 //! 1. A read-out is in range if its last record exists. The first rank adds up the end of the range and the words of
 //!    its records, the second compares the end, and the third chooses. A `Read` has as many words as the first rank
 //!    says; a `Triangles` has half as many, rounded up.
-//! 2. `request.opcode` and `is_refused` do not change between the command and the end of its answer, so they enter
+//! 2. `request.opcode` and `clearing` do not change between the command and the end of its answer, so they enter
 //!    at the last rank.
+//! 3. The low half of the header names the engine and the job. Neither changes while an answer is put together, so they
+//!    pass no register.
 //!
 //! Latency: 3 clocks from `request.first` and `request.count` to `head`.
 
-use super::types::{Head, RecordCount, Request, Word};
+use super::types::{Clearing, Head, RecordCount, Request, Word};
 use crate::prelude::*;
 use incircle_protocol::{Opcode, Status, COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS, LATENCY_BUCKETS};
 
@@ -16,8 +18,10 @@ use incircle_protocol::{Opcode, Status, COUNTER_WORDS, IDENTITY_WORDS, INSERT_RE
 pub struct AnswerHead {
     pub clock: Signal<In, Clock>,
     pub request: Signal<In, Request>,
-    /// The command is a `Clear` that asks for more contexts than the core has.
-    pub is_refused: Signal<In, Bit>,
+    /// The command is a `Clear` that asks for what cannot be had, and the tag of the last `Clear`.
+    pub clearing: Signal<In, Clearing>,
+    /// Number of this engine on the chip; a constant.
+    pub engine: Signal<In, Bits<8>>,
     /// Number of records of the mesh.
     pub records: Signal<In, RecordCount>,
     /// States of the insertion engine in which no further point is inserted: the first three points are collinear, or
@@ -51,10 +55,14 @@ pub struct AnswerHead {
     shifted_status: Signal<Local, Word>,
     wide_opcode: Signal<Local, Word>,
     shifted_opcode: Signal<Local, Word>,
+    wide_engine: Signal<Local, Word>,
+    shifted_engine: Signal<Local, Word>,
+    job: Signal<Local, Word>,
     none: Signal<Local, Word>,
     one: Signal<Local, Word>,
     status_shift: Signal<Local, Word>,
     opcode_shift: Signal<Local, Word>,
+    engine_shift: Signal<Local, Word>,
     read_code: Signal<Local, Bits<8>>,
     packed_code: Signal<Local, Bits<8>>,
     packs: Signal<Local, Bit>,
@@ -93,6 +101,7 @@ impl Logic for AnswerHead {
         self.one.next = 1.into();
         self.status_shift.next = 16.into();
         self.opcode_shift.next = 24.into();
+        self.engine_shift.next = 8.into();
         self.read_code.next = 4.into();
         self.packed_code.next = 7.into();
 
@@ -135,7 +144,7 @@ impl Logic for AnswerHead {
             }
             2 => {
                 self.has_none.d.next = true;
-                if self.is_refused.val() {
+                if self.clearing.val().is_refused {
                     self.answer_status.d.next = 5.into();
                 }
             }
@@ -181,6 +190,10 @@ impl Logic for AnswerHead {
         self.shifted_status.next = self.status.val() << self.status_shift.val();
         self.wide_opcode.next = bit_cast::<32, 8>(self.request.val().opcode);
         self.shifted_opcode.next = self.wide_opcode.val() << self.opcode_shift.val();
-        self.head.next.header = self.shifted_opcode.val() | self.shifted_status.val();
+        self.wide_engine.next = bit_cast::<32, 8>(self.engine.val());
+        self.shifted_engine.next = self.wide_engine.val() << self.engine_shift.val();
+        self.job.next = bit_cast::<32, 8>(self.clearing.val().tag);
+        self.head.next.header =
+            self.shifted_opcode.val() | self.shifted_status.val() | self.shifted_engine.val() | self.job.val();
     }
 }

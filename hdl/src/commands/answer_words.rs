@@ -8,16 +8,17 @@
 
 use super::types::{RecordCount, Tally, VertexCount, Word};
 use crate::prelude::*;
-use incircle_protocol::{Opcode, CORE_COORD_BITS, CORE_VERSION, MAGIC, PROTOCOL_VERSION};
+use incircle_protocol::{Opcode, CORE_COORD_BITS, CORE_VERSION, ENGINES_SHIFT, MAGIC, PROTOCOL_VERSION};
 
 #[derive(LogicBlock, Default)]
 pub struct AnswerWords {
     pub clock: Signal<In, Clock>,
     /// Opcode of the command.
     pub opcode: Signal<In, Bits<8>>,
-    /// Parameters of the core; constants.
+    /// Parameters of the core, and the number of engines on the chip; constants.
     pub capacity: Signal<In, VertexCount>,
     pub contexts: Signal<In, Bits<5>>,
+    pub engines: Signal<In, Bits<8>>,
     pub ring_capacity: Signal<In, Bits<7>>,
     pub tally: Signal<In, Tally>,
     pub insertions: Signal<In, Word>,
@@ -37,6 +38,10 @@ pub struct AnswerWords {
     chosen: DFF<Word>,
     /// Place in the identity or the report, which are both shorter than 8 words.
     place: Signal<Local, Bits<3>>,
+    wide_contexts: Signal<Local, Word>,
+    wide_engines: Signal<Local, Word>,
+    shifted_engines: Signal<Local, Word>,
+    engines_shift: Signal<Local, Word>,
 }
 
 // The kernel holds the numbers as literals, because rust-hdl allows no constants there. A changed protocol fails here.
@@ -45,9 +50,10 @@ const _: () = assert!(
         && Opcode::Insert as u8 == 3
         && Opcode::Latencies as u8 == 6
         && MAGIC == 0x696e_4369
-        && PROTOCOL_VERSION == 0x0001_0002
-        && CORE_VERSION == 0x0000_0200
-        && CORE_COORD_BITS == 16,
+        && PROTOCOL_VERSION == 0x0002_0000
+        && CORE_VERSION == 0x0000_0300
+        && CORE_COORD_BITS == 16
+        && ENGINES_SHIFT == 8,
     "the words of this block follow the protocol"
 );
 
@@ -57,17 +63,21 @@ impl Logic for AnswerWords {
         dff_setup!(self, clock, identity, report, chosen);
         self.word.next = self.chosen.q.val();
         self.place.next = self.index.val().get_bits::<3>(0);
+        self.engines_shift.next = 8.into();
+        self.wide_contexts.next = bit_cast::<32, 5>(self.contexts.val());
+        self.wide_engines.next = bit_cast::<32, 8>(self.engines.val());
+        self.shifted_engines.next = self.wide_engines.val() << self.engines_shift.val();
         match self.place.val().index() {
             0 => {
                 self.identity.d.next = 0x696e_4369.into();
                 self.report.d.next = bit_cast::<32, 15>(self.tally.val().arrived);
             }
             1 => {
-                self.identity.d.next = 0x0001_0002.into();
+                self.identity.d.next = 0x0002_0000.into();
                 self.report.d.next = self.insertions.val();
             }
             2 => {
-                self.identity.d.next = 0x0000_0200.into();
+                self.identity.d.next = 0x0000_0300.into();
                 self.report.d.next = self.duplicates.val();
             }
             3 => {
@@ -79,7 +89,7 @@ impl Logic for AnswerWords {
                 self.report.d.next = bit_cast::<32, 15>(self.records.val());
             }
             5 => {
-                self.identity.d.next = bit_cast::<32, 5>(self.contexts.val());
+                self.identity.d.next = self.wide_contexts.val() | self.shifted_engines.val();
                 self.report.d.next = 0.into();
             }
             _ => {

@@ -3,9 +3,9 @@
 //! 1. `command_ready` depends on registers only and does not wait for `command_valid`.
 //! 2. A point is taken when the one before has been stored. The fourth point waits until the core knows whether the
 //!    first three span a triangle.
-//! 3. A `Clear` with the number 0 asks for all contexts. A `Clear` for more contexts than the core has changes nothing,
-//!    and `clears` stays low.
-//! 4. The answer to a `Clear` is due when `clears` has ended.
+//! 3. A `Clear` with the number 0 asks for all contexts. A `Clear` for more contexts than the core has, or for a number
+//!    of jobs that does not divide them, changes nothing, and `clears` stays low.
+//! 4. The answer to a `Clear` is due when its numbers are checked and `clears` has ended.
 //! 5. A word of zeros in place of a command is taken and ignored.
 //!
 //! Latency: a point that is taken at an edge is stored at the next one, so a point can be taken every second clock. A
@@ -88,7 +88,9 @@ impl Logic for CommandPort {
         self.arrival.next = self.slot.arrival.val();
         self.clearing.next = self.clear.clearing.val();
         self.deal.next = self.clear.deal.val();
-        self.answers.next = (self.state.q.val() == CommandState::Answer) & (!self.clear.clearing.val().clears);
+        self.answers.next = (self.state.q.val() == CommandState::Answer)
+            & (!self.clear.clearing.val().clears)
+            & (!self.clear.clearing.val().is_checking);
         self.request.next = self.held.q.val();
         self.tally.next = self.slot.tally.val();
         self.activity.next.inserting = self.is_inserting.q.val();

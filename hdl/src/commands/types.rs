@@ -32,8 +32,13 @@ crate::packed! {
     pub struct Clearing {
         /// Forget the mesh at this edge.
         pub clears: bool,
-        /// The last command is a `Clear` that asks for more contexts than the core has.
+        /// The numbers of a `Clear` are being checked.
+        pub is_checking: bool,
+        /// The last command is a `Clear` that asks for more contexts than the core has, or for a number of jobs that
+        /// does not divide that of the contexts.
         pub is_refused: bool,
+        /// The tag of the last `Clear`, refused or not.
+        pub tag: Bits<8>,
     }
 
     /// Counts of the points since the last `Clear`.

@@ -6,7 +6,7 @@ use super::commit::CommitPath;
 use super::dispatch::Dispatcher;
 use super::types::{
     Clocks, CommitJob, Completion, Deal, Events, Fetched, Follow, Limits, LockClear, SeedProgress, SoloProgress,
-    SoloStart, Start, TriangleId, Upcoming, VertexId, VisitEvents, Write,
+    SoloStart, Start, TriangleId, Upcoming, VertexId, Visit, VisitEvents, Write,
 };
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
@@ -56,6 +56,7 @@ pub struct Insertions {
     attempts: Attempts,
     commits: CommitPath,
     job: Signal<Local, CommitJob>,
+    early_visit: Signal<Local, Visit>,
     visit_events: Signal<Local, VisitEvents>,
 }
 
@@ -85,6 +86,7 @@ impl Logic for Insertions {
         self.attempts.seeded.next = self.seed.val().seeded;
         self.attempts.now.next = self.now.val();
         self.attempts.contexts.next = self.dispatcher.contexts.val();
+        self.attempts.holds_priority.next = self.dispatcher.holds_priority.val();
         self.attempts.start.next = self.dispatcher.start.val();
         self.looks.next = self.attempts.looks.val();
         self.follow.next = self.attempts.follow.val();
@@ -96,6 +98,8 @@ impl Logic for Insertions {
         self.dispatcher.came.next = self.came.val();
         self.dispatcher.seed.next = self.seed.val();
         self.dispatcher.solo.next = self.solo.val();
+        self.early_visit.next = self.early.val().visit;
+        self.dispatcher.early_context.next = self.early_visit.val().context;
         self.dispatcher.is_done.next = self.attempts.is_done.val();
         self.dispatcher.outcome.next = self.attempts.outcome.val();
         self.dispatcher.may_ask.next = self.attempts.follow.val().may_ask;

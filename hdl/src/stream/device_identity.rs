@@ -6,7 +6,8 @@ use super::axi::RegisterIndex;
 use crate::commands::types::Word;
 use crate::leaf::Parameter;
 use incircle_protocol::{
-    Config, StreamRegister, CORE_COORD_BITS, CORE_VERSION, MAGIC, PROTOCOL_VERSION, STREAM_FIFO_BEATS, STREAM_VERSION,
+    Config, StreamRegister, CORE_COORD_BITS, CORE_VERSION, ENGINES_SHIFT, MAGIC, PROTOCOL_VERSION, STREAM_FIFO_BEATS,
+    STREAM_VERSION,
 };
 use rust_hdl_core::prelude::*;
 
@@ -52,7 +53,7 @@ impl DeviceIdentity {
             core_version: word(CORE_VERSION),
             coord_bits: word(CORE_COORD_BITS),
             capacity: word(config.points),
-            contexts: word(config.contexts),
+            contexts: word(1 << ENGINES_SHIFT | config.contexts),
             ring_capacity: word(config.ring),
             beat_bits: word(beat_bits as u32),
             fifo_beats: word(STREAM_FIFO_BEATS),

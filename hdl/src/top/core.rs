@@ -38,6 +38,8 @@ pub struct Core {
     ring_capacity: Parameter<Bits<7>>,
     last_id: Parameter<Bits<15>>,
     contexts: Parameter<Bits<5>>,
+    engines: Parameter<Bits<8>>,
+    engine_number: Parameter<Bits<8>>,
     all_contexts: Parameter<Bits<24>>,
     patience: Parameter<Bits<22>>,
     sweeps: Signal<Local, Bit>,
@@ -57,6 +59,8 @@ impl Core {
             ring_capacity: Parameter::new(u64::from(config.ring).into()),
             last_id: Parameter::new(u64::from(triangle_capacity(config.points) - 1).into()),
             contexts: Parameter::new(u64::from(config.contexts).into()),
+            engines: Parameter::new(1.into()),
+            engine_number: Parameter::new(0.into()),
             all_contexts: Parameter::new(((1u64 << config.contexts) - 1).into()),
             patience: Parameter::new(u64::from(patience(config.points)).into()),
             ..Self::default()
@@ -83,7 +87,8 @@ impl Logic for Core {
         self.command_port.answer.next = self.responder.progress.val();
 
         self.answer_head.request.next = self.command_port.request.val();
-        self.answer_head.is_refused.next = self.command_port.clearing.val().is_refused;
+        self.answer_head.clearing.next = self.command_port.clearing.val();
+        self.answer_head.engine.next = self.engine_number.val();
         self.answer_head.records.next = self.engine.state.val().records;
         self.answer_head.collinear.next = self.engine.state.val().collinear;
         self.answer_head.stuck.next = self.engine.state.val().stuck;
@@ -92,6 +97,7 @@ impl Logic for Core {
         self.answer_words.tally.next = self.command_port.tally.val();
         self.answer_words.capacity.next = self.capacity.val();
         self.answer_words.contexts.next = self.contexts.val();
+        self.answer_words.engines.next = self.engines.val();
         self.answer_words.ring_capacity.next = self.ring_capacity.val();
         self.answer_words.records.next = self.engine.state.val().records;
         self.answer_words.insertions.next = self.counters.insertions.val();

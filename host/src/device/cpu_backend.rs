@@ -150,6 +150,7 @@ pub(crate) fn identity(threads: u32) -> Identity {
         coord_bits: u32::BITS,
         capacity: MAX_POINTS as u32,
         contexts: threads,
+        engines: 1,
         ring_capacity: 0,
     }
 }

@@ -1,11 +1,13 @@
 //! Faults in the answers of a device.
 
-use incircle_protocol::{MAX_MODEL_POINTS, MIN_POINTS};
+use incircle_protocol::{MAX_MODEL_POINTS, MIN_POINTS, OLDEST_PROTOCOL_VERSION};
 
 use incircle_geometry::Point;
 
 /// Most contexts of a device, since `Clear` has a byte for their number.
 pub(crate) const MAX_DEVICE_CONTEXTS: u32 = 255;
+/// Most engines of a device, since the header of an answer has a byte for their number.
+pub(crate) const MAX_DEVICE_ENGINES: u32 = 256;
 
 /// A fault in the answer of a device: something that no sound device says.
 ///
@@ -22,15 +24,16 @@ pub enum DeviceFault {
         /// First word of the identity of every incircle device.
         expected: u32,
     },
-    /// The device speaks another major version of the protocol than this library, or an older minor version.
+    /// The device speaks a version of the protocol that this library does not speak.
     #[error(
-        "it speaks version {}.{} of the protocol, but this library speaks {}.{}",
-        found >> 16, found & 0xffff, expected >> 16, expected & 0xffff
+        "it speaks version {}.{} of the protocol, but this library speaks {}.{} to {}.{}",
+        found >> 16, found & 0xffff, OLDEST_PROTOCOL_VERSION >> 16, OLDEST_PROTOCOL_VERSION & 0xffff,
+        expected >> 16, expected & 0xffff
     )]
     ProtocolVersion {
         /// Version of the device, `major << 16 | minor`.
         found: u32,
-        /// Version of this library, `major << 16 | minor`.
+        /// Newest version of this library, `major << 16 | minor`.
         expected: u32,
     },
     /// The device claims a number of coordinate bits that no device has.
@@ -42,6 +45,9 @@ pub enum DeviceFault {
     /// The device claims a number of contexts that no device has.
     #[error("it claims {0} contexts, but 1 to {MAX_DEVICE_CONTEXTS} are possible")]
     Contexts(u32),
+    /// The device claims a number of engines that no device has.
+    #[error("it claims {0} engines, but 1 to {MAX_DEVICE_ENGINES} are possible")]
+    Engines(u32),
     /// The first word of an answer is not the header of an answer to this command.
     #[error("the answer starts with {found:#010x}, which is not the header of an answer to opcode {opcode}")]
     Header {

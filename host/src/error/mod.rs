@@ -10,7 +10,7 @@ use std::error::Error as StdError;
 use std::time::Duration;
 
 pub use device_fault::DeviceFault;
-pub(crate) use device_fault::MAX_DEVICE_CONTEXTS;
+pub(crate) use device_fault::{MAX_DEVICE_CONTEXTS, MAX_DEVICE_ENGINES};
 pub use kind::ErrorKind;
 pub use shown::Shown;
 pub use transport_error::TransportError;

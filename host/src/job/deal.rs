@@ -21,14 +21,34 @@ pub fn brio_hilbert_dealt(points: &[Point], contexts: u32) -> Vec<u32> {
 /// Consecutive points of a curve are close together, so contexts that each follow a run of their own work far apart and
 /// seldom meet. Context 0 takes the points before [`FIRST_ROUND`], and place `j` from there on belongs to context `(j -
 /// FIRST_ROUND) mod contexts`. The places of a round that belong to context `c` get the `c`-th run of the round. O(n).
+///
+/// The same holds for a job of a batch and the contexts of its team.
 pub fn deal(rounds: Rounds, contexts: u32) -> Vec<u32> {
     let Rounds { mut order, starts, .. } = rounds;
+    deal_rounds(&mut order, &starts, contexts);
+    order
+}
+
+/// Deals the rounds of an order that begin at these places.
+pub(crate) fn deal_rounds(order: &mut [u32], starts: &[usize], contexts: u32) {
     let ends = starts.iter().skip(1).copied().chain([order.len()]);
     for (start, end) in starts.iter().copied().zip(ends) {
         let alone = FIRST.clamp(start, end);
         deal_round(&mut order[alone..end], alone, contexts as usize);
     }
-    order
+}
+
+/// The place whose point a job repeats at `place`, once its `vertices` points are over: the last one of the same context
+/// of its team. That context inserts its points one after another, so the point is in the mesh by then, and is found
+/// where the context was last. A context without points repeats the first point of the job.
+pub(crate) fn repeated_place(place: usize, vertices: usize, contexts: u32) -> usize {
+    let contexts = contexts as usize;
+    let member = place.saturating_sub(FIRST) % contexts;
+    match vertices.checked_sub(FIRST + member + 1) {
+        Some(beyond) => vertices - 1 - beyond % contexts,
+        None if member == 0 => vertices.saturating_sub(1),
+        None => 0,
+    }
 }
 
 /// Deals a round that begins at place `first` of the order.
@@ -90,6 +110,20 @@ mod tests {
         let points = lattice(30, 9);
         assert_eq!(brio_hilbert_dealt(&points, 1), brio_hilbert(&points));
         assert_ne!(brio_hilbert_dealt(&points, 2), brio_hilbert(&points));
+    }
+
+    #[test]
+    fn a_context_repeats_the_last_of_its_own_points() {
+        for contexts in 1..=incircle_protocol::MAX_CONTEXTS {
+            let member = |place: usize| if place < FIRST { 0 } else { (place - FIRST) as u32 % contexts };
+            for vertices in 3..80 {
+                for place in vertices..vertices + 60 {
+                    let own = (0..vertices).rev().find(|&other| member(other) == member(place));
+                    assert_eq!(repeated_place(place, vertices, contexts), own.unwrap_or(0), "{place} of {vertices}");
+                }
+            }
+        }
+        assert_eq!(repeated_place(99, 50, 1), 49);
     }
 
     proptest! {

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use incircle_protocol::InsertReport;
 
+use super::deal::repeated_place;
 use super::prepare::Prepared;
 use crate::error::DeviceFault;
 use incircle_geometry::Point;
@@ -16,6 +17,11 @@ pub(crate) struct Ordered {
 }
 
 impl Ordered {
+    /// Deals the points, which are in order for one context, to a team of this many.
+    pub(crate) fn dealt(self, contexts: u32) -> Self {
+        Self { prepared: self.prepared.dealt(contexts), ..self }
+    }
+
     pub(crate) fn vertices(&self) -> usize {
         self.prepared.order.len()
     }
@@ -25,16 +31,17 @@ impl Ordered {
 pub(crate) struct Group {
     /// Jobs of the group, the longest first.
     pub(crate) jobs: Vec<Ordered>,
-    /// Contexts that work on each job: 1 if the jobs share the memory.
+    /// Contexts that work on each job.
     pub(crate) contexts: u32,
     /// Whether the jobs share the memory. A group of one may be sent in this form too.
     pub(crate) is_shared: bool,
 }
 
 impl Group {
-    /// A group of jobs that share the memory, the longest first, each with a context of its own.
-    pub(crate) fn sharing(jobs: Vec<Ordered>) -> Self {
-        Self { jobs, contexts: 1, is_shared: true }
+    /// A group of jobs that share the memory, the longest first, each with a team of so many contexts, for which its
+    /// points are dealt.
+    pub(crate) fn sharing(jobs: Vec<Ordered>, contexts: u32) -> Self {
+        Self { jobs, contexts, is_shared: true }
     }
 
     /// A group of one job, which has the whole memory and this many contexts.
@@ -73,8 +80,8 @@ impl Group {
     }
 
     /// Calls `take` for a range of the points that are sent, in the order of sending: first three points of each job,
-    /// then one point of each job in turn. A job that has no more points repeats its last one, which the device finds
-    /// at once, until the longest job is over. A job alone is sent in its own order.
+    /// then one point of each job in turn. A job that has no more points repeats one that the device finds at once
+    /// ([`repeated_place`]), until the longest job is over. A job alone is sent in its own order.
     pub(crate) fn for_points(&self, jobs: &[Vec<Point>], range: Range<usize>, mut take: impl FnMut(Point)) {
         let at = |ordered: &Ordered, index: u32| jobs[ordered.job][index as usize];
         if let [only] = &self.jobs[..] {
@@ -87,7 +94,8 @@ impl Group {
             let takers = if place + 1 == longest { last_round } else { self.jobs.len() };
             self.jobs[..takers].iter().filter_map(move |ordered| {
                 let order = &ordered.prepared.order;
-                order.get(place).or(order.last()).map(|&index| (ordered, index))
+                let repeated = || order.get(repeated_place(place, order.len(), self.contexts));
+                order.get(place).or_else(repeated).map(|&index| (ordered, index))
             })
         });
         first.chain(rounds).skip(range.start).take(range.len()).for_each(|(ordered, index)| take(at(ordered, index)));

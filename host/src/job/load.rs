@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::time::Duration;
 
-use incircle_protocol::{infinite_vertex, Command, Layout, RecordRange};
+use incircle_protocol::{infinite_vertex, Clear, Command, Layout, RecordRange};
 
 use super::assemble::{check_last_half, checked_record, Assembly};
 use super::group::{Group, Ordered};
@@ -100,13 +100,24 @@ impl Load {
         }))
     }
 
+    /// The `Clear` of the group. A batch with a context for each job is told without the number of jobs, which a device
+    /// of version 1.2 does not know.
+    fn clear(&self) -> Clear {
+        let Group { jobs, contexts, is_shared } = &self.group;
+        let jobs = jobs.len() as u32;
+        match (is_shared, contexts) {
+            (false, _) => Clear::one_mesh(*contexts),
+            (true, 1) => Clear::batch(jobs),
+            (true, _) => {
+                Clear { contexts: jobs * contexts, meshes: incircle_protocol::Meshes::SideBySide(jobs), tag: 0 }
+            }
+        }
+    }
+
     /// The command of a step, if it has one, with its range of the points that are sent.
     pub(crate) fn bare_command(&self, step: &Step, capabilities: Capabilities) -> Option<Command<Range<usize>>> {
         Some(match step {
-            Step::Clear if self.group.is_shared => {
-                Command::Clear { contexts: self.group.jobs.len() as u32, is_batch: true }
-            }
-            Step::Clear => Command::Clear { contexts: self.group.contexts, is_batch: false },
+            Step::Clear => Command::Clear(self.clear()),
             Step::Insert(points) => Command::Insert { count: points.len() as u32, points: points.clone() },
             Step::Read(records) => read_out(records.clone(), capabilities),
             Step::Counters => Command::Counters,

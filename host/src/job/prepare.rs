@@ -1,7 +1,7 @@
 //! Preparing a job for the device: the host removes duplicates, puts the points in order, and moves three points that
 //! are not collinear to the front.
 
-use super::deal::deal;
+use super::deal::deal_rounds;
 use incircle_geometry::order::{distinct, random, rounds, Order, Rounds};
 use incircle_geometry::Duplicate;
 use incircle_geometry::Point;
@@ -15,6 +15,16 @@ pub(crate) struct Prepared {
     pub(crate) duplicates: Vec<Duplicate>,
     /// Whether there are fewer than three distinct points, or all lie on one line. Then `order` is lexicographic.
     pub(crate) collinear: bool,
+    /// Places at which the rounds of `order` begin; none if the order is not to be dealt.
+    pub(crate) starts: Vec<usize>,
+}
+
+impl Prepared {
+    /// Deals an order for one context to this many.
+    pub(crate) fn dealt(mut self, contexts: u32) -> Self {
+        deal_rounds(&mut self.order, &self.starts, contexts);
+        self
+    }
 }
 
 /// Removes duplicates, puts the points in order, and deals them to this many contexts, except in the order of the
@@ -34,14 +44,14 @@ pub(crate) fn prepare(points: &[Point], order: Order, contexts: u32) -> Prepared
         _ => rounds(&curve),
     };
     let collinear = rounds.start_with_a_triangle(points).is_none();
-    let mut order = match order {
-        Order::Input => rounds.order,
-        _ => deal(rounds, contexts),
-    };
-    if collinear {
-        order.sort_unstable_by_key(|&index| points[index as usize]);
+    if order == Order::Input || collinear {
+        rounds.starts.clear();
     }
-    Prepared { order, duplicates, collinear }
+    if collinear {
+        rounds.order.sort_unstable_by_key(|&index| points[index as usize]);
+    }
+    let Rounds { order, starts } = rounds;
+    Prepared { order, duplicates, collinear, starts }.dealt(contexts)
 }
 
 /// The points with these indices in random order, as indices.

@@ -1,10 +1,11 @@
 //! Checking the identity of a device.
 
 use incircle_protocol::{
-    Identity, MAGIC, MAX_COORD_BITS, MAX_MODEL_POINTS, MIN_CONTEXTS, MIN_COORD_BITS, MIN_POINTS, PROTOCOL_VERSION,
+    Identity, MAGIC, MAX_COORD_BITS, MAX_MODEL_POINTS, MIN_CONTEXTS, MIN_COORD_BITS, MIN_POINTS,
+    OLDEST_PROTOCOL_VERSION, PROTOCOL_VERSION,
 };
 
-use crate::error::{DeviceFault, MAX_DEVICE_CONTEXTS};
+use crate::error::{DeviceFault, MAX_DEVICE_CONTEXTS, MAX_DEVICE_ENGINES};
 
 /// Refuses an identity that no sound device has. No word of an identity may be used before it passes here.
 pub(crate) fn check_identity(identity: &Identity) -> Result<(), DeviceFault> {
@@ -12,8 +13,8 @@ pub(crate) fn check_identity(identity: &Identity) -> Result<(), DeviceFault> {
         return Err(DeviceFault::Magic { found: identity.magic, expected: MAGIC });
     }
     let (found, expected) = (identity.protocol_version, PROTOCOL_VERSION);
-    // A device of an older minor version would lack commands that the host sends, and counters that it expects.
-    if found >> 16 != expected >> 16 || found < expected {
+    // An older device would lack commands that the host sends, and counters that it expects.
+    if found >> 16 > expected >> 16 || found < OLDEST_PROTOCOL_VERSION {
         return Err(DeviceFault::ProtocolVersion { found, expected });
     }
     if !(MIN_COORD_BITS..=MAX_COORD_BITS).contains(&identity.coord_bits) {
@@ -24,6 +25,9 @@ pub(crate) fn check_identity(identity: &Identity) -> Result<(), DeviceFault> {
     }
     if !(MIN_CONTEXTS..=MAX_DEVICE_CONTEXTS).contains(&identity.contexts) {
         return Err(DeviceFault::Contexts(identity.contexts));
+    }
+    if !(1..=MAX_DEVICE_ENGINES).contains(&identity.engines) {
+        return Err(DeviceFault::Engines(identity.engines));
     }
     Ok(())
 }

@@ -11,6 +11,7 @@ mod quantize;
 mod batch {
     mod exclusive;
     mod jobs;
+    mod meshes;
     mod middle_jobs;
 }
 

@@ -112,12 +112,12 @@ impl ClockModel {
     pub fn describe(&self) -> String {
         let now = &self.registers;
         format!(
-            "asleep {:x}, retrying {:x}, busy {:x}, priority_context {:?}, solo {:?}, {} of {} points finished, \
+            "asleep {:x}, retrying {:x}, busy {:x}, with priority {:x}, solo {:x}, {} of {} points finished, \
              commit {:?}, solo {:?}, command {:?}",
             now.contexts.asleep,
             now.contexts.retrying,
             now.contexts.busy,
-            now.contexts.priority_context,
+            now.contexts.holders,
             now.contexts.solo,
             now.contexts.finished,
             now.command.arrived,

@@ -5,7 +5,7 @@
 use crate::mesh::Mesh;
 use crate::predicate::Point;
 use incircle_protocol as protocol;
-use protocol::{answer_header, Counter, Identity, InsertReport, Layout, Opcode, Status};
+use protocol::{answer_header, signed_header, Counter, Identity, InsertReport, Layout, Opcode, Status};
 use std::collections::VecDeque;
 use std::fmt;
 
@@ -80,6 +80,8 @@ pub struct CommandModel {
     layout: Layout,
     mesh: Mesh,
     awaited: Awaited,
+    /// The tag of the last `Clear`, refused or not.
+    tag: u8,
     /// First word of a point of two words, if a piece of the command stream ended between them.
     half_point: Option<u32>,
     answers: VecDeque<u32>,
@@ -107,11 +109,13 @@ impl CommandModel {
                 coord_bits,
                 capacity,
                 contexts: 1,
+                engines: 1,
                 ring_capacity,
             },
             layout: Layout::of(coord_bits, capacity),
             mesh: Mesh::new(capacity, ring_capacity),
             awaited: Awaited::Command,
+            tag: 0,
             half_point: None,
             answers: VecDeque::new(),
             reading: (Range::Records, 0, 0),
@@ -229,18 +233,7 @@ impl CommandModel {
                 let words = self.identity.to_words();
                 self.answer(opcode, Status::Ok, &words);
             }
-            Some(Opcode::Clear) if protocol::command_contexts(word) > self.identity.contexts => {
-                self.answer(opcode, Status::BadContexts, &[]);
-            }
-            Some(Opcode::Clear) => {
-                let jobs = match protocol::command_contexts(word) {
-                    _ if !protocol::command_starts_batch(word) => 1,
-                    0 => self.identity.contexts,
-                    asked => asked,
-                };
-                self.mesh.clear_for(jobs);
-                self.answer(opcode, Status::Ok, &[]);
-            }
+            Some(Opcode::Clear) => self.clear(word),
             Some(Opcode::Insert) => self.awaited = Awaited::InsertCount,
             Some(Opcode::Read) => self.awaited = Awaited::ReadFirst(Range::Records),
             Some(Opcode::Triangles) => self.awaited = Awaited::ReadFirst(Range::Vertices),
@@ -254,9 +247,40 @@ impl CommandModel {
         }
     }
 
+    fn clear(&mut self, word: u32) {
+        self.tag = protocol::command_tag(word);
+        match self.jobs_of(word) {
+            Some(jobs) => {
+                self.mesh.clear_for(jobs);
+                self.answer(Opcode::Clear as u8, Status::Ok, &[]);
+            }
+            None => self.answer(Opcode::Clear as u8, Status::BadContexts, &[]),
+        }
+    }
+
+    /// Number of jobs that a `Clear` begins. `None` if it names more contexts than there are, or a number of jobs that
+    /// does not divide that of the contexts.
+    fn jobs_of(&self, word: u32) -> Option<u32> {
+        let built = self.identity.contexts;
+        let contexts = match protocol::command_contexts(word) {
+            0 => built,
+            asked => asked,
+        };
+        let jobs = match protocol::command_meshes(word) {
+            _ if !protocol::command_starts_batch(word) => 1,
+            0 => contexts,
+            asked => asked,
+        };
+        (contexts <= built && contexts.is_multiple_of(jobs)).then_some(jobs)
+    }
+
     fn answer(&mut self, opcode: u8, status: Status, payload: &[u32]) {
-        self.answers.extend([answer_header(opcode, status), payload.len() as u32]);
+        self.begin_answer(opcode, status, payload.len() as u32);
         self.answers.extend(payload);
+    }
+
+    fn begin_answer(&mut self, opcode: u8, status: Status, length: u32) {
+        self.answers.extend([signed_header(answer_header(opcode, status), 0, self.tag), length]);
     }
 
     fn await_points(&mut self, left: u32) {
@@ -318,7 +342,7 @@ impl CommandModel {
         };
         match (first.checked_add(count), length) {
             (Some(end), Some(length)) if end <= records => {
-                self.answers.extend([answer_header(opcode, Status::Ok), length]);
+                self.begin_answer(opcode, Status::Ok, length);
                 self.reading = (range, first, end);
             }
             _ => self.answer(opcode, Status::BadRange, &[]),

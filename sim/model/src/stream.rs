@@ -225,7 +225,7 @@ impl<C: WordStream> StreamModel<C> {
             StreamRegister::CoreVersion => identity.core_version,
             StreamRegister::CoordBits => identity.coord_bits,
             StreamRegister::Capacity => identity.capacity,
-            StreamRegister::Contexts => identity.contexts,
+            StreamRegister::Contexts => identity.contexts_word(),
             StreamRegister::Ring => identity.ring_capacity,
             StreamRegister::BeatBits => 32 * self.width as u32,
             StreamRegister::FifoBeats => STREAM_FIFO_BEATS,

@@ -9,8 +9,9 @@ use incircle_hdl::commands::{
 };
 use incircle_hdl::engine::{
     AttemptLists, AttemptPoints, AttemptStep, AttemptStore, Attempts, Commit, ContextFlags, Counters, FinishedPoints,
-    FreshIds, InnerList, JobQueue, Latencies, LatencyBucket, LatencyRange, NextPoint, NextVisits, PlanTable, PushPort,
-    Release, RingReader, Seeder, Solo, SoloVisit, SoloWrites, StarId, Starter, VisitCase, Watchdog, WideCounter,
+    FreshIds, InnerList, JobQueue, Latencies, LatencyBucket, LatencyRange, NextPoint, NextVisits, PlanTable,
+    Priorities, PushPort, Release, RingReader, Seeder, Solo, SoloVisit, SoloWrites, StarId, Starter, VisitCase,
+    Watchdog, WideCounter,
 };
 
 /// Name of the root module and Verilog of each block.
@@ -33,6 +34,7 @@ pub(crate) fn blocks() -> Vec<(String, String)> {
         block(NextPoint::default(), "next_point"),
         block(PlanTable::new(LARGE), "plan_table"),
         block(NextVisits::default(), "next_visits"),
+        block(Priorities::new(LARGE), "priorities"),
         block(FinishedPoints::default(), "finished_points"),
         block(PushPort::default(), "push_port"),
         block(Release::new(TINY), "release_6"),

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use incircle::pcie::{CardAddress, PcieTransport};
 use incircle::{Error, Transport, TransportError};
-use incircle_protocol::{answer_head, Command, Config, Layout, Opcode, RecordRange, CORE_COORD_BITS};
+use incircle_protocol::{answer_head, Clear, Command, Config, Layout, Opcode, RecordRange, CORE_COORD_BITS};
 use incircle_sim::pcie::{Beats, CardFaultSpec, DirectoryError, NullDevice};
 
 use super::{MemoryCard, MountedCard};
@@ -99,7 +99,7 @@ impl Jobs {
         let layout = Layout::of(CORE_COORD_BITS, config.points);
         let records = RecordRange { first: 0, count: (2 * points).saturating_sub(2) };
         let commands = [
-            Command::Clear { contexts: 0, is_batch: false },
+            Command::Clear(Clear::one_mesh(0)),
             Command::insert(&words[..], layout),
             if read_out == Opcode::Triangles { Command::Triangles(records) } else { Command::Read(records) },
             Command::Counters,

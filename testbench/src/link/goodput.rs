@@ -4,7 +4,7 @@ use std::error::Error;
 use std::fmt::Write;
 use std::time::Duration;
 
-use incircle_protocol::{answer_status, Command, Config, RecordRange, Status, FULL};
+use incircle_protocol::{answer_status, Clear, Command, Config, RecordRange, Status, FULL};
 use incircle_sim::faults::FaultSpec;
 
 use super::virtual_line::VirtualLine;
@@ -65,7 +65,7 @@ pub fn measure(detail: Detail, rate: u32, points: usize) -> Result<[Goodput; 2],
     if line.rate() != rate {
         return Err(format!("the link runs at {} bits per second, not {rate}", line.rate()).into());
     }
-    line.ask(&Command::<[u32; 0]>::Clear { contexts: 0, is_batch: false }, LIMIT)?;
+    line.ask(&Command::<[u32; 0]>::Clear(Clear::one_mesh(0)), LIMIT)?;
     let words: Vec<u32> = super::jobs::random_points(points, 1).iter().map(|point| point.x | (point.y << 16)).collect();
     let insert = Command::Insert { count: u32::try_from(points)?, points: words };
     let begun = line.now();

@@ -65,17 +65,12 @@ pub const FAULTS: &[Fault] = &[
     // L2: no context acquires the priority.
     Fault {
         name: "priority",
-        pieces: &[piece("takes = @;", "outcome[(64'h8)+:(1)] & (~state$q[(64'h78)+:(1)])", "1'b0")],
+        pieces: &[piece("takes = @;", "outcome[(64'h8)+:(1)] & (~held$value[(64'h0)+:(1)])", "1'b0")],
     },
+    // L2: all contexts count as those of one team, with one priority.
+    Fault { name: "one_priority", pieces: &[piece("teams$write_data = @;", "planned[(64'h6)+:(5)]", "5'h0")] },
     // L3: the others do not yield to the context that holds the priority.
-    Fault {
-        name: "yield",
-        pieces: &[piece(
-            "may_try = @;",
-            "(~contexts[(64'h7e)+:(1)]) | (passed[(64'h0)+:(5)] == contexts[(64'h79)+:(5)])",
-            "1'b1",
-        )],
-    },
+    Fault { name: "yield", pieces: &[piece("may_retry = @;", "~is_barred", "1'b1")] },
     // L4: locks are released when the ring is finished, before the star is written.
     Fault {
         name: "release",
@@ -115,7 +110,9 @@ pub const FAULTS: &[Fault] = &[
         )],
     },
     // L8: all contexts work from the first triangle on.
-    Fault { name: "first_round", pieces: &[piece("may_work = @;", "all_work", "seeded")] },
+    Fault { name: "first_round", pieces: &[piece("may_work = @;", "is_open", "seeded")] },
+    // L8: all teams begin to work together, when the first of them is over its first round.
+    Fault { name: "teams_together", pieces: &[piece("teams$asked = @;", "left$q[(64'h5)+:(5)]", "5'h0")] },
     // L9: a context takes its own locks for those of another one.
     Fault {
         name: "own_lock",
@@ -154,6 +151,8 @@ pub const FAULTS: &[Fault] = &[
             piece("faces_third = @;", "edges[(64'h2)+:(1)]", "is_third"),
         ],
     },
+    // L11: the first walk of a context starts in the mesh of job 0.
+    Fault { name: "any_mesh", pieces: &[piece("following[(64'hf)+:(15)] = @;", "wide_team << two", "15'h0")] },
     // The watchdog, and each place that hears of it except `CommandGate`. A core that
     // gets stuck over a lock has its first triangle already, so the gate holds nothing
     // back then; `tests/it/blocks/commands/command_gate.rs` tests the gate.

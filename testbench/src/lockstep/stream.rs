@@ -3,7 +3,7 @@
 use super::report::Mismatch;
 use super::Lockstep;
 use incircle_model::Inputs;
-use incircle_protocol::{batch_word, clear_word, command_word, Config, Opcode, PADDING};
+use incircle_protocol::{batch_word, clear_word, command_word, Clear, Config, Meshes, Opcode, PADDING};
 
 /// Frequency of stalls on each side of the core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,6 +66,12 @@ impl Job {
     /// Makes such a job for a batch of this many jobs (0 for as many as the core has contexts).
     pub fn batch_of(points: &[u32], piece: usize, jobs: u32, config: Config) -> Self {
         Self::beginning_with(batch_word(jobs), points, piece, config)
+    }
+
+    /// Makes such a job for a batch of `jobs` jobs that share `contexts` contexts.
+    pub fn teams_of(points: &[u32], piece: usize, [contexts, jobs]: [u32; 2], config: Config) -> Self {
+        let clear = Clear { contexts, meshes: Meshes::SideBySide(jobs), tag: 0 };
+        Self::beginning_with(clear.word(), points, piece, config)
     }
 
     fn beginning_with(clear: u32, points: &[u32], piece: usize, config: Config) -> Self {

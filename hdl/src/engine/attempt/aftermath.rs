@@ -49,7 +49,8 @@ impl Logic for Aftermath {
         self.outcome.next.hands_over = self.hands_over.val();
         self.outcome.next.asks_for_priority = self.found.val().aborts_root | self.found.val().aborts;
         self.outcome.next.waits = self.found.val().waits;
-        self.outcome.next.returns_priority = self.is_duplicate.val() | self.step.val().succeeds;
+        self.outcome.next.returns_priority =
+            self.is_duplicate.val() | self.step.val().succeeds | self.found.val().overflows;
         self.outcome.next.overflows = self.found.val().overflows;
         self.outcome.next.duplicate = self.is_duplicate.val();
         self.outcome.next.root_enable = self.found.val().is_root;

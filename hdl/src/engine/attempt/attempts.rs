@@ -53,8 +53,10 @@ pub struct Attempts {
     pub completion: Signal<In, Completion>,
     /// Every first triangle is in the mesh.
     pub seeded: Signal<In, Bit>,
-    /// The state of the contexts, of which the busy contexts and the priority are used.
+    /// The state of the contexts, of which the busy ones are used; the context of `early` holds the priority of its
+    /// team.
     pub contexts: Signal<In, ContextState>,
+    pub holds_priority: Signal<In, Bit>,
     /// A context that starts and may take a point at this edge; the clock count.
     pub start: Signal<In, Start>,
     pub now: Signal<In, Clocks>,
@@ -118,16 +120,14 @@ impl Logic for Attempts {
         self.points.start.next = self.start.val();
         self.points.now.next = self.now.val();
 
-        // `busy` and the priority are chosen by the early visit: a choice among 24 flags takes long, and
-        // the verdict comes late.
+        // `busy` is chosen by the early visit: a choice among 24 flags takes long, and the verdict comes late.
         self.context_index.next = self.early_visit.val().context;
         self.busy.next = self.contexts.val().busy;
         self.meaning.early.next = self.early.val();
         self.meaning.verdict.next = self.verdict.val();
         self.meaning.seeded.next = self.seeded.val();
         self.meaning.is_busy.next = self.busy.val().get_bit(self.context_index.val().index());
-        self.meaning.holds_priority.next = self.contexts.val().priority_is_held
-            & (self.contexts.val().priority_context == self.early_visit.val().context);
+        self.meaning.holds_priority.next = self.holds_priority.val();
         self.meaning.drains.next = self.attempt.val().drains;
         self.meaning.is_full.next = self.store.held.val().is_full;
         self.is_done.next = self.meaning.found.val().is_done;

@@ -5,6 +5,7 @@
 
 use super::context_flags::ContextFlags;
 use super::finished_points::FinishedPoints;
+use super::priorities::Priorities;
 use super::starter::Starter;
 use super::watchdog::Watchdog;
 use crate::engine::types::{
@@ -31,6 +32,9 @@ pub struct Dispatcher {
     pub came: Signal<In, Bit>,
     /// The progress of the first triangles.
     pub seed: Signal<In, SeedProgress>,
+    /// The context of the visit that completes in the next clock; it holds the priority of its team.
+    pub early_context: Signal<In, ContextId>,
+    pub holds_priority: Signal<Out, Bit>,
     /// A visit completes, with these consequences; while it may ask for visits (`may_ask`), no context starts.
     pub is_done: Signal<In, Bit>,
     pub outcome: Signal<In, Outcome>,
@@ -58,6 +62,7 @@ pub struct Dispatcher {
     taker1: DFF<ContextId>,
     taker2: DFF<ContextId>,
     flags: ContextFlags,
+    priorities: Priorities,
     starter: Starter,
     finished_points: FinishedPoints,
     watchdog: Watchdog,
@@ -65,7 +70,7 @@ pub struct Dispatcher {
 
 impl Dispatcher {
     pub fn new(config: Config) -> Self {
-        Self { starter: Starter::new(config), ..Self::default() }
+        Self { starter: Starter::new(config), priorities: Priorities::new(config), ..Self::default() }
     }
 }
 
@@ -73,7 +78,7 @@ impl Logic for Dispatcher {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, found, taken1, taken2, taker1, taker2);
-        clock!(self, clock, flags, starter, finished_points, watchdog);
+        clock!(self, clock, flags, priorities, starter, finished_points, watchdog);
         self.flags.reset.next = self.reset.val();
         self.starter.reset.next = self.reset.val();
         self.finished_points.reset.next = self.reset.val();
@@ -101,8 +106,16 @@ impl Logic for Dispatcher {
         self.flags.released.next = self.released.val();
         self.flags.committed.next = self.committed.val();
         self.flags.solo_ends.next = self.solo.val().ends;
+        self.flags.solo_context.next = self.solo.val().context;
         self.contexts.next = self.flags.contexts.val();
-        self.takes_priority.next = self.flags.takes_priority.val();
+
+        self.priorities.planned.next = self.starter.planned.val();
+        self.priorities.early_context.next = self.early_context.val();
+        self.priorities.outcome.next = self.found.q.val();
+        self.priorities.passed.next = self.starter.passed.val();
+        self.holds_priority.next = self.priorities.holds_priority.val();
+        self.takes_priority.next = self.priorities.takes_priority.val();
+        self.starter.may_retry.next = self.priorities.may_retry.val();
 
         self.starter.deal.next = self.deal.val();
         self.starter.arrived.next = self.arrived.val();

@@ -1,7 +1,7 @@
 //! Says whether the context that the pointer has just left is due for a retry, due with a new point, or not due yet.
 //!
 //! 1. A context that is asleep and keeps its point is due when it has rested, no commit or release of it is due, and no
-//!    other context is urgent.
+//!    other context of its team has waited for long.
 //! 2. A context that is asleep and has no point is due when its next point has come and it may work.
 //! 3. No context is due while one asks for a solo insertion, because its point must not be tried again meanwhile. If
 //!    only one context works, it may be the context that starts at this edge, and is not due then.
@@ -25,8 +25,9 @@ pub struct DueCheck {
     /// The pointer has gone round once; and its present round is one in which retries start (`rests_over`).
     pub is_planned: Signal<In, Bit>,
     pub rests_over: Signal<In, Bit>,
-    /// The first 16 points are taken, or there is no such first round.
-    pub all_work: Signal<In, Bit>,
+    /// The first 16 points of the context's job are taken; no other context of its team has waited for long.
+    pub is_open: Signal<In, Bit>,
+    pub may_retry: Signal<In, Bit>,
     /// The only context that works may be the one that starts at this edge.
     pub may_be_starting: Signal<In, Bit>,
     /// The context is due for a retry; or it is due with a new point (`wants_new`).
@@ -39,44 +40,38 @@ pub struct DueCheck {
     asleep: Signal<Local, ContextSet>,
     retrying: Signal<Local, ContextSet>,
     busy: Signal<Local, ContextSet>,
-    began: Signal<Local, ContextSet>,
     hinted: Signal<Local, ContextSet>,
     is_asleep: Signal<Local, Bit>,
     will_retry: Signal<Local, Bit>,
     is_rested: Signal<Local, Bit>,
-    may_try: Signal<Local, Bit>,
     may_work: Signal<Local, Bit>,
     is_there: Signal<Local, Bit>,
     is_barred: Signal<Local, Bit>,
-    first_context: Signal<Local, ContextId>,
 }
 
 impl Logic for DueCheck {
     #[hdl_gen]
     fn update(&mut self) {
-        self.first_context.next = 0.into();
         self.index.next = self.passed.val().context;
         self.asleep.next = self.contexts.val().asleep;
         self.retrying.next = self.contexts.val().retrying;
         self.busy.next = self.contexts.val().busy;
-        self.began.next = self.contexts.val().began;
         self.hinted.next = self.contexts.val().hinted;
         self.is_barred.next = self.contexts.val().solo_valid | self.may_be_starting.val();
         self.is_asleep.next = self.asleep.val().get_bit(self.index.val().index()) & (!self.is_barred.val());
         self.will_retry.next = self.retrying.val().get_bit(self.index.val().index());
 
         // L1: a retry waits for every fourth round, so that aborted contexts do not meet at the same locks again at
-        // once. L3: while the context with the priority is urgent, no other may retry.
+        // once. L3: while a context with the priority has waited for long, no other of its team may retry.
         self.is_rested.next = (!self.busy.val().get_bit(self.index.val().index())) & self.rests_over.val();
-        self.may_try.next =
-            (!self.contexts.val().is_urgent) | (self.passed.val().context == self.contexts.val().priority_context);
         self.wants_again.next =
-            self.is_asleep.val() & self.will_retry.val() & self.is_rested.val() & self.may_try.val();
+            self.is_asleep.val() & self.will_retry.val() & self.is_rested.val() & self.may_retry.val();
 
-        // L8: a mesh of few triangles has no room for many insertions, so the first points go to context 0 alone.
-        self.may_work.next = self.all_work.val();
-        if self.passed.val().context == self.first_context.val() {
-            self.may_work.next = self.seeded.val() | (!self.began.val().get_bit(0));
+        // L8: a mesh of few triangles has no room for many insertions, so the first points of a job go to the first
+        // context of its team alone.
+        self.may_work.next = self.is_open.val();
+        if self.passed.val().is_first {
+            self.may_work.next = self.seeded.val() | self.passed.val().is_seed;
         }
         self.is_there.next = self.is_planned.val() & (self.passed.val().id < self.arrived.val());
         self.wants_new.next =

@@ -2,8 +2,8 @@
 //!
 //! ```text
 //! outcome of a visit -> ContextFlags -> asleep, retrying, busy -> Starter -> a walk starts: PushPort
-//!                       priority,                                 |    ^
-//!                       solo insertion                            v    |
+//!         |             solo insertion                            |    ^
+//!         +-----------> Priorities -> may it wait? retry?         v    |
 //!                                                  DueCheck, PlanTable, NextPoint: is it due, with which point?
 //! finished points -> FinishedPoints -> quiet
 //!                       |
@@ -15,16 +15,19 @@
 //! then answered with `Stuck`.
 //!
 //! Lock rules (see `docs/engine.md`): L1, a context whose attempt aborted rests until a fourth round of the pointer
-//! ([`DueCheck`]); L2, there is one priority ([`ContextFlags`]); L3, when the context with the priority has met 8
-//! foreign locks, no other context retries until its point is finished ([`ContextFlags`], [`DueCheck`]); L8, the first
-//! points go to context 0 ([`DueCheck`], [`Starter`], [`NextPoint`]).
+//! ([`DueCheck`]); L2, each team has one priority ([`Priorities`]); L3, when the context with the priority has met 8
+//! foreign locks, no other context of its team retries until its point is finished ([`Priorities`], [`DueCheck`]); L8,
+//! the first points of a job go to the first context of its team ([`DueCheck`], [`Starter`], [`NextPoint`]); L11, a walk
+//! starts in the mesh of its own job ([`NextPoint`]).
 
 mod context_flags;
 mod dispatcher;
 mod due_check;
 mod finished_points;
 mod next_point;
+mod open_teams;
 mod plan_table;
+mod priorities;
 mod start_pointer;
 mod starter;
 mod watchdog;
@@ -33,8 +36,10 @@ pub use context_flags::ContextFlags;
 pub use dispatcher::Dispatcher;
 pub use due_check::DueCheck;
 pub use finished_points::FinishedPoints;
-pub use next_point::{Following, NextPoint, Passed, Pointer};
+pub use next_point::{Following, NextPoint, Passed, Planned, Pointer};
+pub use open_teams::OpenTeams;
 pub use plan_table::{PlanTable, PlanWrite};
+pub use priorities::Priorities;
 pub use start_pointer::StartPointer;
 pub use starter::{Candidate, Starter};
 pub use watchdog::Watchdog;

@@ -34,11 +34,9 @@ pub struct PlanTable {
     pub pointer: Signal<In, Pointer>,
     /// The pointer has stood at every context since the last clear.
     pub is_planned: Signal<In, Bit>,
-    /// The vertex that the context under the pointer takes next; in a batch, the one after
-    /// its first vertex (`first_dealt`).
-    pub due: Signal<Out, Plan>,
-    pub first_dealt: Signal<Out, Bits<7>>,
-    /// The context that the pointer has left, with its `due` and `first_dealt`; and the plan that follows its vertex.
+    /// The context under the pointer with the vertex that it takes next.
+    pub shown: Signal<Out, Passed>,
+    /// The context that the pointer has left, as it was shown; and the plan that follows its vertex.
     pub passed: Signal<In, Passed>,
     pub following: Signal<Out, Following>,
     /// The new plan of a context that takes a vertex.
@@ -46,6 +44,10 @@ pub struct PlanTable {
     points: NextPoint,
     plans: LutMemory<CONTEXT_BITS, PLAN_BITS>,
     plan: Unpack<Plan, PLAN_BITS>,
+    rounds: Signal<Local, Bits<11>>,
+    round_size: Signal<Local, Bits<11>>,
+    planned_id: Signal<Local, VertexId>,
+    first: Signal<Local, Plan>,
     written: Signal<Local, Plan>,
     written_bits: Signal<Local, Bits<PLAN_BITS>>,
 }
@@ -63,17 +65,30 @@ impl Logic for PlanTable {
         self.points.deal.next = self.deal.val();
         self.points.pointer.next = self.pointer.val();
         self.points.passed.next = self.passed.val();
-        self.first_dealt.next = self.points.first_dealt.val();
+        self.shown.next.context = self.pointer.val().turn;
+        self.shown.next.team = self.pointer.val().team;
+        self.shown.next.is_first = self.pointer.val().is_first;
+        self.shown.next.dealt = self.points.first_dealt.val();
         self.following.next = self.points.following.val();
 
         self.plans.read_address.next = self.pointer.val().turn;
         self.plan.bits.next = self.plans.read_data.val();
         self.plans.write_address.next = self.pointer.val().turn;
-        self.due.next = self.points.first.val();
+        self.first.next = self.points.first.val();
+        self.shown.next.id = self.first.val().id;
+        self.shown.next.is_seed = self.first.val().is_seed;
         self.written.next = self.points.first.val();
+        // The first round of a job has 16 points, so the ids behind it are those from `16 jobs` on. The first context of
+        // a team begins in front of it, and the others begin behind it.
+        self.planned_id.next = self.plan.value.val().id;
+        self.rounds.next = self.planned_id.val().get_bits::<11>(4);
+        self.round_size.next = bit_cast::<11, 5>(self.deal.val().jobs);
+        self.shown.next.is_dealt = !self.pointer.val().is_first;
         if self.is_planned.val() {
             self.plans.write_address.next = self.write.val().context;
-            self.due.next = self.plan.value.val();
+            self.shown.next.id = self.plan.value.val().id;
+            self.shown.next.is_seed = self.plan.value.val().is_seed;
+            self.shown.next.is_dealt = self.rounds.val() >= self.round_size.val();
             self.written.next.id = self.write.val().id;
             self.written.next.is_seed = false;
         }

@@ -3,13 +3,14 @@
 //! 1. A context starts a retry if it is asleep, keeps its point, has no commit or release due, and has rested. Retries
 //!    start only in every fourth round of the pointer, which spreads them (L1), and not beside a context that has
 //!    waited for long (L3).
-//! 2. A context starts with a new point if it is asleep, has none, and its next point has come. Until context 0 has
-//!    taken vertex 16, no other context works, except in a batch (L8).
+//! 2. A context starts with a new point if it is asleep, has none, and its next point has come. Until the first context
+//!    of a team has taken point 16 of its job, no other context of the team works (L8).
 //! 3. A start waits while the queue or the port of the vertex memory may be taken. While a start is due, the pointer
 //!    waits in every clock in which a visit completes, because the visits that follow are known late.
 //! 4. A walk starts at the root of the context's last attempt, or at the first record of its mesh if the context has had
 //!    no commit.
-//! 5. A context that asks for a solo insertion starts it when all contexts rest and the pointer has passed it.
+//! 5. A context that asks for a solo insertion starts it when all contexts rest, none is at work, and the pointer has
+//!    passed the context.
 //! 6. In the first round of the pointer no context starts: `PlanTable` writes down the first vertex of each.
 //! 7. The pointer is two contexts ahead. In the clock after it has stood at a context, the next vertex of that context
 //!    is there, and the starter decides whether the context is due and where it would start. In the clock after that
@@ -36,12 +37,13 @@
 //! Source: points that are dealt to contexts lie in the vertex memory, which is the queue of all contexts.
 
 use super::due_check::DueCheck;
-use super::next_point::Passed;
+use super::next_point::{Passed, Planned};
+use super::open_teams::OpenTeams;
 use super::plan_table::PlanTable;
 use super::start_pointer::StartPointer;
 use crate::engine::types::{
-    context_bits, ContextId, ContextState, Deal, Outcome, SoloStart, Start, TriangleId, VertexId, CONTEXT_BITS,
-    TRIANGLE_BITS, VERTEX_BITS,
+    context_bits, ContextId, ContextSet, ContextState, Deal, Outcome, SoloStart, Start, TriangleId, VertexId,
+    CONTEXT_BITS, TRIANGLE_BITS, VERTEX_BITS,
 };
 use crate::leaf::LutMemory;
 use crate::prelude::*;
@@ -51,6 +53,7 @@ crate::packed! {
     /// A context two clocks behind the pointer, with all that its start needs.
     pub struct Candidate {
         pub context: ContextId,
+        pub team: ContextId,
         pub id: VertexId,
         /// The vertex `id` is one of the dealt ones, behind the first round; the context takes `plan` after it.
         pub is_dealt: bool,
@@ -79,6 +82,8 @@ pub struct Starter {
     pub seeded: Signal<In, Bit>,
     /// The state of all contexts.
     pub contexts: Signal<In, ContextState>,
+    /// No other context of the team of `passed` has waited for long.
+    pub may_retry: Signal<In, Bit>,
     /// A solo insertion is at work.
     pub solo_is_at_work: Signal<In, Bit>,
     /// A visit completes; the queue may be taken at this edge by the visits that follow (`is_blocked`).
@@ -86,19 +91,21 @@ pub struct Starter {
     pub is_blocked: Signal<In, Bit>,
     /// The consequences of a visit, among them the record at which the next walk starts.
     pub outcome: Signal<In, Outcome>,
+    /// In the first round of the pointer, a context and its team; and the context that the pointer has left last.
+    pub planned: Signal<Out, Planned>,
+    pub passed: Signal<Out, Passed>,
     /// A context that starts to walk.
     pub start: Signal<Out, Start>,
     /// A context starts the solo insertion of its point.
     pub solo_start: Signal<Out, SoloStart>,
     /// The context that the pointer has left last, and the point that it has.
-    passed: DFF<Passed>,
-    passed_point: DFF<VertexId>,
+    left: DFF<Passed>,
+    left_point: DFF<VertexId>,
     /// The context before that one; it is due for a retry (`wants_again`) or with a new point (`wants_new`).
     candidate: DFF<Candidate>,
     wants_again: DFF<Bit>,
     wants_new: DFF<Bit>,
-    /// The first 16 points are taken, or there is no such first round.
-    all_work: DFF<Bit>,
+    teams: OpenTeams,
     points: LutMemory<CONTEXT_BITS, VERTEX_BITS>,
     roots: LutMemory<CONTEXT_BITS, TRIANGLE_BITS>,
     pointer: StartPointer,
@@ -110,6 +117,8 @@ pub struct Starter {
     begins: Signal<Local, Bit>,
     moves: Signal<Local, Bit>,
     is_taken: Signal<Local, Bit>,
+    solo: Signal<Local, ContextSet>,
+    index: Signal<Local, ContextId>,
     one_turn: Signal<Local, ContextId>,
 }
 
@@ -117,36 +126,49 @@ impl Starter {
     pub fn new(config: Config) -> Self {
         let bits = context_bits(config);
         let table = || LutMemory::new(bits, VERTEX_BITS);
-        Self { points: table(), plans: PlanTable::new(config), roots: table(), ..Self::default() }
+        Self {
+            teams: OpenTeams::new(config),
+            points: table(),
+            plans: PlanTable::new(config),
+            roots: table(),
+            ..Self::default()
+        }
     }
 }
 
 impl Logic for Starter {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, passed, passed_point, candidate, wants_again, wants_new, all_work);
-        clock!(self, clock, points, pointer, plans, roots);
+        dff_setup!(self, clock, left, left_point, candidate, wants_again, wants_new);
+        clock!(self, clock, points, pointer, plans, roots, teams);
         self.one_turn.next = 1.into();
         self.contexts_at_work.next = self.deal.val().contexts;
+        self.solo.next = self.contexts.val().solo;
+        self.index.next = self.left.q.val().context;
 
         self.points.read_address.next = self.pointer.pointer.val().turn;
         self.plans.pointer.next = self.pointer.pointer.val();
         self.plans.is_planned.next = self.pointer.is_planned.val();
-        self.plans.passed.next = self.passed.q.val();
+        self.plans.passed.next = self.left.q.val();
         self.plans.deal.next = self.deal.val();
         self.pointer.restarts.next = self.reset.val() | self.clears.val();
-        self.pointer.contexts.next = self.contexts_at_work.val();
+        self.pointer.deal.next = self.deal.val();
+        self.planned.next = self.pointer.planned.val();
+        self.teams.planned.next = self.pointer.planned.val();
+        self.passed.next = self.left.q.val();
 
         self.check.contexts.next = self.contexts.val();
-        self.check.passed.next = self.passed.q.val();
+        self.check.passed.next = self.left.q.val();
         self.check.arrived.next = self.arrived.val();
         self.check.seeded.next = self.seeded.val();
         self.check.is_planned.next = self.pointer.is_planned.val();
         self.check.rests_over.next = self.pointer.rests_over.val();
-        self.check.all_work.next = self.all_work.q.val();
+        self.teams.asked.next = self.left.q.val().team;
+        self.check.is_open.next = self.teams.is_open.val();
+        self.check.may_retry.next = self.may_retry.val();
         self.check.may_be_starting.next =
             (self.wants_again.q.val() | self.wants_new.q.val()) & (self.contexts_at_work.val() == self.one_turn.val());
-        self.roots.read_address.next = self.passed.q.val().context;
+        self.roots.read_address.next = self.left.q.val().context;
 
         // The pointer moves on `is_done` and not on `is_blocked`, which comes too late in the clock to steer it. A
         // start that is made while the pointer waits must not be made twice, so each start clears its own wish below.
@@ -161,11 +183,9 @@ impl Logic for Starter {
         self.start.next.record = self.candidate.q.val().from;
         self.start.next.takes = self.is_taken.val();
         self.start.next.id = self.candidate.q.val().id;
-        self.solo_start.next.valid = self.contexts.val().solo_valid
-            & self.contexts.val().all_rest
-            & (!self.solo_is_at_work.val())
-            & self.candidate.q.val().is_solo;
-        self.solo_start.next.context = self.contexts.val().solo_context;
+        self.solo_start.next.valid =
+            self.contexts.val().all_rest & (!self.solo_is_at_work.val()) & self.candidate.q.val().is_solo;
+        self.solo_start.next.context = self.candidate.q.val().context;
         self.solo_start.next.vertex = self.candidate.q.val().point;
         self.solo_start.next.record = self.candidate.q.val().from;
 
@@ -179,38 +199,35 @@ impl Logic for Starter {
         self.roots.write_data.next = self.outcome.val().root;
         self.roots.write_enable.next = self.outcome.val().root_enable;
 
-        // L8: context 0 alone takes points until it has taken vertex 16.
-        if self.is_taken.val() & self.candidate.q.val().is_dealt {
-            self.all_work.d.next = true;
-        }
+        // L8: the first context of a team alone takes points until it has taken point 16 of its job.
+        self.teams.opens.next = self.is_taken.val() & self.candidate.q.val().is_dealt;
+        self.teams.opened.next = self.candidate.q.val().team;
         if self.begins.val() {
             self.wants_again.d.next = false;
             self.wants_new.d.next = false;
         }
         if self.moves.val() {
-            self.candidate.d.next.context = self.passed.q.val().context;
-            self.candidate.d.next.id = self.passed.q.val().id;
-            self.candidate.d.next.is_dealt = self.plans.following.val().is_dealt;
+            self.candidate.d.next.context = self.left.q.val().context;
+            self.candidate.d.next.id = self.left.q.val().id;
+            self.candidate.d.next.team = self.left.q.val().team;
+            self.candidate.d.next.is_dealt = self.left.q.val().is_dealt;
             self.candidate.d.next.plan = self.plans.following.val().id;
-            self.candidate.d.next.point = self.passed_point.q.val();
+            self.candidate.d.next.point = self.left_point.q.val();
             self.wants_again.d.next = self.check.wants_again.val();
             self.wants_new.d.next = self.check.wants_new.val();
-            self.candidate.d.next.is_solo = self.passed.q.val().context == self.contexts.val().solo_context;
+            self.candidate.d.next.is_solo =
+                self.solo.val().get_bit(self.index.val().index()) & (!self.solo_is_at_work.val());
             self.candidate.d.next.from = self.plans.following.val().first_record;
             if self.check.has_root.val() {
                 self.candidate.d.next.from = self.roots.read_data.val();
             }
-            self.passed.d.next.context = self.pointer.pointer.val().turn;
-            self.passed.d.next.id = self.plans.due.val().id;
-            self.passed.d.next.is_seed = self.plans.due.val().is_seed;
-            self.passed.d.next.dealt = self.plans.first_dealt.val();
-            self.passed_point.d.next = self.points.read_data.val();
+            self.left.d.next = self.plans.shown.val();
+            self.left_point.d.next = self.points.read_data.val();
         }
         if self.reset.val() | self.clears.val() {
             self.wants_again.d.next = false;
             self.wants_new.d.next = false;
             self.candidate.d.next.is_solo = false;
-            self.all_work.d.next = self.deal.val().is_batch & (!self.reset.val());
         }
     }
 }

@@ -32,7 +32,7 @@ pub struct Seeder {
     pub clears: Signal<In, Bit>,
     /// The number of the infinite vertex, a constant.
     pub infinite: Signal<In, VertexId>,
-    /// Whether there is a batch, and of how many jobs.
+    /// The number of jobs, among others.
     pub deal: Signal<In, Deal>,
     /// A point that is stored at this edge; the number of points that have come.
     pub arrival: Signal<In, Arrival>,
@@ -104,7 +104,7 @@ impl Logic for Seeder {
         self.write.next = self.request.q.val();
 
         self.has_triple.d.next = self.arrived.val() >= self.triple.q.val();
-        self.is_last_job.next = (!self.deal.val().is_batch) | (self.following.q.val() == self.deal.val().contexts);
+        self.is_last_job.next = self.following.q.val() == self.deal.val().jobs;
         if self.is_writing.val() {
             self.step.d.next = self.step.q.val() + self.one.val();
         }

@@ -110,6 +110,7 @@ impl Logic for Solo {
         self.inserted.d.next = self.steps.inserts.val() & (!self.reset.val());
         self.ended.d.next = self.steps.ends.val() & (!self.reset.val());
         self.progress.next.is_at_work = self.works.q.val();
+        self.progress.next.context = self.at_work_for.q.val();
         self.progress.next.tests = self.star.tests.val();
         self.progress.next.flips = self.star.flips.val();
         self.progress.next.inserts = self.inserted.q.val();

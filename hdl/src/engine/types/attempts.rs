@@ -103,7 +103,7 @@ crate::packed! {
         /// A commit or a release of the context becomes due.
         pub hands_over: bool,
         /// The context aborts and wants the priority; or meets a foreign lock while it holds the priority (`waits`); or
-        /// has finished its point and returns the priority if it holds it.
+        /// returns the priority, if it holds it, because its point is finished or needs a solo insertion.
         pub asks_for_priority: bool,
         pub waits: bool,
         pub returns_priority: bool,

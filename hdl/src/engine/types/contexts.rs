@@ -6,12 +6,14 @@ use rust_hdl_core::prelude::*;
 
 /// Width of [`Plan`] in bits.
 pub const PLAN_BITS: usize = Plan::BITS;
+/// Width of [`Priority`] in bits.
+pub const PRIORITY_BITS: usize = Priority::BITS;
 
 crate::packed! {
     /// The vertex that a context takes next.
     pub struct Plan {
         pub id: VertexId,
-        /// In a batch: the vertex is the third one of the context's own first triangle.
+        /// The vertex is the third one of the job's first triangle.
         pub is_seed: bool,
     }
 
@@ -19,10 +21,20 @@ crate::packed! {
     pub struct Deal {
         /// The number of contexts that work.
         pub contexts: ContextId,
-        /// Each of these contexts has a mesh of its own.
-        pub is_batch: bool,
-        /// The first vertex that is dealt in turn: 16, or in a batch three for each context.
+        /// The number of jobs side by side, each with a mesh and a team of contexts; 1 outside a batch. It divides
+        /// that of the contexts.
+        pub jobs: ContextId,
+        /// The first vertex behind the first triangles: three for each job.
         pub dealt_from: Bits<7>,
+    }
+
+    /// The state of the priority of a team.
+    pub struct Priority {
+        /// The priority is held, by this context.
+        pub is_held: bool,
+        pub context: ContextId,
+        /// The number of foreign locks that the context has met since it took the priority, up to 8.
+        pub waits: Bits<4>,
     }
 
     /// A context starts to walk at this edge.
@@ -55,6 +67,8 @@ crate::packed! {
     pub struct SoloProgress {
         /// A solo insertion is at work: every visit that completes is its own.
         pub is_at_work: bool,
+        /// The context whose point is inserted.
+        pub context: ContextId,
         /// The solo insertion ended at the last edge; its point is inserted (`inserts`) or equals a vertex.
         pub ends: bool,
         pub inserts: bool,
@@ -73,7 +87,7 @@ crate::packed! {
         pub seeds: bool,
     }
 
-    /// The state of all contexts, a bit each; and which of them holds the priority or asks for a solo insertion.
+    /// The state of all contexts, a bit each.
     pub struct ContextState {
         /// The context is asleep: none of its visits is in flight.
         pub asleep: ContextSet,
@@ -84,14 +98,9 @@ crate::packed! {
         /// The context has had a point; it has had a commit (`hinted`), so it has a root at which its next walk starts.
         pub began: ContextSet,
         pub hinted: ContextSet,
-        /// The priority is held by `priority_context`. Once that context has met 8 foreign locks (`is_urgent`),
-        /// no other may retry.
-        pub priority_is_held: bool,
-        pub priority_context: ContextId,
-        pub is_urgent: bool,
-        /// The context `solo_context` asks for a solo insertion or is at it: no context starts.
+        /// The context asks for a solo insertion or is at it. While any does (`solo_valid`), no context starts.
+        pub solo: ContextSet,
         pub solo_valid: bool,
-        pub solo_context: ContextId,
         /// No visit is in flight and no lock is held; the flag rises a clock after both hold.
         pub all_rest: bool,
     }

@@ -52,7 +52,7 @@ impl BackendArguments {
 pub enum ConfigName {
     /// 8 points, 2 contexts
     Tiny,
-    /// 1024 points, 4 contexts
+    /// 1024 points, 16 contexts
     Small,
     /// 8192 points, 16 contexts
     Full,

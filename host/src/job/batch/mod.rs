@@ -1,8 +1,8 @@
 //! Many jobs on one device.
 //!
 //! A small mesh has no room for many insertions at once. A device with several contexts therefore gets a *group* of
-//! small jobs, one mesh for each context. A job that is too large for that, or left over, is an *exclusive job*: it has
-//! the whole memory to itself ([`plan`] decides). If the transport takes commands ahead, the commands of the next group
+//! jobs side by side, each with a mesh and a team of contexts of its own. A job that is too large for that, or left over,
+//! is an *exclusive job*: it has the whole memory to itself ([`plan`] decides). If the transport takes commands ahead, the commands of the next group
 //! or exclusive job are sent before the answers to the current one are received ([`super::flight`]), so that the device
 //! never waits for the host.
 
@@ -27,6 +27,8 @@ use plan::{Part, Plan};
 pub(crate) const MAX_JOB_POINTS: usize = 8192;
 /// Most points of an exclusive job that is sent ahead: its records are read with one command.
 const MAX_EXCLUSIVE_POINTS: usize = 65_536;
+/// The version of the protocol from which on the jobs of a group may have teams of contexts.
+const FIRST_VERSION_WITH_TEAMS: u32 = 2 << 16;
 /// Jobs between two calls of the listener; for each thread, where threads share the jobs.
 pub(crate) const JOBS_PER_LOOK: usize = 64;
 
@@ -51,7 +53,8 @@ impl<'b> Batch<'b> {
     /// `None` for all others.
     pub(crate) fn run(mut self) -> Result<(Done, Vec<Option<u32>>), JobError> {
         let (jobs, options) = (self.carrier.jobs, self.carrier.options);
-        let plan = Plan::new(self.contexts, self.carrier.identity.capacity);
+        let has_teams = self.carrier.identity.protocol_version >= FIRST_VERSION_WITH_TEAMS;
+        let plan = Plan::new(self.contexts, self.carrier.identity.capacity, has_teams);
         let (small, mut exclusive) = self.divide(&plan);
         let groups = self.group(&plan, small, &mut exclusive)?;
         let Self { mut carrier, mut done, left, .. } = self;
@@ -98,7 +101,10 @@ impl<'b> Batch<'b> {
         let mut groups = Vec::new();
         for part in plan.divide(&lengths) {
             match part {
-                Part::Group(jobs) => groups.push(Group::sharing(rest.by_ref().take(jobs).collect())),
+                Part::Group { jobs, contexts } => {
+                    let dealt = rest.by_ref().take(jobs).map(|ordered| ordered.dealt(contexts));
+                    groups.push(Group::sharing(dealt.collect(), contexts));
+                }
                 // The order at hand is for one context. The job is put in order again, for several,
                 // when its turn comes.
                 Part::Exclusive => {

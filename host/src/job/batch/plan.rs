@@ -1,12 +1,12 @@
 //! The division of a batch into groups and exclusive jobs that is expected to take the device the fewest clocks.
 //!
-//! A single context waits for its own visits most of the time. Jobs side by side therefore cost little more than one
-//! job, until the read port of the triangle memory is busy ([`rounds`]). In an exclusive job the contexts share the
-//! work of one mesh, but are in each other's way while the mesh is small ([`Plan::exclusive_with`]). A group takes as
-//! long as its longest job, and each of its jobs takes the memory of the longest. Only few large jobs fit side by side,
-//! and few together are slower than one after another.
+//! A single context waits for its own visits most of the time. More contexts therefore cost little more than one,
+//! until the read port of the triangle memory is busy ([`rounds`]). The contexts that work on one mesh share its points,
+//! but are in each other's way while the mesh is small ([`contention`]). So small jobs share the memory with a context
+//! each, larger ones with a team of contexts each, and an exclusive job has all contexts that make it faster. A group
+//! takes as long as its longest job, and each of its jobs takes the memory of the longest.
 //!
-//! Both formulas are fitted to the clocks that the model by clock counts for uniform points, and are within an eighth
+//! The formulas are fitted to the clocks that the model by clock counts for uniform points, and are within an eighth
 //! of them (`plan/tests.rs`). For other sets and devices they are a guess. A wrong guess costs clocks; the meshes do
 //! not depend on it.
 
@@ -17,21 +17,22 @@ mod tests;
 const CLOCK: u64 = 100;
 /// Cost of an insertion by a context that meets no other context: 155 clocks counted.
 const UNDISTURBED_INSERTION: u64 = 155 * CLOCK;
-/// Cost that one more job adds to a round of a group while the read port has room: now and then one of its visits waits
-/// for a visit of another job. Fitted to the table at [`rounds`], up to 8 jobs.
-const EXTRA_JOB: u64 = 230;
-/// Jobs of a group, as a count, up to which the read port has room.
-const UNCROWDED_JOBS: u64 = 8;
-/// Growth of the cost of one more job, for each job beyond [`UNCROWDED_JOBS`]. Fitted to the table at [`rounds`],
-/// from 10 jobs on.
-const EXTRA_JOB_GROWTH: u64 = 120;
-/// Upper bound on the cost of one more job: the 13 visits of an insertion, a clock of the read port each,
+/// Cost that one more context adds to a round while the read port has room: now and then one of its visits waits for a
+/// visit of another context. Fitted to the table at [`rounds`], up to 8 contexts.
+const EXTRA_CONTEXT: u64 = 230;
+/// Contexts, as a count, up to which the read port has room.
+const UNCROWDED_CONTEXTS: u64 = 8;
+/// Growth of the cost of one more context, for each one beyond [`UNCROWDED_CONTEXTS`]. Fitted to the table at
+/// [`rounds`], from 10 contexts on.
+const EXTRA_CONTEXT_GROWTH: u64 = 120;
+/// Upper bound on the cost of one more context: the 13 visits of an insertion, a clock of the read port each,
 /// once nothing hides them.
-const MOST_EXTRA_JOB: u64 = 13 * CLOCK;
-/// Factor of the contention in an exclusive job, in whole clocks. A small mesh has no room for many insertions at once,
-/// which costs `CONTENTION * (min(points, CONTENTION_POINTS) * contexts^3)^(1/4)` clocks. Fitted to
-/// the table at [`Plan::exclusive_with`].
+const MOST_EXTRA_CONTEXT: u64 = 13 * CLOCK;
+/// Factor of the contention in a mesh, in whole clocks; see [`contention`].
 const CONTENTION: u64 = 300;
+/// Contention in the mesh of a team, beside that in an exclusive job, in hundredths: a context that waits, waits longer
+/// while other teams keep the read port busy. Fitted to the table at [`Plan::group_with`].
+const TEAM_CONTENTION: u64 = 125;
 /// Points of a mesh, as a count, from which on contention does not grow.
 const CONTENTION_POINTS: u64 = 1024;
 /// Cost of the commands of a group or an exclusive job, with headers and pauses.
@@ -39,33 +40,48 @@ const COMMANDS: u64 = 250 * CLOCK;
 /// Cost of the first triangle of a job.
 const FIRST_TRIANGLE: u64 = 42 * CLOCK;
 
-/// Costs of a round of a group, in which each job inserts a point: with one job, with two, up to `most`.
+/// Costs of a round of a group, in which each context inserts a point: with one context, with two, up to `most`.
 ///
-/// | jobs | 1 | 2 | 4 | 6 | 8 | 10 | 12 | 14 | 16 | 20 | 24 |
+/// | contexts | 1 | 2 | 4 | 6 | 8 | 10 | 12 | 14 | 16 | 20 | 24 |
 /// |---|---|---|---|---|---|---|---|---|---|---|---|
-/// | clocks counted, 500 points a job | 155 | 157 | 161 | 166 | 171 | 179 | 191 | 207 | 230 | 282 | 335 |
+/// | clocks counted, a job of 500 points for each | 155 | 157 | 161 | 166 | 171 | 179 | 191 | 207 | 230 | 282 | 335 |
 /// | by this formula | 155 | 157 | 162 | 166 | 171 | 179 | 192 | 210 | 233 | 285 | 337 |
 fn rounds(most: u32) -> Vec<u64> {
-    let sums = (1..=u64::from(most)).scan(0, |clocks, jobs| {
-        *clocks += one_more(jobs);
+    let sums = (1..=u64::from(most)).scan(0, |clocks, contexts| {
+        *clocks += one_more(contexts);
         Some(*clocks)
     });
     sums.collect()
 }
 
-/// Cost that the last of `jobs` jobs adds to a round.
-fn one_more(jobs: u64) -> u64 {
-    match jobs {
+/// Cost that the last of so many contexts adds to a round.
+fn one_more(contexts: u64) -> u64 {
+    match contexts {
         1 => UNDISTURBED_INSERTION,
-        _ => (EXTRA_JOB + EXTRA_JOB_GROWTH * jobs.saturating_sub(UNCROWDED_JOBS)).min(MOST_EXTRA_JOB),
+        _ => {
+            (EXTRA_CONTEXT + EXTRA_CONTEXT_GROWTH * contexts.saturating_sub(UNCROWDED_CONTEXTS)).min(MOST_EXTRA_CONTEXT)
+        }
+    }
+}
+
+/// Cost of the contention in a mesh of so many points: a small mesh has no room for many insertions at once, which costs
+/// `CONTENTION * (min(points, CONTENTION_POINTS) * contexts^3)^(1/4)` clocks. Fitted to the table at
+/// [`Plan::exclusive_with`].
+fn contention(points: usize, contexts: u32) -> u64 {
+    // The fourth power of CLOCK below the root makes the result a cost, in hundredths of a clock.
+    let root = (points as u64).min(CONTENTION_POINTS) * u64::from(contexts).pow(3) * CLOCK.pow(4);
+    if contexts == 1 {
+        0
+    } else {
+        CONTENTION * root.isqrt().isqrt()
     }
 }
 
 /// A part of a batch that has the memory of the device at one time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
-    /// A group of this many jobs, side by side.
-    Group(usize),
+    /// A group of this many jobs, side by side, with a team of so many contexts for each.
+    Group { jobs: usize, contexts: u32 },
     /// One job that has the memory to itself.
     Exclusive,
 }
@@ -73,7 +89,7 @@ pub(super) enum Part {
 impl Part {
     fn jobs(self) -> usize {
         match self {
-            Self::Group(jobs) => jobs,
+            Self::Group { jobs, .. } => jobs,
             Self::Exclusive => 1,
         }
     }
@@ -81,25 +97,37 @@ impl Part {
 
 /// Divides batches for a device.
 pub(super) struct Plan {
-    /// Costs of a round with one job, with two, up to the number of contexts that may work.
+    /// Costs of a round with one context, with two, up to the number of contexts that may work.
     rounds: Vec<u64>,
+    /// Most contexts of a job in a group; 1 for a device without teams.
+    most_of_team: u32,
     /// Points that the device holds.
     capacity: usize,
 }
 
 impl Plan {
-    /// A plan for a device of this capacity on which this many contexts may work; 0 counts as 1.
-    pub(super) fn new(contexts: u32, capacity: u32) -> Self {
-        Self { rounds: rounds(contexts.max(1)), capacity: capacity as usize }
+    /// A plan for a device of this capacity on which this many contexts may work; 0 counts as 1. A device without teams
+    /// gives each job of a group one context.
+    pub(super) fn new(contexts: u32, capacity: u32, has_teams: bool) -> Self {
+        let contexts = contexts.max(1);
+        let most_of_team = if has_teams { contexts } else { 1 };
+        Self { rounds: rounds(contexts), most_of_team, capacity: capacity as usize }
     }
 
-    /// Whether jobs of this many points may share the memory: as many of them as fit side by side take no longer than
-    /// one after another. On a device of 8,192 points and 16 contexts that is so up to 1,170 points, of which 7 fit.
+    /// Whether jobs of this many points may share the memory: with some size of teams, as many of them as fit side by
+    /// side take no longer than one after another. On a device of 8,192 points and 16 contexts that is so up to 4,096
+    /// points, of which 2 fit; without teams up to 1,170 points, of which 7 fit.
     pub(super) fn shares(&self, points: usize) -> bool {
-        let most = self.rounds.len().min(self.capacity / points.max(1));
-        let rounds = most.checked_sub(1).and_then(|place| self.rounds.get(place));
-        let group = rounds.map(|round| COMMANDS + most as u64 * FIRST_TRIANGLE + points as u64 * round);
-        group.is_some_and(|clocks| clocks <= most as u64 * self.exclusive(points).0)
+        let exclusive = self.exclusive(points).0;
+        (1..=self.most_of_team).any(|contexts| {
+            let most = self.most_jobs(contexts).min(self.capacity / points.max(1));
+            most >= least_jobs(contexts) && self.group_with(&vec![points; most], contexts) <= most as u64 * exclusive
+        })
+    }
+
+    /// Largest number of jobs with a team of this many contexts each.
+    fn most_jobs(&self, contexts: u32) -> usize {
+        self.rounds.len() / contexts as usize
     }
 
     /// Number of contexts with which an exclusive job of this many points takes the fewest clocks.
@@ -109,7 +137,7 @@ impl Plan {
 
     /// Cuts a list of jobs into parts that the device does one after another. `lengths` are the distinct points of the
     /// jobs, the longest first, each from 1 to the capacity. Of all cuts whose parts fit, the result has the fewest
-    /// clocks. O(jobs * contexts).
+    /// clocks. O(jobs * contexts * log contexts).
     pub(super) fn divide(&self, lengths: &[usize]) -> Vec<Part> {
         // Dynamic programming from the last job to the first. For each job: the lowest cost of this job and all after
         // it, and the part with which that division begins.
@@ -121,8 +149,11 @@ impl Plan {
                 kept = (points, self.exclusive(points).0);
             }
             let exclusive = (kept.1 + best[first + 1].0, Part::Exclusive);
-            let groups = self.groups(&lengths[first..]);
-            let groups = groups.map(|(jobs, clocks)| (clocks + best[first + jobs].0, Part::Group(jobs)));
+            let groups = (1..=self.most_of_team).flat_map(|contexts| {
+                let groups = self.groups(&lengths[first..], contexts);
+                groups.map(move |(jobs, clocks)| (jobs, clocks, Part::Group { jobs, contexts }))
+            });
+            let groups = groups.map(|(jobs, clocks, part)| (clocks + best[first + jobs].0, part));
             // Of equal costs the larger group wins.
             best[first] = groups.fold(exclusive, |best, next| if next.0 <= best.0 { next } else { best });
         }
@@ -130,19 +161,43 @@ impl Plan {
         first_parts.take_while(|&first| first < lengths.len()).map(|first| best[first].1).collect()
     }
 
-    /// The groups that fit and begin with the first of these jobs: the number of jobs, from 1 on, and the
+    /// The groups with teams of this size that fit and begin with the first of these jobs: the number of jobs, and the
     /// cost without the read-out.
-    fn groups<'a>(&self, lengths: &'a [usize]) -> impl Iterator<Item = (usize, u64)> + use<'a> {
+    fn groups<'a>(&'a self, lengths: &'a [usize], contexts: u32) -> impl Iterator<Item = (usize, u64)> + use<'a> {
         let (capacity, longest) = (self.capacity, lengths.first().map_or(0, |&first| first));
-        let (mut clocks, mut full) = (COMMANDS, 0);
-        let steps = (1..).zip(&lengths[..lengths.len().min(self.rounds.len())]).map(move |(jobs, &points)| {
-            // A job that is over repeats its last point, which is found at once and costs next to nothing.
-            clocks += points as u64 * one_more(jobs as u64) + FIRST_TRIANGLE;
+        let mut full = 0;
+        let mut clocks = COMMANDS + contention(longest, contexts) * TEAM_CONTENTION / 100;
+        let most = lengths.len().min(self.most_jobs(contexts));
+        let steps = (1..).zip(&lengths[..most]).map(move |(jobs, &points)| {
+            clocks += self.one_more_job(points, jobs, contexts);
             full += usize::from(points == longest);
             // Each job takes as many places as the longest. Only the last round leaves out the jobs that are shorter.
             (jobs, clocks, jobs * longest.saturating_sub(1) + full)
         });
-        steps.take_while(move |&(_, _, sent)| sent <= capacity).map(|(jobs, clocks, _)| (jobs, clocks))
+        let fitting = steps.take_while(move |&(_, _, sent)| sent <= capacity);
+        fitting.filter(move |&(jobs, ..)| jobs >= least_jobs(contexts)).map(|(jobs, clocks, _)| (jobs, clocks))
+    }
+
+    /// Cost that the last of so many jobs adds to a group with teams of this size: its contexts take part in a round for
+    /// each of its points and each of them. A job that is over repeats points, which are found at once and cost next to
+    /// nothing.
+    fn one_more_job(&self, points: usize, jobs: usize, contexts: u32) -> u64 {
+        let last = jobs * contexts as usize;
+        let before = (last - contexts as usize).checked_sub(1).map_or(0, |place| self.rounds[place]);
+        points as u64 * (self.rounds[last - 1] - before) / u64::from(contexts) + FIRST_TRIANGLE
+    }
+
+    /// Cost of a group of jobs of these lengths, the longest first, without the read-out.
+    ///
+    /// | points of a job | 200 | 200 | 200 | 1,000 | 1,000 | 1,000 | 2,000 | 4,000 |
+    /// |---|---|---|---|---|---|---|---|---|
+    /// | jobs, contexts of each | 8, 2 | 5, 3 | 4, 4 | 8, 2 | 5, 3 | 4, 4 | 4, 4 | 2, 8 |
+    /// | clocks a point counted | 15.6 | 18.6 | 20.2 | 14.8 | 15.7 | 16.1 | 15.1 | 15.8 |
+    /// | by this formula | 16.4 | 18.3 | 20.0 | 15.1 | 15.8 | 16.2 | 15.4 | 15.8 |
+    fn group_with(&self, lengths: &[usize], contexts: u32) -> u64 {
+        let longest = lengths.first().map_or(0, |&first| first);
+        let steps = (1..).zip(lengths).map(|(jobs, &points)| self.one_more_job(points, jobs, contexts));
+        COMMANDS + contention(longest, contexts) * TEAM_CONTENTION / 100 + steps.sum::<u64>()
     }
 
     /// Lowest cost of an exclusive job without the read-out, and the number of contexts that gives it.
@@ -160,11 +215,16 @@ impl Plan {
     /// | clocks a point counted | 53.8 | 51.3 | 33.9 | 28.5 | 26.7 | 28.1 | 20.9 | 19.2 |
     /// | by this formula | 49.4 | 52.2 | 34.3 | 28.2 | 27.2 | 28.0 | 21.2 | 19.1 |
     fn exclusive_with(&self, points: usize, contexts: u32) -> u64 {
-        let (points, many) = (points as u64, u64::from(contexts));
         let round = self.rounds[contexts as usize - 1];
-        // The fourth power of CLOCK below the root makes the result a cost, in hundredths of a clock.
-        let root = (points.min(CONTENTION_POINTS) * many.pow(3) * CLOCK.pow(4)).isqrt().isqrt();
-        let contention = if contexts == 1 { 0 } else { CONTENTION * root };
-        points * round / many + contention + FIRST_TRIANGLE + COMMANDS
+        points as u64 * round / u64::from(contexts) + contention(points, contexts) + FIRST_TRIANGLE + COMMANDS
+    }
+}
+
+/// Smallest number of jobs of a group with teams of this size. One job with several contexts is an exclusive job.
+fn least_jobs(contexts: u32) -> usize {
+    if contexts == 1 {
+        1
+    } else {
+        2
     }
 }

@@ -110,15 +110,15 @@ impl Registers {
         if found >> 16 != STREAM_VERSION >> 16 || found < STREAM_VERSION {
             return Err(PcieFault::Version { found });
         }
-        let identity = Identity {
-            magic: MAGIC,
-            protocol_version: self.read(Of::ProtocolVersion)?,
-            core_version: self.read(Of::CoreVersion)?,
-            coord_bits: self.read(Of::CoordBits)?,
-            capacity: self.read(Of::Capacity)?,
-            contexts: self.read(Of::Contexts)?,
-            ring_capacity: self.read(Of::Ring)?,
-        };
+        let identity = Identity::from_words([
+            MAGIC,
+            self.read(Of::ProtocolVersion)?,
+            self.read(Of::CoreVersion)?,
+            self.read(Of::CoordBits)?,
+            self.read(Of::Capacity)?,
+            self.read(Of::Contexts)?,
+            self.read(Of::Ring)?,
+        ]);
         check_identity(&identity).map_err(PcieFault::Identity)?;
         let bits = self.read(Of::BeatBits)?;
         if !matches!(bits, 64 | 128) {

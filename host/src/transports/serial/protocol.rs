@@ -171,7 +171,7 @@ impl SerialProtocol {
         if self.queued.is_some() || self.reader.is_waiting() || self.reader.has_answer() {
             return Err(SerialFault::Command("the answer to the previous command has not been taken yet"));
         }
-        let needs_nothing = matches!(command, Command::Hello | Command::Clear { .. });
+        let needs_nothing = matches!(command, Command::Hello | Command::Clear(_));
         match self.stage {
             // Either the device still knows the session, or the memory that the command needs is lost anyway. The
             // first answer will tell.

@@ -33,7 +33,7 @@ fn card(beat_bits: u32, mischief: Mischief) -> Device {
 }
 
 fn watched_card(beat_bits: u32, mischief: Mischief) -> (Device, MemoryCard) {
-    let core = ModelCore::of(SMALL).expect("possible").with_contexts(SMALL.contexts);
+    let core = ModelCore::of(Config { points: 512, ..SMALL }).expect("possible").with_contexts(5);
     let card = MemoryCard::of(core, beat_bits, mischief);
     let transport = PcieTransport::new("pcie:memory".to_owned(), card.files()).expect("a sound card");
     (Device::from_transport(Box::new(transport)), card)
@@ -245,7 +245,7 @@ fn lies_about_exclusive_jobs_end_in_typed_errors() {
 #[test]
 fn the_clocks_of_exclusive_jobs_are_all_there_are() {
     let mut random = Random(79);
-    let jobs: Vec<Vec<Point>> = (0..5).map(|_| random.points(900, 1 << 16)).collect();
+    let jobs: Vec<Vec<Point>> = (0..5).map(|_| random.points(4500, 1 << 16)).collect();
     let mut device = Device::clock_model(FULL).expect("possible");
     let mut session = device.session().expect("a session");
     let before = session.clocks().expect("a clock");
@@ -261,6 +261,6 @@ fn the_clocks_of_exclusive_jobs_are_all_there_are() {
     let alone = session.triangulate(&jobs[2]).expect("a mesh").report.counters.expect("counters");
     let with_others = meshes[2].report.counters.expect("counters");
     assert_eq!((alone.insertions, with_others.read_cycles), (with_others.insertions, 0));
-    // More contexts than these do not pay for so few points.
-    assert_eq!(meshes[2].report.contexts, 12);
+    // So many points have work for all contexts.
+    assert_eq!(meshes[2].report.contexts, 16);
 }

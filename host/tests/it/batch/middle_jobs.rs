@@ -56,7 +56,9 @@ fn the_capacity_may_be_reached_exactly() {
             let meshes = session.triangulate_batch(&jobs, &Options::default()).expect("meshes");
             // No job of a group is more than a point shorter than the longest, so the sum is the number of points sent.
             let is_divided = sum > CAPACITY;
-            assert_eq!(meshes.iter().any(is_exclusive), is_divided, "{lengths:?}");
+            // The smaller groups of a divided batch have contexts to spare.
+            let has_more = |mesh: &Solution| is_exclusive(mesh) || mesh.report.contexts > 1;
+            assert_eq!(meshes.iter().any(has_more), is_divided, "{lengths:?}");
             assert!(meshes.into_iter().map(bare).eq(alone(&jobs)), "{lengths:?}");
         }
     }
@@ -113,12 +115,14 @@ fn side_by_side_they_take_fewer_clocks_than_one_after_the_other() {
     let mut random = Random(84);
     let mut device = Device::clock_model(FULL).expect("possible");
     let mut session = device.session().expect("a session");
-    for (count, length, most) in [(15, 520, 19), (10, 800, 21), (8, 1000, 24), (7, 1170, 27)] {
+    for (count, length, most) in
+        [(15, 520, 18), (10, 800, 19), (8, 1000, 18), (7, 1170, 20), (4, 2000, 18), (2, 4000, 19)]
+    {
         let jobs = jobs_of(&mut random, &vec![length; count]);
         let before = session.clocks().expect("it is counted");
         let meshes = session.triangulate_batch(&jobs, &Options::default()).expect("meshes");
         let together = session.clocks().expect("it is counted") - before;
-        assert!(meshes.iter().all(|mesh| !is_exclusive(mesh) && mesh.report.contexts == 1));
+        assert!(!meshes.iter().any(is_exclusive), "{count} jobs of {length}");
         assert!(together < most * (count * length) as u64, "{together} clocks for {count} jobs of {length}");
         // The job of a batch of one is exclusive, with as many contexts as pay.
         let before = session.clocks().expect("it is counted");

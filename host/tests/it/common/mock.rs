@@ -67,7 +67,7 @@ impl Transport for Mock {
     fn submit(&mut self, commands: &[Command<&[u32]>], _: Instant) -> Result<(), TransportError> {
         assert!(self.takes_ahead || self.open + commands.len() == 1, "one command at a time");
         self.open += commands.len();
-        self.ahead += commands.iter().filter(|command| matches!(command, Command::Clear { .. })).count();
+        self.ahead += commands.iter().filter(|command| matches!(command, Command::Clear(_))).count();
         self.most_ahead.set(self.most_ahead.get().max(self.ahead));
         let mut words = Vec::new();
         commands.iter().for_each(|command| command.encode(&mut words));

@@ -4,7 +4,7 @@
 use super::counters::Latencies;
 use super::wires::Registers;
 use incircle_protocol as protocol;
-use protocol::{answer_header, Config, Identity, InsertReport, Opcode, Status};
+use protocol::{answer_header, signed_header, Config, Identity, InsertReport, Opcode, Status};
 
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Answer {
@@ -17,8 +17,9 @@ pub(super) struct Answer {
 }
 
 impl Answer {
-    pub(super) fn header(&self) -> u32 {
-        self.heads[2].0
+    /// The header, which gets the tag of the job at the end: the tag does not change while an answer is put together.
+    pub(super) fn header(&self, tag: u8) -> u32 {
+        signed_header(self.heads[2].0, 0, tag)
     }
 
     pub(super) fn length(&self) -> u32 {
@@ -84,6 +85,7 @@ fn payload(was: &Registers, latencies: &Latencies, config: Config, index: usize)
             coord_bits: protocol::CORE_COORD_BITS,
             capacity: config.points,
             contexts: config.contexts,
+            engines: 1,
             ring_capacity: config.ring,
         }
         .to_words()[index],

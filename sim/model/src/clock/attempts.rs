@@ -87,7 +87,7 @@ impl Around<'_> {
 
     /// L2: whether the context holds the priority.
     fn holds_priority(&self, context: usize) -> bool {
-        self.was.noted.priority_context == Some(context)
+        self.was.noted.holders & 1 << context != 0
     }
 }
 
@@ -213,6 +213,8 @@ impl Outcome {
         } else if state.count == around.config.ring {
             state.drains = true;
             self.overflows = true;
+            // No other context works beside the solo insertion that follows.
+            self.returns_priority = true;
         } else {
             self.split(done, &mut state);
         }

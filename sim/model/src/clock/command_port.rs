@@ -3,7 +3,9 @@
 //! Hardware twin: the block `CommandPort`.
 
 use super::wires::{Registers, Wires};
-use incircle_protocol::{command_contexts, command_opcode, command_starts_batch, Config, Opcode, FIRST_ROUND, PADDING};
+use incircle_protocol::{
+    command_contexts, command_meshes, command_opcode, command_starts_batch, command_tag, Config, Opcode, PADDING,
+};
 
 /// The meaning of the next word, or the event that is awaited.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -16,6 +18,16 @@ pub(super) enum State {
     /// The last point is taken, and the insertion engine finishes.
     Settle,
     Answer,
+}
+
+/// The check whether the number of jobs divides that of the contexts: one job's contexts after another are counted, and
+/// the last sum must be right.
+#[derive(Clone, Copy, Debug, Default)]
+struct Check {
+    contexts: u32,
+    jobs: u32,
+    /// Contexts of the members that are counted.
+    sum: u32,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -32,10 +44,14 @@ pub(super) struct CommandPort {
     pub came_id: u32,
     /// Number of contexts that work.
     pub contexts: u32,
-    /// Whether each context has a mesh of its own.
-    pub batch: bool,
-    /// Whether a `Clear` asked for more contexts than there are.
+    /// Number of jobs side by side, each with a mesh of its own and a team of contexts; 1 outside a batch.
+    pub jobs: u32,
+    /// The `Clear` whose numbers are being checked.
+    checked: Option<Check>,
+    /// Whether a `Clear` asked for more contexts than there are, or for a number of jobs that does not divide them.
     pub is_refused: bool,
+    /// The tag of the last `Clear`, refused or not.
+    pub tag: u8,
     /// Whether the mesh is forgotten at the next edge.
     pub clears: bool,
     /// Set from a job's first point until its last lock is released.
@@ -62,18 +78,15 @@ impl CommandPort {
         !was.seeder.collinear && !was.watchdog.stuck && self.arrived < config.points
     }
 
-    /// The first of the vertices that are dealt to the contexts in turn.
-    pub(super) fn dealt_from(&self) -> u32 {
-        if self.batch {
-            3 * self.contexts
-        } else {
-            FIRST_ROUND
-        }
+    /// Whether a `Clear` is being carried out.
+    pub(super) fn is_clearing(&self) -> bool {
+        self.clears || self.checked.is_some()
     }
 
     pub(super) fn clock(&mut self, was: &Registers, wires: &Wires, config: Config) {
         self.clears = false;
         self.came = false;
+        self.check();
         let answer_taken = !was.responder.valid || wires.response_ready;
         if self.state != State::Answer && was.responder.is_idle() && answer_taken {
             self.reading = false;
@@ -106,15 +119,39 @@ impl CommandPort {
         }
     }
 
+    /// Counts the contexts of one more member of each team.
+    fn check(&mut self) {
+        let Some(Check { contexts, jobs, sum }) = self.checked.take() else {
+            return;
+        };
+        let sum = sum + jobs;
+        if sum == contexts {
+            self.clears = true;
+            (self.contexts, self.jobs) = (contexts, jobs);
+        } else if sum > contexts {
+            self.is_refused = true;
+        } else {
+            self.checked = Some(Check { contexts, jobs, sum });
+        }
+    }
+
     fn take_command(&mut self, word: u32, config: Config) {
         let opcode = command_opcode(word);
-        let contexts = command_contexts(word);
+        let asked = command_contexts(word);
         self.opcode = opcode;
-        self.is_refused = opcode == Opcode::Clear as u8 && contexts > config.contexts;
-        self.clears = opcode == Opcode::Clear as u8 && !self.is_refused;
-        if self.clears {
-            self.contexts = if contexts == 0 { config.contexts } else { contexts };
-            self.batch = command_starts_batch(word);
+        let is_clear = opcode == Opcode::Clear as u8;
+        self.is_refused = is_clear && asked > config.contexts;
+        if is_clear {
+            self.tag = command_tag(word);
+        }
+        if is_clear && !self.is_refused {
+            let contexts = if asked == 0 { config.contexts } else { asked };
+            self.checked = Some(match command_meshes(word) {
+                // Outside a batch nothing has to be counted.
+                _ if !command_starts_batch(word) => Check { contexts, jobs: 1, sum: contexts - 1 },
+                0 => Check { contexts, jobs: contexts, sum: 0 },
+                jobs => Check { contexts, jobs, sum: 0 },
+            });
         }
         self.state = match Opcode::from_u8(opcode) {
             Some(Opcode::Insert) => State::Count,

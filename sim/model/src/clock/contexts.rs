@@ -22,12 +22,13 @@ pub(super) struct Contexts {
     pub began: Set,
     /// Contexts that have had a commit, so that they have a root at which the next walk can start.
     pub hinted: Set,
-    /// The context that holds the priority: it waits at foreign locks instead of aborting.
-    pub priority_context: Option<usize>,
-    /// Number of foreign locks that it has met since it acquired the priority, up to `URGENT`.
-    waits: u32,
-    /// The context whose list has overflowed. No context starts until the solo insertion of its point has ended.
-    pub solo: Option<usize>,
+    /// Contexts that hold the priority of their team: they wait at foreign locks instead of aborting.
+    pub holders: Set,
+    /// For each team, the number of foreign locks that the context with the priority has met since it acquired the
+    /// priority, up to `URGENT`.
+    waits: [u8; Self::BITS as usize],
+    /// Contexts whose list has overflowed. No context starts until the solo insertion of each of their points has ended.
+    pub solo: Set,
     /// Number of points that are in the mesh or known to be duplicates.
     pub finished: u32,
     /// Whether, as known a clock ago, nothing was in flight and no lock was held, and no context has started since.
@@ -35,7 +36,17 @@ pub(super) struct Contexts {
 }
 
 /// L3: number of foreign locks that the context with the priority meets before the others stop retrying.
-const URGENT: u32 = 8;
+const URGENT: u8 = 8;
+
+/// The team of a context, which works on the job of that number.
+pub(super) fn team_of(context: usize, jobs: u32) -> usize {
+    context % jobs as usize
+}
+
+/// The contexts of a team.
+fn members(team: usize, jobs: u32) -> Set {
+    (team..Contexts::BITS as usize).step_by(jobs as usize).fold(0, |members, context| members | 1 << context)
+}
 
 impl Contexts {
     /// Largest number of contexts in a set.
@@ -48,8 +59,14 @@ impl Contexts {
     /// Whether a context may try its point again. Contexts that abort again and again, in step with the context
     /// that holds the priority, could keep it from its locks for ever. When it has waited for long, it alone
     /// retries; new points still start.
-    pub(super) fn may_try_again(&self, context: usize) -> bool {
-        self.waits < URGENT || self.priority_context.is_none_or(|holder| holder == context)
+    pub(super) fn may_try_again(&self, context: usize, jobs: u32) -> bool {
+        let others = self.holders & members(team_of(context, jobs), jobs) & !(1 << context);
+        others == 0 || self.waits[team_of(context, jobs)] < URGENT
+    }
+
+    /// Whether a visit makes its context take the priority of its team.
+    pub(super) fn takes_priority(&self, outcome: &Outcome, jobs: u32) -> bool {
+        outcome.asks_for_priority && self.holders & members(team_of(outcome.context, jobs), jobs) == 0
     }
 
     /// Whether nothing is in flight and no lock is held.
@@ -74,12 +91,8 @@ impl Contexts {
             self.finished += 1;
         }
         if wires.solo_ends {
-            if self.priority_context == self.solo {
-                self.priority_context = None;
-            }
-            if let Some(context) = self.solo.take() {
-                self.retrying &= !(1 << context);
-            }
+            self.solo &= !(1 << was.solo.context());
+            self.retrying &= !(1 << was.solo.context());
             self.finished += 1;
         }
         if wires.seeds {
@@ -103,22 +116,21 @@ impl Contexts {
         if outcome.commit.is_some() || outcome.release.is_some() {
             self.busy |= bit;
         }
-        if outcome.returns_priority && was.contexts.priority_context == Some(context) {
-            self.priority_context = None;
+        if outcome.returns_priority {
+            self.holders &= !bit;
         }
-        // L2: the priority goes to the context that asks while it is free.
-        if outcome.asks_for_priority
-            && was.contexts.priority_context.is_none()
-            && defect != Some(Defect::NobodyTakesPriority)
-        {
-            self.priority_context = Some(context);
-            self.waits = 0;
+        // L2: the priority of a team goes to the first of its contexts that asks while the priority is free.
+        let jobs = if defect == Some(Defect::OnePriority) { 1 } else { was.command.jobs };
+        let waits = &mut self.waits[team_of(context, jobs)];
+        if was.contexts.takes_priority(outcome, jobs) && defect != Some(Defect::NobodyTakesPriority) {
+            self.holders |= bit;
+            *waits = 0;
         }
         if outcome.waits {
-            self.waits = (self.waits + 1).min(URGENT);
+            *waits = (*waits + 1).min(URGENT);
         }
-        if outcome.overflows && was.contexts.solo.is_none() {
-            self.solo = Some(context);
+        if outcome.overflows {
+            self.solo |= bit;
         }
         self.finished += u32::from(outcome.duplicate);
     }

@@ -61,8 +61,8 @@ impl Counters {
     }
 
     fn count_outcome(&mut self, was: &Registers, wires: &Wires) {
-        let asks = was.outcome.is_some_and(|outcome| outcome.asks_for_priority);
-        self.priorities_taken += u32::from(asks && was.contexts.priority_context.is_none());
+        let takes = was.outcome.is_some_and(|outcome| was.contexts.takes_priority(&outcome, was.command.jobs));
+        self.priorities_taken += u32::from(takes);
         let (Some(done), Some(outcome)) = (&wires.done, &wires.outcome) else {
             return;
         };

@@ -11,6 +11,8 @@ pub enum Defect {
     NeverRests,
     /// L2: no context ever holds the priority.
     NobodyTakesPriority,
+    /// L2: all teams share one priority, and all yield to the context that holds it.
+    OnePriority,
     /// L3: other contexts retry while the context with the priority has waited for long.
     NobodyYields,
     /// L4: locks are released when the ring is complete, before its star is written.
@@ -25,10 +27,14 @@ pub enum Defect {
     ReadsTheTorn,
     /// L8: all contexts take points from the start.
     AllFromTheStart,
+    /// L8: the contexts of all teams take points as soon as one team is over its first round.
+    TeamsStartTogether,
     /// L9: a lock does not name its holder, so a context's own locks count as foreign.
     TakesOwnForForeign,
     /// L10: a walk goes on until a record holds the point.
     WalksToTheEnd,
     /// L10: the edge across which a record was reached decides a tie.
     TiesByTheWayIn,
+    /// L11: a first walk starts in the mesh of job 0, whatever the job of its context.
+    StartsInAnyMesh,
 }

@@ -68,16 +68,16 @@ impl Responder {
 
     /// Whether the last word is loaded at this edge.
     pub(super) fn ends(&self, response_ready: bool) -> bool {
-        self.loads(response_ready) && self.next_beat().is_some_and(|beat| beat.last)
+        self.loads(response_ready) && self.next_beat(0).is_some_and(|beat| beat.last)
     }
 
-    /// The beat that is loaded at this edge, if the beat before it is taken.
-    fn next_beat(&self) -> Option<Beat> {
+    /// The beat that is loaded at this edge, in a job with this tag, if the beat before it is taken.
+    fn next_beat(&self, tag: u8) -> Option<Beat> {
         match self.state {
             State::Idle | State::Prepare | State::Choose => None,
             State::Header => {
                 let length = self.answer.length();
-                Some(Beat { low: self.answer.header(), high: length, both: true, last: length == 0 })
+                Some(Beat { low: self.answer.header(tag), high: length, both: true, last: length == 0 })
             }
             State::Payload => Some(Beat { last: self.left == 1, ..Beat::of(self.answer.word()) }),
             State::Records => self.records.beat(),
@@ -90,7 +90,7 @@ impl Responder {
             self.answer.choose(was, latencies, config, was.responder.index);
         }
         self.wait(was, latencies);
-        let beat = was.responder.next_beat().filter(|_| was.responder.loads(wires.response_ready));
+        let beat = was.responder.next_beat(was.command.tag).filter(|_| was.responder.loads(wires.response_ready));
         self.records.clock(Event {
             packs: packs(was),
             asks: wires.read.is_some(),
@@ -114,7 +114,7 @@ impl Responder {
     fn wait(&mut self, was: &Registers, latencies: &Latencies) {
         let after = match was.responder.state {
             State::Idle => {
-                if was.command.state == CommandState::Answer && !latencies.sweeps() && !was.command.clears {
+                if was.command.state == CommandState::Answer && !latencies.sweeps() && !was.command.is_clearing() {
                     self.state = State::Prepare;
                 }
                 return;

@@ -45,7 +45,7 @@ impl Seeder {
             3 => self.write = record(2, [a, c, inf], [1, 3, 0]),
             _ => {
                 self.write = record(3, [b, a, inf], [2, 1, 0]);
-                let is_last = !was.command.batch || was.seeder.job + 1 == was.command.contexts;
+                let is_last = was.seeder.job + 1 == was.command.jobs;
                 self.seeded = is_last;
                 self.job += u32::from(!is_last);
                 self.step = 0;

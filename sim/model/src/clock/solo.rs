@@ -91,6 +91,11 @@ impl Solo {
         self.state != State::Idle
     }
 
+    /// The context whose point is inserted.
+    pub(super) fn context(&self) -> usize {
+        self.context
+    }
+
     /// Whether a flip ends at this edge.
     pub(super) fn flips(&self) -> bool {
         self.state == State::Flip && self.step == 2

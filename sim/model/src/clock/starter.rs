@@ -4,6 +4,7 @@
 //! Hardware twin: the block `Starter`.
 
 use super::attempts::Tables;
+use super::contexts::{team_of, Set};
 use super::defect::Defect;
 use super::memory::Memory;
 use super::pipeline::Bundle;
@@ -25,8 +26,8 @@ struct Passed {
 struct Candidate {
     /// The walk that is due, unless something holds it.
     due: Option<Start>,
-    /// Whether the context asks for a solo insertion.
-    is_solo: bool,
+    /// The context, if it asks for a solo insertion and none is at work.
+    solo: Option<usize>,
 }
 
 /// A walk that starts.
@@ -46,19 +47,19 @@ pub(super) struct Starter {
     is_planned: bool,
     passed: Passed,
     candidate: Candidate,
-    /// Whether all contexts work, because the first round is over or there is none.
-    pub all_work: bool,
+    /// Teams whose contexts all work, because the first round of their job is over.
+    open_teams: Set,
 }
 
 impl Starter {
-    /// Whether the candidate is the context that asks for a solo insertion.
-    pub(super) fn is_at_solo(&self) -> bool {
-        self.candidate.is_solo
+    /// The candidate, if it asks for a solo insertion.
+    pub(super) fn solo(&self) -> Option<usize> {
+        self.candidate.solo
     }
 
     /// The walk that starts at this edge, if the queue and the vertex memory are free.
     pub(super) fn wants(&self, was: &Registers) -> Option<Start> {
-        self.candidate.due.filter(|_| was.contexts.solo.is_none())
+        self.candidate.due.filter(|_| was.contexts.solo == 0)
     }
 
     /// The walk of the context that the pointer left last, if one is due. If only one context works, it may be starting
@@ -67,31 +68,38 @@ impl Starter {
         let Passed { context, id } = self.passed;
         let bit = 1 << context;
         let flags = &was.contexts;
-        if flags.solo.is_some() || flags.asleep & bit == 0 || was.command.contexts == 1 && self.candidate.due.is_some()
-        {
+        if flags.solo != 0 || flags.asleep & bit == 0 || was.command.contexts == 1 && self.candidate.due.is_some() {
             return None;
         }
         if flags.retrying & bit != 0 {
             // L1: a context that has aborted rests. L3: no other context retries while the one with the priority
             // has waited for long.
             let rested = self.round == 0 || defect == Some(Defect::NeverRests);
-            let may = flags.may_try_again(context) || defect == Some(Defect::NobodyYields);
+            let jobs = if defect == Some(Defect::OnePriority) { 1 } else { was.command.jobs };
+            let may = flags.may_try_again(context, jobs) || defect == Some(Defect::NobodyYields);
             let ready = flags.busy & bit == 0 && rested && may;
             return ready.then(|| Start { context, id: None, push: Bundle::look(context, tables.root[context]) });
         }
-        // L8: the first points go to context 0.
-        let works = match context {
-            0 => was.seeder.seeded || flags.began & 1 == 0,
-            _ => self.all_work || (defect == Some(Defect::AllFromTheStart) && was.seeder.seeded),
-        };
-        let ready = self.is_planned && id < was.command.arrived && works;
+        let ready = self.is_planned && id < was.command.arrived && self.works(was, context, defect);
+        let team = team_of(context, was.command.jobs) as u32;
         let start = match flags.hinted & bit {
-            // Without a root, the walk starts at the first record of the job.
-            0 if was.command.batch => 4 * context as u32,
-            0 => 0,
+            // L11: without a root, the walk starts at the first record of the job.
+            0 if defect == Some(Defect::StartsInAnyMesh) => 0,
+            0 => 4 * team,
             _ => tables.root[context],
         };
         ready.then(|| Start { context, id: Some(id), push: Bundle::look(context, start) })
+    }
+
+    /// L8: whether a context takes points. The first points of each job go to the first context of its team.
+    fn works(&self, was: &Registers, context: usize, defect: Option<Defect>) -> bool {
+        let team = team_of(context, was.command.jobs);
+        match defect {
+            _ if context == team => was.seeder.seeded || was.contexts.began & 1 << context == 0,
+            Some(Defect::AllFromTheStart) => was.seeder.seeded,
+            Some(Defect::TeamsStartTogether) => self.open_teams != 0,
+            _ => self.open_teams & 1 << team != 0,
+        }
     }
 
     pub(super) fn clock(
@@ -107,9 +115,10 @@ impl Starter {
         }
         if !wires.start_is_held {
             let context = was.starter.turn;
-            let is_solo = was.contexts.solo == Some(self.passed.context);
+            let asks_for_solo = was.contexts.solo & 1 << self.passed.context != 0 && !was.solo.is_at_work();
+            let solo = asks_for_solo.then_some(self.passed.context);
             let due = was.starter.due(was, tables, defect);
-            self.candidate = Candidate { due, is_solo };
+            self.candidate = Candidate { due, solo };
             self.passed = Passed { context, id: next_id(was, context, memory) };
             self.turn += 1;
             if self.turn as u32 == was.command.contexts {
@@ -122,27 +131,26 @@ impl Starter {
             memory.point_id[context] = id;
             memory.position[context] = memory.vertex(id);
             memory.since[context] = was.counters.now;
-            self.all_work |= context == 0 && id >= FIRST_ROUND;
+            let jobs = was.command.jobs;
+            self.open_teams |= Set::from(id >= FIRST_ROUND * jobs) << team_of(context, jobs);
         }
         if was.command.clears {
-            *self = Self { all_work: was.command.batch, ..Self::default() };
+            *self = Self::default();
         }
     }
 }
 
-/// The vertex that a context takes next. The vertices of the first round all go to context 0, and the later
-/// ones are dealt to the contexts in turn. A batch has no first round; each context begins with the third of
-/// its own first three points.
+/// The vertex that a context takes next. The vertices of a job's first round all go to the first context of its team,
+/// the later ones to the contexts of the team in turn. Behind the first triangles, vertex `i` of job `g` has the id
+/// `i * jobs + g`.
 fn next_id(was: &Registers, context: usize, memory: &Memory) -> u32 {
     let began = was.contexts.began & 1 << context != 0;
-    let id = memory.point_id[context];
-    let dealt_from = was.command.dealt_from();
+    let (id, jobs) = (memory.point_id[context], was.command.jobs);
     match (began, context as u32) {
-        (false, context) if was.command.batch => 3 * context + 2,
-        (false, 0) => 2,
-        (false, context) => dealt_from + context,
-        (true, context) if id < dealt_from && was.command.batch => dealt_from + context,
-        (true, _) if id < dealt_from => id + 1,
+        (false, first) if first < jobs => 3 * first + 2,
+        (false, member) => FIRST_ROUND * jobs + member,
+        (true, first) if id < 3 * jobs => 3 * jobs + first,
+        (true, _) if id < FIRST_ROUND * jobs => id + jobs,
         (true, _) => id + was.command.contexts,
     }
 }

@@ -52,6 +52,7 @@ impl Registers {
     pub(super) fn after_reset(config: Config) -> Self {
         let mut registers = Self::default();
         registers.command.contexts = config.contexts;
+        registers.command.jobs = 1;
         registers.contexts.reset(config.contexts);
         registers
     }
@@ -143,7 +144,7 @@ impl ClockModel {
             clear: self.release.clear(),
             released: self.release.released(),
             solo_push,
-            solo_starts: was.contexts.solo.filter(|_| rests && !was.solo.is_at_work() && was.starter.is_at_solo()),
+            solo_starts: was.starter.solo().filter(|_| rests && !was.solo.is_at_work()),
             solo_ends: solo_inserts || was.solo.finds_duplicate(),
             solo_inserts,
         }

@@ -117,6 +117,7 @@ pub fn core_identity(config: Config) -> Identity {
         coord_bits: CORE_COORD_BITS,
         capacity: config.points,
         contexts: config.contexts,
+        engines: 1,
         ring_capacity: config.ring,
     }
 }

@@ -1,11 +1,12 @@
 //! Runs batches in lock-step: the core and its model are compared at every root port and every clock. There are 2, 4
-//! and 16 jobs side by side, crossed with idle clocks and back-pressure, jobs of several lengths, lists that overflow,
-//! three points on a line, and resets. `sim/model/tests/it/clock/batch.rs` proves for the model that every job gets the
+//! and 16 jobs side by side and teams of every size, crossed with idle clocks and back-pressure, jobs of several lengths,
+//! lists that overflow, three points on a line, and resets. `sim/model/tests/it/clock/batch.rs` proves for the model that every job gets the
 //! mesh it gets alone; these tests compare the reports with the model by commands as well.
 
 use incircle_model::{CommandModel, Inputs};
 use incircle_protocol::{
-    Config, Counter, CORE_COORD_BITS, COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS, SMALL, TINY,
+    answer_status, Config, Counter, Status, CORE_COORD_BITS, COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS, SMALL,
+    TINY,
 };
 use incircle_testbench::lockstep::{Job, Lockstep, Stalls};
 use incircle_testkit::{Batch, Random32, SplitMix64};
@@ -26,9 +27,13 @@ impl Rig {
 
     /// Runs a whole batch: clear, insert in pieces, read everything, latencies, counters.
     fn run(&mut self, points: &[u32], piece: usize, jobs: u32, stalls: Stalls) {
-        let job = Job::batch_of(points, piece, jobs, self.config);
+        self.run_job(&Job::batch_of(points, piece, jobs, self.config), points, piece, stalls);
+    }
+
+    /// Runs such a job, which inserts these points in pieces.
+    fn run_job(&mut self, job: &Job, points: &[u32], piece: usize, stalls: Stalls) {
         let chances = &mut self.chances;
-        let answers = self.pair.run(&job, stalls, &mut || chances.next_u64());
+        let answers = self.pair.run(job, stalls, &mut || chances.next_u64());
         let answers = answers.unwrap_or_else(|mismatch| panic!("{mismatch}\njob {:x?}", job.commands));
         let mut model = CommandModel::new(CORE_COORD_BITS, self.config.points, self.config.ring)
             .expect("possible")
@@ -38,7 +43,7 @@ impl Rig {
         assert_eq!((model.receive(&mut expected), answers.len()), (job.answers, job.answers));
         let hello = 2 + IDENTITY_WORDS;
         let reports = hello + 2 + points.chunks(piece).len() * (2 + INSERT_REPORT_WORDS);
-        assert_eq!(answers[..reports], expected[..reports], "reports of {jobs} jobs, {points:x?}");
+        assert_eq!(answers[..reports], expected[..reports], "reports of {:x}, {points:x?}", job.commands[1]);
         for (sum, word) in self.counters.iter_mut().zip(&answers[answers.len() - COUNTER_WORDS..]) {
             *sum += u64::from(*word);
         }
@@ -86,21 +91,61 @@ fn four_jobs_whose_lists_overflow() {
 
 #[test]
 fn sixteen_jobs() {
-    let config = Config { contexts: 16, ..SMALL };
-    let mut rig = Rig::new("core_small_sixteen", config, 53);
+    let mut rig = Rig::new("core_small", SMALL, 53);
     run_all(&mut rig, 60, 62, 53);
     let insertions = rig.counted(Counter::Insertions);
     assert!(insertions > 8000, "{insertions}");
 }
 
+/// Runs batches for every way in which every number of contexts forms teams.
+fn run_teams(rig: &mut Rig, batches: u32, most: u32, seed: u64) {
+    let mut random = Random32(seed);
+    let built = rig.config.contexts;
+    let ways = (1..=built).flat_map(|contexts| (1..=contexts).map(move |jobs| [contexts, jobs]));
+    for [contexts, jobs] in ways.filter(|[contexts, jobs]| contexts.is_multiple_of(*jobs)) {
+        for turn in 0..batches as usize {
+            let points = Batch::random(&mut random, jobs, 1 + most / jobs, turn % 4 != 3).points();
+            let piece = [points.len(), 1 + random.below(30) as usize][turn % 2];
+            let stalls = Stalls::ALL[(turn + contexts as usize + jobs as usize) % 9];
+            rig.run_job(&Job::teams_of(&points, piece, [contexts, jobs], rig.config), &points, piece, stalls);
+        }
+    }
+    // Numbers of jobs that do not divide that of the contexts are refused, and the points belong to the mesh before.
+    for [contexts, jobs] in [[built, built + 1], [0, 2 * built], [built, 127], [built + 1, 1]] {
+        let job = Job::teams_of(&[1], 1, [contexts, jobs], rig.config);
+        let chances = &mut rig.chances;
+        let [hello, refused, ..] = job.commands[..] else { panic!("a job begins with `Hello` and `Clear`") };
+        let job = Job { commands: vec![hello, refused], answers: 2 + IDENTITY_WORDS + 2 };
+        let answers = rig.pair.run(&job, Stalls::NONE, &mut || chances.next_u64());
+        let answers = answers.unwrap_or_else(|mismatch| panic!("{mismatch}"));
+        assert_eq!(answer_status(answers[2 + IDENTITY_WORDS]), Status::BadContexts as u8, "{contexts} {jobs}");
+    }
+}
+
+#[test]
+fn teams_in_a_tiny_core() {
+    let mut rig = Rig::new("core_tiny", TINY, 55);
+    run_teams(&mut rig, 60, 6, 55);
+    let refused = rig.counted(Counter::Refused);
+    assert!(refused > 20 && rig.counted(Counter::Duplicates) > 50, "{refused}");
+}
+
+#[test]
+fn teams_of_every_size_in_a_middle_core() {
+    let config = Config { contexts: 12, ..SMALL };
+    let mut rig = Rig::new("core_small_twelve", config, 56);
+    run_teams(&mut rig, 4, 700, 56);
+    let (aborts, taken) = (rig.counted(Counter::Aborts), rig.counted(Counter::PrioritiesTaken));
+    assert!(aborts > 2000 && taken > 500 && rig.counted(Counter::Overflows) > 50, "{aborts} {taken}");
+}
+
 #[test]
 fn resets_in_mid_batch() {
-    let config = Config { contexts: 16, ..SMALL };
-    let mut rig = Rig::new("core_small_sixteen", config, 54);
+    let mut rig = Rig::new("core_small", SMALL, 54);
     let mut random = Random32(54);
     for turn in 0..20 {
         let points = Batch::random(&mut random, 16, 20, true).points();
-        let job = Job::batch_of(&points, points.len(), 16, config);
+        let job = Job::batch_of(&points, points.len(), 16, SMALL);
         let mut rest = job.commands.as_slice();
         for _ in 0..random.below(7000) {
             let inputs = Stalls::ALL[turn % 9].inputs(rest, rig.chances.next_u64());

@@ -8,16 +8,16 @@
 
 use crate::rig::lockstep::{ordered, word, Rig};
 use incircle_protocol::{
-    batch_word, clear_word, command_word, Config, Counter, Opcode, FULL, LARGE, PADDING, SMALL, TINY,
+    batch_word, clear_word, command_word, Config, Counter, Opcode, CLEAR_TAG_SHIFT, FULL, LARGE, PADDING, SMALL, TINY,
 };
 use incircle_testbench::lockstep::{Job, Lockstep, Mismatch, Stalls, FAULTS};
-use incircle_testkit::{Distribution, SplitMix64};
+use incircle_testkit::{words, Batch, Distribution, Random32, SplitMix64};
 use std::path::PathBuf;
 
 const RING9: Config = Config { ring: 9, ..SMALL };
 const ONE_CONTEXT: Config = Config { contexts: 1, ..SMALL };
 const ONE_CONTEXT_LONG_LIST: Config = Config { ring: 64, contexts: 1, ..SMALL };
-const SIXTEEN_CONTEXTS: Config = Config { contexts: 16, ..SMALL };
+const TWELVE_CONTEXTS: Config = Config { contexts: 12, ..SMALL };
 
 #[test]
 fn tiny_jobs_in_tiny_boxes() {
@@ -118,8 +118,8 @@ fn four_contexts() {
 }
 
 #[test]
-fn sixteen_contexts() {
-    let mut rig = Rig::new("core_small_sixteen", SIXTEEN_CONTEXTS, 12);
+fn twelve_contexts() {
+    let mut rig = Rig::new("core_small_twelve", TWELVE_CONTEXTS, 12);
     let mut random = SplitMix64::new(12);
     for (k, &distribution) in Distribution::all().iter().enumerate() {
         for seed in 0..12 {
@@ -166,8 +166,8 @@ fn any_command(random: &mut SplitMix64, config: Config) -> Vec<u32> {
         1 => vec![command(Opcode::Read), below(records + 4), below(20)],
         2 => vec![command(Opcode::Read), u32::MAX - below(3), below(5)],
         3 => vec![command(Opcode::Counters)],
-        4 => vec![clear_word(below(4))],
-        5 => vec![batch_word(below(u64::from(config.contexts) + 2))],
+        4 => vec![clear_word(below(4)) | below(256) << CLEAR_TAG_SHIFT],
+        5 => vec![batch_word(below(u64::from(config.contexts) + 2)) | below(256) << CLEAR_TAG_SHIFT],
         6 => vec![command(Opcode::Triangles), below(records), below(14)],
         7 => vec![PADDING; below(4) as usize + 1],
         8 => vec![command(Opcode::Clear)],
@@ -296,6 +296,21 @@ fn cores_without_a_rule_of_the_engine_are_caught() {
     expect_caught(FAULTY, &["torn"], SMALL, &jobs); // L7, of records that are being written
     expect_caught(FAULTY, &["first_round", "own_lock"], SMALL, &jobs); // L8 and L9
     expect_caught(FAULTY, &["walk_end", "tie_side"], SMALL, &jobs); // L10
+}
+
+/// Leaves out what keeps teams apart, beside a model that keeps it.
+#[test]
+fn cores_without_a_rule_of_teams_are_caught() {
+    let jobs: Vec<Job> = (0..12)
+        .map(|seed| {
+            let mut random = Random32(seed);
+            let jobs = (0..4).map(|_| words::started(words::boxed(&mut random, 120, 300))).collect();
+            let points = Batch { jobs }.points();
+            Job::teams_of(&points, points.len(), [16, 4], SMALL)
+        })
+        .collect();
+    expect_caught(FAULTY, &["one_priority"], SMALL, &jobs); // L2
+    expect_caught(FAULTY, &["teams_together", "any_mesh"], SMALL, &jobs); // L8 and L11
 }
 
 #[test]

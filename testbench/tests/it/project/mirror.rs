@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 /// Blocks without a test file of their own: the test that runs the block, by its path from `tests/it`,
 /// and why that test is enough.
-const ELSEWHERE: [(&str, &str, &str); 26] = [
+const ELSEWHERE: [(&str, &str, &str); 27] = [
     (
         "engine/attempt/aftermath",
         "blocks/engine/attempt/attempts",
@@ -21,6 +21,7 @@ const ELSEWHERE: [(&str, &str, &str); 26] = [
     ("engine/count/visit_counters", "blocks/engine/count/counters", "a part of the counters, at their ports"),
     ("engine/dispatch/dispatcher", "cores/lockstep", "wires between the blocks of the room"),
     ("engine/dispatch/due_check", "blocks/engine/dispatch/starter", "a question that only the starter asks"),
+    ("engine/dispatch/open_teams", "blocks/engine/dispatch/starter", "a table that only the starter asks"),
     ("engine/dispatch/start_pointer", "blocks/engine/dispatch/starter", "the pointer that only the starter follows"),
     ("engine/insertion_engine", "cores/lockstep", "wires between the rooms"),
     ("engine/insertions", "cores/lockstep", "wires between the rooms"),

@@ -133,6 +133,7 @@ packed_values!(
     AnswerBeat,
     Deal,
     Plan,
+    Planned,
     Activity,
     AnswerProgress,
     Arrival,

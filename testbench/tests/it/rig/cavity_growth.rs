@@ -248,6 +248,7 @@ impl Context {
             (false, true) if is_full => {
                 self.growth.has_failed = true;
                 outcome.overflows = true;
+                outcome.returns_priority = true;
             }
             (false, true) => self.pass(done, &mut outcome),
             (false, false) => {

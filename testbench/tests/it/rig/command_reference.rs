@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use crate::rig::stepper::bundles::Deal;
-use incircle_protocol::{command_starts_batch, Opcode, FIRST_ROUND, PADDING};
+use incircle_protocol::{command_meshes, command_starts_batch, command_tag, Opcode, PADDING};
 
 /// Capacity of the core, and number of its contexts.
 #[derive(Clone, Copy, Debug)]
@@ -52,11 +52,15 @@ pub struct Reference {
     /// Id and word of the point that came with the last edge.
     pub came: Option<(u32, u32)>,
     pub clears: bool,
-    /// Number of contexts that work.
+    /// Numbers of contexts that work, and of jobs.
     pub contexts: u32,
-    pub is_batch: bool,
+    pub jobs: u32,
     pub dealt_from: u64,
+    /// A `Clear` of this many contexts and jobs is being checked, for so many more clocks.
+    pub checked: Option<(u32, u32, u32)>,
     pub is_refused: Option<bool>,
+    /// The tag of the last `Clear`, refused or not.
+    pub tag: u8,
     /// All words of the command have come; an insert settles before it is answered.
     pub is_complete: bool,
     pub settles: bool,
@@ -67,8 +71,7 @@ pub struct Reference {
 
 impl Reference {
     pub fn new(shape: Shape) -> Self {
-        let dealt_from = FIRST_ROUND.into();
-        Self { wants: [Meaning::Command].into(), contexts: shape.contexts, dealt_from, ..Self::default() }
+        Self { wants: [Meaning::Command].into(), contexts: shape.contexts, jobs: 1, dealt_from: 3, ..Self::default() }
     }
 
     pub fn is_ready(&self, around: &Surroundings) -> bool {
@@ -87,12 +90,12 @@ impl Reference {
 
     /// Deal of points to contexts; the first vertex that is dealt follows a clock after the rest.
     pub fn deal(&self) -> Deal {
-        Deal { contexts: self.contexts.into(), is_batch: self.is_batch, dealt_from: self.dealt_from }
+        Deal { contexts: self.contexts.into(), jobs: self.jobs.into(), dealt_from: self.dealt_from }
     }
 
     /// True if an answer is due and no memory is about to be cleared.
     pub fn answers_now(&self) -> bool {
-        self.answers && !self.clears
+        self.answers && !self.clears && self.checked.is_none()
     }
 
     fn take(&mut self, word: u32, around: &Surroundings, shape: Shape) {
@@ -104,10 +107,12 @@ impl Reference {
                 let asked = word & 0xff;
                 let is_clear = opcode == Opcode::Clear as u8;
                 self.is_refused = Some(is_clear && asked > shape.contexts);
-                self.clears = is_clear && asked <= shape.contexts;
-                if self.clears {
-                    self.contexts = if asked == 0 { shape.contexts } else { asked };
-                    self.is_batch = command_starts_batch(word);
+                if is_clear {
+                    self.tag = command_tag(word);
+                }
+                if is_clear && asked <= shape.contexts {
+                    let contexts = if asked == 0 { shape.contexts } else { asked };
+                    self.checked = Some(check(contexts, word));
                 }
                 match Opcode::from_u8(opcode) {
                     Some(Opcode::Insert) => self.wants.push_back(Meaning::Count),
@@ -143,11 +148,19 @@ impl Reference {
     /// Passes a rising edge, at which `word` is taken if there is one.
     pub fn edge(&mut self, word: Option<u32>, pins: Pins, around: &Surroundings, shape: Shape) {
         let was = self.clone();
-        self.dealt_from = if was.is_batch { 3 * u64::from(was.contexts) } else { FIRST_ROUND.into() };
+        self.dealt_from = 3 * u64::from(was.jobs);
         (self.came, self.clears, self.is_complete, self.is_surplus) = (None, false, false, false);
         self.refused += u32::from(was.is_surplus);
         if !was.answers && pins.responder_is_idle && around.answer_is_taken {
             self.reading = false;
+        }
+        match self.checked.take() {
+            Some((contexts, jobs, 1)) if contexts.is_multiple_of(jobs) => {
+                (self.contexts, self.jobs, self.clears) = (contexts, jobs, true);
+            }
+            Some((_, _, 1)) => self.is_refused = Some(true),
+            Some((contexts, jobs, clocks)) => self.checked = Some((contexts, jobs, clocks - 1)),
+            None => {}
         }
         if let Some(word) = word {
             self.take(word, around, shape);
@@ -163,6 +176,16 @@ impl Reference {
         if was.clears {
             (self.arrived, self.refused) = (0, 0);
         }
+    }
+}
+
+/// The numbers of contexts and jobs of a `Clear`, and the clocks that their check takes: one for each context of a team,
+/// or one outside a batch.
+pub fn check(contexts: u32, word: u32) -> (u32, u32, u32) {
+    match command_meshes(word) {
+        _ if !command_starts_batch(word) => (contexts, 1, 1),
+        0 => (contexts, contexts, 1),
+        jobs => (contexts, jobs, contexts.div_ceil(jobs)),
     }
 }
 

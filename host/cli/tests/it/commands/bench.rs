@@ -16,7 +16,7 @@ fn a_core_has_a_row_per_set_with_every_column() {
     let scratch = Scratch::new();
     let run = scratch.run("bench --backend clock -n 600 --seed 3").ok();
     assert_eq!(run.stderr, "");
-    let about = "clock small, 4 contexts; sets of 600 points, 16 bits, seed 3, order brio-hilbert\n";
+    let about = "clock small, 16 contexts; sets of 600 points, 16 bits, seed 3, order brio-hilbert\n";
     assert!(run.stdout.starts_with(about), "{run:?}");
     assert!(run.stdout.lines().nth(1).is_some_and(|line| line.contains("at 125 MHz")), "{run:?}");
     // All lines of the table have the same width.

@@ -1,7 +1,7 @@
 //! Divisions fit the device and are the cheapest there are, and the formulas agree with the clocks
 //! that the model counts.
 
-use incircle_protocol::{Config, FULL, LARGE};
+use incircle_protocol::{Config, FULL, LARGE, SMALL};
 use proptest::prelude::*;
 
 use super::*;
@@ -48,30 +48,60 @@ fn a_group_takes_what_is_expected() {
     for (config, jobs, count) in
         [(FULL, 1, 300), (FULL, 4, 900), (FULL, 8, 400), (FULL, 12, 60), (FULL, 16, 200), (LARGE, 24, 200)]
     {
-        let plan = Plan::new(jobs, config.points);
+        let plan = Plan::new(jobs, config.points, true);
         let lengths = vec![count; jobs as usize];
-        let (of, expected) = plan.groups(&lengths).last().expect("they fit");
-        assert_eq!((of, plan.divide(&lengths)), (jobs as usize, vec![Part::Group(jobs as usize)]));
+        let (of, expected) = plan.groups(&lengths, 1).last().expect("they fit");
+        assert_eq!((of, plan.divide(&lengths)), (jobs as usize, vec![Part::Group { jobs: of, contexts: 1 }]));
         let sets: Vec<_> = (0..jobs).map(|seed| points(seed, count)).collect();
         assert_near(counted(config, jobs, &sets), expected, 10, &format!("{jobs} of {count}"));
     }
 }
 
 #[test]
+fn a_group_of_teams_takes_what_is_expected() {
+    for (config, jobs, contexts, count) in [
+        (SMALL, 5, 3, 200),
+        (SMALL, 3, 5, 340),
+        (SMALL, 2, 7, 500),
+        (FULL, 8, 2, 200),
+        (FULL, 4, 4, 200),
+        (FULL, 8, 2, 1000),
+        (FULL, 5, 3, 1600),
+        (FULL, 4, 4, 2000),
+        (FULL, 2, 8, 4000),
+    ] {
+        let plan = Plan::new(jobs * contexts, config.points, true);
+        let lengths = vec![count; jobs as usize];
+        let expected = plan.group_with(&lengths, contexts);
+        assert_eq!(plan.groups(&lengths, contexts).last(), Some((jobs as usize, expected)));
+        let divided = plan.divide(&lengths);
+        assert_eq!(divided, [Part::Group { jobs: jobs as usize, contexts }], "{jobs} of {count}");
+        let sets: Vec<_> = (0..jobs).map(|seed| points(seed, count)).collect();
+        let what = format!("{jobs} of {count}, {contexts} contexts each");
+        assert_near(counted(config, jobs * contexts, &sets), expected, 12, &what);
+    }
+}
+
+#[test]
 fn jobs_that_are_over_cost_next_to_nothing() {
     let lengths = [400, 400, 300, 200, 100, 100, 50, 50, 50, 50, 50, 50];
-    let plan = Plan::new(12, FULL.points);
-    assert_eq!(plan.divide(&lengths), [Part::Group(12)]);
-    let (_, expected) = plan.groups(&lengths).last().expect("they fit");
+    let plan = Plan::new(12, FULL.points, true);
+    let (mut expected, mut rest) = (0, &lengths[..]);
+    for part in plan.divide(&lengths) {
+        expected += clocks_of(&plan, part, rest).expect("it fits");
+        rest = &rest[part.jobs()..];
+    }
+    let one_group = plan.group_with(&lengths, 1);
+    assert!(expected < one_group, "{expected} and {one_group}");
     let sets: Vec<_> = (0..).zip(lengths).map(|(seed, count)| points(seed, count)).collect();
-    assert_near(counted(FULL, 12, &sets), expected, 10, "mixed lengths");
+    assert_near(counted(FULL, 12, &sets), expected, 12, "mixed lengths");
 }
 
 #[test]
 fn an_exclusive_job_takes_what_is_expected() {
     let mut device = Device::clock_model(LARGE).expect("possible");
     let mut session = device.session().expect("a session");
-    let plan = Plan::new(LARGE.contexts, LARGE.points);
+    let plan = Plan::new(LARGE.contexts, LARGE.points, true);
     for (count, contexts) in [
         (200, 2),
         (200, 6),
@@ -96,17 +126,34 @@ fn an_exclusive_job_takes_what_is_expected() {
 }
 
 #[test]
-fn the_full_core_shares_its_memory_up_to_a_seventh() {
-    let plan = Plan::new(FULL.contexts, FULL.points);
+fn the_full_core_shares_its_memory_up_to_a_half() {
+    let plan = Plan::new(FULL.contexts, FULL.points, true);
+    for points in (1..8192).step_by(7) {
+        assert_eq!(plan.shares(points), points <= 4096, "{points}");
+    }
+    assert!(plan.shares(4096) && !plan.shares(4097) && !plan.shares(u32::MAX as usize));
+    let group = |jobs, contexts| Part::Group { jobs, contexts };
+    assert_eq!(plan.divide(&[200; 16]), [group(16, 1)]);
+    assert_eq!(plan.divide(&[1000; 16]), [group(8, 2), group(8, 2)]);
+    assert_eq!(plan.divide(&[2000; 4]), [group(4, 4)]);
+    assert_eq!(plan.divide(&[4096; 5]), [group(2, 8), group(2, 8), Part::Exclusive]);
+    assert_eq!(plan.divide(&[4097; 2]), [Part::Exclusive; 2]);
+    assert_eq!(plan.divide(&[300; 2]), [group(2, 6)]);
+}
+
+#[test]
+fn the_full_core_without_teams_shares_its_memory_up_to_a_seventh() {
+    let plan = Plan::new(FULL.contexts, FULL.points, false);
     // 7 jobs of 1,170 points fit, and 6 are too few.
     for points in 1..8192 {
         assert_eq!(plan.shares(points), points <= 1170, "{points}");
     }
     assert!(!plan.shares(8193) && !plan.shares(u32::MAX as usize));
-    assert_eq!(plan.divide(&[1170; 7]), [Part::Group(7)]);
+    let group = |jobs| Part::Group { jobs, contexts: 1 };
+    assert_eq!(plan.divide(&[1170; 7]), [group(7)]);
     assert_eq!(plan.divide(&[1171; 7]), [Part::Exclusive; 7]);
     // A few jobs that are left over go one after another.
-    assert_eq!(plan.divide(&[1000; 17]), [Part::Group(8), Part::Group(8), Part::Exclusive]);
+    assert_eq!(plan.divide(&[1000; 17]), [group(8), group(8), Part::Exclusive]);
     assert_eq!(plan.divide(&[300; 2]), [Part::Exclusive; 2]);
     assert_eq!(plan.divide(&[]), []);
     assert_eq!([4000, 1000, 10].map(|points| plan.exclusive_contexts(points)), [16, 12, 1]);
@@ -115,15 +162,15 @@ fn the_full_core_shares_its_memory_up_to_a_seventh() {
 #[test]
 fn one_context_has_one_job_at_a_time_and_no_exclusive_ones() {
     for capacity in [8, 1024, 1 << 20] {
-        let plan = Plan::new(1, capacity);
+        let plan = Plan::new(1, capacity, true);
         for points in [1, 3, 8, 1000, 8192, 1 << 20] {
             assert_eq!(plan.shares(points), points <= capacity as usize, "{points} of {capacity}");
             if points <= capacity as usize {
-                assert_eq!(plan.divide(&[points; 3]), [Part::Group(1); 3]);
+                assert_eq!(plan.divide(&[points; 3]), [Part::Group { jobs: 1, contexts: 1 }; 3]);
             }
         }
     }
-    assert_eq!(Plan::new(0, 8).divide(&[5]), [Part::Group(1)]);
+    assert_eq!(Plan::new(0, 8, true).divide(&[5]), [Part::Group { jobs: 1, contexts: 1 }]);
 }
 
 /// Jobs of these lengths. Their points are all the same, since only the counts matter.
@@ -131,21 +178,22 @@ fn jobs_of(lengths: &[usize]) -> (Vec<Vec<Point>>, Vec<Ordered>) {
     let sets: Vec<Vec<Point>> = lengths.iter().map(|&count| vec![Point::new(0, 0); count]).collect();
     let ordered = |(job, &count): (usize, &usize)| {
         let order = (0..count as u32).collect();
-        Ordered { job, prepared: Prepared { order, duplicates: Vec::new(), collinear: false } }
+        Ordered { job, prepared: Prepared { order, duplicates: Vec::new(), collinear: false, starts: Vec::new() } }
     };
     (sets, lengths.iter().enumerate().map(ordered).collect())
 }
 
 /// Cost of a part, if it fits, with the points that are sent counted one by one.
 fn clocks_of(plan: &Plan, part: Part, lengths: &[usize]) -> Option<u64> {
-    let Part::Group(jobs) = part else {
+    let Part::Group { jobs, contexts } = part else {
         return Some(plan.exclusive(lengths[0]).0);
     };
     let own = &lengths[..jobs];
     let (sets, ordered) = jobs_of(own);
-    let fits = jobs <= plan.rounds.len() && sent(&Group::sharing(ordered), &sets) <= plan.capacity;
-    let steps = own.iter().zip(1..).map(|(&points, jobs)| points as u64 * one_more(jobs));
-    fits.then(|| COMMANDS + steps.sum::<u64>() + FIRST_TRIANGLE * jobs as u64)
+    let is_allowed = contexts <= plan.most_of_team && (contexts == 1 || jobs > 1);
+    let has_contexts = jobs * contexts as usize <= plan.rounds.len();
+    let fits = is_allowed && has_contexts && sent(&Group::sharing(ordered, contexts), &sets) <= plan.capacity;
+    fits.then(|| plan.group_with(own, contexts))
 }
 
 /// The lowest cost of all divisions, found by trying each of them.
@@ -153,7 +201,8 @@ fn fewest(plan: &Plan, lengths: &[usize]) -> u64 {
     if lengths.is_empty() {
         return 0;
     }
-    let parts = std::iter::once(Part::Exclusive).chain((1..=lengths.len()).map(Part::Group));
+    let groups = (1..=lengths.len()).flat_map(|jobs| (1..7).map(move |contexts| Part::Group { jobs, contexts }));
+    let parts = std::iter::once(Part::Exclusive).chain(groups);
     let clocks = |part: Part| Some(clocks_of(plan, part, lengths)? + fewest(plan, &lengths[part.jobs()..]));
     parts.filter_map(clocks).min().expect("an exclusive job always fits")
 }
@@ -161,12 +210,13 @@ fn fewest(plan: &Plan, lengths: &[usize]) -> u64 {
 proptest! {
     #[test]
     fn every_part_fits_and_no_division_takes_fewer_clocks(
-        mut lengths in prop::collection::vec(3usize..70, 0..9),
+        mut lengths in prop::collection::vec(3usize..70, 0..7),
         contexts in 1u32..7,
+        has_teams in any::<bool>(),
         capacity in 70u32..200,
     ) {
         lengths.sort_unstable_by_key(|&points| std::cmp::Reverse(points));
-        let plan = Plan::new(contexts, capacity);
+        let plan = Plan::new(contexts, capacity, has_teams);
         let (mut clocks, mut rest) = (0, &lengths[..]);
         for part in plan.divide(&lengths) {
             clocks += clocks_of(&plan, part, rest).expect("it fits");
@@ -183,10 +233,13 @@ proptest! {
         let mut lengths = vec![share; jobs];
         lengths[..longer].fill(share + 1);
         let sent = jobs * share + longer;
-        let groups = |capacity: usize| Plan::new(16, capacity as u32).groups(&lengths).map(|(jobs, _)| jobs).last();
+        let groups = |capacity: usize| {
+            let plan = Plan::new(16, capacity as u32, true);
+            plan.groups(&lengths, 1).map(|(jobs, _)| jobs).last()
+        };
         prop_assert_eq!(groups(sent), Some(jobs));
         prop_assert!(groups(sent - 1) < Some(jobs));
         let (sets, ordered) = jobs_of(&lengths);
-        prop_assert_eq!(super::tests::sent(&Group::sharing(ordered), &sets), sent);
+        prop_assert_eq!(super::tests::sent(&Group::sharing(ordered, 1), &sets), sent);
     }
 }

@@ -8,7 +8,7 @@ use std::time::Duration;
 use crate::common::board::{cobs_decode, crc32, crc32_more, frame, greeting};
 use crate::common::heap;
 use incircle::transports::parts::{Params, SerialProtocol};
-use incircle_protocol::{Command, RecordRange};
+use incircle_protocol::{Clear, Command, RecordRange};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 
@@ -103,7 +103,7 @@ fn event() -> impl Strategy<Value = Event> {
 fn command() -> impl Strategy<Value = Command<Vec<u32>>> {
     prop_oneof![
         Just(Command::Hello),
-        Just(Command::Clear { contexts: 0, is_batch: false }),
+        Just(Command::Clear(Clear::one_mesh(0))),
         Just(Command::Counters),
         Just(Command::Latencies),
         (0u32..3000).prop_map(insert),

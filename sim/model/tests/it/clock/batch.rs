@@ -1,9 +1,9 @@
 //! Jobs side by side in one memory: each job gets the mesh that it gets on its own, from the model by commands
 //! and clock by clock.
 
-use crate::common::batches::taken_apart;
+use crate::common::batches::{check_single_meshes, teams_word};
 use crate::common::bench::{limit, Answer, Answers, Bench, Stalls};
-use crate::common::mesh_check::{canonical, records_of};
+use crate::common::mesh_check::records_of;
 use crate::common::{sets, Random};
 use incircle_model::CommandModel;
 use incircle_protocol::{
@@ -36,30 +36,29 @@ fn model(config: Config) -> CommandModel {
     CommandModel::new(16, config.points, config.ring).expect("possible").with_contexts(config.contexts)
 }
 
-/// Checks that every job of a batch has the mesh that it has on its own.
-fn expect_single_meshes(records: &[[u32; 3]], points: &[u32], jobs: u32, config: Config) {
-    let apart = taken_apart(records, jobs, config).unwrap_or_else(|fault| panic!("{fault}, {points:x?}"));
-    for (job, records) in (0..jobs).zip(apart) {
-        let own: Vec<u32> = (0..)
-            .zip(points)
-            .filter(|&(id, _)| if id < 3 * jobs { id / 3 == job } else { (id - 3 * jobs) % jobs == job })
-            .map(|(_, point)| *point)
-            .collect();
-        let mut alone = model(config);
-        alone.send(&words_of(clear_word(1), &own, own.len()));
-        let right = canonical(&records_of(alone.mesh(), config.points), &own, config.points);
-        assert!(right.is_ok(), "{right:?}");
-        assert_eq!(canonical(&records, &own, config.points), right, "job {job} of {jobs}, {own:x?}");
-    }
+/// Runs a batch with a context for each job on both models and compares them; returns the counters.
+fn compare(bench: &mut Bench, jobs: u32, points: &[u32], piece: usize, stalls: Stalls, random: &mut Random) -> Answer {
+    let counters = compare_teams(bench, [jobs, jobs], points, piece, stalls, random);
+    let met = counters.counter(Counter::Aborts);
+    assert_eq!(met, 0, "jobs meet no locks of each other, {:?}, {jobs} jobs, {points:x?}", bench.config);
+    counters
 }
 
-/// Runs a batch on both models and compares them; returns the counters.
-fn compare(bench: &mut Bench, jobs: u32, points: &[u32], piece: usize, stalls: Stalls, random: &mut Random) -> Answer {
+/// Runs a batch of `jobs` jobs on `contexts` contexts on both models and compares them; returns the counters.
+fn compare_teams(
+    bench: &mut Bench,
+    [contexts, jobs]: [u32; 2],
+    points: &[u32],
+    piece: usize,
+    stalls: Stalls,
+    random: &mut Random,
+) -> Answer {
     let config = bench.config;
-    let words = words_of(batch_word(jobs), points, piece);
+    let clear = if contexts == jobs { batch_word(jobs) } else { teams_word(contexts, jobs) };
+    let words = words_of(clear, points, piece);
     let mut by_commands = model(config);
     let wanted = expected(&mut by_commands, &words);
-    let what = || format!("{config:?}, {jobs} jobs, pieces of {piece}, {points:x?}");
+    let what = || format!("{config:?}, {jobs} jobs, {contexts} contexts, pieces of {piece}, {points:x?}");
     let most = 4 * limit(points.len());
     let mut run = |words: &[u32], count| match bench.run(words, count, stalls, most, random) {
         Ok(answers) => answers,
@@ -73,14 +72,13 @@ fn compare(bench: &mut Bench, jobs: u32, points: &[u32], piece: usize, stalls: S
     let arrived = &points[..points.len().min(config.points as usize)];
     let is_whole = arrived.len() as u32 >= 3 * jobs && !by_commands.mesh().is_collinear();
     if is_whole {
-        expect_single_meshes(&records, arrived, jobs, config);
-        expect_single_meshes(&records_of(by_commands.mesh(), config.points), arrived, jobs, config);
+        for records in [records, records_of(by_commands.mesh(), config.points)] {
+            check_single_meshes(&records, arrived, jobs, config).unwrap_or_else(|fault| panic!("{fault}: {}", what()));
+        }
     }
     let free = (0..2 * config.points).all(|id| bench.core.record_words(id)[0] >> 31 == 0);
     assert!(free, "a lock is left, {}", what());
-    let counters = bench.counters().expect("in time");
-    assert_eq!(counters.counter(Counter::Aborts), 0, "jobs meet no locks of each other, {}", what());
-    counters
+    bench.counters().expect("in time")
 }
 
 #[test]
@@ -124,6 +122,44 @@ fn every_job_gets_the_mesh_it_gets_alone() {
     least(Counter::Duplicates, 20_000);
     least(Counter::Refused, 1000);
     least(Counter::Overflows, 5000);
+}
+
+/// Every way in which some numbers of contexts form teams of two and more, with all kinds of points.
+#[test]
+fn every_job_of_a_team_gets_the_mesh_it_gets_alone() {
+    let mut random = Random(37);
+    let mut seen = [0u64; COUNTER_WORDS];
+    for ring in [3, 6, 9, 32, 64] {
+        for contexts in [2, 4, 6, 9, 12, 15, 16, 24] {
+            let config = Config { name: "test", points: 512, ring, contexts };
+            let mut bench = Bench::new(config);
+            for jobs in (1..contexts).filter(|jobs| contexts.is_multiple_of(*jobs)) {
+                for turn in 0..4 {
+                    let most = [4, 30, 400 / jobs, 600 / jobs][turn];
+                    let mut points = Batch::random(&mut random, jobs, most, true).points();
+                    points.truncate(points.len() - random.below(jobs) as usize);
+                    let points = &points[..points.len().max(3 * jobs as usize)];
+                    let stalls = [(0, 0), (2, 3), (5, 2), (0, 0)][random.below(4) as usize];
+                    let stalls = Stalls { idle: stalls.0, full: stalls.1, beat: 0 };
+                    let piece = [points.len(), 1 + random.below(40) as usize][turn % 2];
+                    let counters = compare_teams(&mut bench, [contexts, jobs], points, piece, stalls, &mut random);
+                    for (sum, value) in seen.iter_mut().zip(&counters.payload) {
+                        *sum += u64::from(*value);
+                    }
+                }
+            }
+        }
+    }
+    let least = |counter: Counter, count: u64| {
+        let found = seen[counter as usize];
+        assert!(found >= count, "{counter:?} only {found} times");
+    };
+    least(Counter::Insertions, 40_000);
+    least(Counter::Duplicates, 20_000);
+    least(Counter::Refused, 1000);
+    least(Counter::Overflows, 5000);
+    least(Counter::Aborts, 20_000);
+    least(Counter::PrioritiesTaken, 5000);
 }
 
 #[test]
@@ -173,13 +209,42 @@ fn too_many_jobs_are_refused() {
     let mut random = Random(34);
     let points = sets::started(sets::boxed(&mut random, 40, 100));
     bench.insert(0, &points).expect("in time");
-    for jobs in [5, 24, 255] {
+    for jobs in [17, 24, 255] {
         let refused = bench.run(&[batch_word(jobs)], 1, Stalls::default(), 500, &mut random).expect("in time");
         assert!(refused[0].is(Status::BadContexts));
         assert_eq!(expected(&mut by_commands, &[batch_word(jobs)]), refused);
     }
     let more = bench.run(&[command_word(Opcode::Insert), 1, 0x7_0009], 1, Stalls::default(), 5000, &mut random);
     assert_eq!(more.expect("in time")[0].report().arrived, 44, "nothing was cleared");
+}
+
+/// A number of jobs that does not divide that of the contexts leaves everything as it is.
+#[test]
+fn a_number_of_jobs_must_divide_that_of_the_contexts() {
+    let config = Config { name: "test", points: 64, ring: 32, contexts: 24 };
+    let mut bench = Bench::new(config);
+    let mut by_commands = model(config);
+    let mut random = Random(38);
+    let points = sets::started(sets::boxed(&mut random, 20, 100));
+    bench.insert(0, &points).expect("in time");
+    by_commands.send(&words_of(clear_word(0), &points, points.len()));
+    by_commands.receive(&mut [0; 9]);
+    for contexts in 0..=26 {
+        for jobs in 0..=127 {
+            let working = if contexts == 0 { 24 } else { contexts };
+            let fits = working <= 24 && (jobs == 0 || working % jobs == 0);
+            if fits {
+                continue;
+            }
+            let words = [teams_word(contexts, jobs)];
+            let refused = bench.run(&words, 1, Stalls::default(), 500, &mut random).expect("in time");
+            assert!(refused[0].is(Status::BadContexts), "{contexts} contexts, {jobs} jobs");
+            assert_eq!(expected(&mut by_commands, &words), refused);
+        }
+    }
+    let more = bench.run(&[command_word(Opcode::Insert), 1, 0x7_0009], 1, Stalls::default(), 5000, &mut random);
+    assert_eq!(more.expect("in time")[0].report().arrived, 24, "nothing was cleared");
+    assert_eq!(by_commands.mesh().counts().arrived, 23, "nothing was cleared");
 }
 
 #[test]

@@ -1,6 +1,40 @@
 //! The meshes of the jobs of a batch, separated from the memory that the jobs share.
 
-use incircle_protocol::{infinite_vertex, Config, Layout};
+use super::mesh_check::{canonical, records_of};
+use incircle_model::CommandModel;
+use incircle_protocol::{clear_word, command_word, infinite_vertex, Clear, Config, Layout, Meshes, Opcode};
+
+/// The `Clear` for a batch of `jobs` jobs on this many contexts, in teams of equal size.
+pub fn teams_word(contexts: u32, jobs: u32) -> u32 {
+    Clear { contexts, meshes: Meshes::SideBySide(jobs), tag: 0 }.word()
+}
+
+/// The points of each job, from the points of a batch in the order in which they are sent.
+pub fn own_points(points: &[u32], jobs: u32) -> Vec<Vec<u32>> {
+    let mut own = vec![Vec::new(); jobs as usize];
+    for (id, point) in (0..).zip(points) {
+        own[job_of(id, jobs) as usize].push(*point);
+    }
+    own
+}
+
+/// Checks that every job of a batch has the mesh that it has on its own, by the model by commands.
+///
+/// # Errors
+/// The first job with another mesh, or the first fault of a record.
+pub fn check_single_meshes(records: &[[u32; 3]], points: &[u32], jobs: u32, config: Config) -> Result<(), String> {
+    let apart = taken_apart(records, jobs, config)?;
+    for (job, (records, own)) in apart.iter().zip(own_points(points, jobs)).enumerate() {
+        let mut alone = CommandModel::new(16, config.points, config.ring).expect("a model that can be built");
+        alone.send(&[clear_word(1), command_word(Opcode::Insert), own.len() as u32]);
+        alone.send(&own);
+        let right = canonical(&records_of(alone.mesh(), config.points), &own, config.points)?;
+        if canonical(records, &own, config.points)? != right {
+            return Err(format!("another mesh of job {job} of {jobs}, {own:x?}"));
+        }
+    }
+    Ok(())
+}
 
 /// Number of the job that a vertex belongs to.
 fn job_of(vertex: u32, jobs: u32) -> u32 {

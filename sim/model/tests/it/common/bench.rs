@@ -162,7 +162,15 @@ impl Bench {
     /// # Errors
     /// The clocks ran out.
     pub fn insert(&mut self, contexts: u32, points: &[u32]) -> Result<Answer, Hang> {
-        let mut words = vec![clear_word(contexts), command_word(Opcode::Insert), points.len() as u32];
+        self.insert_after(clear_word(contexts), points)
+    }
+
+    /// Sends this `Clear`, and inserts points with one command.
+    ///
+    /// # Errors
+    /// The clocks ran out.
+    pub fn insert_after(&mut self, clear: u32, points: &[u32]) -> Result<Answer, Hang> {
+        let mut words = vec![clear, command_word(Opcode::Insert), points.len() as u32];
         words.extend(points);
         let mut answers = self.run(&words, 2, Stalls::default(), limit(points.len()), &mut Random(0))?;
         Ok(answers.swap_remove(1))

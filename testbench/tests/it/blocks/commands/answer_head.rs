@@ -4,10 +4,10 @@
 use crate::rig::answer_words::{commands, Answer, Asked};
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::commands::AnswerHead;
-use incircle_protocol::{answer_header, Opcode, Status};
+use incircle_protocol::{answer_header, signed_header, Opcode, Status};
 use incircle_testkit::SplitMix64;
 
-named_ports!(AnswerHead, [request, is_refused, records, collinear, stuck, some_refused], [head], clock);
+named_ports!(AnswerHead, [request, clearing, engine, records, collinear, stuck, some_refused], [head], clock);
 
 #[test]
 fn answer_heads_follow_the_protocol() {
@@ -16,13 +16,16 @@ fn answer_heads_follow_the_protocol() {
     let mut bad_ranges = 0;
     for (opcode, is_refused, clocks) in commands(&mut random) {
         let mut answers: Vec<Answer> = vec![];
+        let Asked { engine, tag, .. } = Asked::random(&mut random);
         for clock in 0..clocks {
-            let asked = Asked { opcode, is_refused, ..Asked::random(&mut random) };
+            let asked = Asked { opcode, is_refused, engine, tag, ..Asked::random(&mut random) };
             for (port, value) in [
                 ("opcode", u32::from(asked.opcode)),
                 ("first", asked.first),
                 ("count", asked.count),
                 ("is_refused", asked.is_refused.into()),
+                ("tag", asked.tag.into()),
+                ("engine", asked.engine.into()),
                 ("collinear", asked.collinear.into()),
                 ("stuck", asked.stuck.into()),
                 ("some_refused", (asked.report.refused > 0).into()),
@@ -37,7 +40,7 @@ fn answer_heads_follow_the_protocol() {
             if clock >= 3 {
                 let answer = &answers[clock - 3];
                 bad_ranges += u32::from(answer.status == Status::BadRange);
-                block.expect("header", answer_header(answer.opcode, answer.status));
+                block.expect("header", signed_header(answer_header(answer.opcode, answer.status), engine, tag));
                 block.expect("length", answer.length);
                 block.expect("is_empty", answer.length == 0);
             }

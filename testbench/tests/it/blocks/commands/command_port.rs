@@ -6,7 +6,7 @@ use std::collections::VecDeque;
 use crate::rig::command_reference::{Meaning, Pins, Reference, Shape, Surroundings};
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use incircle_hdl::commands::CommandPort;
-use incircle_protocol::{batch_word, clear_word, command_word, Opcode, PADDING};
+use incircle_protocol::{batch_word, clear_word, command_word, Opcode, CLEAR_MESHES_SHIFT, CLEAR_TAG_SHIFT, PADDING};
 use incircle_testkit::SplitMix64;
 
 named_ports!(
@@ -24,7 +24,9 @@ fn command(random: &mut SplitMix64) -> Vec<u32> {
         0 => vec![command_word(Opcode::Hello)],
         1 | 2 => {
             let contexts = [0, random.below(6) as u32, random.below(300) as u32][random.below(3) as usize];
-            vec![if random.below(2) == 0 { clear_word(contexts) } else { batch_word(contexts) }]
+            let jobs = [0, 1 + random.below(6) as u32, random.below(128) as u32][random.below(3) as usize];
+            let word = if random.below(2) == 0 { clear_word(contexts) } else { batch_word(contexts) };
+            vec![word | jobs << CLEAR_MESHES_SHIFT | (random.below(256) as u32) << CLEAR_TAG_SHIFT]
         }
         3 => vec![command_word(Opcode::Counters)],
         4 => vec![(random.below(256) as u32 | 8) << 24],
@@ -151,6 +153,7 @@ impl Rig {
         for (port, expected) in [
             ("came", reference.came.is_some()),
             ("clears", reference.clears),
+            ("is_checking", reference.checked.is_some()),
             ("answers", reference.answers_now()),
             ("inserting", reference.inserting),
             ("reading", reference.reading),
@@ -167,6 +170,7 @@ impl Rig {
             ("first", reference.first),
             ("count", reference.count),
             ("is_refused", reference.is_refused.map(u32::from)),
+            ("tag", Some(reference.tag.into())),
             ("arrived", Some(reference.arrived)),
             ("refused", Some(reference.refused)),
             ("some_refused", Some((reference.refused > 0).into())),

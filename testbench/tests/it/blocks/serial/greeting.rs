@@ -22,7 +22,7 @@ fn greeting_is_that_of_the_page() {
         CORE_VERSION,
         16,
         SMALL.points,
-        SMALL.contexts,
+        1 << 8 | SMALL.contexts,
         SMALL.ring,
     ];
     for index in 0..52 {

@@ -20,7 +20,10 @@ fn greets_and_answers(pins: impl Pins) {
         words[..6],
         [LINK_MAGIC, 0x0001_0000, link.clock_hz, link.fifo_bytes, link.clock_hz / 8, link.silence_ms]
     );
-    assert_eq!((words[6], words[10], words[11], words[12]), (0x696e_4369, SMALL.points, SMALL.contexts, SMALL.ring));
+    assert_eq!(
+        (words[6], words[10], words[11], words[12]),
+        (0x696e_4369, SMALL.points, 1 << 8 | SMALL.contexts, SMALL.ring)
+    );
     rig.open();
     rig.data(0, &[0x0100_0003]);
     let ack = rig.hear(DeviceFrame::Ack);

@@ -146,7 +146,7 @@ impl Block {
             CoreVersion => CORE_VERSION,
             CoordBits => CORE_COORD_BITS,
             Capacity => SMALL.points,
-            Contexts => SMALL.contexts,
+            Contexts => 1 << 8 | SMALL.contexts,
             Ring => SMALL.ring,
             BeatBits => 64,
             FifoBeats => STREAM_FIFO_BEATS,

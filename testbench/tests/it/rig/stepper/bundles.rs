@@ -224,42 +224,41 @@ impl Edge {
     }
 }
 
-/// The way in which points are dealt to contexts.
+/// The way in which points are dealt to contexts: each of the jobs has a team of `contexts / jobs`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Deal {
     pub contexts: u64,
-    pub is_batch: bool,
+    pub jobs: u64,
     pub dealt_from: u64,
 }
 
 impl Deal {
-    /// Both ways of dealing points to this many contexts.
-    pub fn both(contexts: u64) -> [Self; 2] {
-        [Self::one_mesh(contexts), Self::batch(contexts)]
+    pub fn new(contexts: u64, jobs: u64) -> Self {
+        Self { contexts, jobs, dealt_from: 3 * jobs }
+    }
+
+    /// All ways in which this many contexts form teams.
+    pub fn all(contexts: u64) -> impl Iterator<Item = Self> {
+        (1..=contexts).filter(move |jobs| contexts.is_multiple_of(*jobs)).map(move |jobs| Self::new(contexts, jobs))
+    }
+
+    /// The number of vertex `place` of a job, three or later.
+    fn vertex(self, job: u64, place: u64) -> u64 {
+        place * self.jobs + job
     }
 
     /// Vertices of a context in their order, without end.
     pub fn dealt(self, context: u64) -> impl Iterator<Item = u64> {
-        let Self { contexts, is_batch, dealt_from } = self;
-        let alone = match context {
-            _ if is_batch => 3 * context + 2..3 * context + 3,
-            0 => 2..dealt_from,
-            _ => 0..0,
-        };
-        alone.chain((dealt_from + context..).step_by(contexts as usize))
-    }
-
-    /// The deal for contexts that work on one mesh.
-    pub fn one_mesh(contexts: u64) -> Self {
-        Self { contexts, is_batch: false, dealt_from: incircle_protocol::FIRST_ROUND.into() }
-    }
-
-    /// The deal for jobs side by side.
-    pub fn batch(contexts: u64) -> Self {
-        Self { contexts, is_batch: true, dealt_from: 3 * contexts }
+        const FIRST_ROUND: u64 = incircle_protocol::FIRST_ROUND as u64;
+        let (team, member) = (context % self.jobs, context / self.jobs);
+        let size = (self.contexts / self.jobs) as usize;
+        let alone = if member == 0 { 3..FIRST_ROUND } else { 0..0 };
+        let third = (member == 0).then_some(3 * team + 2);
+        let places = alone.chain((FIRST_ROUND + member..).step_by(size));
+        third.into_iter().chain(places.map(move |place| self.vertex(team, place)))
     }
 
     pub fn bits(self) -> u128 {
-        u128::from(self.contexts | u64::from(self.is_batch) << 5 | self.dealt_from << 6)
+        u128::from(self.contexts | self.jobs << 5 | self.dealt_from << 10)
     }
 }

@@ -14,7 +14,7 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     Attempts,
-    [ring_capacity, early, completion, seeded, contexts, start, now],
+    [ring_capacity, early, completion, seeded, contexts, holds_priority, start, now],
     [is_done, follow, outcome, looks, entry, inner, lock, commit, releases, events],
     clock
 );
@@ -176,19 +176,20 @@ impl Rig {
         let seeded = !self.one_in(100);
         let busy = self.lives.iter().enumerate().filter(|(_, life)| life.due.is_some());
         let busy = busy.fold(0u64, |set, (context, _)| set | 1 << context);
-        let (priority_context, is_held) =
-            (self.priority_context.unwrap_or(self.random.below(CONTEXTS)), self.priority_context.is_some());
-        for (port, value) in [("ring_capacity", self.ring), ("busy", busy), ("priority_context", priority_context)] {
+        for (port, value) in [("ring_capacity", self.ring), ("busy", busy)] {
             self.block.set(port, value);
         }
+        let holds_priority = match visit {
+            Some(visit) => self.priority_context == Some(visit.context),
+            None => self.one_in(2),
+        };
         self.block.set("seeded", seeded);
-        self.block.set("priority_is_held", is_held);
+        self.block.set("holds_priority", holds_priority);
         self.block.set("early_done", visit.is_some());
         let anything =
             Visit { context: self.random.below(CONTEXTS), cavity_entry: self.random.below(64), ..Visit::look(0) };
         self.block.set("early_visit", visit.unwrap_or(anything).packed());
         let visit = visit?;
-        let holds_priority = self.priority_context == Some(visit.context);
         let around = Around { seeded, ring: self.ring, holds_priority, is_busy: busy >> visit.context & 1 == 1 };
         let done = self.read(visit);
         let infinite = [self.one_in(2); 3];

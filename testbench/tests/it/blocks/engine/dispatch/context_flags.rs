@@ -7,8 +7,8 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     ContextFlags,
-    [reset, clears, built_contexts, outcome, start, released, committed, solo_ends],
-    [contexts, takes_priority],
+    [reset, clears, built_contexts, outcome, start, released, committed, solo_ends, solo_context],
+    [contexts],
     clock
 );
 
@@ -22,14 +22,12 @@ struct Events {
     sleeps: bool,
     will_retry: bool,
     hands_over: bool,
-    asks_for_priority: bool,
-    waits: bool,
-    returns_priority: bool,
     overflows: bool,
     starter: Option<u64>,
     released: Option<u64>,
     committed: Option<u64>,
-    solo_ends: bool,
+    /// The context whose solo insertion ends.
+    solo: Option<u64>,
 }
 
 /// State of one context.
@@ -40,24 +38,22 @@ struct Flags {
     busy: bool,
     began: bool,
     hinted: bool,
+    /// The context inserts solo, or waits for that.
+    solo: bool,
 }
 
-/// All contexts, the priority, and the context that inserts or waits to insert solo.
+/// All contexts.
 #[derive(Clone, Debug)]
 struct FlagsReference {
     contexts: Vec<Flags>,
-    priority_context: Option<u64>,
-    /// Number of foreign locks that the context with the priority has met.
-    met: u64,
-    solo: Option<u64>,
     /// All contexts rested a clock ago, and none has started since.
     rested: bool,
 }
 
 impl FlagsReference {
     fn new(contexts: u64) -> Self {
-        let rests = Flags { asleep: true, retrying: false, busy: false, began: false, hinted: false };
-        Self { contexts: vec![rests; contexts as usize], priority_context: None, met: 0, solo: None, rested: false }
+        let rests = Flags { asleep: true, retrying: false, busy: false, began: false, hinted: false, solo: false };
+        Self { contexts: vec![rests; contexts as usize], rested: false }
     }
 
     fn set(&self, flag: impl Fn(&Flags) -> bool) -> u64 {
@@ -82,6 +78,7 @@ impl FlagsReference {
         context.asleep |= events.sleeps;
         context.retrying |= events.will_retry;
         context.busy |= events.hands_over;
+        context.solo |= events.overflows;
         if let Some(context) = events.starter {
             let starter = self.at(context);
             (starter.asleep, starter.retrying, starter.began) = (false, false, true);
@@ -92,22 +89,9 @@ impl FlagsReference {
         if let Some(context) = events.committed {
             self.at(context).hinted = true;
         }
-        match self.priority_context {
-            None if events.asks_for_priority => (self.priority_context, self.met) = (Some(events.context), 0),
-            Some(priority_context) if events.returns_priority && priority_context == events.context => {
-                self.priority_context = None
-            }
-            _ => {}
-        }
-        self.met += u64::from(events.waits);
-        if events.overflows {
-            self.solo = self.solo.or(Some(events.context));
-        }
-        if events.solo_ends {
-            if let Some(context) = self.solo.take() {
-                self.at(context).retrying = false;
-                self.priority_context = self.priority_context.filter(|priority_context| *priority_context != context);
-            }
+        if let Some(context) = events.solo {
+            let ended = self.at(context);
+            (ended.retrying, ended.solo) = (false, false);
         }
     }
 }
@@ -121,14 +105,11 @@ fn flags_clock(block: &mut Stepper<ContextFlags>, reference: &mut FlagsReference
         ("sleeps", events.sleeps),
         ("will_retry", events.will_retry),
         ("hands_over", events.hands_over),
-        ("asks_for_priority", events.asks_for_priority),
-        ("waits", events.waits),
-        ("returns_priority", events.returns_priority),
         ("overflows", events.overflows),
         ("start_valid", events.starter.is_some()),
         ("released_valid", events.released.is_some()),
         ("committed_valid", events.committed.is_some()),
-        ("solo_ends", events.solo_ends),
+        ("solo_ends", events.solo.is_some()),
     ] {
         block.set(port, value);
     }
@@ -138,6 +119,7 @@ fn flags_clock(block: &mut Stepper<ContextFlags>, reference: &mut FlagsReference
     block.set("start_context", events.starter.unwrap_or(other));
     block.set("released_context", events.released.unwrap_or(other));
     block.set("committed_job_context", events.committed.unwrap_or(other));
+    block.set("solo_context", events.solo.unwrap_or(other));
     block.settle();
     if block.clocks() > 0 {
         block.expect("asleep", reference.set(|flags| flags.asleep));
@@ -145,16 +127,10 @@ fn flags_clock(block: &mut Stepper<ContextFlags>, reference: &mut FlagsReference
         block.expect("busy", reference.set(|flags| flags.busy));
         block.expect("began", reference.set(|flags| flags.began));
         block.expect("hinted", reference.set(|flags| flags.hinted));
-        block.expect("priority_is_held", reference.priority_context.is_some());
-        block.expect("is_urgent", reference.priority_context.is_some() && reference.met >= 8);
-        block.expect("solo_valid", reference.solo.is_some());
+        let solo = reference.set(|flags| flags.solo);
+        block.expect("solo", solo);
+        block.expect("solo_valid", solo != 0);
         block.expect("all_rest", reference.rested);
-        block.expect("takes_priority", events.asks_for_priority && reference.priority_context.is_none());
-        reference
-            .priority_context
-            .into_iter()
-            .for_each(|priority_context| block.expect("priority_context", priority_context));
-        reference.solo.into_iter().for_each(|solo| block.expect("solo_context", solo));
     }
     block.edge();
     reference.edge(events);
@@ -170,33 +146,25 @@ fn any(reference: &FlagsReference, random: &mut SplitMix64, holds: impl Fn(&Flag
 fn events(reference: &FlagsReference, random: &mut SplitMix64) -> Events {
     let mut flip = |times: u64| random.below(times) == 0;
     let (reset, clears, over) = (flip(900), flip(900), flip(2));
-    let (will_retry, hands_over, asks_for_priority, overflows) = (flip(2), flip(2), flip(4), flip(12));
-    let (ends_solo, gives_back, meets) = (flip(4), flip(8), !flip(8));
-    let solo_works = reference.solo.is_some() && reference.rests();
+    let (will_retry, hands_over, overflows, ends_solo) = (flip(2), flip(2), flip(12), flip(4));
+    let solo_is_asked = reference.set(|flags| flags.solo) != 0;
     let mut events =
         Events { reset, clears, context: random.below(reference.contexts.len() as u64), ..Events::default() };
     // No visit of another context completes during a solo insertion.
-    if solo_works {
-        events.solo_ends = ends_solo;
+    if solo_is_asked && reference.rests() {
+        events.solo = any(reference, random, |flags| flags.solo && ends_solo);
     } else if let Some(context) = any(reference, random, |flags| !flags.asleep) {
         let is_free = !reference.contexts[context as usize].busy;
-        // A context that meets a foreign lock with the priority waits; it neither asks for the priority nor ends.
-        let waits = reference.priority_context == Some(context) && meets;
-        let sleeps = over && !waits;
-        let asks_for_priority = asks_for_priority && !waits;
         events = Events {
             context,
-            sleeps,
-            will_retry: sleeps && will_retry,
-            hands_over: sleeps && hands_over && is_free,
-            asks_for_priority,
-            waits,
-            returns_priority: sleeps && !asks_for_priority && gives_back,
-            overflows: overflows && !waits,
+            sleeps: over,
+            will_retry: over && will_retry,
+            hands_over: over && hands_over && is_free,
+            overflows,
             ..events
         };
     }
-    if reference.solo.is_none() {
+    if !solo_is_asked {
         events.starter = any(reference, random, |flags| flags.asleep);
     }
     events.released = any(reference, random, |flags| flags.busy);
@@ -207,19 +175,16 @@ fn events(reference: &FlagsReference, random: &mut SplitMix64) -> Events {
 #[test]
 fn context_flags_are_those_of_lists_of_contexts() {
     let mut random = SplitMix64::new(70);
-    let mut seen = [0; 6];
+    let mut seen = [0; 3];
     for contexts in [1, 2, 3, 4, 16, 23, u64::from(MAX_CONTEXTS)] {
         let mut block = Stepper::new("context_flags", ContextFlags::default(), contexts as u32);
         let mut reference = FlagsReference::new(contexts);
         for clock in 0..12_000 {
             let events = Events { reset: clock == 0, ..events(&reference, &mut random) };
-            let waits = reference.priority_context.is_some();
+            let asking = reference.set(|flags| flags.solo).count_ones();
             for (seen, happens) in seen.iter_mut().zip([
-                events.asks_for_priority && waits,
-                events.returns_priority && reference.priority_context == Some(events.context),
-                events.solo_ends && reference.priority_context == reference.solo,
-                events.overflows && reference.solo.is_some(),
-                events.waits && reference.met > 8,
+                events.solo.is_some() && asking > 1,
+                events.overflows && asking > 0,
                 events.sleeps && events.starter.is_some() && events.released.is_some() && events.committed.is_some(),
             ]) {
                 *seen += usize::from(happens);
@@ -241,8 +206,8 @@ fn context_flags_show_the_wave_of_their_header() {
     for clock in 0..14 {
         let events = match clock {
             1 | 5 => Events { starter: Some(context), ..base },
-            3 => Events { sleeps: true, will_retry: true, asks_for_priority: true, ..base },
-            7 => Events { sleeps: true, hands_over: true, returns_priority: true, ..base },
+            3 => Events { sleeps: true, will_retry: true, ..base },
+            7 => Events { sleeps: true, hands_over: true, ..base },
             9 => Events { committed: Some(context), ..base },
             11 => Events { released: Some(context), ..base },
             _ => base,
@@ -253,8 +218,6 @@ fn context_flags_show_the_wave_of_their_header() {
             ("starts", Cell::Bit(events.starter.is_some())),
             ("sleeps", Cell::Bit(events.sleeps)),
             ("will_retry", Cell::Bit(events.will_retry)),
-            ("asks_for_priority", Cell::Bit(events.asks_for_priority)),
-            ("returns_priority", Cell::Bit(events.returns_priority)),
             ("hands_over", Cell::Bit(events.hands_over)),
             ("commit_ends", Cell::Bit(events.committed.is_some())),
             ("released", Cell::Bit(events.released.is_some())),
@@ -263,7 +226,6 @@ fn context_flags_show_the_wave_of_their_header() {
             ("busy", set(|flags| flags.busy)),
             ("began", set(|flags| flags.began)),
             ("hinted", set(|flags| flags.hinted)),
-            ("priority_is_held", Cell::Bit(reference.priority_context.is_some())),
             ("all_rest", Cell::Bit(reference.rested)),
         ]);
         reference.edge(&events);

@@ -4,5 +4,6 @@ mod context_flags;
 mod finished_points;
 mod next_point;
 mod plan_table;
+mod priorities;
 mod starter;
 mod watchdog;

@@ -11,8 +11,8 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     Starter,
-    [reset, clears, deal, arrived, came, seeded, contexts, solo_is_at_work, is_done, is_blocked, outcome],
-    [start, solo_start],
+    [reset, clears, deal, arrived, came, seeded, contexts, may_retry, solo_is_at_work, is_done, is_blocked, outcome],
+    [planned, passed, start, solo_start],
     clock
 );
 
@@ -68,7 +68,7 @@ struct Inputs {
     came: bool,
     seeded: bool,
     solo: bool,
-    /// Value of `solo_context` and of `priority_context`.
+    /// The context that asks for a solo insertion, or holds the priority.
     special: u64,
     solo_is_at_work: bool,
     all_rest: bool,
@@ -79,18 +79,27 @@ struct Inputs {
     deed: Option<(u64, Deed)>,
 }
 
+impl Inputs {
+    /// Whether no other context than this one holds the priority and has waited for long.
+    fn may_retry(&self, context: u64) -> bool {
+        !self.is_urgent || self.special == context
+    }
+}
+
 /// The starter among contexts that the test plays.
 struct Rig {
     block: Stepper<Starter>,
     contexts: u64,
-    is_batch: bool,
+    /// Number of jobs, which divides that of the contexts.
+    jobs: u64,
     arrived: u64,
     lives: Vec<Life>,
     /// Steps of the pointer since the last reset.
     steps: u64,
     passed: Option<Sight>,
     candidate: Option<Candidate>,
-    all_work: bool,
+    /// Teams that are over the first round of their job.
+    open: Vec<bool>,
 }
 
 impl Rig {
@@ -100,13 +109,13 @@ impl Rig {
         let mut rig = Self {
             block,
             contexts,
-            is_batch: false,
+            jobs: 1,
             arrived: 0,
             lives: Vec::new(),
             steps: 0,
             passed: None,
             candidate: None,
-            all_work: false,
+            open: Vec::new(),
         };
         rig.forget();
         rig.clock(&Inputs { reset: true, ..Inputs::default() });
@@ -117,13 +126,13 @@ impl Rig {
     fn forget(&mut self) {
         self.arrived = 0;
         self.lives = vec![Life::default(); self.contexts as usize];
-        // In a batch there is no first round.
-        (self.steps, self.all_work) = (0, self.is_batch);
+        self.open = vec![false; self.jobs as usize];
+        self.steps = 0;
         (self.passed, self.candidate) = (None, None);
     }
 
     fn deal(&self) -> Deal {
-        Deal::both(self.contexts)[usize::from(self.is_batch)]
+        Deal::new(self.contexts, self.jobs)
     }
 
     fn set(&self, flag: impl Fn(&Life) -> bool) -> u64 {
@@ -133,13 +142,13 @@ impl Rig {
     /// Decides whether a context that the pointer has seen is due, and where it would start.
     fn decide(&self, inputs: &Inputs, sight: Sight) -> Option<Candidate> {
         let life = self.lives.get(sight.context as usize)?;
-        let works = if sight.context == 0 { inputs.seeded || !life.began } else { self.all_work };
+        let team = sight.context % self.jobs;
+        let works = if sight.context == team { inputs.seeded || !life.began } else { self.open[team as usize] };
         let is_due = match life.will_retry {
             // In three of four rounds of the pointer no context tries again.
             true => {
                 let has_rested = (self.steps / self.contexts).is_multiple_of(4);
-                let may_try = !inputs.is_urgent || inputs.special == sight.context;
-                has_rested && may_try && !life.busy
+                has_rested && inputs.may_retry(sight.context) && !life.busy
             }
             // In the first round of the pointer no context starts.
             false => self.steps >= self.contexts && sight.vertex < self.arrived && works,
@@ -150,12 +159,8 @@ impl Rig {
             sight,
             is_due: is_due && !life.awake && !starts_now && !inputs.solo,
             will_retry: life.will_retry,
-            record: match life.will_retry || life.hinted {
-                true => life.root,
-                false if self.is_batch => 4 * sight.context,
-                false => 0,
-            },
-            is_solo: inputs.special == sight.context,
+            record: if life.will_retry || life.hinted { life.root } else { 4 * team },
+            is_solo: inputs.solo && inputs.special == sight.context && !inputs.solo_is_at_work,
         })
     }
 
@@ -178,7 +183,7 @@ impl Rig {
             ("solo_valid", inputs.solo),
             ("solo_is_at_work", inputs.solo_is_at_work),
             ("all_rest", inputs.all_rest),
-            ("is_urgent", inputs.is_urgent),
+            ("may_retry", self.passed.is_none_or(|sight| inputs.may_retry(sight.context))),
             ("is_done", inputs.is_done),
             ("is_blocked", inputs.is_blocked),
             ("root_enable", root.is_some()),
@@ -188,8 +193,7 @@ impl Rig {
         self.block.set("deal", self.deal().bits());
         let root = root.unwrap_or((1, 0x7fff));
         for (port, value) in [
-            ("solo_context", inputs.special),
-            ("priority_context", inputs.special),
+            ("solo", u64::from(inputs.solo) << inputs.special),
             ("arrived", self.arrived),
             ("asleep", self.set(|life| !life.awake)),
             ("retrying", self.set(|life| life.will_retry)),
@@ -213,6 +217,7 @@ impl Rig {
         let mut seen = Seen { waits: wanted.is_some() && (inputs.is_done || lacks_port), ..Seen::default() };
         self.block.settle();
         if self.block.clocks() > 0 {
+            self.expect_pointer();
             self.block.expect("start_valid", start.is_some());
             self.block.expect("takes", start.is_some_and(|(vertex, _)| vertex.is_some()));
             if let Some(candidate) = self.candidate {
@@ -232,10 +237,24 @@ impl Rig {
         seen
     }
 
+    /// Checks what the starter tells of the pointer: the context under it in its first round, and the one that it left.
+    fn expect_pointer(&self) {
+        let is_first_round = self.steps < self.contexts;
+        self.block.expect("planned_valid", is_first_round);
+        if is_first_round {
+            self.block.expect("planned_context", self.steps);
+            self.block.expect("planned_team", self.steps % self.jobs);
+        }
+        if let Some(sight) = self.passed {
+            self.block.expect("passed_context", sight.context);
+            self.block.expect("passed_team", sight.context % self.jobs);
+        }
+    }
+
     /// Checks the start of a solo insertion: the context starts once the pointer has seen it, with the point that it
     /// has, at the record of its attempt.
     fn expect_solo(&self, inputs: &Inputs, candidate: Candidate) {
-        let may_start = inputs.solo && inputs.all_rest && !inputs.solo_is_at_work;
+        let may_start = inputs.all_rest && !inputs.solo_is_at_work;
         let starts = may_start && candidate.is_solo;
         self.block.expect("solo_start_valid", starts);
         if let Some(last) = candidate.sight.last.filter(|_| starts && candidate.will_retry) {
@@ -265,7 +284,8 @@ impl Rig {
             let life = &mut self.lives[seen.context as usize];
             life.last = seen.takes.or(life.last);
             (life.awake, life.will_retry, life.began) = (true, false, true);
-            self.all_work |= seen.takes.is_some_and(|vertex| seen.context == 0 && vertex >= u64::from(FIRST_ROUND));
+            let is_dealt = |vertex| vertex >= u64::from(FIRST_ROUND) * self.jobs;
+            self.open[(seen.context % self.jobs) as usize] |= seen.takes.is_some_and(is_dealt);
         }
         if let Some((context, deed)) = inputs.deed {
             let life = &mut self.lives[context as usize];
@@ -278,7 +298,7 @@ impl Rig {
             }
         }
         if inputs.reset || inputs.clears {
-            self.is_batch &= !inputs.reset;
+            self.jobs = if inputs.reset { 1 } else { self.jobs };
             self.forget();
         }
     }
@@ -298,8 +318,7 @@ fn job(rig: &mut Rig, random: &mut SplitMix64, points: u64, tally: &mut Tally) {
     let (mut came, mut solo, mut is_urgent, mut special) = (false, false, false, 0);
     for _ in 0..200_000 {
         // Two points of each triple are taken with the third.
-        let triples = if rig.is_batch { rig.contexts } else { 1 };
-        let all_are_taken = tally.taken.len() as u64 + 2 * triples == points;
+        let all_are_taken = tally.taken.len() as u64 + 2 * rig.jobs == points;
         if all_are_taken && rig.lives.iter().all(|life| !life.awake && !life.will_retry && !life.busy) {
             return;
         }
@@ -356,14 +375,14 @@ fn deed(rig: &Rig, random: &mut SplitMix64) -> Option<(u64, Deed)> {
     sleeps.or(frees).map(|deed| (context, deed))
 }
 
-/// Runs jobs one after another, each with this many contexts and points, as batches or not.
-fn jobs(name: &'static str, config: Config, jobs: &[(u64, u64)], is_batch: bool) {
+/// Runs batches one after another, each with so many contexts, jobs and points.
+fn batches(name: &'static str, config: Config, batches: &[(u64, u64, u64)]) {
     let mut random = SplitMix64::new(80);
     let (mut again, mut waits) = (0, 0);
     let mut rig = Rig::new(name, config);
-    for (contexts, points) in jobs.iter().copied() {
+    for (contexts, jobs, points) in batches.iter().copied() {
         // All contexts sleep when the mesh is cleared.
-        (rig.contexts, rig.is_batch) = (contexts, is_batch);
+        (rig.contexts, rig.jobs) = (contexts, jobs);
         rig.lives = vec![Life::default(); contexts as usize];
         rig.clock(&Inputs { clears: true, came: true, ..Inputs::default() });
         let mut tally = Tally::default();
@@ -372,14 +391,15 @@ fn jobs(name: &'static str, config: Config, jobs: &[(u64, u64)], is_batch: bool)
         for context in 0..contexts {
             let own = tally.taken.iter().filter(|(taker, _)| *taker == context).map(|(_, vertex)| *vertex);
             let expected = rig.deal().dealt(context).take_while(|vertex| *vertex < points);
-            assert!(own.eq(expected), "{contexts} contexts, context {context}");
+            assert!(own.eq(expected), "{contexts} contexts, {jobs} jobs, context {context}");
         }
-        // Until vertex 16 is taken, context 0 is the only one that works.
-        let first = tally.taken.len().min(FIRST_ROUND as usize - 1);
-        assert!(is_batch || tally.taken[..first].iter().all(|(context, _)| *context == 0));
+        for team in 0..jobs {
+            // Until point 16 of a job is taken, the first context of its team is the only one that works.
+            let takers = tally.taken.iter().map(|(context, _)| *context).filter(|context| context % jobs == team);
+            assert!(takers.take(FIRST_ROUND as usize - 1).all(|context| context == team), "team {team}");
+        }
         vertices.sort_unstable();
-        let triples = if is_batch { contexts } else { 1 };
-        assert!(vertices.into_iter().eq((0..points).filter(|id| *id >= 3 * triples || id % 3 == 2)));
+        assert!(vertices.into_iter().eq((0..points).filter(|id| *id >= 3 * jobs || id % 3 == 2)));
         // The pointer skips no context; it is two contexts ahead.
         let stops: Vec<u64> = tally.stops.into_iter().skip(2).collect();
         assert!(stops.windows(2).all(|two| two[1] == (two[0] + 1) % contexts));
@@ -390,16 +410,17 @@ fn jobs(name: &'static str, config: Config, jobs: &[(u64, u64)], is_batch: bool)
 
 #[test]
 fn starter_gives_every_point_to_its_context_once() {
-    let jobs_of_small = [(4, 300), (1, 60), (3, 250), (2, 3), (2, 16), (4, 17), (2, 18), (4, 200)];
-    jobs("starter_small", SMALL, &jobs_of_small, false);
-    jobs("starter_large", LARGE, &[(24, 600), (23, 400), (1, 20), (16, 400), (9, 17)], false);
+    let of_small = [(4, 1, 300), (1, 1, 60), (3, 1, 250), (2, 1, 3), (2, 1, 16), (4, 1, 17), (2, 1, 18), (4, 1, 200)];
+    batches("starter_small", SMALL, &of_small);
+    batches("starter_large", LARGE, &[(24, 1, 600), (23, 1, 400), (1, 1, 20), (16, 1, 400), (9, 1, 17)]);
 }
 
 #[test]
 fn starter_gives_every_job_of_a_batch_its_points() {
-    let jobs_of_small = [(4, 300), (1, 60), (3, 250), (2, 6), (2, 16), (4, 17), (2, 18), (4, 200)];
-    jobs("starter_small", SMALL, &jobs_of_small, true);
-    jobs("starter_large", LARGE, &[(24, 600), (23, 400), (1, 20), (16, 400), (9, 27)], true);
+    let of_small = [(4, 4, 300), (4, 2, 300), (3, 3, 250), (2, 2, 6), (4, 2, 33), (4, 2, 34), (2, 2, 18), (4, 4, 200)];
+    batches("starter_small", SMALL, &of_small);
+    let of_large = [(24, 24, 600), (24, 2, 400), (24, 12, 600), (16, 4, 400), (15, 5, 300), (9, 9, 27), (24, 8, 500)];
+    batches("starter_large", LARGE, &of_large);
 }
 
 #[test]

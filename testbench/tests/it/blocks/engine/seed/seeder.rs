@@ -130,8 +130,8 @@ fn seed_inputs(random: &mut SplitMix64, reference: &SeedReference, arrived: u64)
 }
 
 fn set_seed_inputs(block: &mut Stepper<Seeder>, reference: &SeedReference, inputs: &SeedInputs) {
-    let is_batch = reference.jobs > 0;
-    block.set("deal", Deal { contexts: if is_batch { reference.jobs } else { 7 }, is_batch, dealt_from: 0 }.bits());
+    let jobs = reference.jobs.max(1);
+    block.set("deal", Deal { contexts: 7, jobs, dealt_from: 0 }.bits());
     block.set("reset", inputs.reset);
     block.set("clears", inputs.clears);
     block.set("came", inputs.came.is_some());
