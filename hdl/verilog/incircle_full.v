@@ -25,6 +25,8 @@ module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,
     localparam  ring_capacity = 7'b100000;
     localparam  last_id = 15'b11111111111111;
     localparam  contexts = 5'b10000;
+    localparam  engines = 8'h1;
+    localparam  engine_number = 8'h0;
     localparam  all_contexts = 24'hffff;
     localparam  patience = 22'h150000;
     
@@ -36,8 +38,8 @@ module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,
     reg  command_port$sweeps;
     reg  [19:0] command_port$engine;
     wire  [47:0] command_port$arrival;
-    wire  [1:0] command_port$clearing;
-    wire  [12:0] command_port$deal;
+    wire  [10:0] command_port$clearing;
+    wire  [16:0] command_port$deal;
     wire  command_port$answers;
     wire  [71:0] command_port$request;
     wire  [47:0] command_port$tally;
@@ -45,7 +47,8 @@ module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,
     wire  [2:0] command_port$activity;
     reg  answer_head$clock;
     reg  [71:0] answer_head$request;
-    reg  answer_head$is_refused;
+    reg  [10:0] answer_head$clearing;
+    reg  [7:0] answer_head$engine;
     reg  [14:0] answer_head$records;
     reg  answer_head$collinear;
     reg  answer_head$stuck;
@@ -55,6 +58,7 @@ module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,
     reg  [7:0] answer_words$opcode;
     reg  [14:0] answer_words$capacity;
     reg  [4:0] answer_words$contexts;
+    reg  [7:0] answer_words$engines;
     reg  [6:0] answer_words$ring_capacity;
     reg  [47:0] answer_words$tally;
     reg  [31:0] answer_words$insertions;
@@ -83,7 +87,7 @@ module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,
     reg  engine$clock;
     reg  engine$reset;
     reg  [82:0] engine$limits;
-    reg  [12:0] engine$deal;
+    reg  [16:0] engine$deal;
     reg  engine$clears;
     reg  [47:0] engine$arrival;
     reg  [14:0] engine$arrived;
@@ -143,7 +147,8 @@ module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,
     incircle_core_logic$answer_head answer_head(
         .clock(answer_head$clock),
         .request(answer_head$request),
-        .is_refused(answer_head$is_refused),
+        .clearing(answer_head$clearing),
+        .engine(answer_head$engine),
         .records(answer_head$records),
         .collinear(answer_head$collinear),
         .stuck(answer_head$stuck),
@@ -155,6 +160,7 @@ module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,
         .opcode(answer_words$opcode),
         .capacity(answer_words$capacity),
         .contexts(answer_words$contexts),
+        .engines(answer_words$engines),
         .ring_capacity(answer_words$ring_capacity),
         .tally(answer_words$tally),
         .insertions(answer_words$insertions),
@@ -252,7 +258,8 @@ module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,
         command_port$engine = engine$state;
         command_port$answer = responder$progress;
         answer_head$request = command_port$request;
-        answer_head$is_refused = command_port$clearing[(64'h1)+:(1)];
+        answer_head$clearing = command_port$clearing;
+        answer_head$engine = engine_number;
         answer_head$records = engine$state[(64'h5)+:(15)];
         answer_head$collinear = engine$state[(64'h1)+:(1)];
         answer_head$stuck = engine$state[(64'h3)+:(1)];
@@ -261,6 +268,7 @@ module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,
         answer_words$tally = command_port$tally;
         answer_words$capacity = capacity;
         answer_words$contexts = contexts;
+        answer_words$engines = engines;
         answer_words$ring_capacity = ring_capacity;
         answer_words$records = engine$state[(64'h5)+:(15)];
         answer_words$insertions = counters$insertions;
@@ -305,12 +313,13 @@ module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,
 endmodule // incircle_core_logic
 
 
-module incircle_core_logic$answer_head(clock,request,is_refused,records,collinear,stuck,some_refused,head);
+module incircle_core_logic$answer_head(clock,request,clearing,engine,records,collinear,stuck,some_refused,head);
     
     // Module arguments
     input wire  clock;
     input wire  [71:0] request;
-    input wire  is_refused;
+    input wire  [10:0] clearing;
+    input wire  [7:0] engine;
     input wire  [14:0] records;
     input wire  collinear;
     input wire  stuck;
@@ -367,10 +376,14 @@ module incircle_core_logic$answer_head(clock,request,is_refused,records,collinea
     reg  [31:0] shifted_status;
     reg  [31:0] wide_opcode;
     reg  [31:0] shifted_opcode;
+    reg  [31:0] wide_engine;
+    reg  [31:0] shifted_engine;
+    reg  [31:0] job;
     reg  [31:0] none;
     reg  [31:0] one;
     reg  [31:0] status_shift;
     reg  [31:0] opcode_shift;
+    reg  [31:0] engine_shift;
     reg  [7:0] read_code;
     reg  [7:0] packed_code;
     reg  packs;
@@ -475,6 +488,7 @@ module incircle_core_logic$answer_head(clock,request,is_refused,records,collinea
         one = 32'h1;
         status_shift = 32'h10;
         opcode_shift = 32'h18;
+        engine_shift = 32'h8;
         read_code = 32'h4;
         packed_code = 32'h7;
         wide_first = ((request[(64'h8)+:(32)]) & 33'h1ffffffff);
@@ -512,7 +526,7 @@ module incircle_core_logic$answer_head(clock,request,is_refused,records,collinea
             2:
                 begin
                     has_none$d = 1'b1;
-                    if (is_refused) begin
+                    if (clearing[(64'h2)+:(1)]) begin
                         answer_status$d = 32'h5;
                     end
                 end
@@ -564,7 +578,10 @@ module incircle_core_logic$answer_head(clock,request,is_refused,records,collinea
         shifted_status = status << status_shift;
         wide_opcode = ((request[(64'h0)+:(8)]) & 32'hffffffff);
         shifted_opcode = wide_opcode << opcode_shift;
-        head[(64'h0)+:(32)] = shifted_opcode | shifted_status;
+        wide_engine = ((engine) & 32'hffffffff);
+        shifted_engine = wide_engine << engine_shift;
+        job = ((clearing[(64'h3)+:(8)]) & 32'hffffffff);
+        head[(64'h0)+:(32)] = shifted_opcode | shifted_status | shifted_engine | job;
     end
     
 endmodule // incircle_core_logic$answer_head
@@ -817,13 +834,14 @@ module incircle_core_logic$answer_head$triple(d,q,clock);
 endmodule // incircle_core_logic$answer_head$triple
 
 
-module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,ring_capacity,tally,insertions,duplicates,records,index,counter,latency,chooses,word);
+module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,engines,ring_capacity,tally,insertions,duplicates,records,index,counter,latency,chooses,word);
     
     // Module arguments
     input wire  clock;
     input wire  [7:0] opcode;
     input wire  [14:0] capacity;
     input wire  [4:0] contexts;
+    input wire  [7:0] engines;
     input wire  [6:0] ring_capacity;
     input wire  [47:0] tally;
     input wire  [31:0] insertions;
@@ -848,6 +866,10 @@ module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,ring_capa
     
     // Local signals
     reg  [2:0] place;
+    reg  [31:0] wide_contexts;
+    reg  [31:0] wide_engines;
+    reg  [31:0] shifted_engines;
+    reg  [31:0] engines_shift;
     
     // Sub module instances
     incircle_core_logic$answer_words$identity identity(
@@ -876,6 +898,10 @@ module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,ring_capa
         chosen$d = chosen$q;
         word = chosen$q;
         place = index[(32'h0)+:(3)];
+        engines_shift = 32'h8;
+        wide_contexts = ((contexts) & 32'hffffffff);
+        wide_engines = ((engines) & 32'hffffffff);
+        shifted_engines = wide_engines << engines_shift;
         case (place)
             0:
                 begin
@@ -884,12 +910,12 @@ module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,ring_capa
                 end
             1:
                 begin
-                    identity$d = 32'h10002;
+                    identity$d = 32'h20000;
                     report$d = insertions;
                 end
             2:
                 begin
-                    identity$d = 32'h200;
+                    identity$d = 32'h300;
                     report$d = duplicates;
                 end
             3:
@@ -904,7 +930,7 @@ module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,ring_capa
                 end
             5:
                 begin
-                    identity$d = ((contexts) & 32'hffffffff);
+                    identity$d = wide_contexts | shifted_engines;
                     report$d = 32'h0;
                 end
             default:
@@ -1008,8 +1034,8 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command$valid
     input wire  sweeps;
     input wire  [19:0] engine;
     output reg  [47:0] arrival;
-    output reg  [1:0] clearing;
-    output reg  [12:0] deal;
+    output reg  [10:0] clearing;
+    output reg  [16:0] deal;
     output reg  answers;
     output reg  [71:0] request;
     output reg  [47:0] tally;
@@ -1059,8 +1085,8 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command$valid
     reg  clear$reset;
     reg  [4:0] clear$built;
     reg  [33:0] clear$taken;
-    wire  [1:0] clear$clearing;
-    wire  [12:0] clear$deal;
+    wire  [10:0] clear$clearing;
+    wire  [16:0] clear$deal;
     
     // Local signals
     reg  [7:0] code;
@@ -1147,7 +1173,7 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command$valid
         arrival = slot$arrival;
         clearing = clear$clearing;
         deal = clear$deal;
-        answers = (state$q == CommandState$Answer) & (~clear$clearing[(64'h0)+:(1)]);
+        answers = (state$q == CommandState$Answer) & (~clear$clearing[(64'h0)+:(1)]) & (~clear$clearing[(64'h1)+:(1)]);
         request = held$q;
         tally = slot$tally;
         activity[(64'h0)+:(1)] = is_inserting$q;
@@ -1251,8 +1277,8 @@ module incircle_core_logic$command_port$clear(clock,reset,built,taken,clearing,d
     input wire  reset;
     input wire  [4:0] built;
     input wire  [33:0] taken;
-    output reg  [1:0] clearing;
-    output reg  [12:0] deal;
+    output reg  [10:0] clearing;
+    output reg  [16:0] deal;
     
     // Stub signals
     reg  clears$d;
@@ -1261,15 +1287,33 @@ module incircle_core_logic$command_port$clear(clock,reset,built,taken,clearing,d
     reg  [4:0] working$d;
     wire  [4:0] working$q;
     reg  working$clock;
-    reg  batch$d;
-    wire  batch$q;
-    reg  batch$clock;
+    reg  [4:0] jobs$d;
+    wire  [4:0] jobs$q;
+    reg  jobs$clock;
     reg  [6:0] dealt$d;
     wire  [6:0] dealt$q;
     reg  dealt$clock;
     reg  refusing$d;
     wire  refusing$q;
     reg  refusing$clock;
+    reg  [7:0] tag$d;
+    wire  [7:0] tag$q;
+    reg  tag$clock;
+    reg  checking$d;
+    wire  checking$q;
+    reg  checking$clock;
+    reg  [4:0] wanted$d;
+    wire  [4:0] wanted$q;
+    reg  wanted$clock;
+    reg  [6:0] wanted_jobs$d;
+    wire  [6:0] wanted_jobs$q;
+    reg  wanted_jobs$clock;
+    reg  is_batch$d;
+    wire  is_batch$q;
+    reg  is_batch$clock;
+    reg  [7:0] counted$d;
+    wire  [7:0] counted$q;
+    reg  counted$clock;
     
     // Local signals
     reg  [31:0] word;
@@ -1279,8 +1323,13 @@ module incircle_core_logic$command_port$clear(clock,reset,built,taken,clearing,d
     reg  is_clear;
     reg  asks_too_much;
     reg  is_granted;
-    reg  [6:0] wide_working;
-    reg  [6:0] twice_working;
+    reg  [7:0] wide_wanted;
+    reg  [6:0] checked_jobs;
+    reg  [7:0] sum;
+    reg  is_reached;
+    reg  is_passed;
+    reg  [6:0] wide_jobs;
+    reg  [6:0] twice_jobs;
     reg  [7:0] clear_code;
     reg  [7:0] all_contexts;
     
@@ -1295,10 +1344,10 @@ module incircle_core_logic$command_port$clear(clock,reset,built,taken,clearing,d
         .q(working$q),
         .clock(working$clock)
     );
-    incircle_core_logic$command_port$clear$batch batch(
-        .d(batch$d),
-        .q(batch$q),
-        .clock(batch$clock)
+    incircle_core_logic$command_port$clear$jobs jobs(
+        .d(jobs$d),
+        .q(jobs$q),
+        .clock(jobs$clock)
     );
     incircle_core_logic$command_port$clear$dealt dealt(
         .d(dealt$d),
@@ -1310,54 +1359,121 @@ module incircle_core_logic$command_port$clear(clock,reset,built,taken,clearing,d
         .q(refusing$q),
         .clock(refusing$clock)
     );
+    incircle_core_logic$command_port$clear$tag tag(
+        .d(tag$d),
+        .q(tag$q),
+        .clock(tag$clock)
+    );
+    incircle_core_logic$command_port$clear$checking checking(
+        .d(checking$d),
+        .q(checking$q),
+        .clock(checking$clock)
+    );
+    incircle_core_logic$command_port$clear$wanted wanted(
+        .d(wanted$d),
+        .q(wanted$q),
+        .clock(wanted$clock)
+    );
+    incircle_core_logic$command_port$clear$wanted_jobs wanted_jobs(
+        .d(wanted_jobs$d),
+        .q(wanted_jobs$q),
+        .clock(wanted_jobs$clock)
+    );
+    incircle_core_logic$command_port$clear$is_batch is_batch(
+        .d(is_batch$d),
+        .q(is_batch$q),
+        .clock(is_batch$clock)
+    );
+    incircle_core_logic$command_port$clear$counted counted(
+        .d(counted$d),
+        .q(counted$q),
+        .clock(counted$clock)
+    );
     
     // Update code
     always @(*) begin
         clears$clock = clock;
         working$clock = clock;
-        batch$clock = clock;
+        jobs$clock = clock;
         dealt$clock = clock;
         refusing$clock = clock;
+        tag$clock = clock;
         clears$d = clears$q;
         working$d = working$q;
-        batch$d = batch$q;
+        jobs$d = jobs$q;
         dealt$d = dealt$q;
         refusing$d = refusing$q;
+        tag$d = tag$q;
+        checking$clock = clock;
+        wanted$clock = clock;
+        wanted_jobs$clock = clock;
+        is_batch$clock = clock;
+        counted$clock = clock;
+        checking$d = checking$q;
+        wanted$d = wanted$q;
+        wanted_jobs$d = wanted_jobs$q;
+        is_batch$d = is_batch$q;
+        counted$d = counted$q;
         clear_code = 32'h2;
         all_contexts = 32'h0;
         clearing[(64'h0)+:(1)] = clears$q;
+        clearing[(64'h1)+:(1)] = checking$q;
+        clearing[(64'h2)+:(1)] = refusing$q;
+        clearing[(64'h3)+:(8)] = tag$q;
         deal[(64'h0)+:(5)] = working$q;
-        deal[(64'h5)+:(1)] = batch$q;
-        deal[(64'h6)+:(7)] = dealt$q;
-        clearing[(64'h1)+:(1)] = refusing$q;
+        deal[(64'h5)+:(5)] = jobs$q;
+        deal[(64'ha)+:(7)] = dealt$q;
         word = taken[(64'h2)+:(32)];
         code = word[(32'h18)+:(8)];
         asked = word[(32'h0)+:(8)];
         wide_built = ((built) & 8'hff);
         is_clear = code == clear_code;
         asks_too_much = asked > wide_built;
-        is_granted = taken[(64'h0)+:(1)] & is_clear & (~asks_too_much);
-        clears$d = is_granted;
+        if (taken[(64'h0)+:(1)] & is_clear) begin
+            tag$d = word[(32'h10)+:(8)];
+        end
         if (taken[(64'h0)+:(1)]) begin
             refusing$d = is_clear & asks_too_much;
-        end
-        if (is_granted) begin
-            batch$d = word[32'h8];
-            working$d = word[(32'h0)+:(5)];
+            checking$d = is_clear & (~asks_too_much);
+            counted$d = 32'h0;
+            is_batch$d = word[32'h8];
+            wanted_jobs$d = word[(32'h9)+:(7)];
+            wanted$d = word[(32'h0)+:(5)];
             if (asked == all_contexts) begin
-                working$d = built;
+                wanted$d = built;
             end
         end
-        wide_working = ((working$q) & 7'h7f);
-        twice_working = wide_working + wide_working;
-        dealt$d = 32'h10;
-        if (batch$q) begin
-            dealt$d = twice_working + wide_working;
+        wide_wanted = ((wanted$q) & 8'hff);
+        checked_jobs = wanted_jobs$q;
+        if (~|wanted_jobs$q) begin
+            checked_jobs = ((wanted$q) & 7'h7f);
         end
+        if (~is_batch$q) begin
+            checked_jobs = 32'h1;
+        end
+        sum = counted$q + ((checked_jobs) & 8'hff);
+        is_reached = (sum == wide_wanted) | (~is_batch$q);
+        is_passed = sum > wide_wanted;
+        is_granted = checking$q & is_reached;
+        clears$d = is_granted;
+        if (checking$q) begin
+            counted$d = sum;
+            checking$d = (~is_reached) & (~is_passed);
+            refusing$d = (~is_reached) & is_passed;
+        end
+        if (is_granted) begin
+            working$d = wanted$q;
+            jobs$d = checked_jobs[(32'h0)+:(5)];
+        end
+        wide_jobs = ((jobs$q) & 7'h7f);
+        twice_jobs = wide_jobs + wide_jobs;
+        dealt$d = twice_jobs + wide_jobs;
         if (reset) begin
             clears$d = 1'b0;
-            batch$d = 1'b0;
-            dealt$d = 32'h10;
+            checking$d = 1'b0;
+            jobs$d = 32'h1;
+            tag$d = 32'h0;
+            dealt$d = 32'h3;
             working$d = built;
         end
     end
@@ -1365,7 +1481,7 @@ module incircle_core_logic$command_port$clear(clock,reset,built,taken,clearing,d
 endmodule // incircle_core_logic$command_port$clear
 
 
-module incircle_core_logic$command_port$clear$batch(d,q,clock);
+module incircle_core_logic$command_port$clear$checking(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -1381,7 +1497,7 @@ module incircle_core_logic$command_port$clear$batch(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$command_port$clear$batch
+endmodule // incircle_core_logic$command_port$clear$checking
 
 
 module incircle_core_logic$command_port$clear$clears(d,q,clock);
@@ -1403,6 +1519,25 @@ module incircle_core_logic$command_port$clear$clears(d,q,clock);
 endmodule // incircle_core_logic$command_port$clear$clears
 
 
+module incircle_core_logic$command_port$clear$counted(d,q,clock);
+    
+    // Module arguments
+    input wire  [7:0] d;
+    output reg  [7:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 8'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$command_port$clear$counted
+
+
 module incircle_core_logic$command_port$clear$dealt(d,q,clock);
     
     // Module arguments
@@ -1422,6 +1557,44 @@ module incircle_core_logic$command_port$clear$dealt(d,q,clock);
 endmodule // incircle_core_logic$command_port$clear$dealt
 
 
+module incircle_core_logic$command_port$clear$is_batch(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$command_port$clear$is_batch
+
+
+module incircle_core_logic$command_port$clear$jobs(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$command_port$clear$jobs
+
+
 module incircle_core_logic$command_port$clear$refusing(d,q,clock);
     
     // Module arguments
@@ -1439,6 +1612,63 @@ module incircle_core_logic$command_port$clear$refusing(d,q,clock);
     end
           
 endmodule // incircle_core_logic$command_port$clear$refusing
+
+
+module incircle_core_logic$command_port$clear$tag(d,q,clock);
+    
+    // Module arguments
+    input wire  [7:0] d;
+    output reg  [7:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 8'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$command_port$clear$tag
+
+
+module incircle_core_logic$command_port$clear$wanted(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$command_port$clear$wanted
+
+
+module incircle_core_logic$command_port$clear$wanted_jobs(d,q,clock);
+    
+    // Module arguments
+    input wire  [6:0] d;
+    output reg  [6:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 7'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$command_port$clear$wanted_jobs
 
 
 module incircle_core_logic$command_port$clear$working(d,q,clock);
@@ -4727,7 +4957,7 @@ module incircle_core_logic$engine(clock,reset,limits,deal,clears,arrival,arrived
     input wire  clock;
     input wire  reset;
     input wire  [82:0] limits;
-    input wire  [12:0] deal;
+    input wire  [16:0] deal;
     input wire  clears;
     input wire  [47:0] arrival;
     input wire  [14:0] arrived;
@@ -4743,14 +4973,14 @@ module incircle_core_logic$engine(clock,reset,limits,deal,clears,arrival,arrived
     reg  insertions$reset;
     reg  insertions$clears;
     reg  [82:0] insertions$limits;
-    reg  [12:0] insertions$deal;
+    reg  [16:0] insertions$deal;
     reg  [14:0] insertions$arrived;
     reg  insertions$came;
     reg  [21:0] insertions$now;
     reg  [153:0] insertions$early;
     reg  [173:0] insertions$completion;
     reg  [2:0] insertions$seed;
-    reg  [4:0] insertions$solo;
+    reg  [9:0] insertions$solo;
     wire  [94:0] insertions$follow;
     wire  [36:0] insertions$start;
     wire  insertions$looks;
@@ -4788,12 +5018,12 @@ module incircle_core_logic$engine(clock,reset,limits,deal,clears,arrival,arrived
     reg  [173:0] solo$completion;
     wire  [93:0] solo$push;
     wire  [109:0] solo$write;
-    wire  [4:0] solo$progress;
+    wire  [9:0] solo$progress;
     reg  seeder$clock;
     reg  seeder$reset;
     reg  seeder$clears;
     reg  [14:0] seeder$infinite;
-    reg  [12:0] seeder$deal;
+    reg  [16:0] seeder$deal;
     reg  [47:0] seeder$arrival;
     reg  [14:0] seeder$arrived;
     reg  seeder$looks;
@@ -4991,14 +5221,14 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,limits,deal,arri
     input wire  reset;
     input wire  clears;
     input wire  [82:0] limits;
-    input wire  [12:0] deal;
+    input wire  [16:0] deal;
     input wire  [14:0] arrived;
     input wire  came;
     input wire  [21:0] now;
     input wire  [153:0] early;
     input wire  [173:0] completion;
     input wire  [2:0] seed;
-    input wire  [4:0] solo;
+    input wire  [9:0] solo;
     output reg  [94:0] follow;
     output reg  [36:0] start;
     output reg  looks;
@@ -5019,19 +5249,21 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,limits,deal,arri
     reg  dispatcher$clears;
     reg  [23:0] dispatcher$built_contexts;
     reg  [21:0] dispatcher$patience;
-    reg  [12:0] dispatcher$deal;
+    reg  [16:0] dispatcher$deal;
     reg  [14:0] dispatcher$arrived;
     reg  dispatcher$came;
     reg  [2:0] dispatcher$seed;
+    reg  [4:0] dispatcher$early_context;
+    wire  dispatcher$holds_priority;
     reg  dispatcher$is_done;
     reg  [28:0] dispatcher$outcome;
     reg  dispatcher$may_ask;
     reg  [56:0] dispatcher$committed;
     reg  [5:0] dispatcher$released;
-    reg  [4:0] dispatcher$solo;
+    reg  [9:0] dispatcher$solo;
     wire  [36:0] dispatcher$start;
     wire  [5:0] dispatcher$fetched;
-    wire  [133:0] dispatcher$contexts;
+    wire  [145:0] dispatcher$contexts;
     wire  [35:0] dispatcher$solo_start;
     wire  dispatcher$takes_priority;
     wire  dispatcher$is_quiet;
@@ -5041,7 +5273,8 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,limits,deal,arri
     reg  [153:0] attempts$early;
     reg  [173:0] attempts$completion;
     reg  attempts$seeded;
-    reg  [133:0] attempts$contexts;
+    reg  [145:0] attempts$contexts;
+    reg  attempts$holds_priority;
     reg  [36:0] attempts$start;
     reg  [21:0] attempts$now;
     wire  attempts$is_done;
@@ -5076,6 +5309,7 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,limits,deal,arri
     
     // Local signals
     reg  [55:0] job;
+    reg  [54:0] early_visit;
     reg  [16:0] visit_events;
     
     // Sub module instances
@@ -5089,6 +5323,8 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,limits,deal,arri
         .arrived(dispatcher$arrived),
         .came(dispatcher$came),
         .seed(dispatcher$seed),
+        .early_context(dispatcher$early_context),
+        .holds_priority(dispatcher$holds_priority),
         .is_done(dispatcher$is_done),
         .outcome(dispatcher$outcome),
         .may_ask(dispatcher$may_ask),
@@ -5110,6 +5346,7 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,limits,deal,arri
         .completion(attempts$completion),
         .seeded(attempts$seeded),
         .contexts(attempts$contexts),
+        .holds_priority(attempts$holds_priority),
         .start(attempts$start),
         .now(attempts$now),
         .is_done(attempts$is_done),
@@ -5160,6 +5397,7 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,limits,deal,arri
         attempts$seeded = seed[(64'h0)+:(1)];
         attempts$now = now;
         attempts$contexts = dispatcher$contexts;
+        attempts$holds_priority = dispatcher$holds_priority;
         attempts$start = dispatcher$start;
         looks = attempts$looks;
         follow = attempts$follow;
@@ -5170,6 +5408,8 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,limits,deal,arri
         dispatcher$came = came;
         dispatcher$seed = seed;
         dispatcher$solo = solo;
+        early_visit = early[(64'h1)+:(55)];
+        dispatcher$early_context = early_visit[(64'h0)+:(5)];
         dispatcher$is_done = attempts$is_done;
         dispatcher$outcome = attempts$outcome;
         dispatcher$may_ask = attempts$follow[(64'h1)+:(1)];
@@ -5182,7 +5422,7 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,limits,deal,arri
         stuck = dispatcher$stuck;
         commits$last_id = limits[(64'h16)+:(15)];
         commits$seeds = seed[(64'h2)+:(1)];
-        commits$solo_inserts = solo[(64'h2)+:(1)];
+        commits$solo_inserts = solo[(64'h7)+:(1)];
         commits$entry = attempts$entry;
         commits$inner = attempts$inner;
         commits$lock = attempts$lock;
@@ -5194,8 +5434,8 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,limits,deal,arri
         clear = commits$clear;
         sweeps = commits$sweeps;
         visit_events = attempts$events;
-        visit_events[(64'h2)+:(1)] = attempts$events[(64'h2)+:(1)] | solo[(64'h3)+:(1)];
-        visit_events[(64'h5)+:(1)] = solo[(64'h4)+:(1)];
+        visit_events[(64'h2)+:(1)] = attempts$events[(64'h2)+:(1)] | solo[(64'h8)+:(1)];
+        visit_events[(64'h5)+:(1)] = solo[(64'h9)+:(1)];
         visit_events[(64'h8)+:(1)] = dispatcher$takes_priority;
         job = commits$committed[(64'h1)+:(56)];
         events[(64'h0)+:(17)] = visit_events;
@@ -5205,8 +5445,8 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,limits,deal,arri
         events[(64'h2b)+:(1)] = attempts$outcome[(64'hc)+:(1)];
         events[(64'h2e)+:(1)] = commits$is_at_work;
         events[(64'h2f)+:(1)] = commits$clear[(64'h0)+:(1)];
-        events[(64'h29)+:(1)] = solo[(64'h2)+:(1)];
-        events[(64'h2a)+:(1)] = solo[(64'h1)+:(1)] & (~solo[(64'h2)+:(1)]);
+        events[(64'h29)+:(1)] = solo[(64'h7)+:(1)];
+        events[(64'h2a)+:(1)] = solo[(64'h6)+:(1)] & (~solo[(64'h7)+:(1)]);
         events[(64'h2c)+:(1)] = 1'b0;
         events[(64'h2d)+:(1)] = 1'b0;
     end
@@ -5214,7 +5454,7 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,limits,deal,arri
 endmodule // incircle_core_logic$engine$insertions
 
 
-module incircle_core_logic$engine$insertions$attempts(clock,ring_capacity,early,completion,seeded,contexts,start,now,is_done,follow,outcome,looks,entry,inner,lock,commit,releases,events);
+module incircle_core_logic$engine$insertions$attempts(clock,ring_capacity,early,completion,seeded,contexts,holds_priority,start,now,is_done,follow,outcome,looks,entry,inner,lock,commit,releases,events);
     
     // Module arguments
     input wire  clock;
@@ -5222,7 +5462,8 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring_capacity,early,
     input wire  [153:0] early;
     input wire  [173:0] completion;
     input wire  seeded;
-    input wire  [133:0] contexts;
+    input wire  [145:0] contexts;
+    input wire  holds_priority;
     input wire  [36:0] start;
     input wire  [21:0] now;
     output reg  is_done;
@@ -5404,7 +5645,7 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring_capacity,early,
         meaning$verdict = verdict;
         meaning$seeded = seeded;
         meaning$is_busy = busy[context_index];
-        meaning$holds_priority = contexts[(64'h78)+:(1)] & (contexts[(64'h79)+:(5)] == early_visit[(64'h0)+:(5)]);
+        meaning$holds_priority = holds_priority;
         meaning$drains = attempt[(64'h0)+:(1)];
         meaning$is_full = store$held[(64'h5e)+:(1)];
         is_done = meaning$found[(64'h0)+:(1)];
@@ -5489,7 +5730,7 @@ module incircle_core_logic$engine$insertions$attempts$aftermath(visit,found,step
         outcome[(64'h7)+:(1)] = hands_over;
         outcome[(64'h8)+:(1)] = found[(64'he)+:(1)] | found[(64'hf)+:(1)];
         outcome[(64'h9)+:(1)] = found[(64'h6)+:(1)];
-        outcome[(64'ha)+:(1)] = is_duplicate | step[(64'h1)+:(1)];
+        outcome[(64'ha)+:(1)] = is_duplicate | step[(64'h1)+:(1)] | found[(64'hd)+:(1)];
         outcome[(64'hb)+:(1)] = found[(64'hd)+:(1)];
         outcome[(64'hc)+:(1)] = is_duplicate;
         outcome[(64'hd)+:(1)] = found[(64'h2)+:(1)];
@@ -11389,7 +11630,7 @@ module incircle_core_logic$engine$insertions$commits$star$steps$wants(d,q,clock)
 endmodule // incircle_core_logic$engine$insertions$commits$star$steps$wants
 
 
-module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,built_contexts,patience,deal,arrived,came,seed,is_done,outcome,may_ask,committed,released,solo,start,fetched,contexts,solo_start,takes_priority,is_quiet,stuck);
+module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,built_contexts,patience,deal,arrived,came,seed,early_context,holds_priority,is_done,outcome,may_ask,committed,released,solo,start,fetched,contexts,solo_start,takes_priority,is_quiet,stuck);
     
     // Module arguments
     input wire  clock;
@@ -11397,19 +11638,21 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,built
     input wire  clears;
     input wire  [23:0] built_contexts;
     input wire  [21:0] patience;
-    input wire  [12:0] deal;
+    input wire  [16:0] deal;
     input wire  [14:0] arrived;
     input wire  came;
     input wire  [2:0] seed;
+    input wire  [4:0] early_context;
+    output reg  holds_priority;
     input wire  is_done;
     input wire  [28:0] outcome;
     input wire  may_ask;
     input wire  [56:0] committed;
     input wire  [5:0] released;
-    input wire  [4:0] solo;
+    input wire  [9:0] solo;
     output reg  [36:0] start;
     output reg  [5:0] fetched;
-    output reg  [133:0] contexts;
+    output reg  [145:0] contexts;
     output reg  [35:0] solo_start;
     output reg  takes_priority;
     output reg  is_quiet;
@@ -11440,20 +11683,31 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,built
     reg  [5:0] flags$released;
     reg  [56:0] flags$committed;
     reg  flags$solo_ends;
-    wire  [133:0] flags$contexts;
-    wire  flags$takes_priority;
+    reg  [4:0] flags$solo_context;
+    wire  [145:0] flags$contexts;
+    reg  priorities$clock;
+    reg  [10:0] priorities$planned;
+    reg  [4:0] priorities$early_context;
+    wire  priorities$holds_priority;
+    reg  [28:0] priorities$outcome;
+    wire  priorities$takes_priority;
+    reg  [34:0] priorities$passed;
+    wire  priorities$may_retry;
     reg  starter$clock;
     reg  starter$reset;
     reg  starter$clears;
-    reg  [12:0] starter$deal;
+    reg  [16:0] starter$deal;
     reg  [14:0] starter$arrived;
     reg  starter$came;
     reg  starter$seeded;
-    reg  [133:0] starter$contexts;
+    reg  [145:0] starter$contexts;
+    reg  starter$may_retry;
     reg  starter$solo_is_at_work;
     reg  starter$is_done;
     reg  starter$is_blocked;
     reg  [28:0] starter$outcome;
+    wire  [10:0] starter$planned;
+    wire  [34:0] starter$passed;
     wire  [36:0] starter$start;
     wire  [35:0] starter$solo_start;
     reg  finished_points$clock;
@@ -11511,8 +11765,18 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,built
         .released(flags$released),
         .committed(flags$committed),
         .solo_ends(flags$solo_ends),
-        .contexts(flags$contexts),
-        .takes_priority(flags$takes_priority)
+        .solo_context(flags$solo_context),
+        .contexts(flags$contexts)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$priorities priorities(
+        .clock(priorities$clock),
+        .planned(priorities$planned),
+        .early_context(priorities$early_context),
+        .holds_priority(priorities$holds_priority),
+        .outcome(priorities$outcome),
+        .takes_priority(priorities$takes_priority),
+        .passed(priorities$passed),
+        .may_retry(priorities$may_retry)
     );
     incircle_core_logic$engine$insertions$dispatcher$starter starter(
         .clock(starter$clock),
@@ -11523,10 +11787,13 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,built
         .came(starter$came),
         .seeded(starter$seeded),
         .contexts(starter$contexts),
+        .may_retry(starter$may_retry),
         .solo_is_at_work(starter$solo_is_at_work),
         .is_done(starter$is_done),
         .is_blocked(starter$is_blocked),
         .outcome(starter$outcome),
+        .planned(starter$planned),
+        .passed(starter$passed),
         .start(starter$start),
         .solo_start(starter$solo_start)
     );
@@ -11566,6 +11833,7 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,built
         taker1$d = taker1$q;
         taker2$d = taker2$q;
         flags$clock = clock;
+        priorities$clock = clock;
         starter$clock = clock;
         finished_points$clock = clock;
         watchdog$clock = clock;
@@ -11592,9 +11860,16 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,built
         flags$start = starter$start;
         flags$released = released;
         flags$committed = committed;
-        flags$solo_ends = solo[(64'h1)+:(1)];
+        flags$solo_ends = solo[(64'h6)+:(1)];
+        flags$solo_context = solo[(64'h1)+:(5)];
         contexts = flags$contexts;
-        takes_priority = flags$takes_priority;
+        priorities$planned = starter$planned;
+        priorities$early_context = early_context;
+        priorities$outcome = found$q;
+        priorities$passed = starter$passed;
+        holds_priority = priorities$holds_priority;
+        takes_priority = priorities$takes_priority;
+        starter$may_retry = priorities$may_retry;
         starter$deal = deal;
         starter$arrived = arrived;
         starter$came = came;
@@ -11615,10 +11890,10 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,built
         finished_points$arrived = arrived;
         finished_points$seeds = seed[(64'h2)+:(1)];
         finished_points$commit_ends = committed[(64'h0)+:(1)];
-        finished_points$solo_ends = solo[(64'h1)+:(1)];
+        finished_points$solo_ends = solo[(64'h6)+:(1)];
         finished_points$duplicate = found$q[(64'hc)+:(1)];
         finished_points$has_no_start = seed[(64'h1)+:(1)];
-        finished_points$all_rest = flags$contexts[(64'h85)+:(1)];
+        finished_points$all_rest = flags$contexts[(64'h91)+:(1)];
         is_quiet = finished_points$is_quiet;
         watchdog$patience = patience;
         watchdog$finishes = finished_points$finishes;
@@ -11770,7 +12045,7 @@ module incircle_core_logic$engine$insertions$dispatcher$finished_points$more(d,q
 endmodule // incircle_core_logic$engine$insertions$dispatcher$finished_points$more
 
 
-module incircle_core_logic$engine$insertions$dispatcher$flags(clock,reset,clears,built_contexts,outcome,start,released,committed,solo_ends,contexts,takes_priority);
+module incircle_core_logic$engine$insertions$dispatcher$flags(clock,reset,clears,built_contexts,outcome,start,released,committed,solo_ends,solo_context,contexts);
     
     // Module arguments
     input wire  clock;
@@ -11782,16 +12057,13 @@ module incircle_core_logic$engine$insertions$dispatcher$flags(clock,reset,clears
     input wire  [5:0] released;
     input wire  [56:0] committed;
     input wire  solo_ends;
-    output reg  [133:0] contexts;
-    output reg  takes_priority;
+    input wire  [4:0] solo_context;
+    output reg  [145:0] contexts;
     
     // Stub signals
-    reg  [133:0] state$d;
-    wire  [133:0] state$q;
+    reg  [145:0] state$d;
+    wire  [145:0] state$q;
     reg  state$clock;
-    reg  [3:0] waited$d;
-    wire  [3:0] waited$q;
-    reg  waited$clock;
     
     // Local signals
     reg  [55:0] job;
@@ -11814,10 +12086,8 @@ module incircle_core_logic$engine$insertions$dispatcher$flags(clock,reset,clears
     reg  [23:0] freed;
     reg  [23:0] had_commit;
     reg  [23:0] solo_ended;
-    reg  takes;
-    reg  is_holder;
-    reg  has_waited_long;
-    reg  [3:0] one_wait;
+    reg  [23:0] overflowed;
+    reg  [23:0] asking;
     reg  [23:0] one;
     reg  [23:0] none;
     
@@ -11827,31 +12097,23 @@ module incircle_core_logic$engine$insertions$dispatcher$flags(clock,reset,clears
         .q(state$q),
         .clock(state$clock)
     );
-    incircle_core_logic$engine$insertions$dispatcher$flags$waited waited(
-        .d(waited$d),
-        .q(waited$q),
-        .clock(waited$clock)
-    );
     
     // Update code
     always @(*) begin
         state$clock = clock;
-        waited$clock = clock;
         state$d = state$q;
-        waited$d = waited$q;
         one = 32'h1;
         none = 32'h0;
-        one_wait = 32'h1;
         contexts = state$q;
         sleeping = state$q[(64'h0)+:(24)];
         due = state$q[(64'h30)+:(24)];
         job = committed[(64'h1)+:(56)];
-        state$d[(64'h85)+:(1)] = (sleeping == built_contexts) & (due == none) & (~start[(64'h0)+:(1)]);
+        state$d[(64'h91)+:(1)] = (sleeping == built_contexts) & (due == none) & (~start[(64'h0)+:(1)]);
         wide_context = ((outcome[(64'h0)+:(5)]) & 24'hffffff);
         wide_starter = ((start[(64'h1)+:(5)]) & 24'hffffff);
         wide_released = ((released[(64'h1)+:(5)]) & 24'hffffff);
         wide_commit = ((job[(64'h0)+:(5)]) & 24'hffffff);
-        wide_solo = ((state$q[(64'h80)+:(5)]) & 24'hffffff);
+        wide_solo = ((solo_context) & 24'hffffff);
         context_bit = one << wide_context;
         starter_bit = one << wide_starter;
         released_bit = one << wide_released;
@@ -11864,6 +12126,7 @@ module incircle_core_logic$engine$insertions$dispatcher$flags(clock,reset,clears
         freed = 32'h0;
         had_commit = 32'h0;
         solo_ended = 32'h0;
+        overflowed = 32'h0;
         if (outcome[(64'h5)+:(1)]) begin
             falls_asleep = context_bit & built_contexts;
         end
@@ -11872,6 +12135,9 @@ module incircle_core_logic$engine$insertions$dispatcher$flags(clock,reset,clears
         end
         if (outcome[(64'h7)+:(1)]) begin
             becomes_due = context_bit & built_contexts;
+        end
+        if (outcome[(64'hb)+:(1)]) begin
+            overflowed = context_bit & built_contexts;
         end
         if (start[(64'h0)+:(1)]) begin
             starting = starter_bit & built_contexts;
@@ -11890,40 +12156,18 @@ module incircle_core_logic$engine$insertions$dispatcher$flags(clock,reset,clears
         state$d[(64'h30)+:(24)] = (due | becomes_due) & (~freed);
         state$d[(64'h48)+:(24)] = state$q[(64'h48)+:(24)] | starting;
         state$d[(64'h60)+:(24)] = state$q[(64'h60)+:(24)] | had_commit;
-        takes = outcome[(64'h8)+:(1)] & (~state$q[(64'h78)+:(1)]);
-        takes_priority = takes;
-        is_holder = (outcome[(64'ha)+:(1)] & (state$q[(64'h79)+:(5)] == outcome[(64'h0)+:(5)])) | (solo_ends & (state$q[(64'h79)+:(5)] == state$q[(64'h80)+:(5)]));
-        if (takes) begin
-            state$d[(64'h78)+:(1)] = 1'b1;
-            state$d[(64'h79)+:(5)] = outcome[(64'h0)+:(5)];
-        end
-        has_waited_long = waited$q[32'h3];
-        contexts[(64'h7e)+:(1)] = state$q[(64'h78)+:(1)] & has_waited_long;
-        if (outcome[(64'h9)+:(1)] & (~has_waited_long)) begin
-            waited$d = waited$q + one_wait;
-        end
-        if (takes) begin
-            waited$d = 32'h0;
-        end
-        if (is_holder) begin
-            state$d[(64'h78)+:(1)] = 1'b0;
-        end
-        if (outcome[(64'hb)+:(1)] & (~state$q[(64'h7f)+:(1)])) begin
-            state$d[(64'h7f)+:(1)] = 1'b1;
-            state$d[(64'h80)+:(5)] = outcome[(64'h0)+:(5)];
-        end
-        if (solo_ends) begin
-            state$d[(64'h7f)+:(1)] = 1'b0;
-        end
+        asking = (state$q[(64'h78)+:(24)] | overflowed) & (~solo_ended);
+        state$d[(64'h78)+:(24)] = asking;
+        state$d[(64'h90)+:(1)] = |asking;
         if (reset | clears) begin
             state$d[(64'h0)+:(24)] = built_contexts;
             state$d[(64'h18)+:(24)] = 32'h0;
             state$d[(64'h30)+:(24)] = 32'h0;
             state$d[(64'h48)+:(24)] = 32'h0;
             state$d[(64'h60)+:(24)] = 32'h0;
-            state$d[(64'h78)+:(1)] = 1'b0;
-            state$d[(64'h7f)+:(1)] = 1'b0;
-            state$d[(64'h85)+:(1)] = 1'b0;
+            state$d[(64'h78)+:(24)] = 32'h0;
+            state$d[(64'h90)+:(1)] = 1'b0;
+            state$d[(64'h91)+:(1)] = 1'b0;
         end
     end
     
@@ -11933,13 +12177,13 @@ endmodule // incircle_core_logic$engine$insertions$dispatcher$flags
 module incircle_core_logic$engine$insertions$dispatcher$flags$state(d,q,clock);
     
     // Module arguments
-    input wire  [133:0] d;
-    output reg  [133:0] q;
+    input wire  [145:0] d;
+    output reg  [145:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 134'h0;
+       q = 146'h0;
     end
     
     always @(posedge clock) begin
@@ -11947,25 +12191,6 @@ module incircle_core_logic$engine$insertions$dispatcher$flags$state(d,q,clock);
     end
           
 endmodule // incircle_core_logic$engine$insertions$dispatcher$flags$state
-
-
-module incircle_core_logic$engine$insertions$dispatcher$flags$waited(d,q,clock);
-    
-    // Module arguments
-    input wire  [3:0] d;
-    output reg  [3:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 4'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$flags$waited
 
 
 module incircle_core_logic$engine$insertions$dispatcher$found(d,q,clock);
@@ -11987,33 +12212,380 @@ module incircle_core_logic$engine$insertions$dispatcher$found(d,q,clock);
 endmodule // incircle_core_logic$engine$insertions$dispatcher$found
 
 
-module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clears,deal,arrived,came,seeded,contexts,solo_is_at_work,is_done,is_blocked,outcome,start,solo_start);
+module incircle_core_logic$engine$insertions$dispatcher$priorities(clock,planned,early_context,holds_priority,outcome,takes_priority,passed,may_retry);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [10:0] planned;
+    input wire  [4:0] early_context;
+    output reg  holds_priority;
+    input wire  [28:0] outcome;
+    output reg  takes_priority;
+    input wire  [34:0] passed;
+    output reg  may_retry;
+    
+    // Stub signals
+    reg  [4:0] early_team$d;
+    wire  [4:0] early_team$q;
+    reg  early_team$clock;
+    reg  [4:0] team$d;
+    wire  [4:0] team$q;
+    reg  team$clock;
+    reg  teams$clock;
+    reg  [4:0] teams$write_address;
+    reg  [4:0] teams$write_data;
+    reg  teams$write_enable;
+    reg  [4:0] teams$read_address;
+    wire  [4:0] teams$read_data;
+    reg  of_early$clock;
+    reg  [4:0] of_early$write_address;
+    reg  [9:0] of_early$write_data;
+    reg  of_early$write_enable;
+    reg  [4:0] of_early$read_address;
+    wire  [9:0] of_early$read_data;
+    reg  of_outcome$clock;
+    reg  [4:0] of_outcome$write_address;
+    reg  [9:0] of_outcome$write_data;
+    reg  of_outcome$write_enable;
+    reg  [4:0] of_outcome$read_address;
+    wire  [9:0] of_outcome$read_data;
+    reg  of_passed$clock;
+    reg  [4:0] of_passed$write_address;
+    reg  [9:0] of_passed$write_data;
+    reg  of_passed$write_enable;
+    reg  [4:0] of_passed$read_address;
+    wire  [9:0] of_passed$read_data;
+    reg  [9:0] early$bits;
+    wire  [9:0] early$value;
+    reg  [9:0] held$bits;
+    wire  [9:0] held$value;
+    reg  [9:0] barring$bits;
+    wire  [9:0] barring$value;
+    
+    // Local signals
+    reg  [9:0] changed;
+    reg  [9:0] written;
+    reg  [4:0] written_team;
+    reg  writes;
+    reg  [3:0] waits;
+    reg  [3:0] other_waits;
+    reg  [3:0] one;
+    reg  takes;
+    reg  returns;
+    reg  is_barred;
+    
+    // Sub module instances
+    incircle_core_logic$engine$insertions$dispatcher$priorities$early_team early_team(
+        .d(early_team$d),
+        .q(early_team$q),
+        .clock(early_team$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$priorities$team team(
+        .d(team$d),
+        .q(team$q),
+        .clock(team$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$priorities$teams teams(
+        .clock(teams$clock),
+        .write_address(teams$write_address),
+        .write_data(teams$write_data),
+        .write_enable(teams$write_enable),
+        .read_address(teams$read_address),
+        .read_data(teams$read_data)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$priorities$of_early of_early(
+        .clock(of_early$clock),
+        .write_address(of_early$write_address),
+        .write_data(of_early$write_data),
+        .write_enable(of_early$write_enable),
+        .read_address(of_early$read_address),
+        .read_data(of_early$read_data)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$priorities$of_outcome of_outcome(
+        .clock(of_outcome$clock),
+        .write_address(of_outcome$write_address),
+        .write_data(of_outcome$write_data),
+        .write_enable(of_outcome$write_enable),
+        .read_address(of_outcome$read_address),
+        .read_data(of_outcome$read_data)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$priorities$of_passed of_passed(
+        .clock(of_passed$clock),
+        .write_address(of_passed$write_address),
+        .write_data(of_passed$write_data),
+        .write_enable(of_passed$write_enable),
+        .read_address(of_passed$read_address),
+        .read_data(of_passed$read_data)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$priorities$early early(
+        .bits(early$bits),
+        .value(early$value)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$priorities$held held(
+        .bits(held$bits),
+        .value(held$value)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$priorities$barring barring(
+        .bits(barring$bits),
+        .value(barring$value)
+    );
+    
+    // Update code
+    always @(*) begin
+        early_team$clock = clock;
+        team$clock = clock;
+        early_team$d = early_team$q;
+        team$d = team$q;
+        teams$clock = clock;
+        of_early$clock = clock;
+        of_outcome$clock = clock;
+        of_passed$clock = clock;
+        one = 32'h1;
+        teams$write_address = planned[(64'h1)+:(5)];
+        teams$write_data = planned[(64'h6)+:(5)];
+        teams$write_enable = planned[(64'h0)+:(1)];
+        teams$read_address = early_context;
+        early_team$d = teams$read_data;
+        team$d = early_team$q;
+        of_early$read_address = teams$read_data;
+        early$bits = of_early$read_data;
+        holds_priority = early$value[(64'h0)+:(1)] & (early$value[(64'h1)+:(5)] == early_context);
+        of_outcome$read_address = team$q;
+        held$bits = of_outcome$read_data;
+        waits = held$value[(64'h6)+:(4)];
+        takes = outcome[(64'h8)+:(1)] & (~held$value[(64'h0)+:(1)]);
+        takes_priority = takes;
+        returns = outcome[(64'ha)+:(1)] & held$value[(64'h0)+:(1)] & (held$value[(64'h1)+:(5)] == outcome[(64'h0)+:(5)]);
+        changed = held$value;
+        if (outcome[(64'h9)+:(1)] & (~waits[32'h3])) begin
+            changed[(64'h6)+:(4)] = waits + one;
+        end
+        if (takes) begin
+            changed[(64'h0)+:(1)] = 1'b1;
+            changed[(64'h1)+:(5)] = outcome[(64'h0)+:(5)];
+            changed[(64'h6)+:(4)] = 32'h0;
+        end
+        written_team = team$q;
+        if (planned[(64'h0)+:(1)]) begin
+            written_team = planned[(64'h6)+:(5)];
+        end
+        if (planned[(64'h0)+:(1)] | returns) begin
+            changed[(64'h0)+:(1)] = 1'b0;
+        end
+        writes = planned[(64'h0)+:(1)] | takes | returns | outcome[(64'h9)+:(1)];
+        of_passed$read_address = passed[(64'h5)+:(5)];
+        barring$bits = of_passed$read_data;
+        other_waits = barring$value[(64'h6)+:(4)];
+        is_barred = barring$value[(64'h0)+:(1)] & other_waits[32'h3] & (barring$value[(64'h1)+:(5)] != passed[(64'h0)+:(5)]);
+        may_retry = ~is_barred;
+        written = changed;
+        of_early$write_address = written_team;
+        of_early$write_data = written;
+        of_early$write_enable = writes;
+        of_outcome$write_address = written_team;
+        of_outcome$write_data = written;
+        of_outcome$write_enable = writes;
+        of_passed$write_address = written_team;
+        of_passed$write_data = written;
+        of_passed$write_enable = writes;
+    end
+    
+endmodule // incircle_core_logic$engine$insertions$dispatcher$priorities
+
+
+module incircle_core_logic$engine$insertions$dispatcher$priorities$barring(bits,value);
+    
+    // Module arguments
+    input wire  [9:0] bits;
+    output reg  [9:0] value;
+    
+    // Update code (custom)
+    always @(*) value = bits;
+endmodule // incircle_core_logic$engine$insertions$dispatcher$priorities$barring
+
+
+module incircle_core_logic$engine$insertions$dispatcher$priorities$early(bits,value);
+    
+    // Module arguments
+    input wire  [9:0] bits;
+    output reg  [9:0] value;
+    
+    // Update code (custom)
+    always @(*) value = bits;
+endmodule // incircle_core_logic$engine$insertions$dispatcher$priorities$early
+
+
+module incircle_core_logic$engine$insertions$dispatcher$priorities$early_team(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$priorities$early_team
+
+
+module incircle_core_logic$engine$insertions$dispatcher$priorities$held(bits,value);
+    
+    // Module arguments
+    input wire  [9:0] bits;
+    output reg  [9:0] value;
+    
+    // Update code (custom)
+    always @(*) value = bits;
+endmodule // incircle_core_logic$engine$insertions$dispatcher$priorities$held
+
+
+module incircle_core_logic$engine$insertions$dispatcher$priorities$of_early(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [4:0] write_address;
+    input wire  [9:0] write_data;
+    input wire  write_enable;
+    input wire  [4:0] read_address;
+    output reg  [9:0] read_data;
+    
+    // Update code (custom)
+    wire unused_write_address = &{1'b0, write_address[4:4]};
+    wire unused_read_address = &{1'b0, read_address[4:4]};
+    (* ram_style = "distributed" *)
+    reg [9:0] memory [0:15];
+    wire [9:0] word = memory[read_address[3:0]];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address[3:0]] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_core_logic$engine$insertions$dispatcher$priorities$of_early
+
+
+module incircle_core_logic$engine$insertions$dispatcher$priorities$of_outcome(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [4:0] write_address;
+    input wire  [9:0] write_data;
+    input wire  write_enable;
+    input wire  [4:0] read_address;
+    output reg  [9:0] read_data;
+    
+    // Update code (custom)
+    wire unused_write_address = &{1'b0, write_address[4:4]};
+    wire unused_read_address = &{1'b0, read_address[4:4]};
+    (* ram_style = "distributed" *)
+    reg [9:0] memory [0:15];
+    wire [9:0] word = memory[read_address[3:0]];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address[3:0]] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_core_logic$engine$insertions$dispatcher$priorities$of_outcome
+
+
+module incircle_core_logic$engine$insertions$dispatcher$priorities$of_passed(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [4:0] write_address;
+    input wire  [9:0] write_data;
+    input wire  write_enable;
+    input wire  [4:0] read_address;
+    output reg  [9:0] read_data;
+    
+    // Update code (custom)
+    wire unused_write_address = &{1'b0, write_address[4:4]};
+    wire unused_read_address = &{1'b0, read_address[4:4]};
+    (* ram_style = "distributed" *)
+    reg [9:0] memory [0:15];
+    wire [9:0] word = memory[read_address[3:0]];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address[3:0]] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_core_logic$engine$insertions$dispatcher$priorities$of_passed
+
+
+module incircle_core_logic$engine$insertions$dispatcher$priorities$team(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$priorities$team
+
+
+module incircle_core_logic$engine$insertions$dispatcher$priorities$teams(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [4:0] write_address;
+    input wire  [4:0] write_data;
+    input wire  write_enable;
+    input wire  [4:0] read_address;
+    output reg  [4:0] read_data;
+    
+    // Update code (custom)
+    wire unused_write_address = &{1'b0, write_address[4:4]};
+    wire unused_read_address = &{1'b0, read_address[4:4]};
+    (* ram_style = "distributed" *)
+    reg [4:0] memory [0:15];
+    wire [4:0] word = memory[read_address[3:0]];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address[3:0]] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_core_logic$engine$insertions$dispatcher$priorities$teams
+
+
+module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clears,deal,arrived,came,seeded,contexts,may_retry,solo_is_at_work,is_done,is_blocked,outcome,planned,passed,start,solo_start);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  clears;
-    input wire  [12:0] deal;
+    input wire  [16:0] deal;
     input wire  [14:0] arrived;
     input wire  came;
     input wire  seeded;
-    input wire  [133:0] contexts;
+    input wire  [145:0] contexts;
+    input wire  may_retry;
     input wire  solo_is_at_work;
     input wire  is_done;
     input wire  is_blocked;
     input wire  [28:0] outcome;
+    output reg  [10:0] planned;
+    output reg  [34:0] passed;
     output reg  [36:0] start;
     output reg  [35:0] solo_start;
     
     // Stub signals
-    reg  [27:0] passed$d;
-    wire  [27:0] passed$q;
-    reg  passed$clock;
-    reg  [14:0] passed_point$d;
-    wire  [14:0] passed_point$q;
-    reg  passed_point$clock;
-    reg  [66:0] candidate$d;
-    wire  [66:0] candidate$q;
+    reg  [34:0] left$d;
+    wire  [34:0] left$q;
+    reg  left$clock;
+    reg  [14:0] left_point$d;
+    wire  [14:0] left_point$q;
+    reg  left_point$clock;
+    reg  [71:0] candidate$d;
+    wire  [71:0] candidate$q;
     reg  candidate$clock;
     reg  wants_again$d;
     wire  wants_again$q;
@@ -12021,9 +12593,12 @@ module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clea
     reg  wants_new$d;
     wire  wants_new$q;
     reg  wants_new$clock;
-    reg  all_work$d;
-    wire  all_work$q;
-    reg  all_work$clock;
+    reg  teams$clock;
+    reg  [10:0] teams$planned;
+    reg  teams$opens;
+    reg  [4:0] teams$opened;
+    reg  [4:0] teams$asked;
+    wire  teams$is_open;
     reg  points$clock;
     reg  [4:0] points$write_address;
     reg  [14:0] points$write_data;
@@ -12038,27 +12613,28 @@ module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clea
     wire  [14:0] roots$read_data;
     reg  pointer$clock;
     reg  pointer$restarts;
-    reg  [4:0] pointer$contexts;
+    reg  [16:0] pointer$deal;
     reg  pointer$moves;
-    wire  [11:0] pointer$pointer;
+    wire  [17:0] pointer$pointer;
     wire  pointer$is_planned;
+    wire  [10:0] pointer$planned;
     wire  pointer$rests_over;
     reg  plans$clock;
-    reg  [12:0] plans$deal;
-    reg  [11:0] plans$pointer;
+    reg  [16:0] plans$deal;
+    reg  [17:0] plans$pointer;
     reg  plans$is_planned;
-    wire  [15:0] plans$due;
-    wire  [6:0] plans$first_dealt;
-    reg  [27:0] plans$passed;
-    wire  [30:0] plans$following;
+    wire  [34:0] plans$shown;
+    reg  [34:0] plans$passed;
+    wire  [29:0] plans$following;
     reg  [20:0] plans$write;
-    reg  [133:0] check$contexts;
-    reg  [27:0] check$passed;
+    reg  [145:0] check$contexts;
+    reg  [34:0] check$passed;
     reg  [14:0] check$arrived;
     reg  check$seeded;
     reg  check$is_planned;
     reg  check$rests_over;
-    reg  check$all_work;
+    reg  check$is_open;
+    reg  check$may_retry;
     reg  check$may_be_starting;
     wire  check$wants_again;
     wire  check$wants_new;
@@ -12071,18 +12647,20 @@ module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clea
     reg  begins;
     reg  moves;
     reg  is_taken;
+    reg  [23:0] solo;
+    reg  [4:0] index;
     reg  [4:0] one_turn;
     
     // Sub module instances
-    incircle_core_logic$engine$insertions$dispatcher$starter$passed passed(
-        .d(passed$d),
-        .q(passed$q),
-        .clock(passed$clock)
+    incircle_core_logic$engine$insertions$dispatcher$starter$left left(
+        .d(left$d),
+        .q(left$q),
+        .clock(left$clock)
     );
-    incircle_core_logic$engine$insertions$dispatcher$starter$passed_point passed_point(
-        .d(passed_point$d),
-        .q(passed_point$q),
-        .clock(passed_point$clock)
+    incircle_core_logic$engine$insertions$dispatcher$starter$left_point left_point(
+        .d(left_point$d),
+        .q(left_point$q),
+        .clock(left_point$clock)
     );
     incircle_core_logic$engine$insertions$dispatcher$starter$candidate candidate(
         .d(candidate$d),
@@ -12099,10 +12677,13 @@ module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clea
         .q(wants_new$q),
         .clock(wants_new$clock)
     );
-    incircle_core_logic$engine$insertions$dispatcher$starter$all_work all_work(
-        .d(all_work$d),
-        .q(all_work$q),
-        .clock(all_work$clock)
+    incircle_core_logic$engine$insertions$dispatcher$starter$teams teams(
+        .clock(teams$clock),
+        .planned(teams$planned),
+        .opens(teams$opens),
+        .opened(teams$opened),
+        .asked(teams$asked),
+        .is_open(teams$is_open)
     );
     incircle_core_logic$engine$insertions$dispatcher$starter$points points(
         .clock(points$clock),
@@ -12123,10 +12704,11 @@ module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clea
     incircle_core_logic$engine$insertions$dispatcher$starter$pointer pointer(
         .clock(pointer$clock),
         .restarts(pointer$restarts),
-        .contexts(pointer$contexts),
+        .deal(pointer$deal),
         .moves(pointer$moves),
         .pointer(pointer$pointer),
         .is_planned(pointer$is_planned),
+        .planned(pointer$planned),
         .rests_over(pointer$rests_over)
     );
     incircle_core_logic$engine$insertions$dispatcher$starter$plans plans(
@@ -12134,8 +12716,7 @@ module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clea
         .deal(plans$deal),
         .pointer(plans$pointer),
         .is_planned(plans$is_planned),
-        .due(plans$due),
-        .first_dealt(plans$first_dealt),
+        .shown(plans$shown),
         .passed(plans$passed),
         .following(plans$following),
         .write(plans$write)
@@ -12147,7 +12728,8 @@ module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clea
         .seeded(check$seeded),
         .is_planned(check$is_planned),
         .rests_over(check$rests_over),
-        .all_work(check$all_work),
+        .is_open(check$is_open),
+        .may_retry(check$may_retry),
         .may_be_starting(check$may_be_starting),
         .wants_again(check$wants_again),
         .wants_new(check$wants_new),
@@ -12156,41 +12738,47 @@ module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clea
     
     // Update code
     always @(*) begin
-        passed$clock = clock;
-        passed_point$clock = clock;
+        left$clock = clock;
+        left_point$clock = clock;
         candidate$clock = clock;
         wants_again$clock = clock;
         wants_new$clock = clock;
-        all_work$clock = clock;
-        passed$d = passed$q;
-        passed_point$d = passed_point$q;
+        left$d = left$q;
+        left_point$d = left_point$q;
         candidate$d = candidate$q;
         wants_again$d = wants_again$q;
         wants_new$d = wants_new$q;
-        all_work$d = all_work$q;
         points$clock = clock;
         pointer$clock = clock;
         plans$clock = clock;
         roots$clock = clock;
+        teams$clock = clock;
         one_turn = 32'h1;
         contexts_at_work = deal[(64'h0)+:(5)];
+        solo = contexts[(64'h78)+:(24)];
+        index = left$q[(64'h0)+:(5)];
         points$read_address = pointer$pointer[(64'h0)+:(5)];
         plans$pointer = pointer$pointer;
         plans$is_planned = pointer$is_planned;
-        plans$passed = passed$q;
+        plans$passed = left$q;
         plans$deal = deal;
         pointer$restarts = reset | clears;
-        pointer$contexts = contexts_at_work;
+        pointer$deal = deal;
+        planned = pointer$planned;
+        teams$planned = pointer$planned;
+        passed = left$q;
         check$contexts = contexts;
-        check$passed = passed$q;
+        check$passed = left$q;
         check$arrived = arrived;
         check$seeded = seeded;
         check$is_planned = pointer$is_planned;
         check$rests_over = pointer$rests_over;
-        check$all_work = all_work$q;
+        teams$asked = left$q[(64'h5)+:(5)];
+        check$is_open = teams$is_open;
+        check$may_retry = may_retry;
         check$may_be_starting = (wants_again$q | wants_new$q) & (contexts_at_work == one_turn);
-        roots$read_address = passed$q[(64'h0)+:(5)];
-        wants = (wants_again$q | wants_new$q) & (~contexts[(64'h7f)+:(1)]);
+        roots$read_address = left$q[(64'h0)+:(5)];
+        wants = (wants_again$q | wants_new$q) & (~contexts[(64'h90)+:(1)]);
         lacks_port = wants_new$q & came;
         moves = ~(wants & (is_done | lacks_port));
         pointer$moves = moves;
@@ -12198,88 +12786,65 @@ module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clea
         is_taken = wants_new$q & begins;
         start[(64'h0)+:(1)] = begins;
         start[(64'h1)+:(5)] = candidate$q[(64'h0)+:(5)];
-        start[(64'h6)+:(15)] = candidate$q[(64'h33)+:(15)];
+        start[(64'h6)+:(15)] = candidate$q[(64'h38)+:(15)];
         start[(64'h15)+:(1)] = is_taken;
-        start[(64'h16)+:(15)] = candidate$q[(64'h5)+:(15)];
-        solo_start[(64'h0)+:(1)] = contexts[(64'h7f)+:(1)] & contexts[(64'h85)+:(1)] & (~solo_is_at_work) & candidate$q[(64'h42)+:(1)];
-        solo_start[(64'h1)+:(5)] = contexts[(64'h80)+:(5)];
-        solo_start[(64'h6)+:(15)] = candidate$q[(64'h24)+:(15)];
-        solo_start[(64'h15)+:(15)] = candidate$q[(64'h33)+:(15)];
+        start[(64'h16)+:(15)] = candidate$q[(64'ha)+:(15)];
+        solo_start[(64'h0)+:(1)] = contexts[(64'h91)+:(1)] & (~solo_is_at_work) & candidate$q[(64'h47)+:(1)];
+        solo_start[(64'h1)+:(5)] = candidate$q[(64'h0)+:(5)];
+        solo_start[(64'h6)+:(15)] = candidate$q[(64'h29)+:(15)];
+        solo_start[(64'h15)+:(15)] = candidate$q[(64'h38)+:(15)];
         points$write_address = candidate$q[(64'h0)+:(5)];
-        points$write_data = candidate$q[(64'h5)+:(15)];
+        points$write_data = candidate$q[(64'ha)+:(15)];
         points$write_enable = is_taken;
         plans$write[(64'h0)+:(1)] = is_taken;
         plans$write[(64'h1)+:(5)] = candidate$q[(64'h0)+:(5)];
-        plans$write[(64'h6)+:(15)] = candidate$q[(64'h15)+:(15)];
+        plans$write[(64'h6)+:(15)] = candidate$q[(64'h1a)+:(15)];
         roots$write_address = outcome[(64'h0)+:(5)];
         roots$write_data = outcome[(64'he)+:(15)];
         roots$write_enable = outcome[(64'hd)+:(1)];
-        if (is_taken & candidate$q[(64'h14)+:(1)]) begin
-            all_work$d = 1'b1;
-        end
+        teams$opens = is_taken & candidate$q[(64'h19)+:(1)];
+        teams$opened = candidate$q[(64'h5)+:(5)];
         if (begins) begin
             wants_again$d = 1'b0;
             wants_new$d = 1'b0;
         end
         if (moves) begin
-            candidate$d[(64'h0)+:(5)] = passed$q[(64'h0)+:(5)];
-            candidate$d[(64'h5)+:(15)] = passed$q[(64'h5)+:(15)];
-            candidate$d[(64'h14)+:(1)] = plans$following[(64'h0)+:(1)];
-            candidate$d[(64'h15)+:(15)] = plans$following[(64'h1)+:(15)];
-            candidate$d[(64'h24)+:(15)] = passed_point$q;
+            candidate$d[(64'h0)+:(5)] = left$q[(64'h0)+:(5)];
+            candidate$d[(64'ha)+:(15)] = left$q[(64'hb)+:(15)];
+            candidate$d[(64'h5)+:(5)] = left$q[(64'h5)+:(5)];
+            candidate$d[(64'h19)+:(1)] = left$q[(64'h22)+:(1)];
+            candidate$d[(64'h1a)+:(15)] = plans$following[(64'h0)+:(15)];
+            candidate$d[(64'h29)+:(15)] = left_point$q;
             wants_again$d = check$wants_again;
             wants_new$d = check$wants_new;
-            candidate$d[(64'h42)+:(1)] = passed$q[(64'h0)+:(5)] == contexts[(64'h80)+:(5)];
-            candidate$d[(64'h33)+:(15)] = plans$following[(64'h10)+:(15)];
+            candidate$d[(64'h47)+:(1)] = solo[index] & (~solo_is_at_work);
+            candidate$d[(64'h38)+:(15)] = plans$following[(64'hf)+:(15)];
             if (check$has_root) begin
-                candidate$d[(64'h33)+:(15)] = roots$read_data;
+                candidate$d[(64'h38)+:(15)] = roots$read_data;
             end
-            passed$d[(64'h0)+:(5)] = pointer$pointer[(64'h0)+:(5)];
-            passed$d[(64'h5)+:(15)] = plans$due[(64'h0)+:(15)];
-            passed$d[(64'h14)+:(1)] = plans$due[(64'hf)+:(1)];
-            passed$d[(64'h15)+:(7)] = plans$first_dealt;
-            passed_point$d = points$read_data;
+            left$d = plans$shown;
+            left_point$d = points$read_data;
         end
         if (reset | clears) begin
             wants_again$d = 1'b0;
             wants_new$d = 1'b0;
-            candidate$d[(64'h42)+:(1)] = 1'b0;
-            all_work$d = deal[(64'h5)+:(1)] & (~reset);
+            candidate$d[(64'h47)+:(1)] = 1'b0;
         end
     end
     
 endmodule // incircle_core_logic$engine$insertions$dispatcher$starter
 
 
-module incircle_core_logic$engine$insertions$dispatcher$starter$all_work(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$all_work
-
-
 module incircle_core_logic$engine$insertions$dispatcher$starter$candidate(d,q,clock);
     
     // Module arguments
-    input wire  [66:0] d;
-    output reg  [66:0] q;
+    input wire  [71:0] d;
+    output reg  [71:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 67'h0;
+       q = 72'h0;
     end
     
     always @(posedge clock) begin
@@ -12289,16 +12854,17 @@ module incircle_core_logic$engine$insertions$dispatcher$starter$candidate(d,q,cl
 endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$candidate
 
 
-module incircle_core_logic$engine$insertions$dispatcher$starter$check(contexts,passed,arrived,seeded,is_planned,rests_over,all_work,may_be_starting,wants_again,wants_new,has_root);
+module incircle_core_logic$engine$insertions$dispatcher$starter$check(contexts,passed,arrived,seeded,is_planned,rests_over,is_open,may_retry,may_be_starting,wants_again,wants_new,has_root);
     
     // Module arguments
-    input wire  [133:0] contexts;
-    input wire  [27:0] passed;
+    input wire  [145:0] contexts;
+    input wire  [34:0] passed;
     input wire  [14:0] arrived;
     input wire  seeded;
     input wire  is_planned;
     input wire  rests_over;
-    input wire  all_work;
+    input wire  is_open;
+    input wire  may_retry;
     input wire  may_be_starting;
     output reg  wants_again;
     output reg  wants_new;
@@ -12309,37 +12875,31 @@ module incircle_core_logic$engine$insertions$dispatcher$starter$check(contexts,p
     reg  [23:0] asleep;
     reg  [23:0] retrying;
     reg  [23:0] busy;
-    reg  [23:0] began;
     reg  [23:0] hinted;
     reg  is_asleep;
     reg  will_retry;
     reg  is_rested;
-    reg  may_try;
     reg  may_work;
     reg  is_there;
     reg  is_barred;
-    reg  [4:0] first_context;
     
     // Update code
     always @(*) begin
-        first_context = 32'h0;
         index = passed[(64'h0)+:(5)];
         asleep = contexts[(64'h0)+:(24)];
         retrying = contexts[(64'h18)+:(24)];
         busy = contexts[(64'h30)+:(24)];
-        began = contexts[(64'h48)+:(24)];
         hinted = contexts[(64'h60)+:(24)];
-        is_barred = contexts[(64'h7f)+:(1)] | may_be_starting;
+        is_barred = contexts[(64'h90)+:(1)] | may_be_starting;
         is_asleep = asleep[index] & (~is_barred);
         will_retry = retrying[index];
         is_rested = (~busy[index]) & rests_over;
-        may_try = (~contexts[(64'h7e)+:(1)]) | (passed[(64'h0)+:(5)] == contexts[(64'h79)+:(5)]);
-        wants_again = is_asleep & will_retry & is_rested & may_try;
-        may_work = all_work;
-        if (passed[(64'h0)+:(5)] == first_context) begin
-            may_work = seeded | (~began[32'h0]);
+        wants_again = is_asleep & will_retry & is_rested & may_retry;
+        may_work = is_open;
+        if (passed[(64'ha)+:(1)]) begin
+            may_work = seeded | passed[(64'h1a)+:(1)];
         end
-        is_there = is_planned & (passed[(64'h5)+:(15)] < arrived);
+        is_there = is_planned & (passed[(64'hb)+:(15)] < arrived);
         wants_new = is_asleep & (~will_retry) & is_there & may_work;
         has_root = will_retry | hinted[index];
     end
@@ -12347,26 +12907,26 @@ module incircle_core_logic$engine$insertions$dispatcher$starter$check(contexts,p
 endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$check
 
 
-module incircle_core_logic$engine$insertions$dispatcher$starter$passed(d,q,clock);
+module incircle_core_logic$engine$insertions$dispatcher$starter$left(d,q,clock);
     
     // Module arguments
-    input wire  [27:0] d;
-    output reg  [27:0] q;
+    input wire  [34:0] d;
+    output reg  [34:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 28'h0;
+       q = 35'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$passed
+endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$left
 
 
-module incircle_core_logic$engine$insertions$dispatcher$starter$passed_point(d,q,clock);
+module incircle_core_logic$engine$insertions$dispatcher$starter$left_point(d,q,clock);
     
     // Module arguments
     input wire  [14:0] d;
@@ -12382,29 +12942,28 @@ module incircle_core_logic$engine$insertions$dispatcher$starter$passed_point(d,q
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$passed_point
+endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$left_point
 
 
-module incircle_core_logic$engine$insertions$dispatcher$starter$plans(clock,deal,pointer,is_planned,due,first_dealt,passed,following,write);
+module incircle_core_logic$engine$insertions$dispatcher$starter$plans(clock,deal,pointer,is_planned,shown,passed,following,write);
     
     // Module arguments
     input wire  clock;
-    input wire  [12:0] deal;
-    input wire  [11:0] pointer;
+    input wire  [16:0] deal;
+    input wire  [17:0] pointer;
     input wire  is_planned;
-    output reg  [15:0] due;
-    output reg  [6:0] first_dealt;
-    input wire  [27:0] passed;
-    output reg  [30:0] following;
+    output reg  [34:0] shown;
+    input wire  [34:0] passed;
+    output reg  [29:0] following;
     input wire  [20:0] write;
     
     // Stub signals
-    reg  [12:0] points$deal;
-    reg  [11:0] points$pointer;
+    reg  [16:0] points$deal;
+    reg  [17:0] points$pointer;
     wire  [15:0] points$first;
     wire  [6:0] points$first_dealt;
-    reg  [27:0] points$passed;
-    wire  [30:0] points$following;
+    reg  [34:0] points$passed;
+    wire  [29:0] points$following;
     reg  plans$clock;
     reg  [4:0] plans$write_address;
     reg  [15:0] plans$write_data;
@@ -12415,6 +12974,10 @@ module incircle_core_logic$engine$insertions$dispatcher$starter$plans(clock,deal
     wire  [15:0] plan$value;
     
     // Local signals
+    reg  [10:0] rounds;
+    reg  [10:0] round_size;
+    reg  [14:0] planned_id;
+    reg  [15:0] first;
     reg  [15:0] written;
     reg  [15:0] written_bits;
     
@@ -12446,16 +13009,27 @@ module incircle_core_logic$engine$insertions$dispatcher$starter$plans(clock,deal
         points$deal = deal;
         points$pointer = pointer;
         points$passed = passed;
-        first_dealt = points$first_dealt;
+        shown[(64'h0)+:(5)] = pointer[(64'h0)+:(5)];
+        shown[(64'h5)+:(5)] = pointer[(64'h5)+:(5)];
+        shown[(64'ha)+:(1)] = pointer[(64'ha)+:(1)];
+        shown[(64'h1b)+:(7)] = points$first_dealt;
         following = points$following;
         plans$read_address = pointer[(64'h0)+:(5)];
         plan$bits = plans$read_data;
         plans$write_address = pointer[(64'h0)+:(5)];
-        due = points$first;
+        first = points$first;
+        shown[(64'hb)+:(15)] = first[(64'h0)+:(15)];
+        shown[(64'h1a)+:(1)] = first[(64'hf)+:(1)];
         written = points$first;
+        planned_id = plan$value[(64'h0)+:(15)];
+        rounds = planned_id[(32'h4)+:(11)];
+        round_size = ((deal[(64'h5)+:(5)]) & 11'h7ff);
+        shown[(64'h22)+:(1)] = ~pointer[(64'ha)+:(1)];
         if (is_planned) begin
             plans$write_address = write[(64'h1)+:(5)];
-            due = plan$value;
+            shown[(64'hb)+:(15)] = plan$value[(64'h0)+:(15)];
+            shown[(64'h1a)+:(1)] = plan$value[(64'hf)+:(1)];
+            shown[(64'h22)+:(1)] = rounds >= round_size;
             written[(64'h0)+:(15)] = write[(64'h6)+:(15)];
             written[(64'hf)+:(1)] = 1'b0;
         end
@@ -12504,95 +13078,84 @@ endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$plans$plan
 module incircle_core_logic$engine$insertions$dispatcher$starter$plans$points(deal,pointer,first,first_dealt,passed,following);
     
     // Module arguments
-    input wire  [12:0] deal;
-    input wire  [11:0] pointer;
+    input wire  [16:0] deal;
+    input wire  [17:0] pointer;
     output reg  [15:0] first;
     output reg  [6:0] first_dealt;
-    input wire  [27:0] passed;
-    output reg  [30:0] following;
+    input wire  [34:0] passed;
+    output reg  [29:0] following;
     
     // Local signals
-    reg  [14:0] taken;
-    reg  is_batch;
-    reg  is_early;
-    reg  is_dealt;
-    reg  [10:0] rounds;
     reg  [14:0] from;
     reg  [14:0] step;
     reg  [14:0] wide_turn;
-    reg  [14:0] wide_taker;
+    reg  [14:0] wide_team;
+    reg  [14:0] wide_jobs;
+    reg  [14:0] first_round;
     reg  [6:0] narrow_turn;
     reg  [6:0] dealt_from;
-    reg  [14:0] first_round;
-    reg  [4:0] first_context;
-    reg  [14:0] one;
     reg  [14:0] two;
+    reg  [14:0] four;
     
     // Update code
     always @(*) begin
-        first_round = 32'h10;
-        first_context = 32'h0;
-        one = 32'h1;
         two = 32'h2;
-        is_batch = deal[(64'h5)+:(1)];
-        taken = passed[(64'h5)+:(15)];
+        four = 32'h4;
         wide_turn = ((pointer[(64'h0)+:(5)]) & 15'h7fff);
-        wide_taker = ((passed[(64'h0)+:(5)]) & 15'h7fff);
+        wide_team = ((passed[(64'h5)+:(5)]) & 15'h7fff);
+        wide_jobs = ((deal[(64'h5)+:(5)]) & 15'h7fff);
+        first_round = wide_jobs << four;
         narrow_turn = ((pointer[(64'h0)+:(5)]) & 7'h7f);
-        dealt_from = deal[(64'h6)+:(7)];
+        dealt_from = deal[(64'ha)+:(7)];
         first_dealt = dealt_from + narrow_turn;
-        rounds = taken[(32'h4)+:(11)];
-        is_dealt = |rounds;
-        following[(64'h0)+:(1)] = is_dealt;
-        is_early = (~is_dealt) & (~is_batch);
-        from = taken;
-        step = ((deal[(64'h0)+:(5)]) & 15'h7fff);
-        if (is_early) begin
-            step = one;
+        from = passed[(64'hb)+:(15)];
+        step = wide_jobs;
+        if (passed[(64'h22)+:(1)]) begin
+            step = ((deal[(64'h0)+:(5)]) & 15'h7fff);
         end
-        if (passed[(64'h14)+:(1)]) begin
-            from = ((passed[(64'h15)+:(7)]) & 15'h7fff);
+        if (passed[(64'h1a)+:(1)]) begin
+            from = ((passed[(64'h1b)+:(7)]) & 15'h7fff);
             step = 32'h0;
         end
-        following[(64'h1)+:(15)] = from + step;
-        following[(64'h10)+:(15)] = 32'h0;
-        if (is_batch) begin
-            following[(64'h10)+:(15)] = wide_taker << two;
-        end
+        following[(64'h0)+:(15)] = from + step;
+        following[(64'hf)+:(15)] = wide_team << two;
         first[(64'h0)+:(15)] = wide_turn + first_round;
-        if (is_batch | (pointer[(64'h0)+:(5)] == first_context)) begin
-            first[(64'h0)+:(15)] = ((pointer[(64'h5)+:(7)]) & 15'h7fff);
+        if (pointer[(64'ha)+:(1)]) begin
+            first[(64'h0)+:(15)] = ((pointer[(64'hb)+:(7)]) & 15'h7fff);
         end
-        first[(64'hf)+:(1)] = is_batch;
+        first[(64'hf)+:(1)] = pointer[(64'ha)+:(1)];
     end
     
 endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$plans$points
 
 
-module incircle_core_logic$engine$insertions$dispatcher$starter$pointer(clock,restarts,contexts,moves,pointer,is_planned,rests_over);
+module incircle_core_logic$engine$insertions$dispatcher$starter$pointer(clock,restarts,deal,moves,pointer,is_planned,planned,rests_over);
     
     // Module arguments
     input wire  clock;
     input wire  restarts;
-    input wire  [4:0] contexts;
+    input wire  [16:0] deal;
     input wire  moves;
-    output reg  [11:0] pointer;
+    output reg  [17:0] pointer;
     output reg  is_planned;
+    output reg  [10:0] planned;
     output reg  rests_over;
     
     // Stub signals
-    reg  [11:0] place$d;
-    wire  [11:0] place$q;
+    reg  [17:0] place$d;
+    wire  [17:0] place$q;
     reg  place$clock;
     reg  [1:0] round$d;
     wire  [1:0] round$q;
     reg  round$clock;
-    reg  planned$d;
-    wire  planned$q;
-    reg  planned$clock;
+    reg  was_round$d;
+    wire  was_round$q;
+    reg  was_round$clock;
     
     // Local signals
     reg  [4:0] after_turn;
+    reg  [4:0] after_team;
+    reg  [4:0] one_team;
     reg  [4:0] one_turn;
     reg  [6:0] three;
     reg  [1:0] one_round;
@@ -12609,43 +13172,56 @@ module incircle_core_logic$engine$insertions$dispatcher$starter$pointer(clock,re
         .q(round$q),
         .clock(round$clock)
     );
-    incircle_core_logic$engine$insertions$dispatcher$starter$pointer$planned planned(
-        .d(planned$d),
-        .q(planned$q),
-        .clock(planned$clock)
+    incircle_core_logic$engine$insertions$dispatcher$starter$pointer$was_round was_round(
+        .d(was_round$d),
+        .q(was_round$q),
+        .clock(was_round$clock)
     );
     
     // Update code
     always @(*) begin
         place$clock = clock;
         round$clock = clock;
-        planned$clock = clock;
+        was_round$clock = clock;
         place$d = place$q;
         round$d = round$q;
-        planned$d = planned$q;
+        was_round$d = was_round$q;
         one_turn = 32'h1;
+        one_team = 32'h1;
         three = 32'h3;
         one_round = 32'h1;
         resting_round = 32'h0;
         pointer = place$q;
-        is_planned = planned$q;
+        is_planned = was_round$q;
+        planned[(64'h0)+:(1)] = ~was_round$q;
+        planned[(64'h1)+:(5)] = place$q[(64'h0)+:(5)];
+        planned[(64'h6)+:(5)] = place$q[(64'h5)+:(5)];
         rests_over = round$q == resting_round;
         after_turn = place$q[(64'h0)+:(5)] + one_turn;
+        after_team = place$q[(64'h5)+:(5)] + one_team;
         if (moves) begin
             place$d[(64'h0)+:(5)] = after_turn;
-            place$d[(64'h5)+:(7)] = place$q[(64'h5)+:(7)] + three;
-            if (after_turn == contexts) begin
+            place$d[(64'hb)+:(7)] = place$q[(64'hb)+:(7)] + three;
+            place$d[(64'h5)+:(5)] = after_team;
+            if (after_team == deal[(64'h5)+:(5)]) begin
+                place$d[(64'h5)+:(5)] = 32'h0;
+                place$d[(64'ha)+:(1)] = 1'b0;
+            end
+            if (after_turn == deal[(64'h0)+:(5)]) begin
                 place$d[(64'h0)+:(5)] = 32'h0;
-                place$d[(64'h5)+:(7)] = 32'h2;
-                planned$d = 1'b1;
+                place$d[(64'hb)+:(7)] = 32'h2;
+                place$d[(64'ha)+:(1)] = 1'b1;
+                was_round$d = 1'b1;
                 round$d = round$q + one_round;
             end
         end
         if (restarts) begin
             place$d[(64'h0)+:(5)] = 32'h0;
-            place$d[(64'h5)+:(7)] = 32'h2;
+            place$d[(64'hb)+:(7)] = 32'h2;
+            place$d[(64'h5)+:(5)] = 32'h0;
+            place$d[(64'ha)+:(1)] = 1'b1;
             round$d = 32'h0;
-            planned$d = 1'b0;
+            was_round$d = 1'b0;
         end
     end
     
@@ -12655,13 +13231,13 @@ endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$pointer
 module incircle_core_logic$engine$insertions$dispatcher$starter$pointer$place(d,q,clock);
     
     // Module arguments
-    input wire  [11:0] d;
-    output reg  [11:0] q;
+    input wire  [17:0] d;
+    output reg  [17:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 12'h0;
+       q = 18'h0;
     end
     
     always @(posedge clock) begin
@@ -12669,25 +13245,6 @@ module incircle_core_logic$engine$insertions$dispatcher$starter$pointer$place(d,
     end
           
 endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$pointer$place
-
-
-module incircle_core_logic$engine$insertions$dispatcher$starter$pointer$planned(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$pointer$planned
 
 
 module incircle_core_logic$engine$insertions$dispatcher$starter$pointer$round(d,q,clock);
@@ -12707,6 +13264,25 @@ module incircle_core_logic$engine$insertions$dispatcher$starter$pointer$round(d,
     end
           
 endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$pointer$round
+
+
+module incircle_core_logic$engine$insertions$dispatcher$starter$pointer$was_round(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$pointer$was_round
 
 
 module incircle_core_logic$engine$insertions$dispatcher$starter$points(clock,write_address,write_data,write_enable,read_address,read_data);
@@ -12753,6 +13329,75 @@ module incircle_core_logic$engine$insertions$dispatcher$starter$roots(clock,writ
     end
     always @(*) read_data = word;
 endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$roots
+
+
+module incircle_core_logic$engine$insertions$dispatcher$starter$teams(clock,planned,opens,opened,asked,is_open);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [10:0] planned;
+    input wire  opens;
+    input wire  [4:0] opened;
+    input wire  [4:0] asked;
+    output reg  is_open;
+    
+    // Stub signals
+    reg  flags$clock;
+    reg  [4:0] flags$write_address;
+    reg  flags$write_data;
+    reg  flags$write_enable;
+    reg  [4:0] flags$read_address;
+    wire  flags$read_data;
+    
+    // Sub module instances
+    incircle_core_logic$engine$insertions$dispatcher$starter$teams$flags flags(
+        .clock(flags$clock),
+        .write_address(flags$write_address),
+        .write_data(flags$write_data),
+        .write_enable(flags$write_enable),
+        .read_address(flags$read_address),
+        .read_data(flags$read_data)
+    );
+    
+    // Update code
+    always @(*) begin
+        flags$clock = clock;
+        flags$read_address = asked;
+        is_open = |flags$read_data;
+        flags$write_address = opened;
+        flags$write_data = 32'h1;
+        flags$write_enable = opens;
+        if (planned[(64'h0)+:(1)]) begin
+            flags$write_address = planned[(64'h6)+:(5)];
+            flags$write_data = 32'h0;
+            flags$write_enable = 1'b1;
+        end
+    end
+    
+endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$teams
+
+
+module incircle_core_logic$engine$insertions$dispatcher$starter$teams$flags(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [4:0] write_address;
+    input wire  write_data;
+    input wire  write_enable;
+    input wire  [4:0] read_address;
+    output reg  read_data;
+    
+    // Update code (custom)
+    wire unused_write_address = &{1'b0, write_address[4:4]};
+    wire unused_read_address = &{1'b0, read_address[4:4]};
+    (* ram_style = "distributed" *)
+    reg [0:0] memory [0:15];
+    wire [0:0] word = memory[read_address[3:0]];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address[3:0]] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$teams$flags
 
 
 module incircle_core_logic$engine$insertions$dispatcher$starter$wants_again(d,q,clock);
@@ -20814,7 +21459,7 @@ module incircle_core_logic$engine$seeder(clock,reset,clears,infinite,deal,arriva
     input wire  reset;
     input wire  clears;
     input wire  [14:0] infinite;
-    input wire  [12:0] deal;
+    input wire  [16:0] deal;
     input wire  [47:0] arrival;
     input wire  [14:0] arrived;
     input wire  looks;
@@ -20979,7 +21624,7 @@ module incircle_core_logic$engine$seeder(clock,reset,clears,infinite,deal,arriva
         request$d[(64'h0)+:(1)] = is_writing | prepares;
         write = request$q;
         has_triple$d = arrived >= triple$q;
-        is_last_job = (~deal[(64'h5)+:(1)]) | (following$q == deal[(64'h0)+:(5)]);
+        is_last_job = following$q == deal[(64'h5)+:(5)];
         if (is_writing) begin
             step$d = step$q + one;
         end
@@ -21370,7 +22015,7 @@ module incircle_core_logic$engine$solo(clock,reset,start,records,completion,push
     input wire  [173:0] completion;
     output reg  [93:0] push;
     output reg  [109:0] write;
-    output reg  [4:0] progress;
+    output reg  [9:0] progress;
     
     // Stub signals
     reg  awaits$d;
@@ -21555,10 +22200,11 @@ module incircle_core_logic$engine$solo(clock,reset,start,records,completion,push
         inserted$d = steps$inserts & (~reset);
         ended$d = steps$ends & (~reset);
         progress[(64'h0)+:(1)] = works$q;
-        progress[(64'h3)+:(1)] = star$tests;
-        progress[(64'h4)+:(1)] = star$flips;
-        progress[(64'h2)+:(1)] = inserted$q;
-        progress[(64'h1)+:(1)] = ended$q;
+        progress[(64'h1)+:(5)] = at_work_for$q;
+        progress[(64'h8)+:(1)] = star$tests;
+        progress[(64'h9)+:(1)] = star$flips;
+        progress[(64'h7)+:(1)] = inserted$q;
+        progress[(64'h6)+:(1)] = ended$q;
         if (steps$is_idle & start[(64'h0)+:(1)]) begin
             at_work_for$d = start[(64'h1)+:(5)];
             vertex$d = start[(64'h6)+:(15)];

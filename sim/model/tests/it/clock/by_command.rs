@@ -174,7 +174,7 @@ fn answers_as_the_model_by_commands() {
     let mut seen = [0u64; COUNTER_WORDS];
     for ring in [3, 6, 9, 32, 64] {
         for contexts in [1, 2, 3, 4, 5, 7, 8, 12, 16, 17, 20, 23, 24] {
-            for (points, jobs) in [(4, 8), (8, 20), (16, 10), (32, 8), (64, 8), (256, 4), (1024, 2)] {
+            for (points, jobs) in [(4, 8), (8, 20), (16, 10), (32, 8), (64, 16), (256, 8), (1024, 4)] {
                 let config = Config { name: "test", points, ring, contexts };
                 let mut bench = Bench::new(config);
                 for turn in 0..jobs {
