@@ -9,9 +9,9 @@ use incircle_hdl::engine::{Arrival, EngineState};
 use incircle_hdl::engine::{
     Attempt, Beyond, Bundle, Case, CommitJob, CommitRequest, Committed, Completion, ContextState, Deal, Entry,
     EntryWrite, Events, Follow, Following, Held, InnerWrite, LockClear, LockWrite, Outcome, Passed, Plan, PlanWrite,
-    Pointer, Position, Push, RecordRead, ReleaseJob, ReleaseRequest, Released, RingHead, SeedProgress, SoloPhase,
-    SoloProgress, SoloStart, SoloTurn, StarTriangle, Start, Step, Turned, Upcoming, Verdict, Visit, VisitEvents, Write,
-    WriteEnables,
+    Planned, Pointer, Position, Push, RecordRead, ReleaseJob, ReleaseRequest, Released, RingHead, SeedProgress,
+    SoloPhase, SoloProgress, SoloStart, SoloTurn, StarTriangle, Start, Step, Turned, Upcoming, Verdict, Visit,
+    VisitEvents, Write, WriteEnables,
 };
 use incircle_hdl::leaf::Unpacked;
 use incircle_hdl::mesh::{ReadRecord, Record};
