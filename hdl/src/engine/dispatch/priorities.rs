@@ -17,12 +17,12 @@
 //! Two teams of two contexts. Context 0 takes the priority of its team, waits once, and returns it; context 1 belongs
 //! to the other team:
 //! ```text
-//! early_context      0  1  0  0  2  0  0  1  0  2  0  0  0  0
-//! asks_for_priority _________/^^\___________________________
-//! waits             _______________/^^\_____________________
-//! returns_priority  ___________________________/^^\_________
-//! takes_priority    _________/^^\___________________________
-//! holds_priority    ____________/^^\__/^^^^^\__/^^\_________
+//! early_context       0  1  0  0  2  0  0  1  0  2  0  0  0  0
+//! asks_for_priority ____________/^^\__________________________
+//! waits             _____________________/^^\_________________
+//! returns_priority  ______________________________/^^\________
+//! takes_priority    ____________/^^\__________________________
+//! holds_priority    _______________/^^^^^\__/^^\__/^^\________
 //! ```
 
 use super::next_point::{Passed, Planned};

@@ -69,7 +69,8 @@ fn clear_command_is_granted_or_refused() {
             built = 1 + random.below(MAX_CONTEXTS.into()) as u32;
         }
         let wanted = [0, built, built + 1, random.below(256) as u32][random.below(4) as usize];
-        let jobs = [0, 1, 1 + random.below(8) as u32, random.below(128) as u32][random.below(4) as usize];
+        let jobs = [0, 1, 2 + random.below(3) as u32, 1 + random.below(8) as u32, random.below(128) as u32];
+        let jobs = jobs[random.below(5) as usize];
         let rest = jobs << CLEAR_MESHES_SHIFT | (random.below(1 << 8) as u32) << CLEAR_TAG_SHIFT;
         let word = match random.below(4) {
             0 => command_word(Opcode::Insert) | wanted,

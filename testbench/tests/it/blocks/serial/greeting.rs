@@ -18,7 +18,7 @@ fn greeting_is_that_of_the_page() {
         QUICK_LINK.clock_hz / 8,
         QUICK_LINK.silence_ms,
         0x696e_4369,
-        0x0001_0002,
+        0x0002_0000,
         CORE_VERSION,
         16,
         SMALL.points,

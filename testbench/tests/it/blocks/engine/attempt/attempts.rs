@@ -367,7 +367,7 @@ fn attempts_grow_the_rings_of_all_contexts_at_once() {
         [(60, 32, 24, 0), (61, 32, 12, 12), (62, 10, 20, 8), (63, 6, 9, 20), (64, 3, 8, 8)]
     {
         let mut rig = Rig::new(seed, ring, around, within);
-        rig.run(25_000);
+        rig.run(60_000);
         for (event, times) in &rig.tally {
             *tally.entry(event).or_default() += times;
         }

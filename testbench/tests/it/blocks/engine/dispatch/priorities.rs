@@ -144,7 +144,7 @@ fn priorities_show_the_wave_of_their_header() {
     let mut rig = Rig::new(4, 2);
     let mut wave = Wave::default();
     for (clock, early) in [0, 1, 0, 0, 2, 0, 0, 1, 0, 2, 0, 0, 0, 0].into_iter().enumerate() {
-        let (asks, waits, returns) = (clock == 3, clock == 5, clock == 10);
+        let (asks, waits, returns) = (clock == 4, clock == 7, clock == 10);
         let holds = rig.holders[rig.team(early)].is_some_and(|(of, _)| of == early);
         let takes = asks && rig.holders[rig.team(rig.context())].is_none();
         wave.take(&[

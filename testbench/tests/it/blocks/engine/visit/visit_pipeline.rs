@@ -217,7 +217,9 @@ impl Visits {
     fn bundle(&mut self) -> u128 {
         let mut bundle = random_fields(BUNDLE, &mut self.numbers);
         bundle[1] &= bundle[0];
-        bundle[2] = self.numbers.below(self.contexts);
+        // Every other time one of two contexts, so that contexts often meet their own locks.
+        let among = if self.numbers.once_in(2) { self.contexts.min(2) } else { self.contexts };
+        bundle[2] = self.numbers.below(among);
         for place in [9, 11, 12] {
             bundle[place] = self.record_id();
         }
