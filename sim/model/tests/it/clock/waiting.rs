@@ -45,8 +45,8 @@ fn one_after_another<'a>(bench: &mut Bench, contexts: u32, jobs: impl IntoIterat
     clocks.sum()
 }
 
-/// A job of a few points beside jobs that fill the memory. These are of a kind that takes long: uniform points, points
-/// that all lie on the hull, a wheel, or duplicates of points that are still being inserted.
+/// A job of a few points beside long ones: of uniform points, points that all lie on the hull, a wheel, or duplicates
+/// of points that are still being inserted.
 fn crowded(random: &mut Random, jobs: u32, kind: u32, victim: usize, few: u32) -> Batch {
     let full = 1000 / jobs;
     let side = random.pick(&[8, 300, 1 << 16]);
