@@ -11,6 +11,8 @@ use incircle_testkit::{generate, Distribution, SplitMix64};
 
 /// Number of meshes without the variable.
 const MESHES: usize = 1000;
+/// After this many meshes the command says how many are to come.
+const REPORT: usize = 5000;
 /// Largest number of jobs of a batch.
 const MOST_JOBS: u64 = 40;
 /// One of this many jobs is a large one.
@@ -77,6 +79,9 @@ impl Source {
         let count = self.left.min(1 + random.below(MOST_JOBS) as usize);
         let jobs = (0..count).map(|_| points(random, config.points.into())).collect();
         self.left -= count;
+        if self.left / REPORT != (self.left + count) / REPORT {
+            println!("{} meshes to come", self.left);
+        }
         Some(Batch { config, contexts, jobs })
     }
 }
