@@ -1,5 +1,6 @@
-//! Every mesh of a batch on the model by clock is that of its job alone, for all kinds of points and all sizes up to the
-//! capacity; nine of ten jobs have fewer than 300 points. There are 1,000 meshes, or as many as `INCIRCLE_MESHES` says:
+//! Every mesh of a batch on the model by clock is that of its job alone, for all kinds of points and all sizes up to
+//! the capacity; nine of ten jobs have fewer than 300 points. There are 1,000 meshes, or as many as `INCIRCLE_MESHES`
+//! says:
 //!
 //! `INCIRCLE_MESHES=100000 cargo test --release -p incircle --test it batch::meshes -- --nocapture`
 

@@ -263,8 +263,8 @@ fn one_context_begins() {
     assert!(with < without, "{with} {without}");
 }
 
-/// L8: the contexts of a team wait for the first round of their own job. Otherwise they meet in a mesh of a few triangles
-/// as soon as another team is further on.
+/// L8: the contexts of a team wait for the first round of their own job. Otherwise they meet in a mesh of a few
+/// triangles as soon as another team is further on.
 #[test]
 fn a_team_waits_for_its_own_first_round() {
     assert!(differ(&TEAMS.cycles(Defect::TeamsStartTogether)));

@@ -89,8 +89,8 @@ fn crowded(random: &mut Random, jobs: u32, kind: u32, team: usize, few: u32) -> 
     Batch { jobs: (0..jobs as usize).map(job).collect() }
 }
 
-/// The bound on the time of a job in a full batch. A group takes at most twice the clocks of its jobs one after another,
-/// each with the contexts of its team. A team beside others is not passed over: between two of its points, no other team
+/// The bounds on the time of a job in a full batch. A group takes at most twice the clocks of its jobs one after
+/// another, each with the contexts of its team. No team is passed over: between two points of a team, no other team
 /// finishes more than 8 for each of its contexts. With lists of 3 edges nearly every point needs a solo insertion, for
 /// which all other teams wait.
 #[test]
