@@ -12,6 +12,7 @@ mod clock {
     mod hang;
     mod orders;
     mod read_out;
+    mod waiting;
     mod watchdog;
 }
 

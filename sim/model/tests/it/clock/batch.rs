@@ -134,8 +134,8 @@ fn every_job_of_a_team_gets_the_mesh_it_gets_alone() {
             let config = Config { name: "test", points: 512, ring, contexts };
             let mut bench = Bench::new(config);
             for jobs in (1..contexts).filter(|jobs| contexts.is_multiple_of(*jobs)) {
-                for turn in 0..4 {
-                    let most = [4, 30, 400 / jobs, 600 / jobs][turn];
+                for turn in 0..5 {
+                    let most = [4, 30, 400 / jobs, 600 / jobs, 200 / jobs][turn];
                     let mut points = Batch::random(&mut random, jobs, most, true).points();
                     points.truncate(points.len() - random.below(jobs) as usize);
                     let points = &points[..points.len().max(3 * jobs as usize)];

@@ -264,8 +264,8 @@ fn one_context_begins() {
     assert!(with < without, "{with} {without}");
 }
 
-/// L8: the contexts of a team wait for the first round of their own job. Otherwise they meet in a mesh of a few triangles
-/// as soon as another team is further on.
+/// L8: the contexts of a team wait for the first round of their own job. Otherwise they meet in a mesh of a few
+/// triangles as soon as another team is further on.
 #[test]
 fn a_team_waits_for_its_own_first_round() {
     assert!(differ(&TEAMS.cycles(Defect::TeamsStartTogether)));
@@ -301,8 +301,11 @@ fn the_side_that_faces_the_point_decides_a_tie() {
     jobs.expect(Defect::TiesByTheWayIn, Symptom::is_wrong);
 }
 
-/// L11: a context walks in the mesh of its own job only. Otherwise its first point is inserted into another mesh.
+/// L11: a context walks in the mesh of its own job only. Otherwise its first point is inserted into another mesh. If
+/// more points follow, the contexts with the priorities of two teams wait for each other's locks, for ever.
 #[test]
 fn a_context_walks_in_the_mesh_of_its_own_job() {
-    TEAMS.expect(Defect::StartsInAnyMesh, Symptom::is_wrong);
+    let jobs = Jobs { points: |random| sets::started(sets::boxed(random, 1, 300)), ..TEAMS };
+    jobs.expect(Defect::StartsInAnyMesh, Symptom::is_wrong);
+    TEAMS.expect(Defect::StartsInAnyMesh, |found| *found == Symptom::Stuck);
 }

@@ -37,7 +37,7 @@ pub fn check_single_meshes(records: &[[u32; 3]], points: &[u32], jobs: u32, conf
 }
 
 /// Number of the job that a vertex belongs to.
-fn job_of(vertex: u32, jobs: u32) -> u32 {
+pub fn job_of(vertex: u32, jobs: u32) -> u32 {
     match vertex.checked_sub(3 * jobs) {
         None => vertex / 3,
         Some(place) => place % jobs,

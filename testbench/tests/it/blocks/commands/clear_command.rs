@@ -11,7 +11,7 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(ClearCommand, [reset, built, taken], [clearing, deal], clock);
 
-const CLOCKS: usize = 20_000;
+const CLOCKS: usize = 40_000;
 
 /// The state that the block must have.
 #[derive(Default)]

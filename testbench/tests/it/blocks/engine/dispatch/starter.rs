@@ -382,7 +382,8 @@ fn batches(name: &'static str, config: Config, batches: &[(u64, u64, u64)]) {
     let mut rig = Rig::new(name, config);
     for (contexts, jobs, points) in batches.iter().copied() {
         // All contexts sleep when the mesh is cleared.
-        (rig.contexts, rig.jobs) = (contexts, jobs);
+        // What the pointer has left belongs to the batch before.
+        (rig.contexts, rig.jobs, rig.passed) = (contexts, jobs, None);
         rig.lives = vec![Life::default(); contexts as usize];
         rig.clock(&Inputs { clears: true, came: true, ..Inputs::default() });
         let mut tally = Tally::default();

@@ -217,8 +217,8 @@ impl Visits {
     fn bundle(&mut self) -> u128 {
         let mut bundle = random_fields(BUNDLE, &mut self.numbers);
         bundle[1] &= bundle[0];
-        // Every other time one of two contexts, so that contexts often meet their own locks.
-        let among = if self.numbers.once_in(2) { self.contexts.min(2) } else { self.contexts };
+        // Every other time context 0, so that a context often meets its own locks.
+        let among = if self.numbers.once_in(2) { 1 } else { self.contexts };
         bundle[2] = self.numbers.below(among);
         for place in [9, 11, 12] {
             bundle[place] = self.record_id();
