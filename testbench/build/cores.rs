@@ -7,7 +7,7 @@ use incircle_protocol::{Config, FULL, LARGE, SMALL, TINY};
 use super::faults::{Fault, Piece, FAULTS};
 
 const ONE_CONTEXT: Config = Config { contexts: 1, ..SMALL };
-const ONE_CONTEXT_LONG_LIST: Config = Config { ring: 64, contexts: 1, ..SMALL };
+const LONG_LIST: Config = Config { ring: 64, contexts: 8, ..SMALL };
 const TWELVE_CONTEXTS: Config = Config { contexts: 12, ..SMALL };
 
 /// Name and Verilog of every core; each has the probe.
@@ -26,7 +26,7 @@ pub fn all() -> Vec<(&'static str, String)> {
         ("core_full", core(FULL)),
         ("core_large", core(LARGE)),
         ("faulty_core_small", with_switches(SMALL)),
-        ("faulty_core_long_list_one", with_switches(ONE_CONTEXT_LONG_LIST)),
+        ("faulty_core_long_list", with_switches(LONG_LIST)),
     ]
 }
 

@@ -9,7 +9,7 @@ use incircle_protocol::{
     TINY,
 };
 use incircle_testbench::lockstep::{Job, Lockstep, Stalls};
-use incircle_testkit::{Batch, Random32, SplitMix64};
+use incircle_testkit::{words, Batch, Random32, SplitMix64};
 
 /// A pair of core and model, with the counters summed over all its batches.
 struct Rig {
@@ -135,6 +135,14 @@ fn teams_of_every_size_in_a_middle_core() {
     let config = Config { contexts: 12, ..SMALL };
     let mut rig = Rig::new("core_small_twelve", config, 56);
     run_teams(&mut rig, 4, 700, 56);
+    // The first point inside a wheel has a longer boundary than the list.
+    let mut random = Random32(57);
+    for jobs in [1, 2, 3, 4, 6, 12] {
+        let wheels = (0..jobs).map(|_| words::started(words::wheel_from_outside(&mut random, 24))).collect();
+        let points = Batch { jobs: wheels }.points();
+        let job = Job::teams_of(&points, points.len(), [12, jobs], config);
+        rig.run_job(&job, &points, points.len(), Stalls::NONE);
+    }
     let (aborts, taken) = (rig.counted(Counter::Aborts), rig.counted(Counter::PrioritiesTaken));
     assert!(aborts > 2000 && taken > 500 && rig.counted(Counter::Overflows) > 50, "{aborts} {taken}");
 }
