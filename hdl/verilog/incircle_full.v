@@ -25,6 +25,8 @@ module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,
     localparam  ring_capacity = 7'b100000;
     localparam  last_id = 15'b11111111111111;
     localparam  contexts = 5'b10000;
+    localparam  engines = 8'h1;
+    localparam  engine_number = 8'h0;
     localparam  all_contexts = 24'hffff;
     localparam  patience = 22'h150000;
     
@@ -36,7 +38,7 @@ module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,
     reg  command_port$sweeps;
     reg  [19:0] command_port$engine;
     wire  [47:0] command_port$arrival;
-    wire  [1:0] command_port$clearing;
+    wire  [9:0] command_port$clearing;
     wire  [12:0] command_port$deal;
     wire  command_port$answers;
     wire  [71:0] command_port$request;
@@ -45,7 +47,8 @@ module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,
     wire  [2:0] command_port$activity;
     reg  answer_head$clock;
     reg  [71:0] answer_head$request;
-    reg  answer_head$is_refused;
+    reg  [9:0] answer_head$clearing;
+    reg  [7:0] answer_head$engine;
     reg  [14:0] answer_head$records;
     reg  answer_head$collinear;
     reg  answer_head$stuck;
@@ -55,6 +58,7 @@ module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,
     reg  [7:0] answer_words$opcode;
     reg  [14:0] answer_words$capacity;
     reg  [4:0] answer_words$contexts;
+    reg  [7:0] answer_words$engines;
     reg  [6:0] answer_words$ring_capacity;
     reg  [47:0] answer_words$tally;
     reg  [31:0] answer_words$insertions;
@@ -143,7 +147,8 @@ module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,
     incircle_core_logic$answer_head answer_head(
         .clock(answer_head$clock),
         .request(answer_head$request),
-        .is_refused(answer_head$is_refused),
+        .clearing(answer_head$clearing),
+        .engine(answer_head$engine),
         .records(answer_head$records),
         .collinear(answer_head$collinear),
         .stuck(answer_head$stuck),
@@ -155,6 +160,7 @@ module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,
         .opcode(answer_words$opcode),
         .capacity(answer_words$capacity),
         .contexts(answer_words$contexts),
+        .engines(answer_words$engines),
         .ring_capacity(answer_words$ring_capacity),
         .tally(answer_words$tally),
         .insertions(answer_words$insertions),
@@ -252,7 +258,8 @@ module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,
         command_port$engine = engine$state;
         command_port$answer = responder$progress;
         answer_head$request = command_port$request;
-        answer_head$is_refused = command_port$clearing[(64'h1)+:(1)];
+        answer_head$clearing = command_port$clearing;
+        answer_head$engine = engine_number;
         answer_head$records = engine$state[(64'h5)+:(15)];
         answer_head$collinear = engine$state[(64'h1)+:(1)];
         answer_head$stuck = engine$state[(64'h3)+:(1)];
@@ -261,6 +268,7 @@ module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,
         answer_words$tally = command_port$tally;
         answer_words$capacity = capacity;
         answer_words$contexts = contexts;
+        answer_words$engines = engines;
         answer_words$ring_capacity = ring_capacity;
         answer_words$records = engine$state[(64'h5)+:(15)];
         answer_words$insertions = counters$insertions;
@@ -305,12 +313,13 @@ module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,
 endmodule // incircle_core_logic
 
 
-module incircle_core_logic$answer_head(clock,request,is_refused,records,collinear,stuck,some_refused,head);
+module incircle_core_logic$answer_head(clock,request,clearing,engine,records,collinear,stuck,some_refused,head);
     
     // Module arguments
     input wire  clock;
     input wire  [71:0] request;
-    input wire  is_refused;
+    input wire  [9:0] clearing;
+    input wire  [7:0] engine;
     input wire  [14:0] records;
     input wire  collinear;
     input wire  stuck;
@@ -367,10 +376,14 @@ module incircle_core_logic$answer_head(clock,request,is_refused,records,collinea
     reg  [31:0] shifted_status;
     reg  [31:0] wide_opcode;
     reg  [31:0] shifted_opcode;
+    reg  [31:0] wide_engine;
+    reg  [31:0] shifted_engine;
+    reg  [31:0] job;
     reg  [31:0] none;
     reg  [31:0] one;
     reg  [31:0] status_shift;
     reg  [31:0] opcode_shift;
+    reg  [31:0] engine_shift;
     reg  [7:0] read_code;
     reg  [7:0] packed_code;
     reg  packs;
@@ -475,6 +488,7 @@ module incircle_core_logic$answer_head(clock,request,is_refused,records,collinea
         one = 32'h1;
         status_shift = 32'h10;
         opcode_shift = 32'h18;
+        engine_shift = 32'h8;
         read_code = 32'h4;
         packed_code = 32'h7;
         wide_first = ((request[(64'h8)+:(32)]) & 33'h1ffffffff);
@@ -512,7 +526,7 @@ module incircle_core_logic$answer_head(clock,request,is_refused,records,collinea
             2:
                 begin
                     has_none$d = 1'b1;
-                    if (is_refused) begin
+                    if (clearing[(64'h1)+:(1)]) begin
                         answer_status$d = 32'h5;
                     end
                 end
@@ -564,7 +578,10 @@ module incircle_core_logic$answer_head(clock,request,is_refused,records,collinea
         shifted_status = status << status_shift;
         wide_opcode = ((request[(64'h0)+:(8)]) & 32'hffffffff);
         shifted_opcode = wide_opcode << opcode_shift;
-        head[(64'h0)+:(32)] = shifted_opcode | shifted_status;
+        wide_engine = ((engine) & 32'hffffffff);
+        shifted_engine = wide_engine << engine_shift;
+        job = ((clearing[(64'h2)+:(8)]) & 32'hffffffff);
+        head[(64'h0)+:(32)] = shifted_opcode | shifted_status | shifted_engine | job;
     end
     
 endmodule // incircle_core_logic$answer_head
@@ -817,13 +834,14 @@ module incircle_core_logic$answer_head$triple(d,q,clock);
 endmodule // incircle_core_logic$answer_head$triple
 
 
-module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,ring_capacity,tally,insertions,duplicates,records,index,counter,latency,chooses,word);
+module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,engines,ring_capacity,tally,insertions,duplicates,records,index,counter,latency,chooses,word);
     
     // Module arguments
     input wire  clock;
     input wire  [7:0] opcode;
     input wire  [14:0] capacity;
     input wire  [4:0] contexts;
+    input wire  [7:0] engines;
     input wire  [6:0] ring_capacity;
     input wire  [47:0] tally;
     input wire  [31:0] insertions;
@@ -848,6 +866,10 @@ module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,ring_capa
     
     // Local signals
     reg  [2:0] place;
+    reg  [31:0] wide_contexts;
+    reg  [31:0] wide_engines;
+    reg  [31:0] shifted_engines;
+    reg  [31:0] engines_shift;
     
     // Sub module instances
     incircle_core_logic$answer_words$identity identity(
@@ -876,6 +898,10 @@ module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,ring_capa
         chosen$d = chosen$q;
         word = chosen$q;
         place = index[(32'h0)+:(3)];
+        engines_shift = 32'h8;
+        wide_contexts = ((contexts) & 32'hffffffff);
+        wide_engines = ((engines) & 32'hffffffff);
+        shifted_engines = wide_engines << engines_shift;
         case (place)
             0:
                 begin
@@ -884,12 +910,12 @@ module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,ring_capa
                 end
             1:
                 begin
-                    identity$d = 32'h10002;
+                    identity$d = 32'h20000;
                     report$d = insertions;
                 end
             2:
                 begin
-                    identity$d = 32'h200;
+                    identity$d = 32'h300;
                     report$d = duplicates;
                 end
             3:
@@ -904,7 +930,7 @@ module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,ring_capa
                 end
             5:
                 begin
-                    identity$d = ((contexts) & 32'hffffffff);
+                    identity$d = wide_contexts | shifted_engines;
                     report$d = 32'h0;
                 end
             default:
@@ -1008,7 +1034,7 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command$valid
     input wire  sweeps;
     input wire  [19:0] engine;
     output reg  [47:0] arrival;
-    output reg  [1:0] clearing;
+    output reg  [9:0] clearing;
     output reg  [12:0] deal;
     output reg  answers;
     output reg  [71:0] request;
@@ -1059,7 +1085,7 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command$valid
     reg  clear$reset;
     reg  [4:0] clear$built;
     reg  [33:0] clear$taken;
-    wire  [1:0] clear$clearing;
+    wire  [9:0] clear$clearing;
     wire  [12:0] clear$deal;
     
     // Local signals
@@ -1251,7 +1277,7 @@ module incircle_core_logic$command_port$clear(clock,reset,built,taken,clearing,d
     input wire  reset;
     input wire  [4:0] built;
     input wire  [33:0] taken;
-    output reg  [1:0] clearing;
+    output reg  [9:0] clearing;
     output reg  [12:0] deal;
     
     // Stub signals
@@ -1270,6 +1296,9 @@ module incircle_core_logic$command_port$clear(clock,reset,built,taken,clearing,d
     reg  refusing$d;
     wire  refusing$q;
     reg  refusing$clock;
+    reg  [7:0] tag$d;
+    wire  [7:0] tag$q;
+    reg  tag$clock;
     
     // Local signals
     reg  [31:0] word;
@@ -1278,6 +1307,9 @@ module incircle_core_logic$command_port$clear(clock,reset,built,taken,clearing,d
     reg  [7:0] wide_built;
     reg  is_clear;
     reg  asks_too_much;
+    reg  [6:0] meshes;
+    reg  shares_contexts;
+    reg  is_impossible;
     reg  is_granted;
     reg  [6:0] wide_working;
     reg  [6:0] twice_working;
@@ -1310,6 +1342,11 @@ module incircle_core_logic$command_port$clear(clock,reset,built,taken,clearing,d
         .q(refusing$q),
         .clock(refusing$clock)
     );
+    incircle_core_logic$command_port$clear$tag tag(
+        .d(tag$d),
+        .q(tag$q),
+        .clock(tag$clock)
+    );
     
     // Update code
     always @(*) begin
@@ -1318,11 +1355,13 @@ module incircle_core_logic$command_port$clear(clock,reset,built,taken,clearing,d
         batch$clock = clock;
         dealt$clock = clock;
         refusing$clock = clock;
+        tag$clock = clock;
         clears$d = clears$q;
         working$d = working$q;
         batch$d = batch$q;
         dealt$d = dealt$q;
         refusing$d = refusing$q;
+        tag$d = tag$q;
         clear_code = 32'h2;
         all_contexts = 32'h0;
         clearing[(64'h0)+:(1)] = clears$q;
@@ -1330,16 +1369,23 @@ module incircle_core_logic$command_port$clear(clock,reset,built,taken,clearing,d
         deal[(64'h5)+:(1)] = batch$q;
         deal[(64'h6)+:(7)] = dealt$q;
         clearing[(64'h1)+:(1)] = refusing$q;
+        clearing[(64'h2)+:(8)] = tag$q;
         word = taken[(64'h2)+:(32)];
         code = word[(32'h18)+:(8)];
         asked = word[(32'h0)+:(8)];
         wide_built = ((built) & 8'hff);
         is_clear = code == clear_code;
         asks_too_much = asked > wide_built;
-        is_granted = taken[(64'h0)+:(1)] & is_clear & (~asks_too_much);
+        meshes = word[(32'h9)+:(7)];
+        shares_contexts = word[32'h8] & |meshes;
+        is_impossible = asks_too_much | shares_contexts;
+        is_granted = taken[(64'h0)+:(1)] & is_clear & (~is_impossible);
         clears$d = is_granted;
         if (taken[(64'h0)+:(1)]) begin
-            refusing$d = is_clear & asks_too_much;
+            refusing$d = is_clear & is_impossible;
+        end
+        if (taken[(64'h0)+:(1)] & is_clear) begin
+            tag$d = word[(32'h10)+:(8)];
         end
         if (is_granted) begin
             batch$d = word[32'h8];
@@ -1357,6 +1403,7 @@ module incircle_core_logic$command_port$clear(clock,reset,built,taken,clearing,d
         if (reset) begin
             clears$d = 1'b0;
             batch$d = 1'b0;
+            tag$d = 32'h0;
             dealt$d = 32'h10;
             working$d = built;
         end
@@ -1439,6 +1486,25 @@ module incircle_core_logic$command_port$clear$refusing(d,q,clock);
     end
           
 endmodule // incircle_core_logic$command_port$clear$refusing
+
+
+module incircle_core_logic$command_port$clear$tag(d,q,clock);
+    
+    // Module arguments
+    input wire  [7:0] d;
+    output reg  [7:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 8'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$command_port$clear$tag
 
 
 module incircle_core_logic$command_port$clear$working(d,q,clock);
