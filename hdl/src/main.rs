@@ -33,7 +33,7 @@ enum Command {
 #[derive(Args)]
 #[command(after_help = "Example:\n  incircle-hdl export --config full --top serial -o serial.v")]
 struct ExportArguments {
-    /// Configuration: tiny, small, full or large. Default: the ones that the repository holds.
+    /// Configuration: tiny, small, full, large, dual or quad. Default: the ones that the repository holds.
     #[arg(long, value_parser = config)]
     config: Option<Config>,
     /// File to write; `-` is standard output. Needs --config.

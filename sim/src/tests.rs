@@ -139,7 +139,7 @@ fn a_configuration_that_was_not_built_is_refused() {
     assert_eq!(
         error.to_string(),
         "there is no simulated core \"small\" of 1024 points with 4 contexts and 31 boundary edges: \
-         choose one of tiny, small, full, large"
+         choose one of tiny, small, full, large, dual, quad"
     );
 }
 

@@ -9,6 +9,7 @@ mod oracle;
 mod quantize;
 
 mod batch {
+    mod engines;
     mod exclusive;
     mod jobs;
     mod middle_jobs;

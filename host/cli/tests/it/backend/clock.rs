@@ -164,7 +164,7 @@ fn an_address_chooses_what_an_argument_chooses() {
     for (bad, sentence) in [
         ("clock?config=full --config full", "both choose"),
         ("cpu?threads=1 --threads 1", "both choose"),
-        ("clock?config=huge", "choose one of tiny, small, full, large"),
+        ("clock?config=huge", "choose one of tiny, small, full, large, dual, quad"),
         ("clock?threads=2", "\"config\" is known"),
         ("model --config full", "it needs --backend clock"),
     ] {

@@ -85,7 +85,7 @@ fn check(bench: &mut Bench, points: &[u32]) -> Result<u64, String> {
 
 impl Jobs {
     fn config(&self) -> Config {
-        Config { name: "test", points: 256, ring: self.ring, contexts: self.contexts }
+        Config { name: "test", points: 256, ring: self.ring, contexts: self.contexts, engines: 1 }
     }
 
     /// The points of the job of this number.

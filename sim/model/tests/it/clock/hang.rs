@@ -55,7 +55,7 @@ fn job(bench: &mut Bench, points: &[u32]) -> Result<(), String> {
 fn portion(contexts: u32, which: u32) {
     let mut random = Random(u64::from(contexts << 16 | which));
     let ring = random.pick(&[6, 9, 12, 32, 32, 64]);
-    let mut bench = Bench::new(Config { name: "test", points: 512, ring, contexts });
+    let mut bench = Bench::new(Config { name: "test", points: 512, ring, contexts, engines: 1 });
     for turn in 0..PORTION {
         let points = points(&mut random);
         if let Err(fault) = job(&mut bench, &points) {

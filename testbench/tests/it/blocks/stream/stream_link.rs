@@ -14,7 +14,7 @@ named_ports!([const W: usize, const K: usize, const E: usize] StreamLink<W, K, E
     [
         bus_clock, bus_reset_n, s_axis.tvalid, s_axis.tdata, s_axis.tkeep, m_axis.tready, s_axi.awvalid, s_axi.awaddr,
         s_axi.wvalid, s_axi.wdata, s_axi.wstrb, s_axi.bready, s_axi.arvalid, s_axi.araddr, s_axi.rready, core_clock,
-        command.ready, response.valid, response.data, response.both, response.last
+        command.ready, response.valid, response.data, response.both, response.last, device_busy
     ],
     [
         s_axis.tready, m_axis.tvalid, m_axis.tdata, m_axis.tkeep, m_axis.tlast, s_axi.awready, s_axi.wready,
