@@ -5,8 +5,8 @@
 //!    that engine, and for `ready`, which follows `response_ready`.
 //! 3. `stuck` is set when the first beat of an answer with the status `Stuck` is taken, and stays until a reset.
 //!
-//! Latency: 2 clocks from a word on offer to the stream. Two clocks pass between two answers, because the choice is made
-//! only while no answer passes: an engine whose answer ends would seem to offer the next one.
+//! Latency: 2 clocks from a word on offer to the stream. Two clocks pass between two answers, because the choice is
+//! made only while no answer passes: an engine whose answer ends would seem to offer the next one.
 
 use super::engine_choice::EngineChoice;
 use super::types::{EngineFlags, OfferedBeat};

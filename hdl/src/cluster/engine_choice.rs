@@ -1,7 +1,7 @@
 //! Chooses the engine for the next job, in turn.
 //!
-//! 1. The choice is the first engine behind `current`, in a circle, that owes no answer and has not said `Stuck`. If all
-//!    engines have said so, it is the first that owes no answer.
+//! 1. The choice is the first engine behind `current`, in a circle, that owes no answer and has not said `Stuck`. If
+//!    all engines have said so, it is the first that owes no answer.
 //!
 //! Latency: 1 clock.
 

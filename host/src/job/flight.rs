@@ -20,8 +20,8 @@ use crate::error::{DeviceFault, Error};
 use crate::limit::Limit;
 use incircle_geometry::Point;
 
-/// Most loads under way for each engine where commands may be sent ahead: one in the engine, one behind it. A device of
-/// several engines has one more under way, since a job waits at the device until some engine is free, whichever that is.
+/// Most loads under way for each engine where commands may be sent ahead: one in the engine, one behind it. A device
+/// of several engines has one more under way, since a job waits at the device until some engine is free.
 const MOST_SENT: usize = 2;
 
 /// An error, with the index of the job that it is about, if it is about one job.
