@@ -101,7 +101,11 @@ fn broken(config: Config, engines: &[usize]) -> Device {
 fn a_stuck_engine_costs_no_job() {
     let config = Config { points: 256, contexts: 4, ..QUAD };
     let mut random = Random(6);
-    let jobs: Vec<_> = (0..60).map(|_| random.points(20 + random.below(230) as usize, 1 << 16)).collect();
+    let mut job = || {
+        let count = 20 + random.below(230) as usize;
+        random.points(count, 1 << 16)
+    };
+    let jobs: Vec<_> = (0..60).map(|_| job()).collect();
     let right = alone(&jobs);
     for bad in [&[2][..], &[0, 3], &[0, 1, 3]] {
         let mut device = broken(config, bad);
