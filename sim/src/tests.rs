@@ -180,8 +180,8 @@ fn every_named_configuration_says_who_it_is() {
         assert_eq!(identity.magic, MAGIC);
         assert_eq!(identity.coord_bits, CORE_COORD_BITS);
         assert_eq!(
-            (identity.capacity, identity.ring_capacity, identity.contexts),
-            (config.points, config.ring, config.contexts),
+            (identity.capacity, identity.ring_capacity, identity.contexts, identity.engines),
+            (config.points, config.ring, config.contexts, config.engines),
             "{}",
             config.name
         );

@@ -73,6 +73,7 @@ impl Logic for AnswerCollector {
         self.none.next.engine1 = false;
         self.none.next.engine2 = false;
         self.none.next.engine3 = false;
+        self.choice.reset.next = self.reset.val();
         self.choice.current.next = self.chosen.q.val();
         self.choice.free.next.engine0 = self.is_idle.val() & self.offers.val().engine0;
         self.choice.free.next.engine1 = self.is_idle.val() & self.offers.val().engine1;

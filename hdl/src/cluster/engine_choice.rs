@@ -11,6 +11,8 @@ use crate::prelude::*;
 #[derive(LogicBlock, Default)]
 pub struct EngineChoice {
     pub clock: Signal<In, Clock>,
+    /// After a reset there is no engine for the next job, until the clock after.
+    pub reset: Signal<In, Bit>,
     /// The engine of the present job.
     pub current: Signal<In, Bits<2>>,
     /// The engine owes no answer; the engine has said `Stuck`, or is not there.
@@ -79,6 +81,9 @@ impl Logic for EngineChoice {
                     self.next_engine.d.next = 2.into();
                 }
             }
+        }
+        if self.reset.val() {
+            self.is_there.d.next = false;
         }
     }
 }

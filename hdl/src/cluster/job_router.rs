@@ -64,6 +64,7 @@ impl Logic for JobRouter {
             self.is_held.d.next = true;
             self.word.d.next = self.command.data.val();
         }
+        self.choice.reset.next = self.reset.val();
         self.choice.current.next = self.current.q.val();
         self.choice.free.next = self.free.val();
         self.choice.stuck.next = self.stuck.val();

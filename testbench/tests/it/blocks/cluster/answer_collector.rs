@@ -39,9 +39,11 @@ fn answer_collector_keeps_answers_whole() {
     let mut offered: [Option<usize>; 4] = [None; 4];
     // The engine whose answer has begun and not ended.
     let mut open: Option<usize> = None;
-    let mut stuck = 0;
+    let mut stuck = 0_u32;
     let mut says_stuck: [VecDeque<bool>; 4] = Default::default();
     let (mut ended, mut longest) = ([0; 4], 0);
+    // Number of clocks in a row in which words are on offer, and none of them comes out between two answers.
+    let mut held_up = 0;
     for clock in 0..20_000 {
         let reset = clock == 0 || random.below(3000) == 0;
         let mut offers = 0;
@@ -71,6 +73,9 @@ fn answer_collector_keeps_answers_whole() {
         let takes: Vec<usize> = (0..4).filter(|engine| takes >> engine & 1 == 1).collect();
         if clock > 0 {
             block.expect("stuck", stuck);
+            let holds_up = open.is_none() && offers > 0 && !block.is("response_valid");
+            held_up = if holds_up { held_up + 1 } else { 0 };
+            assert!(held_up <= 2, "words on offer do not come out, a reset before or not");
             assert!(takes.len() <= 1, "one engine at a time");
             assert_eq!(block.is("response_valid") && ready, !takes.is_empty());
             if let Some(engine) = open {
@@ -92,7 +97,7 @@ fn answer_collector_keeps_answers_whole() {
         block.edge();
         if reset {
             (engines, offered, open, stuck) = (Default::default(), [None; 4], None, 0);
-            says_stuck = Default::default();
+            (says_stuck, held_up) = (Default::default(), 0);
         }
     }
     assert!(ended.iter().all(|&answers| answers > 400), "{ended:?}");

@@ -4,7 +4,7 @@ use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::cluster::EngineChoice;
 use incircle_testkit::SplitMix64;
 
-named_ports!(EngineChoice, [current, free, stuck], [target, has_target], clock);
+named_ports!(EngineChoice, [reset, current, free, stuck], [target, has_target], clock);
 
 /// The first engine behind `current` in a circle that is free, and not stuck unless all are.
 fn choice(current: u32, free: u32, stuck: u32) -> Option<u32> {
@@ -19,20 +19,22 @@ fn engine_choice_goes_round() {
     let all = (0..4).flat_map(|current| (0..16).flat_map(move |free| (0..16).map(move |stuck| (current, free, stuck))));
     let mut cases: Vec<(u32, u32, u32)> = all.collect();
     random.shuffle(&mut cases);
-    let mut before = None;
+    let mut before: Option<(bool, u32, u32, u32)> = None;
     for (current, free, stuck) in cases {
+        let reset = random.below(8) == 0;
+        block.set("reset", reset);
         block.set("current", current);
         block.set("free", free);
         block.set("stuck", stuck);
         block.settle();
-        if let Some((current, free, stuck)) = before {
-            let expected = choice(current, free, stuck);
+        if let Some((reset, current, free, stuck)) = before {
+            let expected = choice(current, free, stuck).filter(|_| !reset);
             block.expect("has_target", expected.is_some());
             if let Some(engine) = expected {
                 block.expect("target", engine);
             }
         }
         block.edge();
-        before = Some((current, free, stuck));
+        before = Some((reset, current, free, stuck));
     }
 }
