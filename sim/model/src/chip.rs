@@ -5,17 +5,16 @@
 //! As in [`ClockModel`], an edge computes the next state of all parts from the registers as they were.
 
 mod collector;
+mod places;
 mod queue;
 mod router;
 
 use crate::clock::{ClockModel, Defect, Inputs, Outputs, Write};
 use collector::{Collector, Offers};
 use incircle_protocol::{Config, ConfigError};
+use places::MOST;
 use queue::CommandQueue;
 use router::{JobRouter, Sight};
-
-/// Largest number of engines of a chip.
-const MOST: usize = 4;
 
 /// The state of a chip at a clock.
 #[derive(Clone, Debug)]

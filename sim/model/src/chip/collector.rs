@@ -2,7 +2,7 @@
 //!
 //! Hardware twin: the block `AnswerCollector`.
 
-use super::MOST;
+use super::places::MOST;
 use crate::clock::Outputs;
 use incircle_protocol::{answer_status, Status};
 

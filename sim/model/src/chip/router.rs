@@ -2,7 +2,7 @@
 //!
 //! Hardware twin: the block `JobRouter`.
 
-use super::MOST;
+use super::places::MOST;
 use incircle_protocol::{command_opcode, Opcode, PADDING};
 
 /// The meaning of the word that the router holds, or of the next one.
