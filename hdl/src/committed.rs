@@ -2,13 +2,13 @@
 
 use crate::export::{self, ExportError};
 use crate::files::replace;
-use incircle_protocol::{Config, LinkConfig, FULL, SMALL};
+use incircle_protocol::{Config, LinkConfig, DUAL, FULL, QUAD, SMALL};
 use std::fmt;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// The configurations whose Verilog is in the repository.
-pub const COMMITTED: [Config; 2] = [SMALL, FULL];
+pub const COMMITTED: [Config; 4] = [SMALL, FULL, DUAL, QUAD];
 
 /// The module that an export describes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
