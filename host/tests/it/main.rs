@@ -18,6 +18,7 @@ mod batch {
 mod transports {
     mod clock;
     mod model;
+    mod older;
     mod pcie;
     mod serial {
         mod hostile;
