@@ -187,11 +187,11 @@ fn busy_is_told_without_a_gap() {
     for (round, periods) in PERIODS.into_iter().enumerate() {
         let mut random = SplitMix64::new(round as u64);
         let mut rig = rig(64, periods, round as u64);
-        for _ in 0..60 {
+        for turn in 0..60 {
             // Padding alone, or a command that lacks an argument.
             let first = command(2, 0, 1, random.below(12) as u32);
             rig.steps(60);
-            assert_eq!(rig.read(StreamRegister::Status), STREAM_STATUS_RUNS, "idle at {periods:?}");
+            assert_eq!(rig.read(StreamRegister::Status), STREAM_STATUS_RUNS, "idle at {periods:?}, turn {turn}");
             rig.core.as_mut().expect("a stand-in").pace = 1 + random.below(6);
             rig.bus.send(&[0, first]);
             let is_at_rest = random.below(3) == 0;
