@@ -237,7 +237,8 @@ fn chips_of_several_engines_are_named_and_used() {
         assert!(info.stdout.starts_with(&expected), "{}", info.stdout);
         let report = files(&scratch, &format!("--config {config}"));
         assert_eq!((&report["engines"], &report["stuck_engines"]), (&engines.into(), &serde_json::json!([])));
-        let run = scratch.run(&format!("bench uniform -n 100 --batch 90 --backend clock --config {config} --json")).ok();
+        let run =
+            scratch.run(&format!("bench uniform -n 100 --batch 90 --backend clock --config {config} --json")).ok();
         let batch: Value = serde_json::from_str(&run.stdout).expect("the report is JSON");
         assert_eq!(batch["engines"], engines);
         assert_eq!(batch["sets"][0]["stuck_engines"], serde_json::json!([]));
