@@ -1,6 +1,7 @@
 //! The incircle core in rust-hdl, its export to Verilog, and the boards on which it runs.
 
 pub mod board;
+pub mod cluster;
 pub mod commands;
 pub mod committed;
 pub mod engine;

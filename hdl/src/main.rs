@@ -34,10 +34,10 @@ enum Command {
 #[command(
     group = ArgGroup::new("core_size").args(["config", "points"]),
     after_help = "Examples:\n  incircle-hdl export --config full --top serial -o serial.v\n  \
-                  incircle-hdl export --points 2048 --contexts 12 -o core.v"
+                  incircle-hdl export --points 2048 --contexts 12 --engines 2 -o chip.v"
 )]
 struct ExportArguments {
-    /// Configuration: tiny, small, full or large. Default: the ones that the repository holds.
+    /// Configuration: tiny, small, full, large, dual or quad. Default: the ones that the repository holds.
     #[arg(long, value_parser = config)]
     config: Option<Config>,
     /// Number of points that a core of your own size holds, a power of two. Needs --contexts.
@@ -49,6 +49,9 @@ struct ExportArguments {
     /// Number of boundary edges that a context of a core of your own size keeps in its list.
     #[arg(long, default_value_t = FULL.ring, requires = "points")]
     ring: u32,
+    /// Number of engines of a chip of your own size, each a core with a memory of its own: 1, 2 or 4.
+    #[arg(long, default_value_t = 1, requires = "points")]
+    engines: u32,
     /// File to write; `-` is standard output. Needs --config or --points.
     #[arg(short, long, requires = "core_size")]
     out: Option<PathBuf>,
@@ -147,8 +150,9 @@ fn named_board(name: &str) -> Result<Board, String> {
 
 /// Writes the Verilog of one configuration, or renews the committed files.
 fn export(arguments: ExportArguments) -> Result<(), committed::WriteError> {
-    let ExportArguments { config, points, contexts, ring, out, probe, top, clock_hz, fifo_bytes, width } = arguments;
-    let own = points.zip(contexts).map(|(points, contexts)| Config { name: "custom", points, ring, contexts });
+    let ExportArguments { config, points, contexts, ring, engines, out, probe, top, clock_hz, fifo_bytes, width } =
+        arguments;
+    let own = points.zip(contexts).map(|(points, contexts)| Config { name: "custom", points, ring, contexts, engines });
     let top = match top {
         TopName::Core => Top::Core,
         TopName::Serial => Top::Serial(LinkConfig { clock_hz, fifo_bytes, silence_ms: SILENCE_MS }),

@@ -1,28 +1,34 @@
 //! The parameters of a core, and the named configurations.
 
-/// The numbers with which a core is built.
+/// The numbers with which a core, or a chip of several engines, is built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Config {
     /// Name of the configuration in files, messages and on the command line.
     pub name: &'static str,
-    /// Number of points that the memory holds.
+    /// Number of points that the memory of an engine holds.
     pub points: u32,
     /// Number of boundary edges that the list of a context holds.
     pub ring: u32,
-    /// Number of contexts, which is the number of insertions in progress at a time.
+    /// Number of contexts of an engine, which is the number of its insertions in progress at a time.
     pub contexts: u32,
+    /// Number of engines, each with a memory and contexts of its own.
+    pub engines: u32,
 }
 
 /// A core for tests and drawings: a wave fits on a page, and boundary lists overflow often.
-pub const TINY: Config = Config { name: "tiny", points: 8, ring: 6, contexts: 2 };
+pub const TINY: Config = Config { name: "tiny", points: 8, ring: 6, contexts: 2, engines: 1 };
 /// A core for a small board.
-pub const SMALL: Config = Config { name: "small", points: 1024, ring: 32, contexts: 16 };
+pub const SMALL: Config = Config { name: "small", points: 1024, ring: 32, contexts: 16, engines: 1 };
 /// A core for an ECP5-85F.
-pub const FULL: Config = Config { name: "full", points: 8192, ring: 32, contexts: 16 };
+pub const FULL: Config = Config { name: "full", points: 8192, ring: 32, contexts: 16, engines: 1 };
 /// The largest core that ids of 15 bits allow, for simulation.
-pub const LARGE: Config = Config { name: "large", points: 16384, ring: 32, contexts: 24 };
-/// All named configurations, smallest first.
-pub const NAMED: [Config; 4] = [TINY, SMALL, FULL, LARGE];
+pub const LARGE: Config = Config { name: "large", points: 16384, ring: 32, contexts: 24, engines: 1 };
+/// Two engines, for an ECP5-85F.
+pub const DUAL: Config = Config { name: "dual", points: 4096, ring: 32, contexts: 16, engines: 2 };
+/// Four engines, for an ECP5-85F.
+pub const QUAD: Config = Config { name: "quad", points: 2048, ring: 32, contexts: 16, engines: 4 };
+/// All named configurations: those of one engine, smallest first, then the others.
+pub const NAMED: [Config; 6] = [TINY, SMALL, FULL, LARGE, DUAL, QUAD];
 
 /// Largest number of points of a core: a triangle id must fit into 15 bits.
 pub const MAX_POINTS: u32 = 16384;
@@ -40,6 +46,11 @@ pub const MIN_RING: u32 = 3;
 pub const MAX_CONTEXTS: u32 = 24;
 /// Smallest number of contexts.
 pub const MIN_CONTEXTS: u32 = 1;
+/// The numbers of engines that a chip may have: the blocks between the streams and the engines are drawn for these.
+pub const ENGINES: [u32; 3] = [1, 2, 4];
+/// Number of words of commands that wait for an engine while it works, so that the commands behind a long `Insert` do
+/// not hold up those for other engines. A job has no more than ten words behind its points.
+pub const ENGINE_QUEUE_WORDS: usize = 16;
 /// Number of points that context 0 inserts on its own, the first three included, because a smaller mesh has no room for
 /// many insertions at once. From here on, point `j` belongs to context `(j - FIRST_ROUND) mod contexts`.
 pub const FIRST_ROUND: u32 = 16;
@@ -61,6 +72,8 @@ pub enum ConfigError {
     Ring(u32),
     /// The number of contexts is outside `MIN_CONTEXTS..=MAX_CONTEXTS`.
     Contexts(u32),
+    /// The number of engines is not one of `ENGINES`.
+    Engines(u32),
 }
 
 impl core::fmt::Display for ConfigError {
@@ -74,6 +87,10 @@ impl core::fmt::Display for ConfigError {
             }
             Self::Contexts(given) => {
                 write!(f, "a core cannot have {given} contexts: choose a number from {MIN_CONTEXTS} to {MAX_CONTEXTS}")
+            }
+            Self::Engines(given) => {
+                let [one, two, four] = ENGINES;
+                write!(f, "a chip cannot have {given} engines: choose {one}, {two} or {four}")
             }
         }
     }
@@ -97,6 +114,9 @@ impl Config {
         }
         if self.contexts < MIN_CONTEXTS || self.contexts > MAX_CONTEXTS {
             return Err(ConfigError::Contexts(self.contexts));
+        }
+        if self.engines != ENGINES[0] && self.engines != ENGINES[1] && self.engines != ENGINES[2] {
+            return Err(ConfigError::Engines(self.engines));
         }
         Ok(self)
     }

@@ -139,7 +139,7 @@ fn a_configuration_that_was_not_built_is_refused() {
     assert_eq!(
         error.to_string(),
         "there is no simulated core \"small\" of 1024 points with 16 contexts and 31 boundary edges: \
-         choose one of tiny, small, full, large"
+         choose one of tiny, small, full, large, dual, quad"
     );
 }
 
@@ -180,8 +180,8 @@ fn every_named_configuration_says_who_it_is() {
         assert_eq!(identity.magic, MAGIC);
         assert_eq!(identity.coord_bits, CORE_COORD_BITS);
         assert_eq!(
-            (identity.capacity, identity.ring_capacity, identity.contexts),
-            (config.points, config.ring, config.contexts),
+            (identity.capacity, identity.ring_capacity, identity.contexts, identity.engines),
+            (config.points, config.ring, config.contexts, config.engines),
             "{}",
             config.name
         );

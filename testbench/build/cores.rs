@@ -10,6 +10,10 @@ const ONE_CONTEXT: Config = Config { contexts: 1, ..SMALL };
 const LONG_LIST: Config = Config { ring: 64, contexts: 8, ..SMALL };
 const TWELVE_CONTEXTS: Config = Config { contexts: 12, ..SMALL };
 
+const DUAL_TINY: Config = Config { engines: 2, ..TINY };
+const QUAD_TINY: Config = Config { points: 16, engines: 4, ..TINY };
+const DUAL_OF_64: Config = Config { points: 64, ring: 9, engines: 2, ..TINY };
+
 /// Name and Verilog of every core; each has the probe.
 pub fn all() -> Vec<(&'static str, String)> {
     let ring9 = Config { ring: 9, ..SMALL };
@@ -25,6 +29,9 @@ pub fn all() -> Vec<(&'static str, String)> {
         ("core_small_twelve", core(TWELVE_CONTEXTS)),
         ("core_full", core(FULL)),
         ("core_large", core(LARGE)),
+        ("core_dual_tiny", core(DUAL_TINY)),
+        ("core_quad_tiny", core(QUAD_TINY)),
+        ("faulty_core_dual", with_broken_engine(DUAL_OF_64)),
         ("faulty_core_small", with_switches(SMALL)),
         ("faulty_core_long_list", with_switches(LONG_LIST)),
     ]
@@ -49,5 +56,27 @@ fn with_switches(config: Config) -> String {
             text = replaced(&text, name, &around.replace('@', sound), &around.replace('@', &switched));
         }
     }
+    text
+}
+
+/// A chip of several engines of which engine 1 takes its own locks for those of another context, so that it gets stuck.
+fn with_broken_engine(config: Config) -> String {
+    let fault = FAULTS.iter().find(|fault| fault.name == "own_lock").expect("a fault of this name");
+    let mut broken = 0;
+    let design = core(config);
+    let modules = design.split_inclusive("endmodule").map(|module| {
+        let is_of_engine = module
+            .split_once("module ")
+            .is_some_and(|(_, text)| text.split(['(', ';']).next().is_some_and(|name| name.contains("$slot1$")));
+        let mut text = module.to_string();
+        for Piece { around, sound, broken: wrong } in fault.pieces.iter().filter(|_| is_of_engine) {
+            let place = around.replace('@', sound);
+            broken += text.matches(&place).count();
+            text = text.replace(&place, &around.replace('@', wrong));
+        }
+        text
+    });
+    let text = modules.collect();
+    assert_eq!(broken, fault.pieces.len(), "each place of the fault is once in an engine");
     text
 }

@@ -1,10 +1,12 @@
-//! Cores behind stream links, with one context: their answers are then those of the model by commands.
+//! Cores behind stream links, with one context: their answers are then those of the model by commands. A chip of two
+//! engines as well.
 
 use incircle_hdl::export;
 use incircle_protocol::{Config, SMALL, TINY};
 
-const TOPS: [(&str, Config, u32); 2] = [
+const TOPS: [(&str, Config, u32); 3] = [
     ("stream_tiny_64", Config { contexts: 1, ..TINY }, 64),
+    ("stream_dual_tiny_64", Config { contexts: 1, engines: 2, ..TINY }, 64),
     ("stream_small_128", Config { contexts: 1, ..SMALL }, 128),
 ];
 

@@ -6,10 +6,12 @@ use incircle_protocol::{Config, ConfigError, LinkConfig, LinkConfigError, BEAT_B
 use rust_hdl_core::check_error::CheckError;
 use rust_hdl_core::prelude::*;
 
+use crate::cluster::{Dual, Quad};
 use crate::serial::{SerialError, SerialLink};
 use crate::stream::StreamLink;
 use crate::top::{
-    serial_wrapper, stream_wrapper, wrapper, Core, SerialTop, StreamTop, CORE_NAME, SERIAL_TOP_NAME, STREAM_TOP_NAME,
+    serial_wrapper, stream_wrapper, wrapper, ChipParts, Core, SerialTop, StreamTop, CORE_NAME, SERIAL_TOP_NAME,
+    STREAM_TOP_NAME,
 };
 
 /// The reason why a design cannot become Verilog.
@@ -93,7 +95,8 @@ pub fn verilog<U: Block>(uut: &U, name: &str) -> Result<String, ExportError> {
     Ok(format!("`default_nettype none\n{}\n`default_nettype wire\n", modules.defines()))
 }
 
-/// The whole Verilog of a configuration: the core and the ANSI wrapper [`CORE_NAME`](crate::top::CORE_NAME) around it.
+/// The whole Verilog of a configuration: the core, or several engines between two streams, and the ANSI wrapper
+/// [`CORE_NAME`](crate::top::CORE_NAME) around it.
 ///
 /// `with_probe` adds the write port of the triangle memory to the wrapper's ports, for simulation.
 ///
@@ -101,11 +104,18 @@ pub fn verilog<U: Block>(uut: &U, name: &str) -> Result<String, ExportError> {
 /// If a parameter is out of range, or the design is not fit for export.
 pub fn core(config: Config, with_probe: bool) -> Result<String, ExportError> {
     on_large_stack(|| {
-        let mut uut = Core::new(config)?;
-        uut.connect_all();
         let inside = format!("{CORE_NAME}_logic");
-        Ok(format!("{}{}", verilog(&uut, &inside)?, wrapper(&inside, with_probe)))
+        Ok(format!("{}{}", engines(config, &inside)?, wrapper(&inside, config.engines, with_probe)))
     })
+}
+
+/// The Verilog of the engines of a configuration, with the root module `name`.
+fn engines(config: Config, name: &str) -> Result<String, ExportError> {
+    match config.check()?.engines {
+        1 => connected(Core::new(config)?, name),
+        2 => connected(Dual::new(config)?, name),
+        _ => connected(Quad::new(config)?, name),
+    }
 }
 
 /// The whole Verilog of a core behind a serial link: the device, and around it
@@ -117,10 +127,15 @@ pub fn core(config: Config, with_probe: bool) -> Result<String, ExportError> {
 /// If a parameter is out of range, or the design is not fit for export.
 pub fn serial_top(config: Config, link: LinkConfig, with_probe: bool) -> Result<String, ExportError> {
     on_large_stack(|| {
-        let mut uut = SerialTop::new(config, link)?;
-        uut.connect_all();
+        if config.engines > 1 {
+            let names = [format!("{SERIAL_TOP_NAME}_link"), format!("{SERIAL_TOP_NAME}_engines")];
+            let parts = ChipParts { link: &names[0], chip: &names[1], engines: config.engines, with_probe };
+            let inside = serial_link(config, link, parts.link)? + &engines(config, parts.chip)?;
+            return Ok(inside + &parts.serial());
+        }
         let inside = format!("{SERIAL_TOP_NAME}_logic");
-        Ok(format!("{}{}", verilog(&uut, &inside)?, serial_wrapper(&inside, with_probe)))
+        let device = connected(SerialTop::new(config, link)?, &inside)?;
+        Ok(format!("{device}{}", serial_wrapper(&inside, with_probe)))
     })
 }
 
@@ -133,6 +148,12 @@ pub fn serial_top(config: Config, link: LinkConfig, with_probe: bool) -> Result<
 /// If a parameter is out of range, or the design is not fit for export.
 pub fn stream_top(config: Config, beat_bits: u32, with_probe: bool) -> Result<String, ExportError> {
     on_large_stack(|| {
+        if config.engines > 1 {
+            let names = [format!("{STREAM_TOP_NAME}_link"), format!("{STREAM_TOP_NAME}_engines")];
+            let parts = ChipParts { link: &names[0], chip: &names[1], engines: config.engines, with_probe };
+            let inside = stream_link(config, beat_bits, parts.link)? + &engines(config, parts.chip)?;
+            return Ok(inside + &parts.stream(beat_bits as usize));
+        }
         let inside = format!("{STREAM_TOP_NAME}_logic");
         let device = match beat_bits {
             64 => connected(StreamTop::<64, 8, 65>::new(config)?, &inside)?,
@@ -143,10 +164,10 @@ pub fn stream_top(config: Config, beat_bits: u32, with_probe: bool) -> Result<St
     })
 }
 
-/// Runs `work` in a thread with a large stack: a device is built by value, in several copies of 300 kB, too much for
-/// the usual stack of a thread. If the system will not start a thread, the caller's stack must do.
+/// Runs `work` in a thread with a large stack: a device is built by value, in several copies of 300 kB an engine, too
+/// much for the usual stack of a thread. If the system will not start a thread, the caller's stack must do.
 fn on_large_stack<T: Send>(work: impl Fn() -> T + Sync) -> T {
-    const STACK_BYTES: usize = 16 << 20;
+    const STACK_BYTES: usize = 64 << 20;
     std::thread::scope(|scope| match std::thread::Builder::new().stack_size(STACK_BYTES).spawn_scoped(scope, &work) {
         Ok(thread) => thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
         Err(_) => work(),

@@ -71,7 +71,7 @@ impl Greeting {
             coord_bits: CORE_COORD_BITS,
             capacity: config.points,
             contexts: config.contexts,
-            engines: 1,
+            engines: config.engines,
             ring_capacity: config.ring,
         };
         let max_rate = link.max_rate();

@@ -36,6 +36,9 @@ pub struct SerialLink {
     pub core_reset: Signal<Out, Bit>,
     pub command: CommandSource,
     pub response: AnswerSink,
+    /// The device holds words of commands, or owes answers, that do not show in the streams: so only a chip of several
+    /// engines says.
+    pub device_busy: Signal<In, Bit>,
     receiver: LinkReceiver,
     transmitter: LinkTransmitter,
     session: SessionState,
@@ -46,6 +49,7 @@ pub struct SerialLink {
     has_failed: DFF<Bit>,
     dropped: DFF<Bit>,
     is_offered: Signal<Local, Bit>,
+    is_busy: Signal<Local, Bit>,
     takes_command: Signal<Local, Bit>,
     clears: Signal<Local, Bit>,
 }
@@ -142,7 +146,8 @@ impl Logic for SerialLink {
         self.transmitter.open.next = self.session.open.val();
         self.transmitter.receipt.next = self.receiver.receipt.val();
         self.transmitter.is_refused.next = self.rate.is_refused.val();
-        self.transmitter.is_busy.next = self.progress.is_busy.val();
+        self.is_busy.next = self.progress.is_busy.val() | self.device_busy.val();
+        self.transmitter.is_busy.next = self.is_busy.val();
         self.transmitter.fails.next = self.has_failed.q.val();
         self.transmitter.forgets.next = self.session.forgets.val();
         self.transmitter.holds.next = self.rate.holds.val() | self.session.settles.val();
@@ -160,7 +165,7 @@ impl Logic for SerialLink {
             self.dropped.d.next = false;
         }
         self.lamps.next.alive = self.session.open.val().is_open | self.timers.beat.val();
-        self.lamps.next.busy = self.progress.is_busy.val();
+        self.lamps.next.busy = self.is_busy.val();
         self.lamps.next.error = self.dropped.q.val();
     }
 }

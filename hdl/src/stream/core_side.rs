@@ -19,6 +19,8 @@ pub struct CoreSide<const W: usize, const E: usize> {
     pub core_reset: Signal<Out, Bit>,
     pub command: CommandSource,
     pub response: AnswerSink,
+    /// The device holds words of commands, or owes answers, that do not show in the streams.
+    pub device_busy: Signal<In, Bit>,
     /// The reader's side of the command FIFO.
     pub beat_valid: Signal<In, Bit>,
     pub beat_data: Signal<In, Bits<W>>,
@@ -113,6 +115,7 @@ impl<const W: usize, const E: usize> Logic for CoreSide<W, E> {
         self.busy.d.next = (!self.is_empty.val())
             | self.words.is_held.val()
             | self.under_way.is_busy.val()
+            | self.device_busy.val()
             | self.pairs.is_held.val()
             | self.beats.is_held.val()
             | (!self.is_fetched.val());

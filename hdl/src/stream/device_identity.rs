@@ -53,7 +53,7 @@ impl DeviceIdentity {
             core_version: word(CORE_VERSION),
             coord_bits: word(CORE_COORD_BITS),
             capacity: word(config.points),
-            contexts: word(1 << ENGINES_SHIFT | config.contexts),
+            contexts: word(config.engines << ENGINES_SHIFT | config.contexts),
             ring_capacity: word(config.ring),
             beat_bits: word(beat_bits as u32),
             fifo_beats: word(STREAM_FIFO_BEATS),

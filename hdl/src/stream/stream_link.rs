@@ -40,6 +40,9 @@ pub struct StreamLink<const W: usize, const K: usize, const E: usize> {
     pub core_reset: Signal<Out, Bit>,
     pub command: CommandSource,
     pub response: AnswerSink,
+    /// The device holds words of commands, or owes answers, that do not show in the streams: so only a chip of several
+    /// engines says.
+    pub device_busy: Signal<In, Bit>,
     bus: BusSide<W, K, E>,
     commands: AsyncFifo<POINTER_BITS, W>,
     answers: AsyncFifo<POINTER_BITS, E>,
@@ -80,6 +83,7 @@ impl<const W: usize, const K: usize, const E: usize> Logic for StreamLink<W, K, 
         AxiLite::link(&mut self.s_axi, &mut self.bus.s_axi);
         CommandSource::link(&mut self.command, &mut self.core.command);
         AnswerSink::link(&mut self.response, &mut self.core.response);
+        self.core.device_busy.next = self.device_busy.val();
 
         // Only the next four signals and the two FIFOs cross between the clocks;
         // `constraints/crossings` holds the list.

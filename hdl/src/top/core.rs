@@ -46,11 +46,19 @@ pub struct Core {
 }
 
 impl Core {
-    /// The core of a configuration.
+    /// The first engine of a configuration, which is the core if it has no other.
     ///
     /// # Errors
     /// If a parameter is out of range; the error says which one and what is possible.
     pub fn new(config: Config) -> Result<Self, ConfigError> {
+        Self::numbered(config, 0)
+    }
+
+    /// The engine of this number on a chip of a configuration.
+    ///
+    /// # Errors
+    /// If a parameter is out of range; the error says which one and what is possible.
+    pub fn numbered(config: Config, engine: u8) -> Result<Self, ConfigError> {
         let config = config.check()?;
         Ok(Self {
             engine: InsertionEngine::new(config),
@@ -59,8 +67,8 @@ impl Core {
             ring_capacity: Parameter::new(u64::from(config.ring).into()),
             last_id: Parameter::new(u64::from(triangle_capacity(config.points) - 1).into()),
             contexts: Parameter::new(u64::from(config.contexts).into()),
-            engines: Parameter::new(1.into()),
-            engine_number: Parameter::new(0.into()),
+            engines: Parameter::new(u64::from(config.engines).into()),
+            engine_number: Parameter::new(u64::from(engine).into()),
             all_contexts: Parameter::new(((1u64 << config.contexts) - 1).into()),
             patience: Parameter::new(u64::from(patience(config.points)).into()),
             ..Self::default()

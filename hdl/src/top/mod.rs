@@ -8,4 +8,4 @@ mod wrapper;
 pub use self::core::Core;
 pub use serial_top::SerialTop;
 pub use stream_top::StreamTop;
-pub use wrapper::{serial_wrapper, stream_wrapper, wrapper, CORE_NAME, SERIAL_TOP_NAME, STREAM_TOP_NAME};
+pub use wrapper::{serial_wrapper, stream_wrapper, wrapper, ChipParts, CORE_NAME, SERIAL_TOP_NAME, STREAM_TOP_NAME};

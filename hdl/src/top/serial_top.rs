@@ -49,6 +49,8 @@ impl Logic for SerialTop {
         self.core.reset.next = self.link.core_reset.val();
         CommandSource::join(&mut self.link.command, &mut self.core.command);
         AnswerSink::join(&mut self.link.response, &mut self.core.response);
+        // All that a core of one engine holds shows in its streams.
+        self.link.device_busy.next = false;
         self.write.next = self.core.write.val();
         self.leds.next = self.link.lamps.val().into();
     }

@@ -31,7 +31,11 @@
 //! | `s_axi_aw...`, `_w...`, `_b...`, `_ar...`, `_r...` | | | AXI4-Lite, addresses of 12 bits, data of 32 |
 //! | `core_clock` | in | 1 | clock of the core |
 //!
-//! With the probe each module has the write port of the triangle memory as well, field by field: `PROBE`.
+//! With the probe each module has the write port of the triangle memory as well, field by field: `PROBE`. On a chip of
+//! several engines each of them has one, with the number of the engine in the names: `write1_valid`.
+//!
+//! A chip of several engines has the same ports. Its link and its engines come as two modules, which the outermost
+//! module connects.
 
 /// Name of the module of the core.
 pub const CORE_NAME: &str = "incircle_core";
@@ -95,32 +99,41 @@ const STREAM_UNUSED: [(&str, &str, usize); 1] = [("input", "s_axis_tlast", 1)];
 
 /// The fields of the write port with their widths, lowest bit first, in the order of [`Write`](crate::engine::Write).
 const PROBE: [(&str, usize); 10] = [
-    ("write_valid", 1),
-    ("write_id", 15),
-    ("write_vertices", 1),
-    ("write_links", 3),
-    ("write_v0", 15),
-    ("write_v1", 15),
-    ("write_v2", 15),
-    ("write_n0", 15),
-    ("write_n1", 15),
-    ("write_n2", 15),
+    ("valid", 1),
+    ("id", 15),
+    ("vertices", 1),
+    ("links", 3),
+    ("v0", 15),
+    ("v1", 15),
+    ("v2", 15),
+    ("n0", 15),
+    ("n1", 15),
+    ("n2", 15),
 ];
 
-/// The Verilog of the wrapper around the root module `core`.
-pub fn wrapper(core: &str, with_probe: bool) -> String {
-    around(CORE_NAME, [&CORE_PORTS, &[]], ("core", core), with_probe)
+/// The Verilog of the wrapper around the root module `core`, which has this many engines.
+pub fn wrapper(core: &str, engines: u32, with_probe: bool) -> String {
+    let probe = Probe { engines, is_shown: with_probe };
+    let mut inside = probe.inside();
+    let open = if engines > 1 {
+        inside += "    wire unused_busy;\n";
+        "        .is_busy(unused_busy),\n"
+    } else {
+        ""
+    };
+    inside += &format!("    {core} core (\n{}{open}{}\n    );\n", connections(&CORE_PORTS), probe.connections());
+    module(CORE_NAME, &CORE_PORTS, probe, &inside)
 }
 
 /// The Verilog of the wrapper around the root module `device` of a core behind a serial link.
 pub fn serial_wrapper(device: &str, with_probe: bool) -> String {
-    around(SERIAL_TOP_NAME, [&SERIAL_PORTS, &[]], ("device", device), with_probe)
+    around(SERIAL_TOP_NAME, [&SERIAL_PORTS, &[]], device, with_probe)
 }
 
 /// The Verilog of the wrapper around the root module `device` of a core behind a stream link with
 /// beats of `beat_bits` bits.
 pub fn stream_wrapper(device: &str, beat_bits: usize, with_probe: bool) -> String {
-    around(STREAM_TOP_NAME, [&stream_ports(beat_bits), &STREAM_UNUSED], ("device", device), with_probe)
+    around(STREAM_TOP_NAME, [&stream_ports(beat_bits), &STREAM_UNUSED], device, with_probe)
 }
 
 /// Interfaces of the modules inside. A pin has the name of an interface and of a signal in
@@ -136,28 +149,58 @@ fn port_of(pin: &str) -> String {
 /// Ports with their direction, name and width.
 type Ports<'a> = &'a [(&'a str, &'a str, usize)];
 
-/// The Verilog of a module with ANSI ports around `module` as `instance`. The ports in `unused`
-/// are connected to nothing.
-fn around(name: &str, [ports, unused]: [Ports; 2], (instance, module): (&str, &str), with_probe: bool) -> String {
-    let declared = |(direction, name, width): (&str, &str, usize)| {
-        let range = if width == 1 { String::new() } else { format!("[{}:0] ", width - 1) };
-        format!("{direction} wire {range}{name}")
-    };
-    let mut declarations: Vec<_> = ports.iter().chain(unused).map(|port| declared(*port)).collect();
-    // Without the probe the write port ends in a wire that synthesis removes.
-    let bits: usize = PROBE.iter().map(|(_, width)| width).sum();
-    let mut inside = format!("    wire [{}:0] unused_write;\n", bits - 1);
-    let mut write = "unused_write".to_string();
-    if with_probe {
-        declarations.extend(PROBE.iter().map(|(name, width)| declared(("output", name, *width))));
-        let fields: Vec<&str> = PROBE.iter().rev().map(|(name, _)| *name).collect();
-        write = format!("{{{}}}", fields.join(", "));
-        inside = String::new();
+/// The write ports of the triangle memories.
+#[derive(Clone, Copy)]
+struct Probe {
+    engines: u32,
+    /// The fields are ports. Without the probe a write port ends in a wire that synthesis removes.
+    is_shown: bool,
+}
+
+impl Probe {
+    /// The names of the write ports.
+    fn ports(self) -> Vec<String> {
+        match self.engines {
+            1 => vec!["write".into()],
+            engines => (0..engines).map(|engine| format!("write{engine}")).collect(),
+        }
     }
-    let sink = |name: &str| format!("    wire unused_{name} = &{{1'b0, {name}}};\n");
-    inside.extend(unused.iter().map(|(_, name, _)| sink(name)));
-    let connections: String =
-        ports.iter().map(|(_, name, _)| format!("        .{}({name}),\n", port_of(name))).collect();
+
+    fn inside(self) -> String {
+        let bits: usize = PROBE.iter().map(|(_, width)| width).sum();
+        let wire = |port: String| format!("    wire [{}:0] unused_{port};\n", bits - 1);
+        self.ports().into_iter().filter(|_| !self.is_shown).map(wire).collect()
+    }
+
+    fn declarations(self) -> impl Iterator<Item = String> {
+        let fields = |port: String| PROBE.map(|(name, width)| declared("output", &format!("{port}_{name}"), width));
+        self.ports().into_iter().filter(move |_| self.is_shown).flat_map(fields)
+    }
+
+    fn connections(self) -> String {
+        let connected = |port: String| {
+            let fields: Vec<String> = PROBE.iter().rev().map(|(name, _)| format!("{port}_{name}")).collect();
+            let write = if self.is_shown { format!("{{{}}}", fields.join(", ")) } else { format!("unused_{port}") };
+            format!("        .{port}({write})")
+        };
+        self.ports().into_iter().map(connected).collect::<Vec<_>>().join(",\n")
+    }
+}
+
+fn declared(direction: &str, name: &str, width: usize) -> String {
+    let range = if width == 1 { String::new() } else { format!("[{}:0] ", width - 1) };
+    format!("{direction} wire {range}{name}")
+}
+
+/// Connections of an instance to pins of the same names.
+fn connections(ports: Ports) -> String {
+    ports.iter().map(|(_, name, _)| format!("        .{}({name}),\n", port_of(name))).collect()
+}
+
+/// The Verilog of a module with ANSI ports.
+fn module(name: &str, ports: Ports, probe: Probe, inside: &str) -> String {
+    let declarations = ports.iter().map(|&(direction, name, width)| declared(direction, name, width));
+    let declarations: Vec<_> = declarations.chain(probe.declarations()).collect();
     let declarations = declarations.join(",\n    ");
     format!(
         "\
@@ -165,13 +208,91 @@ fn around(name: &str, [ports, unused]: [Ports; 2], (instance, module): (&str, &s
 module {name} (
     {declarations}
 );
-{inside}    {module} {instance} (
-{connections}        .write({write})
-    );
-endmodule
+{inside}endmodule
 `default_nettype wire
 "
     )
+}
+
+/// The Verilog of a module with ANSI ports around the module `device`. The ports in `unused` are connected to nothing.
+fn around(name: &str, [ports, unused]: [Ports; 2], device: &str, with_probe: bool) -> String {
+    let probe = Probe { engines: 1, is_shown: with_probe };
+    let inside = probe.inside() + &sinks(unused);
+    let inside = inside + &format!("    {device} device (\n{}{}\n    );\n", connections(ports), probe.connections());
+    module(name, &[ports, unused].concat(), probe, &inside)
+}
+
+/// Wires that use ports which are connected to nothing.
+fn sinks(unused: Ports) -> String {
+    unused.iter().map(|(_, name, _)| format!("    wire unused_{name} = &{{1'b0, {name}}};\n")).collect()
+}
+
+/// The two streams between a link and the engines of a chip, with the signals beside them.
+const BETWEEN: [(&str, &str, usize); 10] = [
+    ("", "core_reset", 1),
+    ("", "command_valid", 1),
+    ("", "command_ready", 1),
+    ("", "command_data", 32),
+    ("", "response_valid", 1),
+    ("", "response_ready", 1),
+    ("", "response_data", 64),
+    ("", "response_both", 1),
+    ("", "response_last", 1),
+    ("", "device_busy", 1),
+];
+
+/// The modules of a chip of several engines behind a link.
+#[derive(Clone, Copy)]
+pub struct ChipParts<'a> {
+    /// The root module of the link, and that of the engines.
+    pub link: &'a str,
+    pub chip: &'a str,
+    pub engines: u32,
+    pub with_probe: bool,
+}
+
+impl ChipParts<'_> {
+    /// The wires between link and engines, and the instance of the engines with this clock.
+    fn engines(self, clock: &str) -> String {
+        let Self { chip, engines, with_probe, .. } = self;
+        let probe = Probe { engines, is_shown: with_probe };
+        let wires = BETWEEN.iter().map(|(_, name, width)| format!("    {};\n", declared("", name, *width).trim()));
+        let streams = connections(&BETWEEN[1..9]);
+        wires.collect::<String>()
+            + &probe.inside()
+            + &format!(
+                "    {chip} engines (\n        .clock({clock}),\n        .reset(core_reset),\n{streams}        \
+                 .is_busy(device_busy),\n{}\n    );\n",
+                probe.connections()
+            )
+    }
+
+    /// The Verilog of the outermost module of a chip behind a serial link.
+    pub fn serial(self) -> String {
+        let pins = connections(&SERIAL_PORTS).replace(".reset(reset)", ".reset(resets)").replace(".leds(", ".lamps(");
+        let link = format!("    {} link (\n{pins}{}\n    );\n", self.link, link_side());
+        // A register takes the reset first, because the pin may be far away.
+        let resets = "    reg resets;\n    always @(posedge clock) resets <= reset;\n";
+        let inside = resets.to_string() + &self.engines("clock") + &link;
+        module(SERIAL_TOP_NAME, &SERIAL_PORTS, self.probe(), &inside)
+    }
+
+    /// The Verilog of the outermost module of a chip behind a stream link with beats of `beat_bits` bits.
+    pub fn stream(self, beat_bits: usize) -> String {
+        let ports = stream_ports(beat_bits);
+        let link = format!("    {} link (\n{}{}\n    );\n", self.link, connections(&ports), link_side());
+        let inside = sinks(&STREAM_UNUSED) + &self.engines("core_clock") + &link;
+        module(STREAM_TOP_NAME, &[&ports[..], &STREAM_UNUSED].concat(), self.probe(), &inside)
+    }
+
+    fn probe(self) -> Probe {
+        Probe { engines: self.engines, is_shown: self.with_probe }
+    }
+}
+
+/// The connections of a link to the wires between it and the engines.
+fn link_side() -> String {
+    connections(&BETWEEN).trim_end_matches(",\n").to_string()
 }
 
 #[cfg(test)]

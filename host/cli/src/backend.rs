@@ -85,14 +85,21 @@ impl Backend {
         if asked <= config.contexts {
             return Ok(());
         }
-        let all = NAMED.map(|config| format!("{} {}", config.name, config.contexts)).join(", ");
-        let larger = NAMED.into_iter().find(|config| config.contexts >= asked);
+        let all: Vec<_> = usual().map(|config| format!("{} {}", config.name, config.contexts)).collect();
+        let all = all.join(", ");
+        let larger = usual().find(|config| config.contexts >= asked);
         let advice = larger.map_or(String::new(), |config| format!(" or --config {}", config.name));
         Err(Failure::usage(format!(
             "{asked} contexts are more than the {} of the core {} ({all}): choose fewer{advice}",
             config.contexts, config.name
         )))
     }
+}
+
+/// The configurations that the command chooses by itself. A chip of several engines must be asked for: it is meant for
+/// batches, and holds fewer points than a core of the same size.
+fn usual() -> impl Iterator<Item = Config> {
+    NAMED.into_iter().filter(|config| config.engines == 1)
 }
 
 /// A back end that is not open yet.
@@ -286,18 +293,24 @@ fn config_for(choice: &Choice, distinct: Option<usize>) -> Result<Config, Failur
         return Ok(choice.config.unwrap_or(LARGE));
     };
     let holds = |config: &Config| config.points as usize >= distinct;
-    let smallest = NAMED.into_iter().find(holds);
+    let smallest = usual().find(holds);
     let config = choice.config.or(smallest);
     config.filter(holds).ok_or_else(|| {
-        let all = NAMED.map(|config| format!("{} {}", config.name, config.points)).join(", ");
-        let asked = choice.config.map_or("any core", |config| config.name);
+        let all: Vec<_> = usual().map(|config| format!("{} {}", config.name, config.points)).collect();
+        let all = all.join(", ");
+        let asked = match choice.config {
+            None => "any core".to_owned(),
+            Some(config) if config.engines > 1 => format!("the {} of an engine of {}", config.points, config.name),
+            Some(config) => config.name.to_owned(),
+        };
+        let holds = if choice.config.is_some_and(|config| config.engines > 1) { "" } else { " holds" };
         let advice = match smallest {
             Some(config) => format!("--config {} or --backend model", config.name),
             None => "--backend model".to_owned(),
         };
         Failure::new(
             Exit::Capacity,
-            format!("{distinct} distinct points are more than {asked} holds ({all}): use {advice}"),
+            format!("{distinct} distinct points are more than {asked}{holds} ({all}): use {advice}"),
         )
     })
 }

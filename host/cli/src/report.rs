@@ -56,6 +56,8 @@ impl<'a> RunReport<'a> {
             "coord_bits": job.coord_bits,
             "capacity": job.capacity,
             "contexts": job.contexts,
+            "engines": job.engines,
+            "stuck_engines": job.stuck_engines,
             "seconds": self.seconds(),
             "quantisation": self.laid.quantization().map(quantization_json),
             "counters": job.counters.as_ref().map(counters_json),
@@ -85,6 +87,9 @@ impl<'a> RunReport<'a> {
         if job.collinear {
             let why = if job.distinct < 3 { "fewer than three distinct points" } else { "all points lie on one line" };
             lines.push(format!("no triangles: {why}"));
+        }
+        for engine in &job.stuck_engines {
+            lines.push(format!("engine {engine} of the device is stuck: another engine did its job"));
         }
         if verbose {
             let stages = self.stages.iter().map(|(name, duration)| format!("{name} {:.6} s", duration.as_secs_f64()));

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::Instant;
 
-use incircle::transports::{receive_in_pieces, AnswerHead, Capabilities, DeviceClocks};
+use incircle::transports::{receive_in_pieces, receive_next_in_pieces, AnswerHead, Capabilities, DeviceClocks};
 use incircle::{Device, ErrorKind, Transport, TransportError};
 use incircle_protocol::{Command, Config};
 use incircle_sim::{SimDevice, SimError};
@@ -81,8 +81,17 @@ impl Transport for SimTransport {
         receive_in_pieces(head, payload, |words| self.fill(words, deadline))
     }
 
+    fn receive_next(
+        &mut self,
+        words_of: &mut dyn FnMut(AnswerHead) -> Option<usize>,
+        payload: &mut Vec<u32>,
+        deadline: Instant,
+    ) -> Result<AnswerHead, TransportError> {
+        receive_next_in_pieces(words_of, payload, |words| self.fill(words, deadline))
+    }
+
     fn capabilities(&self) -> Capabilities {
-        Capabilities { takes_ahead: true, ..Capabilities::default() }
+        Capabilities { takes_ahead: true, any_order: true, ..Capabilities::default() }
     }
 
     fn clocks(&self) -> Option<DeviceClocks> {

@@ -3,28 +3,46 @@
 //! Identity, headers and lengths of answers are checked here; counts and records are checked in [`crate::job`], which
 //! also says what is left to the validator.
 
+mod awaited;
+
 use std::time::Instant;
 
 use incircle_protocol::{
-    answer_head, answer_opcode, answer_status, Command, Identity, Layout, Opcode, Status, IDENTITY_WORDS,
+    answer_engine, answer_head, answer_opcode, answer_status, answer_tag, Command, Identity, Layout, Opcode, Status,
+    IDENTITY_WORDS,
 };
 
 use crate::error::{DeviceFault, Error, TransportError};
 use crate::limit::Limit;
 use crate::transports::identity::check_identity;
-use crate::transports::{AnswerHead, Capabilities, DeviceClocks, Transport};
+use crate::transports::{is_begun_as, AnswerHead, Capabilities, DeviceClocks, Transport};
+use awaited::Awaited;
 
 /// The commands of the protocol over a [`Transport`].
 pub(crate) struct CommandChannel {
     transport: Box<dyn Transport>,
     /// Layout of points and records in words. The identity of the device decides it, so it is a guess before `Hello`.
     layout: Layout,
+    /// Number of engines of the device, valid after [`hello`](Self::hello).
+    engines: u32,
+    /// Answers of a device of several engines that are still to come.
+    awaited: Awaited,
     is_out_of_step: bool,
+}
+
+/// How an answer was received.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Came {
+    /// The device did what the command asked.
+    Whole,
+    /// This engine is stuck, but others may do the job. All other answers to the job are dropped.
+    Stuck(u32),
 }
 
 impl CommandChannel {
     pub(crate) fn new(transport: Box<dyn Transport>) -> Self {
-        Self { transport, layout: Layout { point_words: 1, record_words: 3 }, is_out_of_step: false }
+        let layout = Layout { point_words: 1, record_words: 3 };
+        Self { transport, layout, engines: 1, awaited: Awaited::default(), is_out_of_step: false }
     }
 
     pub(crate) fn name(&self) -> String {
@@ -47,19 +65,45 @@ impl CommandChannel {
     /// Asks the device for its identity and refuses one that no sound device has.
     pub(crate) fn hello(&mut self, limit: Limit) -> Result<Identity, Error> {
         let mut words = Vec::new();
-        self.submit(&[Command::Hello], limit)?;
-        self.receive(&Command::<()>::Hello, &mut words, limit)?;
+        // The answer comes from any engine and has the tag of the last job, whichever that was.
+        self.engines = 1;
+        self.submit(0, &[Command::Hello], limit)?;
+        self.check_step()?;
+        let result = self.take_answer(None, &Command::<()>::Hello, &mut words, limit);
+        self.is_out_of_step = result.is_err();
+        result?;
         let words: [u32; IDENTITY_WORDS] = std::array::from_fn(|place| words.get(place).copied().unwrap_or(0));
         let identity = Identity::from_words(words);
         check_identity(&identity).map_err(|fault| self.distrust(Opcode::Hello, fault))?;
         self.layout = Layout::of(identity.coord_bits, identity.capacity);
+        self.engines = identity.engines;
         Ok(identity)
     }
 
-    /// Hands over commands, whose answers are received later and in the same order. After any error the channel
-    /// is out of step.
-    pub(crate) fn submit(&mut self, commands: &[Command<&[u32]>], limit: Limit) -> Result<(), Error> {
+    /// Whether the answers to several jobs may be outstanding at a time, and come in any order.
+    pub(crate) fn takes_any_order(&self) -> bool {
+        self.engines > 1 && self.capabilities().any_order
+    }
+
+    /// The tag for the next job. On a device of one engine, whose answers come in order, it is always 0.
+    pub(crate) fn new_tag(&mut self) -> u8 {
+        if self.engines > 1 {
+            self.awaited.new_tag()
+        } else {
+            0
+        }
+    }
+
+    /// Hands over commands of the job with this tag, whose answers are received later and in the same order. After any
+    /// error the channel is out of step.
+    pub(crate) fn submit(&mut self, tag: u8, commands: &[Command<&[u32]>], limit: Limit) -> Result<(), Error> {
         self.check_step()?;
+        if self.takes_any_order() {
+            for command in commands {
+                let words = u32::try_from(command.payload_words(self.layout)).unwrap_or(u32::MAX);
+                self.awaited.add(tag, command.opcode(), words);
+            }
+        }
         let result = self.transport.submit(commands, limit.deadline());
         // An error names one command: of several the insertion, since it takes the time.
         let opcodes = commands.iter().map(Command::opcode);
@@ -69,28 +113,87 @@ impl CommandChannel {
         result
     }
 
-    /// Receives the answer to `command` into `payload`, which gets the length of the answer. `command` must be the
-    /// oldest one whose answer is outstanding. After any error the channel is out of step.
+    /// Receives the answer to `command` of the job with this tag into `payload`, which gets the length of the answer.
+    /// `command` must be the oldest one of its job whose answer is outstanding; where answers come in order, the oldest
+    /// of all. After any error the channel is out of step.
     pub(crate) fn receive<P>(
         &mut self,
+        tag: u8,
         command: &Command<P>,
         payload: &mut Vec<u32>,
         limit: Limit,
-    ) -> Result<(), Error> {
+    ) -> Result<Came, Error> {
         self.check_step()?;
-        let result = self.take_answer(command, payload, limit);
+        let result = if self.takes_any_order() {
+            self.take_by_tag(tag, command, payload, limit)
+        } else {
+            self.take_answer(Some(tag), command, payload, limit).map(|()| Came::Whole)
+        };
         self.is_out_of_step = result.is_err();
         result
     }
 
-    fn take_answer<P>(&mut self, command: &Command<P>, payload: &mut Vec<u32>, limit: Limit) -> Result<(), Error> {
+    /// Receives answers, and keeps those of other jobs, until the next answer to the job with this tag is there.
+    fn take_by_tag<P>(
+        &mut self,
+        tag: u8,
+        command: &Command<P>,
+        payload: &mut Vec<u32>,
+        limit: Limit,
+    ) -> Result<Came, Error> {
+        let opcode = command.opcode();
+        loop {
+            if let Some((head, words)) = self.awaited.take(tag) {
+                *payload = words;
+                return self.judge(tag, command, head);
+            }
+            let mut words = Vec::new();
+            let (awaited, engines) = (&self.awaited, self.engines);
+            let mut words_of = |head| awaited.words_of(head, engines);
+            let came = self.transport.receive_next(&mut words_of, &mut words, limit.deadline());
+            let came = came.map_err(|source| self.failed(opcode, source, limit))?;
+            if self.awaited.words_of(came, self.engines).is_none() {
+                let words = u32::try_from(command.payload_words(self.layout)).unwrap_or(u32::MAX);
+                return Err(self.distrust(opcode, fault_of(came, opcode, words)));
+            }
+            if Instant::now() > limit.deadline() {
+                return Err(self.late(opcode, limit));
+            }
+            self.awaited.keep(came, words);
+        }
+    }
+
+    /// Judges the status of an answer that has the right opcode and length.
+    fn judge<P>(&mut self, tag: u8, command: &Command<P>, head: AnswerHead) -> Result<Came, Error> {
+        let opcode = command.opcode();
+        let words = u32::try_from(command.payload_words(self.layout)).unwrap_or(u32::MAX);
+        match Status::from_u8(answer_status(head[0])) {
+            Some(Status::Ok) => Ok(Came::Whole),
+            Some(Status::Stuck) => {
+                self.awaited.drop_rest(tag);
+                Ok(Came::Stuck(answer_engine(head[0]).into()))
+            }
+            _ => Err(self.distrust(opcode, fault_of(head, opcode, words))),
+        }
+    }
+
+    /// Receives an answer that must be the next one, with this tag unless the tag is not known.
+    fn take_answer<P>(
+        &mut self,
+        tag: Option<u8>,
+        command: &Command<P>,
+        payload: &mut Vec<u32>,
+        limit: Limit,
+    ) -> Result<(), Error> {
         let opcode = command.opcode();
         let words = u32::try_from(command.payload_words(self.layout)).unwrap_or(u32::MAX);
         payload.resize(words as usize, 0);
         let awaited = answer_head(opcode, words);
         let came = self.transport.receive(awaited, payload, limit.deadline());
         let came = came.map_err(|source| self.failed(opcode, source, limit))?;
-        if came != awaited {
+        let is_from_here =
+            tag.is_none_or(|tag| answer_tag(came[0]) == tag && u32::from(answer_engine(came[0])) < self.engines);
+        if !is_begun_as(came, awaited) || !is_from_here {
             return Err(self.distrust(opcode, fault_of(came, opcode, words)));
         }
         if Instant::now() > limit.deadline() {
@@ -111,6 +214,9 @@ impl CommandChannel {
             source => Error::Link { device: self.name(), during, source },
         })?;
         self.is_out_of_step &= !is_back;
+        if is_back {
+            self.awaited.clear();
+        }
         Ok(is_back)
     }
 
@@ -145,8 +251,9 @@ fn fault_of(came: AnswerHead, opcode: Opcode, words: u32) -> DeviceFault {
     let [header, length] = came;
     let status = answer_status(header);
     match Status::from_u8(status) {
-        _ if answer_opcode(header) != opcode as u8 || header & 0xffff != 0 => {}
+        _ if answer_opcode(header) != opcode as u8 => {}
         None => {}
+        Some(Status::Ok) if length == words => {}
         Some(Status::Ok) => return DeviceFault::PayloadLength { found: length, expected: words },
         Some(other) => return DeviceFault::Status { status, meaning: status_meaning(other) },
     }
@@ -173,7 +280,7 @@ const fn status_meaning(status: Status) -> &'static str {
         Status::BadRange => "the range goes beyond the last record",
         Status::Collinear => "the first three points lie on one line",
         Status::Full => "the memory is full",
-        Status::BadContexts => "more contexts were asked for than it has",
+        Status::BadContexts => "the contexts that were asked for are more than it has, or the jobs do not divide them",
         Status::Stuck => "insertions have stopped making progress",
     }
 }

@@ -24,7 +24,7 @@ use crate::transports::serial;
 /// | `model?coord-bits=B` | the same with `B` bits, 1 to 31 | |
 /// | `model?coord-bits=B&capacity=N` | a model that holds at most `N` points | |
 /// | `clock` | the core's model, clock by clock, in the configuration `large` | to learn a core's records and cycles |
-/// | `clock?config=NAME` | the same in the configuration `tiny`, `small`, `full` or `large` | |
+/// | `clock?config=NAME` | the same in the configuration `tiny`, `small`, `full`, `large`, `dual` or `quad` | |
 /// | `sim`, `sim?config=NAME` | the Verilog of the core in Verilator | to simulate the hardware itself |
 /// | `serial:PORT` | a board at a serial port, such as `serial:/dev/ttyUSB0` | |
 /// | `serial:PORT?baud=B&slow=S` | the same at `B` bits per second, with times stretched `S` times | |

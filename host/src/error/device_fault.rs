@@ -56,6 +56,12 @@ pub enum DeviceFault {
         /// Opcode of the command that was sent.
         opcode: u8,
     },
+    /// All engines got stuck over one job.
+    #[error("each of its {engines} engines got stuck over the job")]
+    AllStuck {
+        /// Number of engines of the device.
+        engines: u32,
+    },
     /// The device reports that the command failed.
     #[error("it reports status {status} ({meaning})")]
     Status {

@@ -15,12 +15,13 @@ use super::load::{Assembled, Load, Meshes, Step};
 use super::options::{Options, Stage};
 use super::report::Report;
 use super::watch::{tell, Stopwatch};
-use crate::commands::CommandChannel;
+use crate::commands::{Came, CommandChannel};
 use crate::error::{DeviceFault, Error};
 use crate::limit::Limit;
 use incircle_geometry::Point;
 
-/// Most loads under way where commands may be sent ahead: one in the device, one behind it.
+/// Most loads under way for each engine where commands may be sent ahead: one in the engine, one behind it. A device
+/// of several engines has one more under way, since a job waits at the device until some engine is free.
 const MOST_SENT: usize = 2;
 
 /// An error, with the index of the job that it is about, if it is about one job.
@@ -80,6 +81,8 @@ struct Answered {
     assembled: Vec<Assembled>,
     counters: Option<Counters>,
     latencies: Option<Latencies>,
+    /// The engine that got stuck, so that the load must be sent once more.
+    stuck: Option<u32>,
 }
 
 /// Carries jobs to a device and back.
@@ -104,7 +107,7 @@ impl Carrier<'_> {
     ) -> Result<(), JobError> {
         let clock = self.channel.clocks().map(|clocks| clocks.now);
         let mut flight = Flight { loads: VecDeque::new(), sent: 0, limit: None, is_second_try: false, clock };
-        let most = if self.channel.capabilities().takes_ahead { MOST_SENT } else { 1 };
+        let most = self.most_sent();
         let mut stop = None;
         loop {
             let has_room = flight.loads.len() < most && stop.is_none();
@@ -126,6 +129,16 @@ impl Carrier<'_> {
             if let Err(error) = went {
                 self.try_again(&mut flight, error)?;
             }
+        }
+    }
+
+    /// Most loads under way at a time.
+    fn most_sent(&self) -> usize {
+        match self.identity.engines {
+            _ if !self.channel.capabilities().takes_ahead => 1,
+            1 => MOST_SENT,
+            engines if self.channel.takes_any_order() => MOST_SENT * engines as usize + 1,
+            _ => 1,
         }
     }
 
@@ -159,6 +172,7 @@ impl Carrier<'_> {
             coord_bits: self.identity.coord_bits,
             capacity: self.identity.capacity,
             contexts,
+            engines: self.identity.engines,
             stages: self.watch.stages.clone(),
             ..Report::default()
         }
@@ -168,7 +182,9 @@ impl Carrier<'_> {
     /// them as sent: [`receive`](Self::receive) sends each command when its turn comes.
     fn send(&mut self, flight: &mut Flight) -> Result<(), Error> {
         let limit = self.limit_of(flight);
-        while let Some(load) = flight.loads.get(flight.sent) {
+        while let Some(load) = flight.loads.get_mut(flight.sent) {
+            load.tag = self.channel.new_tag();
+            let load = &*load;
             if self.goes_ahead(load) {
                 self.submit(load, &load.steps, limit)?;
             }
@@ -189,7 +205,7 @@ impl Carrier<'_> {
         let commands = steps.iter().filter_map(|step| load.command(step, self.jobs, capabilities, layout, &mut words));
         let commands: Vec<_> = commands.collect();
         let commands: Vec<_> = commands.into_iter().map(|command| command.map(|points| &words[points])).collect();
-        self.channel.submit(&commands, limit)
+        self.channel.submit(load.tag, &commands, limit)
     }
 
     /// Receives the answers to the first load, makes its meshes and takes the load out of the flight.
@@ -199,11 +215,15 @@ impl Carrier<'_> {
         let Some(load) = flight.loads.front() else {
             return Ok(());
         };
-        let Answered { assembled, counters, latencies } = self.receive(load, limit)?;
+        let Answered { assembled, counters, latencies, stuck } = self.receive(load, limit)?;
+        if let Some(engine) = stuck {
+            return self.send_elsewhere(flight, engine);
+        }
         let clock = self.channel.clocks().and_then(|clocks| clocks.answer);
         let clocks = clock.zip(flight.clock).and_then(|(end, begin)| end.checked_sub(begin));
-        let clocks = clocks.filter(|_| !load.group.is_shared && !load.is_step_by_step);
-        let report = Report { counters, latencies, clocks, ..self.report(load.group.contexts) };
+        let is_alone = !load.group.is_shared && !load.is_step_by_step && self.identity.engines == 1;
+        let (clocks, stuck_engines) = (clocks.filter(|_| is_alone), load.stuck_engines.clone());
+        let report = Report { counters, latencies, clocks, stuck_engines, ..self.report(load.group.contexts) };
         let jobs = flight.loads.pop_front().map_or_else(Vec::new, |load| load.group.jobs);
         for (Ordered { job, prepared }, (triangles, hull)) in jobs.into_iter().zip(assembled) {
             let (duplicates, report) = (prepared.duplicates, report.clone());
@@ -213,7 +233,25 @@ impl Carrier<'_> {
         Ok(())
     }
 
-    /// Receives and checks the answers to a load.
+    /// Puts the first load, over which this engine got stuck, behind all others, to be sent once more. The device gives
+    /// it to another engine. Fails if as many engines as there are got stuck over it.
+    fn send_elsewhere(&mut self, flight: &mut Flight, engine: u32) -> Result<(), Error> {
+        let Some(mut load) = flight.loads.pop_front() else {
+            return Ok(());
+        };
+        flight.sent -= 1;
+        load.stuck_engines.push(engine);
+        if load.stuck_engines.len() >= self.identity.engines as usize {
+            let fault = DeviceFault::AllStuck { engines: self.identity.engines };
+            return Err(self.channel.distrust(Opcode::Insert, fault));
+        }
+        self.watch.again();
+        flight.loads.push_back(load);
+        (flight.limit, flight.is_second_try) = (None, false);
+        Ok(())
+    }
+
+    /// Receives and checks the answers to a load, up to one that says that the engine is stuck.
     fn receive(&mut self, load: &Load, limit: Limit) -> Result<Answered, Error> {
         let (capabilities, layout) = (self.channel.capabilities(), self.channel.layout());
         let mut meshes = Meshes::new(&load.group, self.jobs, self.identity.capacity, capabilities, layout);
@@ -226,7 +264,9 @@ impl Carrier<'_> {
             if !self.goes_ahead(load) {
                 self.submit(load, std::slice::from_ref(step), limit)?;
             }
-            self.channel.receive(&command, &mut words, limit)?;
+            if let Came::Stuck(engine) = self.channel.receive(load.tag, &command, &mut words, limit)? {
+                return Ok(Answered { stuck: Some(engine), ..answered });
+            }
             let checked = match step {
                 Step::Insert(points) => check_insert(load, &words, points.end),
                 Step::Read(records) => meshes.take(records, &words),

@@ -43,6 +43,10 @@ pub(crate) struct Load {
     pub(crate) is_step_by_step: bool,
     /// The time of this load, if it does not share the limit of all.
     pub(crate) time: Option<Duration>,
+    /// Tag of the job on the device, from its sending on.
+    pub(crate) tag: u8,
+    /// Engines that got stuck over this load.
+    pub(crate) stuck_engines: Vec<u32>,
 }
 
 /// Triangles and hull of a job.
@@ -57,7 +61,7 @@ impl Load {
             steps.push(Step::Counters);
         }
         steps.push(Step::Read(0..group.records()));
-        Self { group, steps, is_step_by_step: false, time }
+        Self { group, steps, is_step_by_step: false, time, tag: 0, stuck_engines: Vec::new() }
     }
 
     /// A load whose points and records go in pieces, with progress told between them.
@@ -76,7 +80,7 @@ impl Load {
         steps.push(Step::Ended(Stage::Insert));
         steps.extend(pieces(group.records(), records).map(Step::Read));
         steps.extend([Step::Ended(Stage::Read), Step::Counters, Step::Latencies]);
-        Self { group, steps, is_step_by_step: true, time: None }
+        Self { group, steps, is_step_by_step: true, time: None, tag: 0, stuck_engines: Vec::new() }
     }
 
     /// The command of a step, if it has one. The words of its points are appended to `words`, and the command
@@ -100,7 +104,7 @@ impl Load {
         }))
     }
 
-    /// The `Clear` of the group. A batch with a context for each job is told without the number of jobs, which a device
+    /// The `Clear` of the group, without its tag. A batch with a context for each job is told without the number of jobs, which a device
     /// of version 1.2 does not know.
     fn clear(&self) -> Clear {
         let Group { jobs, contexts, is_shared } = &self.group;
@@ -117,7 +121,7 @@ impl Load {
     /// The command of a step, if it has one, with its range of the points that are sent.
     pub(crate) fn bare_command(&self, step: &Step, capabilities: Capabilities) -> Option<Command<Range<usize>>> {
         Some(match step {
-            Step::Clear => Command::Clear(self.clear()),
+            Step::Clear => Command::Clear(Clear { tag: self.tag, ..self.clear() }),
             Step::Insert(points) => Command::Insert { count: points.len() as u32, points: points.clone() },
             Step::Read(records) => read_out(records.clone(), capabilities),
             Step::Counters => Command::Counters,

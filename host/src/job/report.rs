@@ -51,18 +51,23 @@ pub struct Report {
     /// that was sent ahead.
     pub latencies: Option<Latencies>,
     /// Clocks of the device for an exclusive job that was sent ahead: from the last word of the previous job, or the
-    /// beginning of the batch, to the last triangle of this job. `None` for all other jobs, and where the transport
-    /// does not know the clocks.
+    /// beginning of the batch, to the last triangle of this job. `None` for all other jobs, on a device of several
+    /// engines, and where the transport does not know the clocks.
     pub clocks: Option<u64>,
     /// The lattice of the points; `None` if they have none, and the CPU triangulator worked on their
     /// doubles or long integers.
     pub lattice: Option<Lattice>,
     /// Bits of a coordinate of the device.
     pub coord_bits: u32,
-    /// Points that the device holds.
+    /// Points that the device holds; on a chip of several engines, those of one engine.
     pub capacity: u32,
     /// Contexts that worked, or threads of the CPU triangulator.
     pub contexts: u32,
+    /// Engines of the device, which do one job each; 0 for the CPU triangulator.
+    pub engines: u32,
+    /// Engines that got stuck over this job before another engine did it. They get no more jobs until the device is
+    /// reset.
+    pub stuck_engines: Vec<u32>,
 }
 
 impl Report {

@@ -4,10 +4,10 @@
 use std::collections::VecDeque;
 use std::time::Instant;
 
-use incircle_model::{ClockModel, Inputs};
+use incircle_model::{ChipModel, Inputs};
 use incircle_protocol::{Command, Config};
 
-use super::transport::{receive_in_pieces, AnswerHead, Capabilities, DeviceClocks, Transport};
+use super::transport::{receive_in_pieces, receive_next_in_pieces, AnswerHead, Capabilities, DeviceClocks, Transport};
 use crate::error::{Error, TransportError};
 
 /// Name of the back end in reports, before the name of the configuration.
@@ -16,14 +16,14 @@ pub(crate) const CLOCK_NAME: &str = "clock";
 /// Clocks between two looks at the deadline, which is about a millisecond.
 const SLICE: u32 = 4096;
 
-/// The core's model, clock by clock, as a transport.
+/// The model of a core or of a chip of several engines, clock by clock, as a transport.
 ///
 /// [`Device::clock_model`](crate::Device::clock_model) makes a device of it. Clocks pass only while words are sent or
 /// awaited. Answers are taken as they come, also while words are sent, and kept until they are asked for, so no order
 /// of calls can block the core. Each word is offered as soon as the previous one is taken, so the cycle counts are
 /// those of a core whose host never keeps it waiting within a command.
 pub struct ClockTransport {
-    model: ClockModel,
+    model: ChipModel,
     config: Config,
     /// Words of answers that have not been received, each with the clock at whose end it came.
     answers: VecDeque<(u32, u64)>,
@@ -37,8 +37,13 @@ impl ClockTransport {
     /// # Errors
     /// [`Error::Model`] for a configuration that no core can be built with.
     pub fn new(config: Config) -> Result<Self, Error> {
-        let model = ClockModel::new(config).map_err(|refusal| Error::Model(refusal.to_string()))?;
-        Ok(Self { model, config, answers: VecDeque::new(), clocks: 0, answer_clock: None })
+        let model = ChipModel::new(config).map_err(|refusal| Error::Model(refusal.to_string()))?;
+        Ok(Self::around(model, config))
+    }
+
+    /// A transport to a model of this configuration that may differ from a sound one, such as a model with a defect.
+    pub fn around(model: ChipModel, config: Config) -> Self {
+        Self { model, config, answers: VecDeque::new(), clocks: 0, answer_clock: None }
     }
 
     /// Runs one clock in which the core is offered this word, or none. Returns true if the core takes the word.
@@ -106,8 +111,17 @@ impl Transport for ClockTransport {
         receive_in_pieces(head, payload, |words| self.fill(words, deadline))
     }
 
+    fn receive_next(
+        &mut self,
+        words_of: &mut dyn FnMut(AnswerHead) -> Option<usize>,
+        payload: &mut Vec<u32>,
+        deadline: Instant,
+    ) -> Result<AnswerHead, TransportError> {
+        receive_next_in_pieces(words_of, payload, |words| self.fill(words, deadline))
+    }
+
     fn capabilities(&self) -> Capabilities {
-        Capabilities { takes_ahead: true, ..Capabilities::default() }
+        Capabilities { takes_ahead: true, any_order: true, ..Capabilities::default() }
     }
 
     fn clocks(&self) -> Option<DeviceClocks> {

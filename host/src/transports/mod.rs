@@ -14,7 +14,10 @@ mod transport;
 
 pub use clock::ClockTransport;
 pub use model::ModelTransport;
-pub use transport::{receive_in_pieces, AnswerHead, Capabilities, DeviceClocks, Pace, Transport};
+pub(crate) use transport::is_begun_as;
+pub use transport::{
+    receive_in_pieces, receive_next_in_pieces, AnswerHead, Capabilities, DeviceClocks, Pace, Transport,
+};
 
 /// Parts of the transports to boards and cards, for tests and measurements of a link. Sessions need none of them.
 ///

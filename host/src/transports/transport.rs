@@ -2,9 +2,9 @@
 
 use std::time::Instant;
 
-use incircle_protocol::{Command, ANSWER_HEAD_WORDS};
+use incircle_protocol::{signed_header, Command, ANSWER_HEAD_WORDS};
 
-use crate::error::TransportError;
+use crate::error::{ErrorKind, TransportError};
 
 /// The beginning of an answer: its header, and the number of words of its payload.
 pub type AnswerHead = [u32; ANSWER_HEAD_WORDS];
@@ -35,8 +35,9 @@ pub trait Transport {
     /// Receives the answer to the oldest command whose answer is outstanding, or fails by `deadline`.
     ///
     /// `head` is the beginning of that answer if the device did what it was asked for, and `payload` has the length
-    /// that `head` announces. If the answer begins with `head`, `payload` is filled; if not, `payload` is left as it
-    /// is. The result is the actual beginning. [`receive_in_pieces`] does all that for a stream of words.
+    /// that `head` announces. If the answer begins with `head`, apart from the low half of the header, which names the
+    /// engine and the job, `payload` is filled; if not, `payload` is left as it is. The result is the actual beginning.
+    /// [`receive_in_pieces`] does all that for a stream of words.
     ///
     /// # Errors
     /// [`TransportError::Timeout`] if the deadline passes, or whatever went wrong. A transport whose device others may
@@ -47,6 +48,25 @@ pub trait Transport {
         payload: &mut [u32],
         deadline: Instant,
     ) -> Result<AnswerHead, TransportError>;
+
+    /// Receives the next answer that the device gives, or fails by `deadline`. It is called only if answers may come
+    /// [in any order](Capabilities::any_order), as those of several engines do.
+    ///
+    /// `words_of` tells the number of words of the payload for the beginning of an answer, and `None` for one that no
+    /// command has. `payload` gets that length and is filled; in the case of `None` it is emptied, and nothing more is
+    /// read. The result is the beginning. [`receive_next_in_pieces`] does all that for a stream of words.
+    ///
+    /// # Errors
+    /// The errors of [`receive`](Self::receive). The default implementation takes answers in order only, and fails.
+    fn receive_next(
+        &mut self,
+        words_of: &mut dyn FnMut(AnswerHead) -> Option<usize>,
+        payload: &mut Vec<u32>,
+        deadline: Instant,
+    ) -> Result<AnswerHead, TransportError> {
+        let _ = (words_of, payload, deadline);
+        Err(TransportError::other(ErrorKind::Link, "this transport takes the answers of a device in order only"))
+    }
 
     /// The abilities and the pace of this transport. The default suits a plain transport.
     fn capabilities(&self) -> Capabilities {
@@ -78,8 +98,11 @@ pub trait Transport {
 pub struct Capabilities {
     /// Whether commands may be submitted before the answers to earlier ones are received. Set it only if
     /// [`submit`](Transport::submit) never waits until answers are received: the transport must keep what comes
-    /// meanwhile, up to the answers of two jobs.
+    /// meanwhile: the answers of two jobs, and on a device of several engines those of two jobs for each.
     pub takes_ahead: bool,
+    /// Whether answers are taken in the order in which they come, by [`receive_next`](Transport::receive_next). Without
+    /// it a device of several engines gets one job at a time.
+    pub any_order: bool,
     /// Whether meshes are read with `Triangles`, which leaves out the neighbours and so half of the words. Clear it for
     /// a transport that only knows `Read`, such as one that asks again for parts of an answer.
     pub packs_records: bool,
@@ -89,7 +112,7 @@ pub struct Capabilities {
 
 impl Default for Capabilities {
     fn default() -> Self {
-        Self { takes_ahead: false, packs_records: true, pace: Pace::default() }
+        Self { takes_ahead: false, any_order: false, packs_records: true, pace: Pace::default() }
     }
 }
 
@@ -143,7 +166,33 @@ pub fn receive_in_pieces(
 ) -> Result<AnswerHead, TransportError> {
     let mut came = [0; ANSWER_HEAD_WORDS];
     fill(&mut came)?;
-    if came == head && !payload.is_empty() {
+    if is_begun_as(came, head) && !payload.is_empty() {
+        fill(payload)?;
+    }
+    Ok(came)
+}
+
+/// Whether an answer begins as it should, whichever engine gives it and whatever the tag of its job is.
+pub(crate) fn is_begun_as([came, came_words]: AnswerHead, [header, words]: AnswerHead) -> bool {
+    signed_header(came, 0, 0) == signed_header(header, 0, 0) && came_words == words
+}
+
+/// Receives an answer as [`Transport::receive_next`] must, from a stream of words.
+///
+/// `fill` fills the whole of a slice with the next words, or fails.
+///
+/// # Errors
+/// The errors of `fill`.
+pub fn receive_next_in_pieces(
+    words_of: &mut dyn FnMut(AnswerHead) -> Option<usize>,
+    payload: &mut Vec<u32>,
+    mut fill: impl FnMut(&mut [u32]) -> Result<(), TransportError>,
+) -> Result<AnswerHead, TransportError> {
+    let mut came = [0; ANSWER_HEAD_WORDS];
+    fill(&mut came)?;
+    payload.clear();
+    payload.resize(words_of(came).unwrap_or(0), 0);
+    if !payload.is_empty() {
         fill(payload)?;
     }
     Ok(came)

@@ -58,7 +58,7 @@ fn an_honest_device_passes() {
 fn lies_about_the_identity() {
     let hello = |place: usize, value: u32| fault(word(Opcode::Hello, 2 + place, move |_| value));
     assert!(matches!(hello(0, 0xdead_beef), DeviceFault::Magic { found: 0xdead_beef, .. }));
-    for version in [0, 1 << 16, 2 << 16] {
+    for version in [0, 1 << 16, 1 << 16 | 1, 3 << 16] {
         assert!(matches!(hello(1, version), DeviceFault::ProtocolVersion { found, .. } if found == version));
     }
     for bits in [0, 32, u32::MAX] {
@@ -67,8 +67,12 @@ fn lies_about_the_identity() {
     for capacity in [0, 3, 1 << 30, u32::MAX] {
         assert_eq!(hello(4, capacity), DeviceFault::Capacity(capacity));
     }
-    for contexts in [0, 256, u32::MAX] {
-        assert_eq!(hello(5, contexts), DeviceFault::Contexts(contexts));
+    // The word has contexts in its low byte and engines above it.
+    for engines in [0, 1, 255] {
+        assert_eq!(hello(5, engines << 8), DeviceFault::Contexts(0));
+    }
+    for engines in [257, u32::MAX >> 8] {
+        assert_eq!(hello(5, engines << 8 | 1), DeviceFault::Engines(engines));
     }
 }
 
@@ -84,7 +88,10 @@ fn contexts_that_are_claimed_and_not_there_are_found_out() {
     let found = fault(word(Opcode::Hello, 2 + 5, |_| 255));
     assert_eq!(
         found,
-        DeviceFault::Status { status: Status::BadContexts as u8, meaning: "more contexts were asked for than it has" }
+        DeviceFault::Status {
+            status: Status::BadContexts as u8,
+            meaning: "the contexts that were asked for are more than it has, or the jobs do not divide them",
+        }
     );
 }
 

@@ -9,6 +9,7 @@ mod oracle;
 mod quantize;
 
 mod batch {
+    mod engines;
     mod exclusive;
     mod jobs;
     mod meshes;
@@ -18,6 +19,7 @@ mod batch {
 mod transports {
     mod clock;
     mod model;
+    mod older;
     mod pcie;
     mod serial {
         mod hostile;

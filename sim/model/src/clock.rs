@@ -47,6 +47,8 @@ pub use ports::{Inputs, Outputs};
 #[derive(Clone, Debug)]
 pub struct ClockModel {
     config: Config,
+    /// Number of this engine on the chip.
+    engine: u8,
     registers: Registers,
     pipeline: Pipeline,
     ring: RingReader,
@@ -58,17 +60,26 @@ pub struct ClockModel {
 }
 
 impl ClockModel {
-    /// The core of a configuration, as it is after a clock with reset.
+    /// The first engine of a configuration, which is the core if it has no other, as it is after a clock with reset.
     ///
     /// # Errors
     /// A parameter that no core can be built with.
     pub fn new(config: Config) -> Result<Self, ConfigError> {
+        Self::numbered(config, 0)
+    }
+
+    /// An engine of a chip of this configuration, as it is after a clock with reset.
+    ///
+    /// # Errors
+    /// A parameter that no chip can be built with.
+    pub fn numbered(config: Config, engine: u8) -> Result<Self, ConfigError> {
         let config = config.check()?;
         let mut release = Release::default();
         release.reset();
         Ok(Self {
             config,
-            registers: Registers::after_reset(config),
+            engine,
+            registers: Registers::after_reset(config, engine),
             pipeline: Pipeline::default(),
             ring: RingReader::default(),
             release,
@@ -133,7 +144,7 @@ impl ClockModel {
     /// A memory is read and written in a way that is undefined in silicon, which would be a fault of the design.
     pub fn clock(&mut self, inputs: Inputs) {
         if inputs.reset {
-            self.registers = Registers::after_reset(self.config);
+            self.registers = Registers::after_reset(self.config, self.engine);
             self.release.reset();
             self.pipeline.reset();
             self.ring.reset();

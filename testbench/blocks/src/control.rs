@@ -3,6 +3,7 @@
 use incircle_protocol::{Config, LARGE, MAX_RING, SMALL, TINY};
 
 use crate::exported::block;
+use incircle_hdl::cluster::{AnswerCollector, CommandQueue, EngineChoice, JobRouter, WordPlace};
 use incircle_hdl::commands::{
     AnswerHead, AnswerWords, ClearCommand, CommandGate, CommandPort, PointSlot, RecordHalves, RecordPacker,
     RecordReads, RecordStream, Responder,
@@ -60,6 +61,11 @@ pub(crate) fn blocks() -> Vec<(String, String)> {
         block(CommandGate::default(), "command_gate"),
         block(PointSlot::default(), "point_slot"),
         block(AnswerHead::default(), "answer_head"),
+        block(AnswerCollector::default(), "answer_collector"),
+        block(CommandQueue::default(), "command_queue"),
+        block(EngineChoice::default(), "engine_choice"),
+        block(JobRouter::default(), "job_router"),
+        block(WordPlace::default(), "word_place"),
         block(AnswerWords::default(), "answer_words"),
         block(Responder::default(), "responder"),
         block(RecordReads::default(), "record_reads"),

@@ -14,7 +14,7 @@ use incircle_testbench::crossings::{crossings, stream_port_clock, Way};
 #[derive(Parser)]
 #[command(after_help = "Example:\n  crossings --config full --width 128")]
 struct Arguments {
-    /// Configuration of the core: tiny, small, full or large
+    /// Configuration of the core: tiny, small, full, large, dual or quad
     #[arg(long, default_value = "tiny", value_parser = config)]
     config: Config,
     /// Bits of a beat: 64 or 128

@@ -95,7 +95,7 @@ pub fn measure(distribution: Distribution, n: usize, contexts: u32) -> Result<Co
 pub fn measure_points(points: &[Point], contexts: u32) -> Result<Counters, MeasureError> {
     let points = in_order(points, contexts)?;
     let capacity = (points.len() as u32).next_power_of_two().max(MIN_POINTS);
-    let core = ClockModel::new(Config { name: "measured", points: capacity, ring: RING, contexts })?;
+    let core = ClockModel::new(Config { name: "measured", points: capacity, ring: RING, contexts, engines: 1 })?;
     let mut words = vec![clear_word(contexts), command_word(Opcode::Insert), points.len() as u32];
     words.extend(points.iter().map(|point| point.x | point.y << BITS));
     words.push(command_word(Opcode::Counters));

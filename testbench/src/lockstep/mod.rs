@@ -12,7 +12,7 @@ pub use report::Mismatch;
 pub use stream::{Job, Stalls};
 
 use crate::blocks;
-use incircle_model::{ClockModel, Defect, Inputs, Outputs, Write};
+use incircle_model::{ChipModel, Defect, Inputs, Outputs, Write};
 use incircle_protocol::Config;
 use recording::Recording;
 use report::History;
@@ -22,24 +22,18 @@ use verilated::{Model, PortId, TraceError};
 /// Input ports of the core, in the order in which [`drive`] sets them.
 const INPUTS: [&str; 4] = ["reset", "command_valid", "command_data", "response_ready"];
 
-/// Output ports of the core with its probe, in the order in which [`words_of`] lists the model's outputs.
-const OUTPUTS: [&str; 15] = [
-    "command_ready",
-    "response_valid",
-    "response_data",
-    "response_both",
-    "response_last",
-    "write_valid",
-    "write_id",
-    "write_vertices",
-    "write_links",
-    "write_v0",
-    "write_v1",
-    "write_v2",
-    "write_n0",
-    "write_n1",
-    "write_n2",
-];
+/// Output ports of the two streams, in the order in which [`words_of`] lists the model's outputs.
+const OUTPUTS: [&str; 5] = ["command_ready", "response_valid", "response_data", "response_both", "response_last"];
+
+/// Fields of the write port of an engine, in the order in which [`write_words`] lists them.
+const WRITE: [&str; 10] = ["valid", "id", "vertices", "links", "v0", "v1", "v2", "n0", "n1", "n2"];
+
+/// Names of all output ports of a chip of this many engines with its probe.
+fn output_names(engines: u32) -> Vec<String> {
+    let number = |engine: u32| if engines == 1 { String::new() } else { engine.to_string() };
+    let write = |engine| WRITE.map(|field| format!("write{}_{field}", number(engine)));
+    OUTPUTS.map(str::to_string).into_iter().chain((0..engines).flat_map(write)).collect()
+}
 
 /// Number of clocks before a mismatch that the waveform shows.
 const TRACED: usize = 2000;
@@ -70,9 +64,10 @@ pub struct Lockstep {
     /// Value of the port [`SWITCHES`] for the whole run.
     faults: u64,
     core: Model,
-    model: ClockModel,
+    model: ChipModel,
+    engines: u32,
     inputs: [PortId; INPUTS.len()],
-    outputs: [PortId; OUTPUTS.len()],
+    outputs: Vec<PortId>,
     recording: Recording,
     history: History,
     clocks: u64,
@@ -109,19 +104,37 @@ impl Lockstep {
     }
 
     /// Lets the model leave out a rule, as the core beside it does.
-    pub fn with_defect(mut self, defect: Defect) -> Self {
-        self.model = self.model.with_defect(defect);
+    pub fn with_defect(self, defect: Defect) -> Self {
+        self.with_defect_in(0, defect)
+    }
+
+    /// Lets one engine of the model leave out a rule.
+    pub fn with_defect_in(mut self, engine: usize, defect: Defect) -> Self {
+        self.model = self.model.with_defect(engine, defect);
         self
     }
 
     fn from_state(name: &str, config: Config, seed: Option<u32>, faults: u64) -> Self {
         let core = started(name, seed, faults);
         let port = |name: &str| core.port(name).unwrap_or_else(|error| panic!("{error}"));
-        let outputs = OUTPUTS.map(port);
+        let outputs = output_names(config.engines).iter().map(|name| port(name)).collect();
         let inputs = INPUTS.map(port);
-        let model = ClockModel::new(config).unwrap_or_else(|error| panic!("{error}"));
+        let model = ChipModel::new(config).unwrap_or_else(|error| panic!("{error}"));
         let (name, recording) = (name.to_string(), Recording::keeping(KEPT));
-        Self { name, seed, faults, core, model, inputs, outputs, recording, history: History::default(), clocks: 1 }
+        let engines = config.engines;
+        Self {
+            name,
+            seed,
+            faults,
+            core,
+            model,
+            engines,
+            inputs,
+            outputs,
+            recording,
+            history: History::default(),
+            clocks: 1,
+        }
     }
 
     /// Replays the whole run on a fresh core, and writes the last clocks as a waveform.
@@ -162,7 +175,8 @@ impl Lockstep {
         self.recording.note(inputs);
         let expected = self.model.outputs();
         self.history.note(self.clocks, inputs, expected);
-        for (port, expected) in self.outputs.into_iter().zip(words_of(&expected)) {
+        let writes = (0..self.engines).flat_map(|engine| write_words(self.model.write(engine as usize)));
+        for (&port, expected) in self.outputs.iter().zip(words_of(&expected).into_iter().chain(writes)) {
             let found = self.core.get(port);
             if found != expected {
                 let doing = self.model.describe();
@@ -200,23 +214,19 @@ fn drive(core: &mut Model, ports: &[PortId; INPUTS.len()], inputs: &Inputs) {
 
 /// The model's outputs in the form of the core's ports.
 fn words_of(outputs: &Outputs) -> [u64; OUTPUTS.len()] {
-    let Write { valid, id, vertices, links, record } = outputs.write;
-    let links = u64::from(links[0]) | u64::from(links[1]) << 1 | u64::from(links[2]) << 2;
     [
         u64::from(outputs.command_ready),
         u64::from(outputs.response_valid),
         outputs.response_data,
         u64::from(outputs.response_both),
         u64::from(outputs.response_last),
-        u64::from(valid),
-        u64::from(id),
-        u64::from(vertices),
-        links,
-        u64::from(record.v[0]),
-        u64::from(record.v[1]),
-        u64::from(record.v[2]),
-        u64::from(record.n[0]),
-        u64::from(record.n[1]),
-        u64::from(record.n[2]),
     ]
+}
+
+/// The fields of a write port of the model.
+fn write_words(write: Write) -> [u64; WRITE.len()] {
+    let Write { valid, id, vertices, links, record } = write;
+    let links = u64::from(links[0]) | u64::from(links[1]) << 1 | u64::from(links[2]) << 2;
+    let ([v0, v1, v2], [n0, n1, n2]) = (record.v.map(u64::from), record.n.map(u64::from));
+    [u64::from(valid), u64::from(id), u64::from(vertices), links, v0, v1, v2, n0, n1, n2]
 }

@@ -58,6 +58,10 @@ pub enum ConfigName {
     Full,
     /// 16384 points, 24 contexts
     Large,
+    /// 2 engines, each with 4096 points, 16 contexts
+    Dual,
+    /// 4 engines, each with 2048 points, 16 contexts
+    Quad,
 }
 
 impl ConfigName {
@@ -68,6 +72,8 @@ impl ConfigName {
             Self::Small => incircle_protocol::SMALL,
             Self::Full => incircle_protocol::FULL,
             Self::Large => incircle_protocol::LARGE,
+            Self::Dual => incircle_protocol::DUAL,
+            Self::Quad => incircle_protocol::QUAD,
         }
     }
 }

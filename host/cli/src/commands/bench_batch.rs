@@ -1,5 +1,7 @@
 //! `incircle bench --batch`: measures many jobs as one batch, from the first word sent to the last triangle received.
 
+use std::collections::BTreeSet;
+
 use incircle::{Point, Session, Solution};
 use incircle_protocol::FULL;
 use incircle_testkit::Distribution;
@@ -15,7 +17,7 @@ use crate::progress::Meter;
 /// Width of the column with the names of sets.
 const SET_WIDTH: usize = 15;
 /// The other columns with their widths.
-const COLUMNS: [(&str, usize); 9] = [
+const COLUMNS: [(&str, usize); 10] = [
     ("points", 10),
     ("triangles", 11),
     ("cycles/point", 14),
@@ -25,6 +27,7 @@ const COLUMNS: [(&str, usize); 9] = [
     ("ms", 10),
     ("us/job", 10),
     ("ns/point", 10),
+    ("Mpoints/s", 11),
 ];
 
 /// The measurement of the jobs of one set.
@@ -39,6 +42,8 @@ struct Measured {
     longest: Option<u64>,
     /// Clocks in which the insertion engine worked, by its own counter, if all jobs were exclusive jobs.
     engine: Option<u64>,
+    /// Engines of the device that got stuck.
+    stuck_engines: BTreeSet<u32>,
     /// Seconds of the whole library call.
     seconds: f64,
 }
@@ -53,6 +58,7 @@ struct Table<'a> {
     mhz: f64,
     capacity: u32,
     contexts: u32,
+    engines: u32,
 }
 
 /// Most points of all jobs together. Points and meshes are in memory at once and take 40 bytes a point and some hundred
@@ -84,6 +90,7 @@ pub fn run(arguments: &BenchArguments, jobs: u32) -> Result<(), Failure> {
         mhz: arguments.mhz.unwrap_or(DEFAULT_MHZ),
         capacity: session.identity().capacity,
         contexts: arguments.job.contexts.unwrap_or(session.identity().contexts),
+        engines: session.identity().engines,
     };
     let mut rows = Vec::new();
     for set in sets_of(arguments) {
@@ -137,7 +144,9 @@ fn run_once(
     let distinct = solutions.iter().map(|solution| solution.report.distinct).sum();
     let triangles = solutions.iter().map(|solution| solution.report.triangles).sum();
     let (longest, engine) = (longest_of(&solutions), engine_of(&solutions));
-    Ok(Measured { set, distinct, triangles, cycles, longest, engine, seconds })
+    let stuck = solutions.iter().flat_map(|solution| solution.report.stuck_engines.iter().copied());
+    let stuck_engines = stuck.collect();
+    Ok(Measured { set, distinct, triangles, cycles, longest, engine, stuck_engines, seconds })
 }
 
 /// Clocks of the longest job; `None` if any jobs shared the memory.
@@ -161,10 +170,14 @@ impl Table<'_> {
         let config = self.config.map_or(String::new(), |config| format!(" {config}"));
         let is_cpu = self.backend == "cpu";
         let contexts = counted(self.contexts as usize, if is_cpu { "thread" } else { "context" });
+        let engines = match self.engines {
+            1 => String::new(),
+            engines => format!("{engines} engines with "),
+        };
         let order = if is_cpu { String::new() } else { format!(", order {}", job.order().name()) };
         let clock = self.config.map_or(String::new(), |_| format!(", ms at {} MHz", self.mhz));
         let about = format!(
-            "{}{config}, {contexts}; {} of {} each, {coord_bits} bits, seeds from {seed}{order}{clock}\n",
+            "{}{config}, {engines}{contexts}; {} of {} each, {coord_bits} bits, seeds from {seed}{order}{clock}\n",
             self.backend,
             counted(self.jobs as usize, "job"),
             counted(*n as usize, "point"),
@@ -187,6 +200,7 @@ impl Table<'_> {
             cell(seconds.map(|seconds| 1e3 * seconds), 3),
             cell(seconds.map(|seconds| 1e6 * seconds / f64::from(self.jobs)), 2),
             cell(seconds.map(|seconds| 1e9 * seconds / measured.distinct as f64), 1),
+            cell(self.points_per_second(measured).map(|rate| rate / 1e6), 2),
         ];
         line(&measured.set.to_string(), cells)
     }
@@ -197,6 +211,11 @@ impl Table<'_> {
             return Some(measured.seconds);
         }
         measured.cycles.map(|cycles| cycles as f64 / (self.mhz * 1e6))
+    }
+
+    /// Distinct points a second, in the time that [`device_seconds`](Self::device_seconds) gives.
+    fn points_per_second(&self, measured: &Measured) -> Option<f64> {
+        self.device_seconds(measured).filter(|&seconds| seconds > 0.0).map(|seconds| measured.distinct as f64 / seconds)
     }
 
     /// Clocks from the first word sent to the last triangle received, on average over the jobs.
@@ -212,6 +231,7 @@ impl Table<'_> {
             "config": self.config,
             "capacity": self.capacity,
             "contexts": self.contexts,
+            "engines": self.engines,
             "order": if self.backend == "cpu" { Value::Null } else { job.order().name().into() },
             "jobs": self.jobs,
             "n": n,
@@ -231,6 +251,8 @@ impl Table<'_> {
             "distinct": measured.distinct,
             "triangles": measured.triangles,
             "seconds": measured.seconds,
+            "points_per_second": self.points_per_second(measured),
+            "stuck_engines": measured.stuck_engines,
         });
         if let Some(cycles) = measured.cycles {
             object["cycles"] = cycles.into();

@@ -25,8 +25,12 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
         format!("back end cpu\nversion {major}.{minor}.{patch}\n{holds}\n{}\n", counted(contexts, "thread"))
     } else {
         let insertions = counted(contexts, "insertion");
+        let engines = match identity.engines {
+            1 => String::new(),
+            engines => format!("{engines} engines, each with the points and insertions below\n"),
+        };
         format!(
-            "back end {}\nversion {major}.{minor}.{patch}, {protocol}\n{holds}\n{insertions} at once\n\
+            "back end {}\nversion {major}.{minor}.{patch}, {protocol}\n{engines}{holds}\n{insertions} at once\n\
              cavities of up to {} boundary edges\n{board}{card}",
             backend.name, identity.ring_capacity
         )

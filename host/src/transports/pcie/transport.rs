@@ -4,8 +4,8 @@ use std::sync::mpsc::{channel, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
 use incircle_protocol::{
-    answer_opcode, answer_status, Command, Identity, Layout, Status, StreamRegister, ANSWER_HEAD_WORDS, IDENTITY_WORDS,
-    STREAM_STATUS_BUSY,
+    answer_opcode, answer_status, triangle_capacity, Command, Identity, Layout, RecordRange, Status, StreamRegister,
+    ANSWER_HEAD_WORDS, IDENTITY_WORDS, LATENCY_BUCKETS, STREAM_STATUS_BUSY,
 };
 
 use super::address::CardAddress;
@@ -16,7 +16,7 @@ use super::left_behind::record_abandoned_call;
 use super::registers::{CardRegisters, Registers};
 use super::streams::{Streams, MOST_MOVED, WORD};
 use crate::error::{Error, TransportError};
-use crate::transports::transport::{receive_in_pieces, AnswerHead, Capabilities, Transport};
+use crate::transports::transport::{receive_in_pieces, receive_next_in_pieces, AnswerHead, Capabilities, Transport};
 
 /// Time limit for opening the files, and for a reset.
 const OPEN: Duration = Duration::from_secs(5);
@@ -293,6 +293,12 @@ fn is_out_of_step(awaited: AnswerHead, came: AnswerHead) -> bool {
 }
 
 impl PcieTransport {
+    /// Words of the longest payload that an answer of this card may have.
+    fn longest_payload(&self) -> u64 {
+        let all = RecordRange { first: 0, count: triangle_capacity(self.identity.capacity) };
+        Command::<()>::Read(all).payload_words(self.layout).max(LATENCY_BUCKETS as u64)
+    }
+
     /// Fills the whole of `words` with the next words of answers.
     fn fill(&mut self, words: &mut [u32], deadline: Instant) -> Result<(), TransportError> {
         if let Some(fault) = &self.fault {
@@ -333,7 +339,10 @@ impl Transport for PcieTransport {
             return Err(TransportError::Timeout { done: 0, wanted });
         }
         let beats = (wanted > 0).then(|| self.beats(commands, wanted));
-        let most = |command: &Command<_>| ANSWER_HEAD_WORDS as u64 + command.payload_words(self.layout);
+        // Several engines answer in any order, so that any answer may come in the place of another.
+        let longest = (self.identity.engines > 1).then(|| self.longest_payload());
+        let payload = |command: &Command<_>| longest.unwrap_or_else(|| command.payload_words(self.layout));
+        let most = |command: &Command<_>| ANSWER_HEAD_WORDS as u64 + payload(command);
         self.streams.queue(beats, commands.iter().map(most));
         Ok(())
     }
@@ -351,8 +360,17 @@ impl Transport for PcieTransport {
         Ok(came)
     }
 
+    fn receive_next(
+        &mut self,
+        words_of: &mut dyn FnMut(AnswerHead) -> Option<usize>,
+        payload: &mut Vec<u32>,
+        deadline: Instant,
+    ) -> Result<AnswerHead, TransportError> {
+        receive_next_in_pieces(words_of, payload, |words| self.fill(words, deadline))
+    }
+
     fn capabilities(&self) -> Capabilities {
-        Capabilities { takes_ahead: true, ..Capabilities::default() }
+        Capabilities { takes_ahead: true, any_order: true, ..Capabilities::default() }
     }
 
     fn recover(&mut self, deadline: Instant) -> Result<bool, TransportError> {

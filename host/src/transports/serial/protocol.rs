@@ -7,7 +7,7 @@ mod transmit;
 use std::time::Duration;
 
 use incircle_protocol::{
-    answer_head, Command, Greeting, Layout, Opcode, ANSWER_HEAD_WORDS, FIRST_RATE, IDENTITY_WORDS,
+    answer_head, Command, Greeting, Identity, Layout, Opcode, ANSWER_HEAD_WORDS, FIRST_RATE, IDENTITY_WORDS,
 };
 
 use super::codec::Decoder;
@@ -16,6 +16,7 @@ use super::fault::SerialFault;
 use super::reader::Reader;
 use super::sender::Sender;
 use super::timing::{Line, RoundTrip};
+use crate::transports::is_begun_as;
 
 /// Rate to ask for unless the caller chooses another, in bits per second. Every newer USB adapter reaches it.
 pub const DEFAULT_RATE: u32 = 3_000_000;
@@ -285,8 +286,9 @@ impl SerialProtocol {
 /// length of points and records from the greeting, so the two must agree.
 fn contradiction(answer: &[u32], greeting: &Greeting) -> Option<SerialFault> {
     let (head, identity) = answer.split_first_chunk::<ANSWER_HEAD_WORDS>()?;
-    let is_identity = *head == answer_head(Opcode::Hello, IDENTITY_WORDS as u32);
-    let mut words = identity.iter().copied().zip(greeting.identity.to_words()).zip(0..);
+    let is_identity = is_begun_as(*head, answer_head(Opcode::Hello, IDENTITY_WORDS as u32));
+    let identity = Identity::from_words(*identity.first_chunk()?);
+    let mut words = identity.to_words().into_iter().zip(greeting.identity.to_words()).zip(0..);
     let ((found, expected), word) = words.find(|((found, expected), _)| is_identity && found != expected)?;
     Some(SerialFault::Contradiction { word, found, expected })
 }

@@ -10,6 +10,7 @@ use incircle_protocol::{
 use super::codec::{words_of, AnswerPart};
 use super::fault::SerialFault;
 use super::sender::Sender;
+use crate::transports::is_begun_as;
 
 /// Most words of payload of a range: with the header they fill three frames.
 const RANGE_WORDS: usize = 3 * 256 - HEADER;
@@ -364,7 +365,7 @@ impl Exchange {
             }
             Question::Range { count, .. } => {
                 let due = u32::try_from(count as usize * self.width).unwrap_or(u32::MAX);
-                let is_right = [header, length] == answer_head(Opcode::Read, due);
+                let is_right = is_begun_as([header, length], answer_head(Opcode::Read, due));
                 // A refusal, or a wrong length, stands for the answer to the whole command: the session judges it.
                 self.missing = if is_right { self.missing - count.min(self.missing) } else { 0 };
                 if is_right {

@@ -10,7 +10,9 @@ use super::port::Port;
 use super::protocol::{Params, SerialProtocol, Statistics};
 use crate::error::{Error, TransportError};
 use crate::limit::Limit;
-use crate::transports::transport::{receive_in_pieces, AnswerHead, Capabilities, Pace, Transport};
+use crate::transports::transport::{
+    receive_in_pieces, receive_next_in_pieces, AnswerHead, Capabilities, Pace, Transport,
+};
 
 /// Most bytes of one read.
 const READ_BYTES: usize = 16 * 1024;
@@ -223,10 +225,19 @@ impl Transport for SerialTransport {
         receive_in_pieces(head, payload, |words| self.hand_on(words))
     }
 
+    fn receive_next(
+        &mut self,
+        words_of: &mut dyn FnMut(AnswerHead) -> Option<usize>,
+        payload: &mut Vec<u32>,
+        _deadline: Instant,
+    ) -> Result<AnswerHead, TransportError> {
+        receive_next_in_pieces(words_of, payload, |words| self.hand_on(words))
+    }
+
     fn capabilities(&self) -> Capabilities {
         let words = self.protocol.rate() / WORD_BITS / self.slow;
         let pace = Pace { slow: self.slow, words_per_second: Some(words.max(1)) };
-        Capabilities { packs_records: false, pace, ..Capabilities::default() }
+        Capabilities { any_order: true, packs_records: false, pace, ..Capabilities::default() }
     }
 }
 

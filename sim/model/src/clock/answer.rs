@@ -17,9 +17,10 @@ pub(super) struct Answer {
 }
 
 impl Answer {
-    /// The header, which gets the tag of the job at the end: the tag does not change while an answer is put together.
-    pub(super) fn header(&self, tag: u8) -> u32 {
-        signed_header(self.heads[2].0, 0, tag)
+    /// The header from this engine. The tag of the job comes in at the end, since it does not change while an answer is
+    /// put together.
+    pub(super) fn header(&self, engine: u8, tag: u8) -> u32 {
+        signed_header(self.heads[2].0, engine, tag)
     }
 
     pub(super) fn length(&self) -> u32 {
@@ -85,7 +86,7 @@ fn payload(was: &Registers, latencies: &Latencies, config: Config, index: usize)
             coord_bits: protocol::CORE_COORD_BITS,
             capacity: config.points,
             contexts: config.contexts,
-            engines: 1,
+            engines: config.engines,
             ring_capacity: config.ring,
         }
         .to_words()[index],

@@ -28,6 +28,8 @@ pub(super) struct Responder {
     state: State,
     /// Whether the first of the two clocks of `Prepare` or `Choose` is over.
     waited: bool,
+    /// Number of this engine on the chip; a constant.
+    pub engine: u8,
     pub answer: Answer,
     pub valid: bool,
     /// The beat that is offered. While no beat is offered, the last one stays.
@@ -77,7 +79,7 @@ impl Responder {
             State::Idle | State::Prepare | State::Choose => None,
             State::Header => {
                 let length = self.answer.length();
-                Some(Beat { low: self.answer.header(tag), high: length, both: true, last: length == 0 })
+                Some(Beat { low: self.answer.header(self.engine, tag), high: length, both: true, last: length == 0 })
             }
             State::Payload => Some(Beat { last: self.left == 1, ..Beat::of(self.answer.word()) }),
             State::Records => self.records.beat(),

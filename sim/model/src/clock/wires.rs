@@ -49,8 +49,9 @@ pub(super) struct Registers {
 }
 
 impl Registers {
-    pub(super) fn after_reset(config: Config) -> Self {
+    pub(super) fn after_reset(config: Config, engine: u8) -> Self {
         let mut registers = Self::default();
+        registers.responder.engine = engine;
         registers.command.contexts = config.contexts;
         registers.command.jobs = 1;
         registers.contexts.reset(config.contexts);

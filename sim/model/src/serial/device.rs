@@ -52,7 +52,7 @@ impl Instantly {
     /// The identity of the device.
     pub fn identity(&self) -> Identity {
         let (coord_bits, points, ring) = self.parameters;
-        Identity { coord_bits, ..core_identity(Config { name: "", points, ring, contexts: 1 }) }
+        Identity { coord_bits, ..core_identity(Config { name: "", points, ring, contexts: 1, engines: 1 }) }
     }
 
     /// The answer word that is offered now.
@@ -117,7 +117,7 @@ pub fn core_identity(config: Config) -> Identity {
         coord_bits: CORE_COORD_BITS,
         capacity: config.points,
         contexts: config.contexts,
-        engines: 1,
+        engines: config.engines,
         ring_capacity: config.ring,
     }
 }

@@ -80,6 +80,6 @@ impl WordStream for ModelCore {
 
     fn identity(&self) -> Identity {
         let (coord_bits, points, ring) = self.parameters;
-        Identity { coord_bits, ..core_identity(Config { name: "", points, ring, contexts: self.contexts }) }
+        Identity { coord_bits, ..core_identity(Config { name: "", points, ring, contexts: self.contexts, engines: 1 }) }
     }
 }

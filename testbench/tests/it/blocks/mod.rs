@@ -1,5 +1,6 @@
 //! Tests of each block by itself: its Rust behaviour, its Verilog and plain code must agree.
 
+mod cluster;
 mod commands;
 mod engine;
 mod leaf;

@@ -73,7 +73,7 @@ fn the_full_core() {
     for (contexts, distributions) in [
         (0, &[Uniform, Kuzmin, Lattice, Line, Normal, Checkers][..]),
         (4, &[Normal, Lattice]),
-        (2, &[Kuzmin]),
+        (2, &[Kuzmin, Line]),
         (1, &[Uniform]),
     ] {
         for &distribution in distributions {

@@ -1,6 +1,7 @@
 //! Tests of the serial link and the stream link: the driver in front of simulated boards and cards,
 //! models beside pins, and the pages.
 
+mod chip;
 mod model;
 mod page;
 mod pcie;

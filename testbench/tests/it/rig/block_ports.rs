@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 
+use incircle_hdl::cluster::types::{EngineFlags, OfferedBeat, RoutedWord};
 use incircle_hdl::commands::types::{Activity, AnswerProgress, Clearing, Halves, Head, Request, TakenWord, Tally};
 use incircle_hdl::commands::{AnswerBeat, CommandState};
 use incircle_hdl::engine::{Arrival, EngineState};
@@ -119,6 +120,9 @@ macro_rules! packed_values {
     )*};
 }
 packed_values!(
+    EngineFlags,
+    OfferedBeat,
+    RoutedWord,
     Visit,
     Bundle,
     Turned,

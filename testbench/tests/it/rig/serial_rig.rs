@@ -14,7 +14,7 @@ use crate::rig::stepper::{named_ports, Stepper};
 
 named_ports!(
     SerialLink,
-    [reset, rx, command.ready, response.valid, response.data, response.both, response.last],
+    [reset, rx, command.ready, response.valid, response.data, response.both, response.last, device_busy],
     [tx, lamps, core_reset, command.valid, command.data, response.ready],
     clock
 );
@@ -149,6 +149,7 @@ impl<P: Pins> Rig<P> {
         self.pins.set("response_data", u64::from(low) | u64::from(high.unwrap_or(0)) << 32);
         self.pins.set("response_both", high.is_some().into());
         self.pins.set("response_last", last.into());
+        self.pins.set("device_busy", 0);
         self.pins.settle();
         self.listener.clock(self.pins.get("tx") == 1);
         if self.pins.get("response_ready") == 1 {

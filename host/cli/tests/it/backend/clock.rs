@@ -164,7 +164,7 @@ fn an_address_chooses_what_an_argument_chooses() {
     for (bad, sentence) in [
         ("clock?config=full --config full", "both choose"),
         ("cpu?threads=1 --threads 1", "both choose"),
-        ("clock?config=huge", "choose one of tiny, small, full, large"),
+        ("clock?config=huge", "choose one of tiny, small, full, large, dual, quad"),
         ("clock?threads=2", "\"config\" is known"),
         ("model --config full", "it needs --backend clock"),
     ] {
@@ -222,4 +222,28 @@ fn verbose_is_a_table_with_latencies() {
         assert!(run.stderr.contains(part), "{part}: {run:?}");
     }
     assert!(!run.stderr.contains("latency"), "{run:?}");
+}
+
+#[test]
+fn chips_of_several_engines_are_named_and_used() {
+    let scratch = Scratch::new();
+    scratch.run("generate kuzmin -n 900 -o p.csv").ok();
+    for (config, engines, points) in [("dual", 2, 4096), ("quad", 4, 2048)] {
+        let info = scratch.run(&format!("info --backend clock --config {config}")).ok();
+        let expected = format!(
+            "back end clock\nversion 0.3.0, protocol 2.0\n{engines} engines, each with the points and insertions \
+             below\ncoordinates of 16 bits\n{points} points\n16 insertions at once\n"
+        );
+        assert!(info.stdout.starts_with(&expected), "{}", info.stdout);
+        let report = files(&scratch, &format!("--config {config}"));
+        assert_eq!((&report["engines"], &report["stuck_engines"]), (&engines.into(), &serde_json::json!([])));
+        let run =
+            scratch.run(&format!("bench uniform -n 100 --batch 90 --backend clock --config {config} --json")).ok();
+        let batch: Value = serde_json::from_str(&run.stdout).expect("the report is JSON");
+        assert_eq!(batch["engines"], engines);
+        assert_eq!(batch["sets"][0]["stuck_engines"], serde_json::json!([]));
+        scratch.run(&format!("generate parabola -n {} -o many.csv", points + 1)).ok();
+        let run = scratch.run(&format!("triangulate many.csv -o m.ele --backend clock --config {config}"));
+        run.fails(7, &[&(points + 1).to_string(), &format!("the {points} of an engine of {config}")]);
+    }
 }

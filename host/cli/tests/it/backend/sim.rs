@@ -99,6 +99,28 @@ fn a_batch_and_its_longest_job_take_the_same_clocks() {
 }
 
 #[test]
+fn chips_of_several_engines_take_the_clocks_of_their_model() {
+    let scratch = Scratch::new();
+    scratch.run("generate kuzmin -n 900 -o p.csv").ok();
+    for (config, engines) in [("dual", 2), ("quad", 4)] {
+        let report = compare(&scratch, "", &format!("--config {config}"));
+        assert_eq!(report["engines"], engines, "{config}");
+        let [sim, clock] = ["sim", "clock"].map(|backend| {
+            let options = format!("--backend {backend} --config {config} --seed 4 --json");
+            let run = scratch.run(&format!("bench uniform clusters --batch 60 -n 120 {options}")).ok();
+            serde_json::from_str::<Value>(&run.stdout).expect("an object")
+        });
+        assert_eq!((&sim["engines"], &clock["engines"]), (&engines.into(), &engines.into()));
+        for set in 0..2 {
+            assert!(sim["sets"][set]["cycles"].as_u64() > Some(1000), "{sim}");
+            for key in ["cycles", "engine_cycles_per_point", "stuck_engines"] {
+                assert_eq!(sim["sets"][set][key], clock["sets"][set][key], "{config}, {key}");
+            }
+        }
+    }
+}
+
+#[test]
 fn the_report_says_the_bits_of_the_grid() {
     let scratch = Scratch::new();
     scratch.write("p.csv", "0,0\n255,0\n0,255\n");

@@ -87,7 +87,7 @@ fn every_job_gets_the_mesh_it_gets_alone() {
     let mut seen = [0u64; COUNTER_WORDS];
     for ring in [3, 6, 9, 32, 64] {
         for contexts in [1, 2, 3, 4, 7, 16, 24] {
-            let config = Config { name: "test", points: 512, ring, contexts };
+            let config = Config { name: "test", points: 512, ring, contexts, engines: 1 };
             let mut bench = Bench::new(config);
             for turn in 0..12 {
                 let asked = random.below(contexts + 1);
@@ -131,7 +131,7 @@ fn every_job_of_a_team_gets_the_mesh_it_gets_alone() {
     let mut seen = [0u64; COUNTER_WORDS];
     for ring in [3, 6, 9, 32, 64] {
         for contexts in [2, 4, 6, 9, 12, 15, 16, 24] {
-            let config = Config { name: "test", points: 512, ring, contexts };
+            let config = Config { name: "test", points: 512, ring, contexts, engines: 1 };
             let mut bench = Bench::new(config);
             for jobs in (1..contexts).filter(|jobs| contexts.is_multiple_of(*jobs)) {
                 for turn in 0..5 {
@@ -166,7 +166,7 @@ fn every_job_of_a_team_gets_the_mesh_it_gets_alone() {
 fn a_triple_on_a_line_ends_the_batch() {
     let mut random = Random(32);
     for contexts in [1, 2, 5, 16] {
-        let config = Config { name: "test", points: 256, ring: 9, contexts };
+        let config = Config { name: "test", points: 256, ring: 9, contexts, engines: 1 };
         let mut bench = Bench::new(config);
         for _ in 0..20 {
             let mut batch = Batch::random(&mut random, contexts, 10, true);
@@ -188,7 +188,7 @@ fn a_triple_on_a_line_ends_the_batch() {
 fn fewer_points_than_three_a_job_are_waited_for() {
     let mut random = Random(33);
     for contexts in [2, 4, 16] {
-        let config = Config { name: "test", points: 64, ring: 9, contexts };
+        let config = Config { name: "test", points: 64, ring: 9, contexts, engines: 1 };
         let mut bench = Bench::new(config);
         let batch = Batch::random(&mut random, contexts, 5, true);
         let points = batch.points();
@@ -221,7 +221,7 @@ fn too_many_jobs_are_refused() {
 /// A number of jobs that does not divide that of the contexts leaves everything as it is.
 #[test]
 fn a_number_of_jobs_must_divide_that_of_the_contexts() {
-    let config = Config { name: "test", points: 64, ring: 32, contexts: 24 };
+    let config = Config { name: "test", points: 64, ring: 32, contexts: 24, engines: 1 };
     let mut bench = Bench::new(config);
     let mut by_commands = model(config);
     let mut random = Random(38);
@@ -251,7 +251,7 @@ fn a_number_of_jobs_must_divide_that_of_the_contexts() {
 fn reset_in_mid_batch_leaves_nothing_behind() {
     let mut random = Random(35);
     for contexts in [2, 16] {
-        let config = Config { name: "test", points: 256, ring: 9, contexts };
+        let config = Config { name: "test", points: 256, ring: 9, contexts, engines: 1 };
         let mut bench = Bench::new(config);
         for _ in 0..20 {
             let points = Batch::random(&mut random, contexts, 12, true).points();

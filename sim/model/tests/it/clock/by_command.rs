@@ -175,7 +175,7 @@ fn answers_as_the_model_by_commands() {
     for ring in [3, 6, 9, 32, 64] {
         for contexts in [1, 2, 3, 4, 5, 7, 8, 12, 16, 17, 20, 23, 24] {
             for (points, jobs) in [(4, 8), (8, 20), (16, 10), (32, 8), (64, 16), (256, 8), (1024, 4)] {
-                let config = Config { name: "test", points, ring, contexts };
+                let config = Config { name: "test", points, ring, contexts, engines: 1 };
                 let mut bench = Bench::new(config);
                 for turn in 0..jobs {
                     let job = Job::random(config, &mut random);
@@ -210,7 +210,7 @@ fn answers_as_the_model_by_commands() {
 fn stands_with_every_number_of_contexts() {
     let mut random = Random(5);
     for contexts in 1..=24 {
-        let config = Config { name: "test", points: 512, ring: 32, contexts };
+        let config = Config { name: "test", points: 512, ring: 32, contexts, engines: 1 };
         let mut bench = Bench::new(config);
         let points = sets::boxed(&mut random, 400, 1 << 16);
         for active in 0..=contexts {
@@ -223,7 +223,7 @@ fn stands_with_every_number_of_contexts() {
 
 #[test]
 fn refuses_what_it_does_not_know_and_goes_on() {
-    let config = Config { name: "test", points: 64, ring: 6, contexts: 5 };
+    let config = Config { name: "test", points: 64, ring: 6, contexts: 5, engines: 1 };
     let mut random = Random(6);
     let mut bench = Bench::new(config);
     let mut run = |words: &[u32]| {
@@ -260,7 +260,7 @@ fn refuses_what_it_does_not_know_and_goes_on() {
 fn reset_in_mid_job_leaves_nothing_behind() {
     let mut random = Random(8);
     for contexts in [1, 2, 8, 24] {
-        let config = Config { name: "test", points: 128, ring: 9, contexts };
+        let config = Config { name: "test", points: 128, ring: 9, contexts, engines: 1 };
         let mut bench = Bench::new(config);
         for _ in 0..25 {
             let side = random.pick(&[5, 40, 1 << 16]);
@@ -283,7 +283,7 @@ fn no_beat_of_the_host_slows_the_core_down() {
     let mut random = Random(9);
     let points = sets::boxed(&mut random, 480, 1 << 16);
     for contexts in [2, 3, 4, 8, 12, 16, 24] {
-        let mut bench = Bench::new(Config { name: "test", points: 512, ring: 32, contexts });
+        let mut bench = Bench::new(Config { name: "test", points: 512, ring: 32, contexts, engines: 1 });
         let mut cycles = |beat: u64| {
             let job = Job { contexts: 0, pieces: vec![points.clone()] };
             let stalls = Stalls { beat, ..Stalls::default() };

@@ -85,12 +85,8 @@ fn check(bench: &mut Bench, jobs: u32, points: &[u32]) -> Result<u64, String> {
 
 impl Jobs {
     fn config(&self) -> Config {
-        Config {
-            name: "test",
-            points: 256 * self.side_by_side.next_power_of_two(),
-            ring: self.ring,
-            contexts: self.contexts,
-        }
+        let points = 256 * self.side_by_side.next_power_of_two();
+        Config { name: "test", points, ring: self.ring, contexts: self.contexts, engines: 1 }
     }
 
     /// The points of the job of this number, or of as many as work side by side.

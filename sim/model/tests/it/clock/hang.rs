@@ -70,7 +70,7 @@ fn batch(bench: &mut Bench, jobs: u32, points: &[u32]) -> Result<(), String> {
 fn batches([contexts, jobs]: [u32; 2], which: u32) {
     let mut random = Random(u64::from(contexts << 20 | jobs << 10 | which));
     let ring = random.pick(&[6, 9, 12, 32, 32, 64]);
-    let mut bench = Bench::new(Config { name: "test", points: 4096, ring, contexts });
+    let mut bench = Bench::new(Config { name: "test", points: 4096, ring, contexts, engines: 1 });
     for turn in 0..PORTION {
         let jobs_of = (0..jobs).map(|_| sets::started(points(&mut random))).collect();
         let points = Batch { jobs: jobs_of }.points();
@@ -84,7 +84,7 @@ fn batches([contexts, jobs]: [u32; 2], which: u32) {
 fn portion(contexts: u32, which: u32) {
     let mut random = Random(u64::from(contexts << 16 | which));
     let ring = random.pick(&[6, 9, 12, 32, 32, 64]);
-    let mut bench = Bench::new(Config { name: "test", points: 512, ring, contexts });
+    let mut bench = Bench::new(Config { name: "test", points: 512, ring, contexts, engines: 1 });
     for turn in 0..PORTION {
         let points = points(&mut random);
         if let Err(fault) = job(&mut bench, &points) {

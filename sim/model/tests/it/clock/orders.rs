@@ -18,7 +18,8 @@ fn every_order_gives_the_same_mesh() {
         };
         let mut first = None;
         for contexts in [1, 2, 4, 8, 16, 24] {
-            let mut bench = Bench::new(Config { name: "test", points: 256, ring: random.pick(&[9, 32]), contexts });
+            let mut bench =
+                Bench::new(Config { name: "test", points: 256, ring: random.pick(&[9, 32]), contexts, engines: 1 });
             for _ in 0..ORDERS {
                 random.shuffle(&mut points);
                 let sent = sets::started(points.clone());

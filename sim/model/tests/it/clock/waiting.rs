@@ -99,7 +99,7 @@ fn no_job_waits_longer_than_for_all_others_and_no_team_is_passed_over() {
     let (mut longest, mut most) = (0.0f64, 0.0f64);
     for [contexts, jobs] in [[16, 16], [16, 8], [16, 4], [16, 2], [15, 5], [24, 12], [24, 2]] {
         for ring in [3, 6, 32] {
-            let config = Config { name: "test", points: 4096, ring, contexts };
+            let config = Config { name: "test", points: 4096, ring, contexts, engines: 1 };
             let mut bench = Bench::new(config);
             for (turn, few) in (0..8).zip([20, 60, 20, 60, 60, 20, 60, 20]) {
                 let team = random.below(jobs) as usize;

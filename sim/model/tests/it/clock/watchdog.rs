@@ -7,7 +7,7 @@ use crate::common::{sets, Random};
 use incircle_model::{Defect, Inputs};
 use incircle_protocol::{clear_word, command_word, patience, Config, Counter, Opcode, Status};
 
-const CONFIG: Config = Config { name: "test", points: 128, ring: 32, contexts: 4 };
+const CONFIG: Config = Config { name: "test", points: 128, ring: 32, contexts: 4, engines: 1 };
 
 /// A core that aborts at its own locks, and points whose insertion meets such locks.
 fn hanging() -> (Bench, Vec<u32>) {

@@ -100,6 +100,7 @@ impl StandIn {
             ("response_data", data),
             ("response_both", (self.offered.len() == 2).into()),
             ("response_last", (!self.offered.is_empty() && self.answer.is_empty()).into()),
+            ("device_busy", false.into()),
         ] {
             pins.set(port, value);
         }
