@@ -1305,8 +1305,8 @@ module incircle_core_logic$slot0$core(clock,reset,command$valid,command$ready,co
     reg  command_port$sweeps;
     reg  [19:0] command_port$engine;
     wire  [47:0] command_port$arrival;
-    wire  [9:0] command_port$clearing;
-    wire  [12:0] command_port$deal;
+    wire  [10:0] command_port$clearing;
+    wire  [16:0] command_port$deal;
     wire  command_port$answers;
     wire  [71:0] command_port$request;
     wire  [47:0] command_port$tally;
@@ -1314,7 +1314,7 @@ module incircle_core_logic$slot0$core(clock,reset,command$valid,command$ready,co
     wire  [2:0] command_port$activity;
     reg  answer_head$clock;
     reg  [71:0] answer_head$request;
-    reg  [9:0] answer_head$clearing;
+    reg  [10:0] answer_head$clearing;
     reg  [7:0] answer_head$engine;
     reg  [14:0] answer_head$records;
     reg  answer_head$collinear;
@@ -1354,7 +1354,7 @@ module incircle_core_logic$slot0$core(clock,reset,command$valid,command$ready,co
     reg  engine$clock;
     reg  engine$reset;
     reg  [82:0] engine$limits;
-    reg  [12:0] engine$deal;
+    reg  [16:0] engine$deal;
     reg  engine$clears;
     reg  [47:0] engine$arrival;
     reg  [14:0] engine$arrived;
@@ -1585,7 +1585,7 @@ module incircle_core_logic$slot0$core$answer_head(clock,request,clearing,engine,
     // Module arguments
     input wire  clock;
     input wire  [71:0] request;
-    input wire  [9:0] clearing;
+    input wire  [10:0] clearing;
     input wire  [7:0] engine;
     input wire  [14:0] records;
     input wire  collinear;
@@ -1793,7 +1793,7 @@ module incircle_core_logic$slot0$core$answer_head(clock,request,clearing,engine,
             2:
                 begin
                     has_none$d = 1'b1;
-                    if (clearing[(64'h1)+:(1)]) begin
+                    if (clearing[(64'h2)+:(1)]) begin
                         answer_status$d = 32'h5;
                     end
                 end
@@ -1847,7 +1847,7 @@ module incircle_core_logic$slot0$core$answer_head(clock,request,clearing,engine,
         shifted_opcode = wide_opcode << opcode_shift;
         wide_engine = ((engine) & 32'hffffffff);
         shifted_engine = wide_engine << engine_shift;
-        job = ((clearing[(64'h2)+:(8)]) & 32'hffffffff);
+        job = ((clearing[(64'h3)+:(8)]) & 32'hffffffff);
         head[(64'h0)+:(32)] = shifted_opcode | shifted_status | shifted_engine | job;
     end
     
@@ -2301,8 +2301,8 @@ module incircle_core_logic$slot0$core$command_port(clock,reset,capacity,built,co
     input wire  sweeps;
     input wire  [19:0] engine;
     output reg  [47:0] arrival;
-    output reg  [9:0] clearing;
-    output reg  [12:0] deal;
+    output reg  [10:0] clearing;
+    output reg  [16:0] deal;
     output reg  answers;
     output reg  [71:0] request;
     output reg  [47:0] tally;
@@ -2352,8 +2352,8 @@ module incircle_core_logic$slot0$core$command_port(clock,reset,capacity,built,co
     reg  clear$reset;
     reg  [4:0] clear$built;
     reg  [33:0] clear$taken;
-    wire  [9:0] clear$clearing;
-    wire  [12:0] clear$deal;
+    wire  [10:0] clear$clearing;
+    wire  [16:0] clear$deal;
     
     // Local signals
     reg  [7:0] code;
@@ -2440,7 +2440,7 @@ module incircle_core_logic$slot0$core$command_port(clock,reset,capacity,built,co
         arrival = slot$arrival;
         clearing = clear$clearing;
         deal = clear$deal;
-        answers = (state$q == CommandState$Answer) & (~clear$clearing[(64'h0)+:(1)]);
+        answers = (state$q == CommandState$Answer) & (~clear$clearing[(64'h0)+:(1)]) & (~clear$clearing[(64'h1)+:(1)]);
         request = held$q;
         tally = slot$tally;
         activity[(64'h0)+:(1)] = is_inserting$q;
@@ -2544,8 +2544,8 @@ module incircle_core_logic$slot0$core$command_port$clear(clock,reset,built,taken
     input wire  reset;
     input wire  [4:0] built;
     input wire  [33:0] taken;
-    output reg  [9:0] clearing;
-    output reg  [12:0] deal;
+    output reg  [10:0] clearing;
+    output reg  [16:0] deal;
     
     // Stub signals
     reg  clears$d;
@@ -2554,9 +2554,9 @@ module incircle_core_logic$slot0$core$command_port$clear(clock,reset,built,taken
     reg  [4:0] working$d;
     wire  [4:0] working$q;
     reg  working$clock;
-    reg  batch$d;
-    wire  batch$q;
-    reg  batch$clock;
+    reg  [4:0] jobs$d;
+    wire  [4:0] jobs$q;
+    reg  jobs$clock;
     reg  [6:0] dealt$d;
     wire  [6:0] dealt$q;
     reg  dealt$clock;
@@ -2566,6 +2566,21 @@ module incircle_core_logic$slot0$core$command_port$clear(clock,reset,built,taken
     reg  [7:0] tag$d;
     wire  [7:0] tag$q;
     reg  tag$clock;
+    reg  checking$d;
+    wire  checking$q;
+    reg  checking$clock;
+    reg  [4:0] wanted$d;
+    wire  [4:0] wanted$q;
+    reg  wanted$clock;
+    reg  [6:0] wanted_jobs$d;
+    wire  [6:0] wanted_jobs$q;
+    reg  wanted_jobs$clock;
+    reg  is_batch$d;
+    wire  is_batch$q;
+    reg  is_batch$clock;
+    reg  [7:0] counted$d;
+    wire  [7:0] counted$q;
+    reg  counted$clock;
     
     // Local signals
     reg  [31:0] word;
@@ -2574,12 +2589,14 @@ module incircle_core_logic$slot0$core$command_port$clear(clock,reset,built,taken
     reg  [7:0] wide_built;
     reg  is_clear;
     reg  asks_too_much;
-    reg  [6:0] meshes;
-    reg  shares_contexts;
-    reg  is_impossible;
     reg  is_granted;
-    reg  [6:0] wide_working;
-    reg  [6:0] twice_working;
+    reg  [7:0] wide_wanted;
+    reg  [6:0] checked_jobs;
+    reg  [7:0] sum;
+    reg  is_reached;
+    reg  is_passed;
+    reg  [6:0] wide_jobs;
+    reg  [6:0] twice_jobs;
     reg  [7:0] clear_code;
     reg  [7:0] all_contexts;
     
@@ -2594,10 +2611,10 @@ module incircle_core_logic$slot0$core$command_port$clear(clock,reset,built,taken
         .q(working$q),
         .clock(working$clock)
     );
-    incircle_core_logic$slot0$core$command_port$clear$batch batch(
-        .d(batch$d),
-        .q(batch$q),
-        .clock(batch$clock)
+    incircle_core_logic$slot0$core$command_port$clear$jobs jobs(
+        .d(jobs$d),
+        .q(jobs$q),
+        .clock(jobs$clock)
     );
     incircle_core_logic$slot0$core$command_port$clear$dealt dealt(
         .d(dealt$d),
@@ -2614,64 +2631,116 @@ module incircle_core_logic$slot0$core$command_port$clear(clock,reset,built,taken
         .q(tag$q),
         .clock(tag$clock)
     );
+    incircle_core_logic$slot0$core$command_port$clear$checking checking(
+        .d(checking$d),
+        .q(checking$q),
+        .clock(checking$clock)
+    );
+    incircle_core_logic$slot0$core$command_port$clear$wanted wanted(
+        .d(wanted$d),
+        .q(wanted$q),
+        .clock(wanted$clock)
+    );
+    incircle_core_logic$slot0$core$command_port$clear$wanted_jobs wanted_jobs(
+        .d(wanted_jobs$d),
+        .q(wanted_jobs$q),
+        .clock(wanted_jobs$clock)
+    );
+    incircle_core_logic$slot0$core$command_port$clear$is_batch is_batch(
+        .d(is_batch$d),
+        .q(is_batch$q),
+        .clock(is_batch$clock)
+    );
+    incircle_core_logic$slot0$core$command_port$clear$counted counted(
+        .d(counted$d),
+        .q(counted$q),
+        .clock(counted$clock)
+    );
     
     // Update code
     always @(*) begin
         clears$clock = clock;
         working$clock = clock;
-        batch$clock = clock;
+        jobs$clock = clock;
         dealt$clock = clock;
         refusing$clock = clock;
         tag$clock = clock;
         clears$d = clears$q;
         working$d = working$q;
-        batch$d = batch$q;
+        jobs$d = jobs$q;
         dealt$d = dealt$q;
         refusing$d = refusing$q;
         tag$d = tag$q;
+        checking$clock = clock;
+        wanted$clock = clock;
+        wanted_jobs$clock = clock;
+        is_batch$clock = clock;
+        counted$clock = clock;
+        checking$d = checking$q;
+        wanted$d = wanted$q;
+        wanted_jobs$d = wanted_jobs$q;
+        is_batch$d = is_batch$q;
+        counted$d = counted$q;
         clear_code = 32'h2;
         all_contexts = 32'h0;
         clearing[(64'h0)+:(1)] = clears$q;
+        clearing[(64'h1)+:(1)] = checking$q;
+        clearing[(64'h2)+:(1)] = refusing$q;
+        clearing[(64'h3)+:(8)] = tag$q;
         deal[(64'h0)+:(5)] = working$q;
-        deal[(64'h5)+:(1)] = batch$q;
-        deal[(64'h6)+:(7)] = dealt$q;
-        clearing[(64'h1)+:(1)] = refusing$q;
-        clearing[(64'h2)+:(8)] = tag$q;
+        deal[(64'h5)+:(5)] = jobs$q;
+        deal[(64'ha)+:(7)] = dealt$q;
         word = taken[(64'h2)+:(32)];
         code = word[(32'h18)+:(8)];
         asked = word[(32'h0)+:(8)];
         wide_built = ((built) & 8'hff);
         is_clear = code == clear_code;
         asks_too_much = asked > wide_built;
-        meshes = word[(32'h9)+:(7)];
-        shares_contexts = word[32'h8] & |meshes;
-        is_impossible = asks_too_much | shares_contexts;
-        is_granted = taken[(64'h0)+:(1)] & is_clear & (~is_impossible);
-        clears$d = is_granted;
-        if (taken[(64'h0)+:(1)]) begin
-            refusing$d = is_clear & is_impossible;
-        end
         if (taken[(64'h0)+:(1)] & is_clear) begin
             tag$d = word[(32'h10)+:(8)];
         end
-        if (is_granted) begin
-            batch$d = word[32'h8];
-            working$d = word[(32'h0)+:(5)];
+        if (taken[(64'h0)+:(1)]) begin
+            refusing$d = is_clear & asks_too_much;
+            checking$d = is_clear & (~asks_too_much);
+            counted$d = 32'h0;
+            is_batch$d = word[32'h8];
+            wanted_jobs$d = word[(32'h9)+:(7)];
+            wanted$d = word[(32'h0)+:(5)];
             if (asked == all_contexts) begin
-                working$d = built;
+                wanted$d = built;
             end
         end
-        wide_working = ((working$q) & 7'h7f);
-        twice_working = wide_working + wide_working;
-        dealt$d = 32'h10;
-        if (batch$q) begin
-            dealt$d = twice_working + wide_working;
+        wide_wanted = ((wanted$q) & 8'hff);
+        checked_jobs = wanted_jobs$q;
+        if (~|wanted_jobs$q) begin
+            checked_jobs = ((wanted$q) & 7'h7f);
         end
+        if (~is_batch$q) begin
+            checked_jobs = 32'h1;
+        end
+        sum = counted$q + ((checked_jobs) & 8'hff);
+        is_reached = (sum == wide_wanted) | (~is_batch$q);
+        is_passed = sum > wide_wanted;
+        is_granted = checking$q & is_reached;
+        clears$d = is_granted;
+        if (checking$q) begin
+            counted$d = sum;
+            checking$d = (~is_reached) & (~is_passed);
+            refusing$d = (~is_reached) & is_passed;
+        end
+        if (is_granted) begin
+            working$d = wanted$q;
+            jobs$d = checked_jobs[(32'h0)+:(5)];
+        end
+        wide_jobs = ((jobs$q) & 7'h7f);
+        twice_jobs = wide_jobs + wide_jobs;
+        dealt$d = twice_jobs + wide_jobs;
         if (reset) begin
             clears$d = 1'b0;
-            batch$d = 1'b0;
+            checking$d = 1'b0;
+            jobs$d = 32'h1;
             tag$d = 32'h0;
-            dealt$d = 32'h10;
+            dealt$d = 32'h3;
             working$d = built;
         end
     end
@@ -2679,7 +2748,7 @@ module incircle_core_logic$slot0$core$command_port$clear(clock,reset,built,taken
 endmodule // incircle_core_logic$slot0$core$command_port$clear
 
 
-module incircle_core_logic$slot0$core$command_port$clear$batch(d,q,clock);
+module incircle_core_logic$slot0$core$command_port$clear$checking(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -2695,7 +2764,7 @@ module incircle_core_logic$slot0$core$command_port$clear$batch(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot0$core$command_port$clear$batch
+endmodule // incircle_core_logic$slot0$core$command_port$clear$checking
 
 
 module incircle_core_logic$slot0$core$command_port$clear$clears(d,q,clock);
@@ -2717,6 +2786,25 @@ module incircle_core_logic$slot0$core$command_port$clear$clears(d,q,clock);
 endmodule // incircle_core_logic$slot0$core$command_port$clear$clears
 
 
+module incircle_core_logic$slot0$core$command_port$clear$counted(d,q,clock);
+    
+    // Module arguments
+    input wire  [7:0] d;
+    output reg  [7:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 8'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot0$core$command_port$clear$counted
+
+
 module incircle_core_logic$slot0$core$command_port$clear$dealt(d,q,clock);
     
     // Module arguments
@@ -2734,6 +2822,44 @@ module incircle_core_logic$slot0$core$command_port$clear$dealt(d,q,clock);
     end
           
 endmodule // incircle_core_logic$slot0$core$command_port$clear$dealt
+
+
+module incircle_core_logic$slot0$core$command_port$clear$is_batch(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot0$core$command_port$clear$is_batch
+
+
+module incircle_core_logic$slot0$core$command_port$clear$jobs(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot0$core$command_port$clear$jobs
 
 
 module incircle_core_logic$slot0$core$command_port$clear$refusing(d,q,clock);
@@ -2772,6 +2898,44 @@ module incircle_core_logic$slot0$core$command_port$clear$tag(d,q,clock);
     end
           
 endmodule // incircle_core_logic$slot0$core$command_port$clear$tag
+
+
+module incircle_core_logic$slot0$core$command_port$clear$wanted(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot0$core$command_port$clear$wanted
+
+
+module incircle_core_logic$slot0$core$command_port$clear$wanted_jobs(d,q,clock);
+    
+    // Module arguments
+    input wire  [6:0] d;
+    output reg  [6:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 7'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot0$core$command_port$clear$wanted_jobs
 
 
 module incircle_core_logic$slot0$core$command_port$clear$working(d,q,clock);
@@ -6060,7 +6224,7 @@ module incircle_core_logic$slot0$core$engine(clock,reset,limits,deal,clears,arri
     input wire  clock;
     input wire  reset;
     input wire  [82:0] limits;
-    input wire  [12:0] deal;
+    input wire  [16:0] deal;
     input wire  clears;
     input wire  [47:0] arrival;
     input wire  [14:0] arrived;
@@ -6076,14 +6240,14 @@ module incircle_core_logic$slot0$core$engine(clock,reset,limits,deal,clears,arri
     reg  insertions$reset;
     reg  insertions$clears;
     reg  [82:0] insertions$limits;
-    reg  [12:0] insertions$deal;
+    reg  [16:0] insertions$deal;
     reg  [14:0] insertions$arrived;
     reg  insertions$came;
     reg  [21:0] insertions$now;
     reg  [153:0] insertions$early;
     reg  [173:0] insertions$completion;
     reg  [2:0] insertions$seed;
-    reg  [4:0] insertions$solo;
+    reg  [9:0] insertions$solo;
     wire  [94:0] insertions$follow;
     wire  [36:0] insertions$start;
     wire  insertions$looks;
@@ -6121,12 +6285,12 @@ module incircle_core_logic$slot0$core$engine(clock,reset,limits,deal,clears,arri
     reg  [173:0] solo$completion;
     wire  [93:0] solo$push;
     wire  [109:0] solo$write;
-    wire  [4:0] solo$progress;
+    wire  [9:0] solo$progress;
     reg  seeder$clock;
     reg  seeder$reset;
     reg  seeder$clears;
     reg  [14:0] seeder$infinite;
-    reg  [12:0] seeder$deal;
+    reg  [16:0] seeder$deal;
     reg  [47:0] seeder$arrival;
     reg  [14:0] seeder$arrived;
     reg  seeder$looks;
@@ -6324,14 +6488,14 @@ module incircle_core_logic$slot0$core$engine$insertions(clock,reset,clears,limit
     input wire  reset;
     input wire  clears;
     input wire  [82:0] limits;
-    input wire  [12:0] deal;
+    input wire  [16:0] deal;
     input wire  [14:0] arrived;
     input wire  came;
     input wire  [21:0] now;
     input wire  [153:0] early;
     input wire  [173:0] completion;
     input wire  [2:0] seed;
-    input wire  [4:0] solo;
+    input wire  [9:0] solo;
     output reg  [94:0] follow;
     output reg  [36:0] start;
     output reg  looks;
@@ -6352,19 +6516,21 @@ module incircle_core_logic$slot0$core$engine$insertions(clock,reset,clears,limit
     reg  dispatcher$clears;
     reg  [23:0] dispatcher$built_contexts;
     reg  [21:0] dispatcher$patience;
-    reg  [12:0] dispatcher$deal;
+    reg  [16:0] dispatcher$deal;
     reg  [14:0] dispatcher$arrived;
     reg  dispatcher$came;
     reg  [2:0] dispatcher$seed;
+    reg  [4:0] dispatcher$early_context;
+    wire  dispatcher$holds_priority;
     reg  dispatcher$is_done;
     reg  [28:0] dispatcher$outcome;
     reg  dispatcher$may_ask;
-    reg  [71:0] dispatcher$committed;
+    reg  [56:0] dispatcher$committed;
     reg  [5:0] dispatcher$released;
-    reg  [4:0] dispatcher$solo;
+    reg  [9:0] dispatcher$solo;
     wire  [36:0] dispatcher$start;
     wire  [5:0] dispatcher$fetched;
-    wire  [133:0] dispatcher$contexts;
+    wire  [145:0] dispatcher$contexts;
     wire  [35:0] dispatcher$solo_start;
     wire  dispatcher$takes_priority;
     wire  dispatcher$is_quiet;
@@ -6374,7 +6540,8 @@ module incircle_core_logic$slot0$core$engine$insertions(clock,reset,clears,limit
     reg  [153:0] attempts$early;
     reg  [173:0] attempts$completion;
     reg  attempts$seeded;
-    reg  [133:0] attempts$contexts;
+    reg  [145:0] attempts$contexts;
+    reg  attempts$holds_priority;
     reg  [36:0] attempts$start;
     reg  [21:0] attempts$now;
     wire  attempts$is_done;
@@ -6399,7 +6566,7 @@ module incircle_core_logic$slot0$core$engine$insertions(clock,reset,clears,limit
     reg  commits$seeds;
     reg  commits$solo_inserts;
     wire  [109:0] commits$write;
-    wire  [71:0] commits$committed;
+    wire  [56:0] commits$committed;
     wire  [14:0] commits$records;
     wire  [14:0] commits$fresh;
     wire  commits$is_at_work;
@@ -6409,6 +6576,7 @@ module incircle_core_logic$slot0$core$engine$insertions(clock,reset,clears,limit
     
     // Local signals
     reg  [55:0] job;
+    reg  [54:0] early_visit;
     reg  [16:0] visit_events;
     
     // Sub module instances
@@ -6422,6 +6590,8 @@ module incircle_core_logic$slot0$core$engine$insertions(clock,reset,clears,limit
         .arrived(dispatcher$arrived),
         .came(dispatcher$came),
         .seed(dispatcher$seed),
+        .early_context(dispatcher$early_context),
+        .holds_priority(dispatcher$holds_priority),
         .is_done(dispatcher$is_done),
         .outcome(dispatcher$outcome),
         .may_ask(dispatcher$may_ask),
@@ -6443,6 +6613,7 @@ module incircle_core_logic$slot0$core$engine$insertions(clock,reset,clears,limit
         .completion(attempts$completion),
         .seeded(attempts$seeded),
         .contexts(attempts$contexts),
+        .holds_priority(attempts$holds_priority),
         .start(attempts$start),
         .now(attempts$now),
         .is_done(attempts$is_done),
@@ -6493,6 +6664,7 @@ module incircle_core_logic$slot0$core$engine$insertions(clock,reset,clears,limit
         attempts$seeded = seed[(64'h0)+:(1)];
         attempts$now = now;
         attempts$contexts = dispatcher$contexts;
+        attempts$holds_priority = dispatcher$holds_priority;
         attempts$start = dispatcher$start;
         looks = attempts$looks;
         follow = attempts$follow;
@@ -6503,6 +6675,8 @@ module incircle_core_logic$slot0$core$engine$insertions(clock,reset,clears,limit
         dispatcher$came = came;
         dispatcher$seed = seed;
         dispatcher$solo = solo;
+        early_visit = early[(64'h1)+:(55)];
+        dispatcher$early_context = early_visit[(64'h0)+:(5)];
         dispatcher$is_done = attempts$is_done;
         dispatcher$outcome = attempts$outcome;
         dispatcher$may_ask = attempts$follow[(64'h1)+:(1)];
@@ -6515,7 +6689,7 @@ module incircle_core_logic$slot0$core$engine$insertions(clock,reset,clears,limit
         stuck = dispatcher$stuck;
         commits$last_id = limits[(64'h16)+:(15)];
         commits$seeds = seed[(64'h2)+:(1)];
-        commits$solo_inserts = solo[(64'h2)+:(1)];
+        commits$solo_inserts = solo[(64'h7)+:(1)];
         commits$entry = attempts$entry;
         commits$inner = attempts$inner;
         commits$lock = attempts$lock;
@@ -6527,8 +6701,8 @@ module incircle_core_logic$slot0$core$engine$insertions(clock,reset,clears,limit
         clear = commits$clear;
         sweeps = commits$sweeps;
         visit_events = attempts$events;
-        visit_events[(64'h2)+:(1)] = attempts$events[(64'h2)+:(1)] | solo[(64'h3)+:(1)];
-        visit_events[(64'h5)+:(1)] = solo[(64'h4)+:(1)];
+        visit_events[(64'h2)+:(1)] = attempts$events[(64'h2)+:(1)] | solo[(64'h8)+:(1)];
+        visit_events[(64'h5)+:(1)] = solo[(64'h9)+:(1)];
         visit_events[(64'h8)+:(1)] = dispatcher$takes_priority;
         job = commits$committed[(64'h1)+:(56)];
         events[(64'h0)+:(17)] = visit_events;
@@ -6538,8 +6712,8 @@ module incircle_core_logic$slot0$core$engine$insertions(clock,reset,clears,limit
         events[(64'h2b)+:(1)] = attempts$outcome[(64'hc)+:(1)];
         events[(64'h2e)+:(1)] = commits$is_at_work;
         events[(64'h2f)+:(1)] = commits$clear[(64'h0)+:(1)];
-        events[(64'h29)+:(1)] = solo[(64'h2)+:(1)];
-        events[(64'h2a)+:(1)] = solo[(64'h1)+:(1)] & (~solo[(64'h2)+:(1)]);
+        events[(64'h29)+:(1)] = solo[(64'h7)+:(1)];
+        events[(64'h2a)+:(1)] = solo[(64'h6)+:(1)] & (~solo[(64'h7)+:(1)]);
         events[(64'h2c)+:(1)] = 1'b0;
         events[(64'h2d)+:(1)] = 1'b0;
     end
@@ -6547,7 +6721,7 @@ module incircle_core_logic$slot0$core$engine$insertions(clock,reset,clears,limit
 endmodule // incircle_core_logic$slot0$core$engine$insertions
 
 
-module incircle_core_logic$slot0$core$engine$insertions$attempts(clock,ring_capacity,early,completion,seeded,contexts,start,now,is_done,follow,outcome,looks,entry,inner,lock,commit,releases,events);
+module incircle_core_logic$slot0$core$engine$insertions$attempts(clock,ring_capacity,early,completion,seeded,contexts,holds_priority,start,now,is_done,follow,outcome,looks,entry,inner,lock,commit,releases,events);
     
     // Module arguments
     input wire  clock;
@@ -6555,7 +6729,8 @@ module incircle_core_logic$slot0$core$engine$insertions$attempts(clock,ring_capa
     input wire  [153:0] early;
     input wire  [173:0] completion;
     input wire  seeded;
-    input wire  [133:0] contexts;
+    input wire  [145:0] contexts;
+    input wire  holds_priority;
     input wire  [36:0] start;
     input wire  [21:0] now;
     output reg  is_done;
@@ -6737,7 +6912,7 @@ module incircle_core_logic$slot0$core$engine$insertions$attempts(clock,ring_capa
         meaning$verdict = verdict;
         meaning$seeded = seeded;
         meaning$is_busy = busy[context_index];
-        meaning$holds_priority = contexts[(64'h78)+:(1)] & (contexts[(64'h79)+:(5)] == early_visit[(64'h0)+:(5)]);
+        meaning$holds_priority = holds_priority;
         meaning$drains = attempt[(64'h0)+:(1)];
         meaning$is_full = store$held[(64'h5e)+:(1)];
         is_done = meaning$found[(64'h0)+:(1)];
@@ -6822,7 +6997,7 @@ module incircle_core_logic$slot0$core$engine$insertions$attempts$aftermath(visit
         outcome[(64'h7)+:(1)] = hands_over;
         outcome[(64'h8)+:(1)] = found[(64'he)+:(1)] | found[(64'hf)+:(1)];
         outcome[(64'h9)+:(1)] = found[(64'h6)+:(1)];
-        outcome[(64'ha)+:(1)] = is_duplicate | step[(64'h1)+:(1)];
+        outcome[(64'ha)+:(1)] = is_duplicate | step[(64'h1)+:(1)] | found[(64'hd)+:(1)];
         outcome[(64'hb)+:(1)] = found[(64'hd)+:(1)];
         outcome[(64'hc)+:(1)] = is_duplicate;
         outcome[(64'hd)+:(1)] = found[(64'h2)+:(1)];
@@ -6972,7 +7147,7 @@ module incircle_core_logic$slot0$core$engine$insertions$attempts$meaning(clock,e
     reg  visits_root;
     reg  tests;
     reg  foreign;
-    reg  is_located;
+    reg  is_in_conflict;
     reg  is_corner;
     reg  is_live;
     reg  looks_again;
@@ -7114,16 +7289,16 @@ module incircle_core_logic$slot0$core$engine$insertions$attempts$meaning(clock,e
         found[(64'h2)+:(1)] = rooted$q;
         found[(64'h3)+:(1)] = tested$q;
         found[(64'h4)+:(1)] = looked$q;
-        is_located = verdict[(64'h1)+:(1)] & (~verdict[(64'h2)+:(1)]);
-        is_corner = verdict[(64'h1)+:(1)] & verdict[(64'h2)+:(1)];
-        looks_again = walk_is_torn$q | (walk_counts$q & is_located & context_is_busy$q);
-        found[(64'h7)+:(1)] = walk_counts$q & (~verdict[(64'h1)+:(1)]);
+        is_corner = verdict[(64'h2)+:(1)];
+        is_in_conflict = verdict[(64'h0)+:(1)] & (~is_corner);
+        looks_again = walk_is_torn$q | (walk_counts$q & is_in_conflict & context_is_busy$q);
+        found[(64'h7)+:(1)] = walk_counts$q & (~verdict[(64'h0)+:(1)]) & (~is_corner);
         found[(64'h10)+:(1)] = walk_counts$q & is_corner;
-        found[(64'h8)+:(1)] = walk_counts$q & is_located & (~context_is_busy$q);
+        found[(64'h8)+:(1)] = walk_counts$q & is_in_conflict & (~context_is_busy$q);
         found[(64'he)+:(1)] = root_is_refused$q;
-        found[(64'h9)+:(1)] = root_is_held$q & is_located;
+        found[(64'h9)+:(1)] = root_is_held$q & is_in_conflict;
         found[(64'h11)+:(1)] = root_is_held$q & is_corner;
-        found[(64'ha)+:(1)] = root_is_held$q & (~verdict[(64'h1)+:(1)]);
+        found[(64'ha)+:(1)] = root_is_held$q & (~verdict[(64'h0)+:(1)]) & (~is_corner);
         is_live = test_counts$q & (~drains);
         passes = is_live & verdict[(64'h0)+:(1)] & (~is_full);
         found[(64'hf)+:(1)] = test_is_refused$q & (~drains);
@@ -7133,7 +7308,7 @@ module incircle_core_logic$slot0$core$engine$insertions$attempts$meaning(clock,e
         asks_again = root_is_awaited$q | (test_is_awaited$q & (~drains));
         found[(64'h6)+:(1)] = asks_again;
         found[(64'h5)+:(1)] = looks_again | asks_again;
-        found[(64'h12)+:(1)] = walk_is_torn$q | (walk_counts$q & (~is_corner)) | (root_is_held$q & is_located) | passes | asks_again;
+        found[(64'h12)+:(1)] = walk_is_torn$q | (walk_counts$q & (~is_corner)) | (root_is_held$q & is_in_conflict) | passes | asks_again;
         found[(64'h13)+:(1)] = may_ask_anyway$q | (test_counts$q & verdict[(64'h0)+:(1)]);
     end
     
@@ -8260,7 +8435,7 @@ module incircle_core_logic$slot0$core$engine$insertions$commits(clock,reset,clea
     input wire  seeds;
     input wire  solo_inserts;
     output reg  [109:0] write;
-    output reg  [71:0] committed;
+    output reg  [56:0] committed;
     output reg  [14:0] records;
     output reg  [14:0] fresh;
     output reg  is_at_work;
@@ -8285,7 +8460,7 @@ module incircle_core_logic$slot0$core$engine$insertions$commits(clock,reset,clea
     reg  [14:0] star$fresh;
     wire  star$takes_fresh;
     wire  [109:0] star$write;
-    wire  [71:0] star$committed;
+    wire  [56:0] star$committed;
     wire  star$is_at_work;
     reg  ids$clock;
     reg  ids$reset;
@@ -11365,7 +11540,7 @@ module incircle_core_logic$slot0$core$engine$insertions$commits$star(clock,reset
     input wire  [14:0] fresh;
     output reg  takes_fresh;
     output reg  [109:0] write;
-    output reg  [71:0] committed;
+    output reg  [56:0] committed;
     output reg  is_at_work;
     
     // Stub signals
@@ -11581,7 +11756,6 @@ module incircle_core_logic$slot0$core$engine$insertions$commits$star(clock,reset
         write = request$q;
         committed[(64'h0)+:(1)] = steps$is_close;
         committed[(64'h1)+:(56)] = ring$q;
-        committed[(64'h39)+:(15)] = first$q[(64'h20)+:(15)];
         is_at_work = steps$is_at_work;
         steps$reset = reset;
         steps$head = head;
@@ -12723,7 +12897,7 @@ module incircle_core_logic$slot0$core$engine$insertions$commits$star$steps$wants
 endmodule // incircle_core_logic$slot0$core$engine$insertions$commits$star$steps$wants
 
 
-module incircle_core_logic$slot0$core$engine$insertions$dispatcher(clock,reset,clears,built_contexts,patience,deal,arrived,came,seed,is_done,outcome,may_ask,committed,released,solo,start,fetched,contexts,solo_start,takes_priority,is_quiet,stuck);
+module incircle_core_logic$slot0$core$engine$insertions$dispatcher(clock,reset,clears,built_contexts,patience,deal,arrived,came,seed,early_context,holds_priority,is_done,outcome,may_ask,committed,released,solo,start,fetched,contexts,solo_start,takes_priority,is_quiet,stuck);
     
     // Module arguments
     input wire  clock;
@@ -12731,19 +12905,21 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher(clock,reset,c
     input wire  clears;
     input wire  [23:0] built_contexts;
     input wire  [21:0] patience;
-    input wire  [12:0] deal;
+    input wire  [16:0] deal;
     input wire  [14:0] arrived;
     input wire  came;
     input wire  [2:0] seed;
+    input wire  [4:0] early_context;
+    output reg  holds_priority;
     input wire  is_done;
     input wire  [28:0] outcome;
     input wire  may_ask;
-    input wire  [71:0] committed;
+    input wire  [56:0] committed;
     input wire  [5:0] released;
-    input wire  [4:0] solo;
+    input wire  [9:0] solo;
     output reg  [36:0] start;
     output reg  [5:0] fetched;
-    output reg  [133:0] contexts;
+    output reg  [145:0] contexts;
     output reg  [35:0] solo_start;
     output reg  takes_priority;
     output reg  is_quiet;
@@ -12772,23 +12948,33 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher(clock,reset,c
     reg  [28:0] flags$outcome;
     reg  [36:0] flags$start;
     reg  [5:0] flags$released;
-    reg  [71:0] flags$committed;
+    reg  [56:0] flags$committed;
     reg  flags$solo_ends;
-    wire  [133:0] flags$contexts;
-    wire  flags$takes_priority;
+    reg  [4:0] flags$solo_context;
+    wire  [145:0] flags$contexts;
+    reg  priorities$clock;
+    reg  [10:0] priorities$planned;
+    reg  [4:0] priorities$early_context;
+    wire  priorities$holds_priority;
+    reg  [28:0] priorities$outcome;
+    wire  priorities$takes_priority;
+    reg  [34:0] priorities$passed;
+    wire  priorities$may_retry;
     reg  starter$clock;
     reg  starter$reset;
     reg  starter$clears;
-    reg  [12:0] starter$deal;
+    reg  [16:0] starter$deal;
     reg  [14:0] starter$arrived;
     reg  starter$came;
     reg  starter$seeded;
-    reg  [133:0] starter$contexts;
+    reg  [145:0] starter$contexts;
+    reg  starter$may_retry;
     reg  starter$solo_is_at_work;
     reg  starter$is_done;
     reg  starter$is_blocked;
     reg  [28:0] starter$outcome;
-    reg  [71:0] starter$committed;
+    wire  [10:0] starter$planned;
+    wire  [34:0] starter$passed;
     wire  [36:0] starter$start;
     wire  [35:0] starter$solo_start;
     reg  finished_points$clock;
@@ -12846,8 +13032,18 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher(clock,reset,c
         .released(flags$released),
         .committed(flags$committed),
         .solo_ends(flags$solo_ends),
-        .contexts(flags$contexts),
-        .takes_priority(flags$takes_priority)
+        .solo_context(flags$solo_context),
+        .contexts(flags$contexts)
+    );
+    incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities priorities(
+        .clock(priorities$clock),
+        .planned(priorities$planned),
+        .early_context(priorities$early_context),
+        .holds_priority(priorities$holds_priority),
+        .outcome(priorities$outcome),
+        .takes_priority(priorities$takes_priority),
+        .passed(priorities$passed),
+        .may_retry(priorities$may_retry)
     );
     incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter starter(
         .clock(starter$clock),
@@ -12858,11 +13054,13 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher(clock,reset,c
         .came(starter$came),
         .seeded(starter$seeded),
         .contexts(starter$contexts),
+        .may_retry(starter$may_retry),
         .solo_is_at_work(starter$solo_is_at_work),
         .is_done(starter$is_done),
         .is_blocked(starter$is_blocked),
         .outcome(starter$outcome),
-        .committed(starter$committed),
+        .planned(starter$planned),
+        .passed(starter$passed),
         .start(starter$start),
         .solo_start(starter$solo_start)
     );
@@ -12902,6 +13100,7 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher(clock,reset,c
         taker1$d = taker1$q;
         taker2$d = taker2$q;
         flags$clock = clock;
+        priorities$clock = clock;
         starter$clock = clock;
         finished_points$clock = clock;
         watchdog$clock = clock;
@@ -12928,9 +13127,16 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher(clock,reset,c
         flags$start = starter$start;
         flags$released = released;
         flags$committed = committed;
-        flags$solo_ends = solo[(64'h1)+:(1)];
+        flags$solo_ends = solo[(64'h6)+:(1)];
+        flags$solo_context = solo[(64'h1)+:(5)];
         contexts = flags$contexts;
-        takes_priority = flags$takes_priority;
+        priorities$planned = starter$planned;
+        priorities$early_context = early_context;
+        priorities$outcome = found$q;
+        priorities$passed = starter$passed;
+        holds_priority = priorities$holds_priority;
+        takes_priority = priorities$takes_priority;
+        starter$may_retry = priorities$may_retry;
         starter$deal = deal;
         starter$arrived = arrived;
         starter$came = came;
@@ -12940,7 +13146,6 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher(clock,reset,c
         starter$is_done = is_done;
         starter$is_blocked = may_ask;
         starter$outcome = found$q;
-        starter$committed = committed;
         start = starter$start;
         solo_start = starter$solo_start;
         taken1$d = starter$start[(64'h15)+:(1)] & (~reset);
@@ -12952,10 +13157,10 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher(clock,reset,c
         finished_points$arrived = arrived;
         finished_points$seeds = seed[(64'h2)+:(1)];
         finished_points$commit_ends = committed[(64'h0)+:(1)];
-        finished_points$solo_ends = solo[(64'h1)+:(1)];
+        finished_points$solo_ends = solo[(64'h6)+:(1)];
         finished_points$duplicate = found$q[(64'hc)+:(1)];
         finished_points$has_no_start = seed[(64'h1)+:(1)];
-        finished_points$all_rest = flags$contexts[(64'h85)+:(1)];
+        finished_points$all_rest = flags$contexts[(64'h91)+:(1)];
         is_quiet = finished_points$is_quiet;
         watchdog$patience = patience;
         watchdog$finishes = finished_points$finishes;
@@ -13107,7 +13312,7 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher$finished_poin
 endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$finished_points$more
 
 
-module incircle_core_logic$slot0$core$engine$insertions$dispatcher$flags(clock,reset,clears,built_contexts,outcome,start,released,committed,solo_ends,contexts,takes_priority);
+module incircle_core_logic$slot0$core$engine$insertions$dispatcher$flags(clock,reset,clears,built_contexts,outcome,start,released,committed,solo_ends,solo_context,contexts);
     
     // Module arguments
     input wire  clock;
@@ -13117,18 +13322,15 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher$flags(clock,r
     input wire  [28:0] outcome;
     input wire  [36:0] start;
     input wire  [5:0] released;
-    input wire  [71:0] committed;
+    input wire  [56:0] committed;
     input wire  solo_ends;
-    output reg  [133:0] contexts;
-    output reg  takes_priority;
+    input wire  [4:0] solo_context;
+    output reg  [145:0] contexts;
     
     // Stub signals
-    reg  [133:0] state$d;
-    wire  [133:0] state$q;
+    reg  [145:0] state$d;
+    wire  [145:0] state$q;
     reg  state$clock;
-    reg  [3:0] waited$d;
-    wire  [3:0] waited$q;
-    reg  waited$clock;
     
     // Local signals
     reg  [55:0] job;
@@ -13151,10 +13353,8 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher$flags(clock,r
     reg  [23:0] freed;
     reg  [23:0] had_commit;
     reg  [23:0] solo_ended;
-    reg  takes;
-    reg  is_holder;
-    reg  has_waited_long;
-    reg  [3:0] one_wait;
+    reg  [23:0] overflowed;
+    reg  [23:0] asking;
     reg  [23:0] one;
     reg  [23:0] none;
     
@@ -13164,31 +13364,23 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher$flags(clock,r
         .q(state$q),
         .clock(state$clock)
     );
-    incircle_core_logic$slot0$core$engine$insertions$dispatcher$flags$waited waited(
-        .d(waited$d),
-        .q(waited$q),
-        .clock(waited$clock)
-    );
     
     // Update code
     always @(*) begin
         state$clock = clock;
-        waited$clock = clock;
         state$d = state$q;
-        waited$d = waited$q;
         one = 32'h1;
         none = 32'h0;
-        one_wait = 32'h1;
         contexts = state$q;
         sleeping = state$q[(64'h0)+:(24)];
         due = state$q[(64'h30)+:(24)];
         job = committed[(64'h1)+:(56)];
-        state$d[(64'h85)+:(1)] = (sleeping == built_contexts) & (due == none) & (~start[(64'h0)+:(1)]);
+        state$d[(64'h91)+:(1)] = (sleeping == built_contexts) & (due == none) & (~start[(64'h0)+:(1)]);
         wide_context = ((outcome[(64'h0)+:(5)]) & 24'hffffff);
         wide_starter = ((start[(64'h1)+:(5)]) & 24'hffffff);
         wide_released = ((released[(64'h1)+:(5)]) & 24'hffffff);
         wide_commit = ((job[(64'h0)+:(5)]) & 24'hffffff);
-        wide_solo = ((state$q[(64'h80)+:(5)]) & 24'hffffff);
+        wide_solo = ((solo_context) & 24'hffffff);
         context_bit = one << wide_context;
         starter_bit = one << wide_starter;
         released_bit = one << wide_released;
@@ -13201,6 +13393,7 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher$flags(clock,r
         freed = 32'h0;
         had_commit = 32'h0;
         solo_ended = 32'h0;
+        overflowed = 32'h0;
         if (outcome[(64'h5)+:(1)]) begin
             falls_asleep = context_bit & built_contexts;
         end
@@ -13209,6 +13402,9 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher$flags(clock,r
         end
         if (outcome[(64'h7)+:(1)]) begin
             becomes_due = context_bit & built_contexts;
+        end
+        if (outcome[(64'hb)+:(1)]) begin
+            overflowed = context_bit & built_contexts;
         end
         if (start[(64'h0)+:(1)]) begin
             starting = starter_bit & built_contexts;
@@ -13227,40 +13423,18 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher$flags(clock,r
         state$d[(64'h30)+:(24)] = (due | becomes_due) & (~freed);
         state$d[(64'h48)+:(24)] = state$q[(64'h48)+:(24)] | starting;
         state$d[(64'h60)+:(24)] = state$q[(64'h60)+:(24)] | had_commit;
-        takes = outcome[(64'h8)+:(1)] & (~state$q[(64'h78)+:(1)]);
-        takes_priority = takes;
-        is_holder = (outcome[(64'ha)+:(1)] & (state$q[(64'h79)+:(5)] == outcome[(64'h0)+:(5)])) | (solo_ends & (state$q[(64'h79)+:(5)] == state$q[(64'h80)+:(5)]));
-        if (takes) begin
-            state$d[(64'h78)+:(1)] = 1'b1;
-            state$d[(64'h79)+:(5)] = outcome[(64'h0)+:(5)];
-        end
-        has_waited_long = waited$q[32'h3];
-        contexts[(64'h7e)+:(1)] = state$q[(64'h78)+:(1)] & has_waited_long;
-        if (outcome[(64'h9)+:(1)] & (~has_waited_long)) begin
-            waited$d = waited$q + one_wait;
-        end
-        if (takes) begin
-            waited$d = 32'h0;
-        end
-        if (is_holder) begin
-            state$d[(64'h78)+:(1)] = 1'b0;
-        end
-        if (outcome[(64'hb)+:(1)] & (~state$q[(64'h7f)+:(1)])) begin
-            state$d[(64'h7f)+:(1)] = 1'b1;
-            state$d[(64'h80)+:(5)] = outcome[(64'h0)+:(5)];
-        end
-        if (solo_ends) begin
-            state$d[(64'h7f)+:(1)] = 1'b0;
-        end
+        asking = (state$q[(64'h78)+:(24)] | overflowed) & (~solo_ended);
+        state$d[(64'h78)+:(24)] = asking;
+        state$d[(64'h90)+:(1)] = |asking;
         if (reset | clears) begin
             state$d[(64'h0)+:(24)] = built_contexts;
             state$d[(64'h18)+:(24)] = 32'h0;
             state$d[(64'h30)+:(24)] = 32'h0;
             state$d[(64'h48)+:(24)] = 32'h0;
             state$d[(64'h60)+:(24)] = 32'h0;
-            state$d[(64'h78)+:(1)] = 1'b0;
-            state$d[(64'h7f)+:(1)] = 1'b0;
-            state$d[(64'h85)+:(1)] = 1'b0;
+            state$d[(64'h78)+:(24)] = 32'h0;
+            state$d[(64'h90)+:(1)] = 1'b0;
+            state$d[(64'h91)+:(1)] = 1'b0;
         end
     end
     
@@ -13270,13 +13444,13 @@ endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$flags
 module incircle_core_logic$slot0$core$engine$insertions$dispatcher$flags$state(d,q,clock);
     
     // Module arguments
-    input wire  [133:0] d;
-    output reg  [133:0] q;
+    input wire  [145:0] d;
+    output reg  [145:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 134'h0;
+       q = 146'h0;
     end
     
     always @(posedge clock) begin
@@ -13284,25 +13458,6 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher$flags$state(d
     end
           
 endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$flags$state
-
-
-module incircle_core_logic$slot0$core$engine$insertions$dispatcher$flags$waited(d,q,clock);
-    
-    // Module arguments
-    input wire  [3:0] d;
-    output reg  [3:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 4'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$flags$waited
 
 
 module incircle_core_logic$slot0$core$engine$insertions$dispatcher$found(d,q,clock);
@@ -13324,34 +13479,380 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher$found(d,q,clo
 endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$found
 
 
-module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter(clock,reset,clears,deal,arrived,came,seeded,contexts,solo_is_at_work,is_done,is_blocked,outcome,committed,start,solo_start);
+module incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities(clock,planned,early_context,holds_priority,outcome,takes_priority,passed,may_retry);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [10:0] planned;
+    input wire  [4:0] early_context;
+    output reg  holds_priority;
+    input wire  [28:0] outcome;
+    output reg  takes_priority;
+    input wire  [34:0] passed;
+    output reg  may_retry;
+    
+    // Stub signals
+    reg  [4:0] early_team$d;
+    wire  [4:0] early_team$q;
+    reg  early_team$clock;
+    reg  [4:0] team$d;
+    wire  [4:0] team$q;
+    reg  team$clock;
+    reg  teams$clock;
+    reg  [4:0] teams$write_address;
+    reg  [4:0] teams$write_data;
+    reg  teams$write_enable;
+    reg  [4:0] teams$read_address;
+    wire  [4:0] teams$read_data;
+    reg  of_early$clock;
+    reg  [4:0] of_early$write_address;
+    reg  [9:0] of_early$write_data;
+    reg  of_early$write_enable;
+    reg  [4:0] of_early$read_address;
+    wire  [9:0] of_early$read_data;
+    reg  of_outcome$clock;
+    reg  [4:0] of_outcome$write_address;
+    reg  [9:0] of_outcome$write_data;
+    reg  of_outcome$write_enable;
+    reg  [4:0] of_outcome$read_address;
+    wire  [9:0] of_outcome$read_data;
+    reg  of_passed$clock;
+    reg  [4:0] of_passed$write_address;
+    reg  [9:0] of_passed$write_data;
+    reg  of_passed$write_enable;
+    reg  [4:0] of_passed$read_address;
+    wire  [9:0] of_passed$read_data;
+    reg  [9:0] early$bits;
+    wire  [9:0] early$value;
+    reg  [9:0] held$bits;
+    wire  [9:0] held$value;
+    reg  [9:0] barring$bits;
+    wire  [9:0] barring$value;
+    
+    // Local signals
+    reg  [9:0] changed;
+    reg  [9:0] written;
+    reg  [4:0] written_team;
+    reg  writes;
+    reg  [3:0] waits;
+    reg  [3:0] other_waits;
+    reg  [3:0] one;
+    reg  takes;
+    reg  returns;
+    reg  is_barred;
+    
+    // Sub module instances
+    incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities$early_team early_team(
+        .d(early_team$d),
+        .q(early_team$q),
+        .clock(early_team$clock)
+    );
+    incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities$team team(
+        .d(team$d),
+        .q(team$q),
+        .clock(team$clock)
+    );
+    incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities$teams teams(
+        .clock(teams$clock),
+        .write_address(teams$write_address),
+        .write_data(teams$write_data),
+        .write_enable(teams$write_enable),
+        .read_address(teams$read_address),
+        .read_data(teams$read_data)
+    );
+    incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities$of_early of_early(
+        .clock(of_early$clock),
+        .write_address(of_early$write_address),
+        .write_data(of_early$write_data),
+        .write_enable(of_early$write_enable),
+        .read_address(of_early$read_address),
+        .read_data(of_early$read_data)
+    );
+    incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities$of_outcome of_outcome(
+        .clock(of_outcome$clock),
+        .write_address(of_outcome$write_address),
+        .write_data(of_outcome$write_data),
+        .write_enable(of_outcome$write_enable),
+        .read_address(of_outcome$read_address),
+        .read_data(of_outcome$read_data)
+    );
+    incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities$of_passed of_passed(
+        .clock(of_passed$clock),
+        .write_address(of_passed$write_address),
+        .write_data(of_passed$write_data),
+        .write_enable(of_passed$write_enable),
+        .read_address(of_passed$read_address),
+        .read_data(of_passed$read_data)
+    );
+    incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities$early early(
+        .bits(early$bits),
+        .value(early$value)
+    );
+    incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities$held held(
+        .bits(held$bits),
+        .value(held$value)
+    );
+    incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities$barring barring(
+        .bits(barring$bits),
+        .value(barring$value)
+    );
+    
+    // Update code
+    always @(*) begin
+        early_team$clock = clock;
+        team$clock = clock;
+        early_team$d = early_team$q;
+        team$d = team$q;
+        teams$clock = clock;
+        of_early$clock = clock;
+        of_outcome$clock = clock;
+        of_passed$clock = clock;
+        one = 32'h1;
+        teams$write_address = planned[(64'h1)+:(5)];
+        teams$write_data = planned[(64'h6)+:(5)];
+        teams$write_enable = planned[(64'h0)+:(1)];
+        teams$read_address = early_context;
+        early_team$d = teams$read_data;
+        team$d = early_team$q;
+        of_early$read_address = teams$read_data;
+        early$bits = of_early$read_data;
+        holds_priority = early$value[(64'h0)+:(1)] & (early$value[(64'h1)+:(5)] == early_context);
+        of_outcome$read_address = team$q;
+        held$bits = of_outcome$read_data;
+        waits = held$value[(64'h6)+:(4)];
+        takes = outcome[(64'h8)+:(1)] & (~held$value[(64'h0)+:(1)]);
+        takes_priority = takes;
+        returns = outcome[(64'ha)+:(1)] & held$value[(64'h0)+:(1)] & (held$value[(64'h1)+:(5)] == outcome[(64'h0)+:(5)]);
+        changed = held$value;
+        if (outcome[(64'h9)+:(1)] & (~waits[32'h3])) begin
+            changed[(64'h6)+:(4)] = waits + one;
+        end
+        if (takes) begin
+            changed[(64'h0)+:(1)] = 1'b1;
+            changed[(64'h1)+:(5)] = outcome[(64'h0)+:(5)];
+            changed[(64'h6)+:(4)] = 32'h0;
+        end
+        written_team = team$q;
+        if (planned[(64'h0)+:(1)]) begin
+            written_team = planned[(64'h6)+:(5)];
+        end
+        if (planned[(64'h0)+:(1)] | returns) begin
+            changed[(64'h0)+:(1)] = 1'b0;
+        end
+        writes = planned[(64'h0)+:(1)] | takes | returns | outcome[(64'h9)+:(1)];
+        of_passed$read_address = passed[(64'h5)+:(5)];
+        barring$bits = of_passed$read_data;
+        other_waits = barring$value[(64'h6)+:(4)];
+        is_barred = barring$value[(64'h0)+:(1)] & other_waits[32'h3] & (barring$value[(64'h1)+:(5)] != passed[(64'h0)+:(5)]);
+        may_retry = ~is_barred;
+        written = changed;
+        of_early$write_address = written_team;
+        of_early$write_data = written;
+        of_early$write_enable = writes;
+        of_outcome$write_address = written_team;
+        of_outcome$write_data = written;
+        of_outcome$write_enable = writes;
+        of_passed$write_address = written_team;
+        of_passed$write_data = written;
+        of_passed$write_enable = writes;
+    end
+    
+endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities
+
+
+module incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities$barring(bits,value);
+    
+    // Module arguments
+    input wire  [9:0] bits;
+    output reg  [9:0] value;
+    
+    // Update code (custom)
+    always @(*) value = bits;
+endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities$barring
+
+
+module incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities$early(bits,value);
+    
+    // Module arguments
+    input wire  [9:0] bits;
+    output reg  [9:0] value;
+    
+    // Update code (custom)
+    always @(*) value = bits;
+endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities$early
+
+
+module incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities$early_team(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities$early_team
+
+
+module incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities$held(bits,value);
+    
+    // Module arguments
+    input wire  [9:0] bits;
+    output reg  [9:0] value;
+    
+    // Update code (custom)
+    always @(*) value = bits;
+endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities$held
+
+
+module incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities$of_early(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [4:0] write_address;
+    input wire  [9:0] write_data;
+    input wire  write_enable;
+    input wire  [4:0] read_address;
+    output reg  [9:0] read_data;
+    
+    // Update code (custom)
+    wire unused_write_address = &{1'b0, write_address[4:4]};
+    wire unused_read_address = &{1'b0, read_address[4:4]};
+    (* ram_style = "distributed" *)
+    reg [9:0] memory [0:15];
+    wire [9:0] word = memory[read_address[3:0]];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address[3:0]] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities$of_early
+
+
+module incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities$of_outcome(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [4:0] write_address;
+    input wire  [9:0] write_data;
+    input wire  write_enable;
+    input wire  [4:0] read_address;
+    output reg  [9:0] read_data;
+    
+    // Update code (custom)
+    wire unused_write_address = &{1'b0, write_address[4:4]};
+    wire unused_read_address = &{1'b0, read_address[4:4]};
+    (* ram_style = "distributed" *)
+    reg [9:0] memory [0:15];
+    wire [9:0] word = memory[read_address[3:0]];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address[3:0]] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities$of_outcome
+
+
+module incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities$of_passed(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [4:0] write_address;
+    input wire  [9:0] write_data;
+    input wire  write_enable;
+    input wire  [4:0] read_address;
+    output reg  [9:0] read_data;
+    
+    // Update code (custom)
+    wire unused_write_address = &{1'b0, write_address[4:4]};
+    wire unused_read_address = &{1'b0, read_address[4:4]};
+    (* ram_style = "distributed" *)
+    reg [9:0] memory [0:15];
+    wire [9:0] word = memory[read_address[3:0]];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address[3:0]] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities$of_passed
+
+
+module incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities$team(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities$team
+
+
+module incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities$teams(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [4:0] write_address;
+    input wire  [4:0] write_data;
+    input wire  write_enable;
+    input wire  [4:0] read_address;
+    output reg  [4:0] read_data;
+    
+    // Update code (custom)
+    wire unused_write_address = &{1'b0, write_address[4:4]};
+    wire unused_read_address = &{1'b0, read_address[4:4]};
+    (* ram_style = "distributed" *)
+    reg [4:0] memory [0:15];
+    wire [4:0] word = memory[read_address[3:0]];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address[3:0]] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$priorities$teams
+
+
+module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter(clock,reset,clears,deal,arrived,came,seeded,contexts,may_retry,solo_is_at_work,is_done,is_blocked,outcome,planned,passed,start,solo_start);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  clears;
-    input wire  [12:0] deal;
+    input wire  [16:0] deal;
     input wire  [14:0] arrived;
     input wire  came;
     input wire  seeded;
-    input wire  [133:0] contexts;
+    input wire  [145:0] contexts;
+    input wire  may_retry;
     input wire  solo_is_at_work;
     input wire  is_done;
     input wire  is_blocked;
     input wire  [28:0] outcome;
-    input wire  [71:0] committed;
+    output reg  [10:0] planned;
+    output reg  [34:0] passed;
     output reg  [36:0] start;
     output reg  [35:0] solo_start;
     
     // Stub signals
-    reg  [27:0] passed$d;
-    wire  [27:0] passed$q;
-    reg  passed$clock;
-    reg  [14:0] passed_point$d;
-    wire  [14:0] passed_point$q;
-    reg  passed_point$clock;
-    reg  [66:0] candidate$d;
-    wire  [66:0] candidate$q;
+    reg  [34:0] left$d;
+    wire  [34:0] left$q;
+    reg  left$clock;
+    reg  [14:0] left_point$d;
+    wire  [14:0] left_point$q;
+    reg  left_point$clock;
+    reg  [71:0] candidate$d;
+    wire  [71:0] candidate$q;
     reg  candidate$clock;
     reg  wants_again$d;
     wire  wants_again$q;
@@ -13359,9 +13860,12 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter(clock
     reg  wants_new$d;
     wire  wants_new$q;
     reg  wants_new$clock;
-    reg  all_work$d;
-    wire  all_work$q;
-    reg  all_work$clock;
+    reg  teams$clock;
+    reg  [10:0] teams$planned;
+    reg  teams$opens;
+    reg  [4:0] teams$opened;
+    reg  [4:0] teams$asked;
+    wire  teams$is_open;
     reg  points$clock;
     reg  [4:0] points$write_address;
     reg  [14:0] points$write_data;
@@ -13374,61 +13878,56 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter(clock
     reg  roots$write_enable;
     reg  [4:0] roots$read_address;
     wire  [14:0] roots$read_data;
-    reg  hints$clock;
-    reg  [4:0] hints$write_address;
-    reg  [14:0] hints$write_data;
-    reg  hints$write_enable;
-    reg  [4:0] hints$read_address;
-    wire  [14:0] hints$read_data;
     reg  pointer$clock;
     reg  pointer$restarts;
-    reg  [4:0] pointer$contexts;
+    reg  [16:0] pointer$deal;
     reg  pointer$moves;
-    wire  [11:0] pointer$pointer;
+    wire  [17:0] pointer$pointer;
     wire  pointer$is_planned;
+    wire  [10:0] pointer$planned;
     wire  pointer$rests_over;
     reg  plans$clock;
-    reg  [12:0] plans$deal;
-    reg  [11:0] plans$pointer;
+    reg  [16:0] plans$deal;
+    reg  [17:0] plans$pointer;
     reg  plans$is_planned;
-    wire  [15:0] plans$due;
-    wire  [6:0] plans$first_dealt;
-    reg  [27:0] plans$passed;
-    wire  [30:0] plans$following;
+    wire  [34:0] plans$shown;
+    reg  [34:0] plans$passed;
+    wire  [29:0] plans$following;
     reg  [20:0] plans$write;
-    reg  [133:0] check$contexts;
-    reg  [27:0] check$passed;
+    reg  [145:0] check$contexts;
+    reg  [34:0] check$passed;
     reg  [14:0] check$arrived;
     reg  check$seeded;
     reg  check$is_planned;
     reg  check$rests_over;
-    reg  check$all_work;
+    reg  check$is_open;
+    reg  check$may_retry;
     reg  check$may_be_starting;
     wire  check$wants_again;
     wire  check$wants_new;
-    wire  check$tries_again;
-    wire  check$is_hinted;
+    wire  check$has_root;
     
     // Local signals
-    reg  [55:0] job;
     reg  [4:0] contexts_at_work;
     reg  wants;
     reg  lacks_port;
     reg  begins;
     reg  moves;
     reg  is_taken;
+    reg  [23:0] solo;
+    reg  [4:0] index;
     reg  [4:0] one_turn;
     
     // Sub module instances
-    incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$passed passed(
-        .d(passed$d),
-        .q(passed$q),
-        .clock(passed$clock)
+    incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$left left(
+        .d(left$d),
+        .q(left$q),
+        .clock(left$clock)
     );
-    incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$passed_point passed_point(
-        .d(passed_point$d),
-        .q(passed_point$q),
-        .clock(passed_point$clock)
+    incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$left_point left_point(
+        .d(left_point$d),
+        .q(left_point$q),
+        .clock(left_point$clock)
     );
     incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$candidate candidate(
         .d(candidate$d),
@@ -13445,10 +13944,13 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter(clock
         .q(wants_new$q),
         .clock(wants_new$clock)
     );
-    incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$all_work all_work(
-        .d(all_work$d),
-        .q(all_work$q),
-        .clock(all_work$clock)
+    incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$teams teams(
+        .clock(teams$clock),
+        .planned(teams$planned),
+        .opens(teams$opens),
+        .opened(teams$opened),
+        .asked(teams$asked),
+        .is_open(teams$is_open)
     );
     incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$points points(
         .clock(points$clock),
@@ -13466,21 +13968,14 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter(clock
         .read_address(roots$read_address),
         .read_data(roots$read_data)
     );
-    incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$hints hints(
-        .clock(hints$clock),
-        .write_address(hints$write_address),
-        .write_data(hints$write_data),
-        .write_enable(hints$write_enable),
-        .read_address(hints$read_address),
-        .read_data(hints$read_data)
-    );
     incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$pointer pointer(
         .clock(pointer$clock),
         .restarts(pointer$restarts),
-        .contexts(pointer$contexts),
+        .deal(pointer$deal),
         .moves(pointer$moves),
         .pointer(pointer$pointer),
         .is_planned(pointer$is_planned),
+        .planned(pointer$planned),
         .rests_over(pointer$rests_over)
     );
     incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$plans plans(
@@ -13488,8 +13983,7 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter(clock
         .deal(plans$deal),
         .pointer(plans$pointer),
         .is_planned(plans$is_planned),
-        .due(plans$due),
-        .first_dealt(plans$first_dealt),
+        .shown(plans$shown),
         .passed(plans$passed),
         .following(plans$following),
         .write(plans$write)
@@ -13501,53 +13995,57 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter(clock
         .seeded(check$seeded),
         .is_planned(check$is_planned),
         .rests_over(check$rests_over),
-        .all_work(check$all_work),
+        .is_open(check$is_open),
+        .may_retry(check$may_retry),
         .may_be_starting(check$may_be_starting),
         .wants_again(check$wants_again),
         .wants_new(check$wants_new),
-        .tries_again(check$tries_again),
-        .is_hinted(check$is_hinted)
+        .has_root(check$has_root)
     );
     
     // Update code
     always @(*) begin
-        passed$clock = clock;
-        passed_point$clock = clock;
+        left$clock = clock;
+        left_point$clock = clock;
         candidate$clock = clock;
         wants_again$clock = clock;
         wants_new$clock = clock;
-        all_work$clock = clock;
-        passed$d = passed$q;
-        passed_point$d = passed_point$q;
+        left$d = left$q;
+        left_point$d = left_point$q;
         candidate$d = candidate$q;
         wants_again$d = wants_again$q;
         wants_new$d = wants_new$q;
-        all_work$d = all_work$q;
         points$clock = clock;
         pointer$clock = clock;
         plans$clock = clock;
         roots$clock = clock;
-        hints$clock = clock;
+        teams$clock = clock;
         one_turn = 32'h1;
         contexts_at_work = deal[(64'h0)+:(5)];
+        solo = contexts[(64'h78)+:(24)];
+        index = left$q[(64'h0)+:(5)];
         points$read_address = pointer$pointer[(64'h0)+:(5)];
         plans$pointer = pointer$pointer;
         plans$is_planned = pointer$is_planned;
-        plans$passed = passed$q;
+        plans$passed = left$q;
         plans$deal = deal;
         pointer$restarts = reset | clears;
-        pointer$contexts = contexts_at_work;
+        pointer$deal = deal;
+        planned = pointer$planned;
+        teams$planned = pointer$planned;
+        passed = left$q;
         check$contexts = contexts;
-        check$passed = passed$q;
+        check$passed = left$q;
         check$arrived = arrived;
         check$seeded = seeded;
         check$is_planned = pointer$is_planned;
         check$rests_over = pointer$rests_over;
-        check$all_work = all_work$q;
+        teams$asked = left$q[(64'h5)+:(5)];
+        check$is_open = teams$is_open;
+        check$may_retry = may_retry;
         check$may_be_starting = (wants_again$q | wants_new$q) & (contexts_at_work == one_turn);
-        roots$read_address = passed$q[(64'h0)+:(5)];
-        hints$read_address = passed$q[(64'h0)+:(5)];
-        wants = (wants_again$q | wants_new$q) & (~contexts[(64'h7f)+:(1)]);
+        roots$read_address = left$q[(64'h0)+:(5)];
+        wants = (wants_again$q | wants_new$q) & (~contexts[(64'h90)+:(1)]);
         lacks_port = wants_new$q & came;
         moves = ~(wants & (is_done | lacks_port));
         pointer$moves = moves;
@@ -13555,95 +14053,65 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter(clock
         is_taken = wants_new$q & begins;
         start[(64'h0)+:(1)] = begins;
         start[(64'h1)+:(5)] = candidate$q[(64'h0)+:(5)];
-        start[(64'h6)+:(15)] = candidate$q[(64'h33)+:(15)];
+        start[(64'h6)+:(15)] = candidate$q[(64'h38)+:(15)];
         start[(64'h15)+:(1)] = is_taken;
-        start[(64'h16)+:(15)] = candidate$q[(64'h5)+:(15)];
-        solo_start[(64'h0)+:(1)] = contexts[(64'h7f)+:(1)] & contexts[(64'h85)+:(1)] & (~solo_is_at_work) & candidate$q[(64'h42)+:(1)];
-        solo_start[(64'h1)+:(5)] = contexts[(64'h80)+:(5)];
-        solo_start[(64'h6)+:(15)] = candidate$q[(64'h24)+:(15)];
-        solo_start[(64'h15)+:(15)] = candidate$q[(64'h33)+:(15)];
+        start[(64'h16)+:(15)] = candidate$q[(64'ha)+:(15)];
+        solo_start[(64'h0)+:(1)] = contexts[(64'h91)+:(1)] & (~solo_is_at_work) & candidate$q[(64'h47)+:(1)];
+        solo_start[(64'h1)+:(5)] = candidate$q[(64'h0)+:(5)];
+        solo_start[(64'h6)+:(15)] = candidate$q[(64'h29)+:(15)];
+        solo_start[(64'h15)+:(15)] = candidate$q[(64'h38)+:(15)];
         points$write_address = candidate$q[(64'h0)+:(5)];
-        points$write_data = candidate$q[(64'h5)+:(15)];
+        points$write_data = candidate$q[(64'ha)+:(15)];
         points$write_enable = is_taken;
         plans$write[(64'h0)+:(1)] = is_taken;
         plans$write[(64'h1)+:(5)] = candidate$q[(64'h0)+:(5)];
-        plans$write[(64'h6)+:(15)] = candidate$q[(64'h15)+:(15)];
+        plans$write[(64'h6)+:(15)] = candidate$q[(64'h1a)+:(15)];
         roots$write_address = outcome[(64'h0)+:(5)];
         roots$write_data = outcome[(64'he)+:(15)];
         roots$write_enable = outcome[(64'hd)+:(1)];
-        job = committed[(64'h1)+:(56)];
-        hints$write_address = job[(64'h0)+:(5)];
-        hints$write_data = committed[(64'h39)+:(15)];
-        hints$write_enable = committed[(64'h0)+:(1)];
-        if (is_taken & candidate$q[(64'h14)+:(1)]) begin
-            all_work$d = 1'b1;
-        end
+        teams$opens = is_taken & candidate$q[(64'h19)+:(1)];
+        teams$opened = candidate$q[(64'h5)+:(5)];
         if (begins) begin
             wants_again$d = 1'b0;
             wants_new$d = 1'b0;
         end
         if (moves) begin
-            candidate$d[(64'h0)+:(5)] = passed$q[(64'h0)+:(5)];
-            candidate$d[(64'h5)+:(15)] = passed$q[(64'h5)+:(15)];
-            candidate$d[(64'h14)+:(1)] = plans$following[(64'h0)+:(1)];
-            candidate$d[(64'h15)+:(15)] = plans$following[(64'h1)+:(15)];
-            candidate$d[(64'h24)+:(15)] = passed_point$q;
+            candidate$d[(64'h0)+:(5)] = left$q[(64'h0)+:(5)];
+            candidate$d[(64'ha)+:(15)] = left$q[(64'hb)+:(15)];
+            candidate$d[(64'h5)+:(5)] = left$q[(64'h5)+:(5)];
+            candidate$d[(64'h19)+:(1)] = left$q[(64'h22)+:(1)];
+            candidate$d[(64'h1a)+:(15)] = plans$following[(64'h0)+:(15)];
+            candidate$d[(64'h29)+:(15)] = left_point$q;
             wants_again$d = check$wants_again;
             wants_new$d = check$wants_new;
-            candidate$d[(64'h42)+:(1)] = passed$q[(64'h0)+:(5)] == contexts[(64'h80)+:(5)];
-            candidate$d[(64'h33)+:(15)] = plans$following[(64'h10)+:(15)];
-            if (check$is_hinted) begin
-                candidate$d[(64'h33)+:(15)] = hints$read_data;
+            candidate$d[(64'h47)+:(1)] = solo[index] & (~solo_is_at_work);
+            candidate$d[(64'h38)+:(15)] = plans$following[(64'hf)+:(15)];
+            if (check$has_root) begin
+                candidate$d[(64'h38)+:(15)] = roots$read_data;
             end
-            if (check$tries_again) begin
-                candidate$d[(64'h33)+:(15)] = roots$read_data;
-            end
-            passed$d[(64'h0)+:(5)] = pointer$pointer[(64'h0)+:(5)];
-            passed$d[(64'h5)+:(15)] = plans$due[(64'h0)+:(15)];
-            passed$d[(64'h14)+:(1)] = plans$due[(64'hf)+:(1)];
-            passed$d[(64'h15)+:(7)] = plans$first_dealt;
-            passed_point$d = points$read_data;
+            left$d = plans$shown;
+            left_point$d = points$read_data;
         end
         if (reset | clears) begin
             wants_again$d = 1'b0;
             wants_new$d = 1'b0;
-            candidate$d[(64'h42)+:(1)] = 1'b0;
-            all_work$d = deal[(64'h5)+:(1)] & (~reset);
+            candidate$d[(64'h47)+:(1)] = 1'b0;
         end
     end
     
 endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter
 
 
-module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$all_work(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$all_work
-
-
 module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$candidate(d,q,clock);
     
     // Module arguments
-    input wire  [66:0] d;
-    output reg  [66:0] q;
+    input wire  [71:0] d;
+    output reg  [71:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 67'h0;
+       q = 72'h0;
     end
     
     always @(posedge clock) begin
@@ -13653,109 +14121,79 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$candi
 endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$candidate
 
 
-module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$check(contexts,passed,arrived,seeded,is_planned,rests_over,all_work,may_be_starting,wants_again,wants_new,tries_again,is_hinted);
+module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$check(contexts,passed,arrived,seeded,is_planned,rests_over,is_open,may_retry,may_be_starting,wants_again,wants_new,has_root);
     
     // Module arguments
-    input wire  [133:0] contexts;
-    input wire  [27:0] passed;
+    input wire  [145:0] contexts;
+    input wire  [34:0] passed;
     input wire  [14:0] arrived;
     input wire  seeded;
     input wire  is_planned;
     input wire  rests_over;
-    input wire  all_work;
+    input wire  is_open;
+    input wire  may_retry;
     input wire  may_be_starting;
     output reg  wants_again;
     output reg  wants_new;
-    output reg  tries_again;
-    output reg  is_hinted;
+    output reg  has_root;
     
     // Local signals
     reg  [4:0] index;
     reg  [23:0] asleep;
     reg  [23:0] retrying;
     reg  [23:0] busy;
-    reg  [23:0] began;
     reg  [23:0] hinted;
     reg  is_asleep;
     reg  will_retry;
     reg  is_rested;
-    reg  may_try;
     reg  may_work;
     reg  is_there;
     reg  is_barred;
-    reg  [4:0] first_context;
     
     // Update code
     always @(*) begin
-        first_context = 32'h0;
         index = passed[(64'h0)+:(5)];
         asleep = contexts[(64'h0)+:(24)];
         retrying = contexts[(64'h18)+:(24)];
         busy = contexts[(64'h30)+:(24)];
-        began = contexts[(64'h48)+:(24)];
         hinted = contexts[(64'h60)+:(24)];
-        is_barred = contexts[(64'h7f)+:(1)] | may_be_starting;
+        is_barred = contexts[(64'h90)+:(1)] | may_be_starting;
         is_asleep = asleep[index] & (~is_barred);
         will_retry = retrying[index];
         is_rested = (~busy[index]) & rests_over;
-        may_try = (~contexts[(64'h7e)+:(1)]) | (passed[(64'h0)+:(5)] == contexts[(64'h79)+:(5)]);
-        wants_again = is_asleep & will_retry & is_rested & may_try;
-        may_work = all_work;
-        if (passed[(64'h0)+:(5)] == first_context) begin
-            may_work = seeded | (~began[32'h0]);
+        wants_again = is_asleep & will_retry & is_rested & may_retry;
+        may_work = is_open;
+        if (passed[(64'ha)+:(1)]) begin
+            may_work = seeded | passed[(64'h1a)+:(1)];
         end
-        is_there = is_planned & (passed[(64'h5)+:(15)] < arrived);
+        is_there = is_planned & (passed[(64'hb)+:(15)] < arrived);
         wants_new = is_asleep & (~will_retry) & is_there & may_work;
-        tries_again = will_retry;
-        is_hinted = hinted[index];
+        has_root = will_retry | hinted[index];
     end
     
 endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$check
 
 
-module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$hints(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$left(d,q,clock);
     
     // Module arguments
-    input wire  clock;
-    input wire  [4:0] write_address;
-    input wire  [14:0] write_data;
-    input wire  write_enable;
-    input wire  [4:0] read_address;
-    output reg  [14:0] read_data;
-    
-    // Update code (custom)
-    wire unused_write_address = &{1'b0, write_address[4:4]};
-    wire unused_read_address = &{1'b0, read_address[4:4]};
-    (* ram_style = "distributed" *)
-    reg [14:0] memory [0:15];
-    wire [14:0] word = memory[read_address[3:0]];
-    always @(posedge clock) begin
-        if (write_enable) memory[write_address[3:0]] <= write_data;
-    end
-    always @(*) read_data = word;
-endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$hints
-
-
-module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$passed(d,q,clock);
-    
-    // Module arguments
-    input wire  [27:0] d;
-    output reg  [27:0] q;
+    input wire  [34:0] d;
+    output reg  [34:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 28'h0;
+       q = 35'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$passed
+endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$left
 
 
-module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$passed_point(d,q,clock);
+module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$left_point(d,q,clock);
     
     // Module arguments
     input wire  [14:0] d;
@@ -13771,29 +14209,28 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$passe
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$passed_point
+endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$left_point
 
 
-module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$plans(clock,deal,pointer,is_planned,due,first_dealt,passed,following,write);
+module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$plans(clock,deal,pointer,is_planned,shown,passed,following,write);
     
     // Module arguments
     input wire  clock;
-    input wire  [12:0] deal;
-    input wire  [11:0] pointer;
+    input wire  [16:0] deal;
+    input wire  [17:0] pointer;
     input wire  is_planned;
-    output reg  [15:0] due;
-    output reg  [6:0] first_dealt;
-    input wire  [27:0] passed;
-    output reg  [30:0] following;
+    output reg  [34:0] shown;
+    input wire  [34:0] passed;
+    output reg  [29:0] following;
     input wire  [20:0] write;
     
     // Stub signals
-    reg  [12:0] points$deal;
-    reg  [11:0] points$pointer;
+    reg  [16:0] points$deal;
+    reg  [17:0] points$pointer;
     wire  [15:0] points$first;
     wire  [6:0] points$first_dealt;
-    reg  [27:0] points$passed;
-    wire  [30:0] points$following;
+    reg  [34:0] points$passed;
+    wire  [29:0] points$following;
     reg  plans$clock;
     reg  [4:0] plans$write_address;
     reg  [15:0] plans$write_data;
@@ -13804,6 +14241,10 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$plans
     wire  [15:0] plan$value;
     
     // Local signals
+    reg  [10:0] rounds;
+    reg  [10:0] round_size;
+    reg  [14:0] planned_id;
+    reg  [15:0] first;
     reg  [15:0] written;
     reg  [15:0] written_bits;
     
@@ -13835,16 +14276,27 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$plans
         points$deal = deal;
         points$pointer = pointer;
         points$passed = passed;
-        first_dealt = points$first_dealt;
+        shown[(64'h0)+:(5)] = pointer[(64'h0)+:(5)];
+        shown[(64'h5)+:(5)] = pointer[(64'h5)+:(5)];
+        shown[(64'ha)+:(1)] = pointer[(64'ha)+:(1)];
+        shown[(64'h1b)+:(7)] = points$first_dealt;
         following = points$following;
         plans$read_address = pointer[(64'h0)+:(5)];
         plan$bits = plans$read_data;
         plans$write_address = pointer[(64'h0)+:(5)];
-        due = points$first;
+        first = points$first;
+        shown[(64'hb)+:(15)] = first[(64'h0)+:(15)];
+        shown[(64'h1a)+:(1)] = first[(64'hf)+:(1)];
         written = points$first;
+        planned_id = plan$value[(64'h0)+:(15)];
+        rounds = planned_id[(32'h4)+:(11)];
+        round_size = ((deal[(64'h5)+:(5)]) & 11'h7ff);
+        shown[(64'h22)+:(1)] = ~pointer[(64'ha)+:(1)];
         if (is_planned) begin
             plans$write_address = write[(64'h1)+:(5)];
-            due = plan$value;
+            shown[(64'hb)+:(15)] = plan$value[(64'h0)+:(15)];
+            shown[(64'h1a)+:(1)] = plan$value[(64'hf)+:(1)];
+            shown[(64'h22)+:(1)] = rounds >= round_size;
             written[(64'h0)+:(15)] = write[(64'h6)+:(15)];
             written[(64'hf)+:(1)] = 1'b0;
         end
@@ -13893,95 +14345,84 @@ endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter
 module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$plans$points(deal,pointer,first,first_dealt,passed,following);
     
     // Module arguments
-    input wire  [12:0] deal;
-    input wire  [11:0] pointer;
+    input wire  [16:0] deal;
+    input wire  [17:0] pointer;
     output reg  [15:0] first;
     output reg  [6:0] first_dealt;
-    input wire  [27:0] passed;
-    output reg  [30:0] following;
+    input wire  [34:0] passed;
+    output reg  [29:0] following;
     
     // Local signals
-    reg  [14:0] taken;
-    reg  is_batch;
-    reg  is_early;
-    reg  is_dealt;
-    reg  [10:0] rounds;
     reg  [14:0] from;
     reg  [14:0] step;
     reg  [14:0] wide_turn;
-    reg  [14:0] wide_taker;
+    reg  [14:0] wide_team;
+    reg  [14:0] wide_jobs;
+    reg  [14:0] first_round;
     reg  [6:0] narrow_turn;
     reg  [6:0] dealt_from;
-    reg  [14:0] first_round;
-    reg  [4:0] first_context;
-    reg  [14:0] one;
     reg  [14:0] two;
+    reg  [14:0] four;
     
     // Update code
     always @(*) begin
-        first_round = 32'h10;
-        first_context = 32'h0;
-        one = 32'h1;
         two = 32'h2;
-        is_batch = deal[(64'h5)+:(1)];
-        taken = passed[(64'h5)+:(15)];
+        four = 32'h4;
         wide_turn = ((pointer[(64'h0)+:(5)]) & 15'h7fff);
-        wide_taker = ((passed[(64'h0)+:(5)]) & 15'h7fff);
+        wide_team = ((passed[(64'h5)+:(5)]) & 15'h7fff);
+        wide_jobs = ((deal[(64'h5)+:(5)]) & 15'h7fff);
+        first_round = wide_jobs << four;
         narrow_turn = ((pointer[(64'h0)+:(5)]) & 7'h7f);
-        dealt_from = deal[(64'h6)+:(7)];
+        dealt_from = deal[(64'ha)+:(7)];
         first_dealt = dealt_from + narrow_turn;
-        rounds = taken[(32'h4)+:(11)];
-        is_dealt = |rounds;
-        following[(64'h0)+:(1)] = is_dealt;
-        is_early = (~is_dealt) & (~is_batch);
-        from = taken;
-        step = ((deal[(64'h0)+:(5)]) & 15'h7fff);
-        if (is_early) begin
-            step = one;
+        from = passed[(64'hb)+:(15)];
+        step = wide_jobs;
+        if (passed[(64'h22)+:(1)]) begin
+            step = ((deal[(64'h0)+:(5)]) & 15'h7fff);
         end
-        if (passed[(64'h14)+:(1)]) begin
-            from = ((passed[(64'h15)+:(7)]) & 15'h7fff);
+        if (passed[(64'h1a)+:(1)]) begin
+            from = ((passed[(64'h1b)+:(7)]) & 15'h7fff);
             step = 32'h0;
         end
-        following[(64'h1)+:(15)] = from + step;
-        following[(64'h10)+:(15)] = 32'h0;
-        if (is_batch) begin
-            following[(64'h10)+:(15)] = wide_taker << two;
-        end
+        following[(64'h0)+:(15)] = from + step;
+        following[(64'hf)+:(15)] = wide_team << two;
         first[(64'h0)+:(15)] = wide_turn + first_round;
-        if (is_batch | (pointer[(64'h0)+:(5)] == first_context)) begin
-            first[(64'h0)+:(15)] = ((pointer[(64'h5)+:(7)]) & 15'h7fff);
+        if (pointer[(64'ha)+:(1)]) begin
+            first[(64'h0)+:(15)] = ((pointer[(64'hb)+:(7)]) & 15'h7fff);
         end
-        first[(64'hf)+:(1)] = is_batch;
+        first[(64'hf)+:(1)] = pointer[(64'ha)+:(1)];
     end
     
 endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$plans$points
 
 
-module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$pointer(clock,restarts,contexts,moves,pointer,is_planned,rests_over);
+module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$pointer(clock,restarts,deal,moves,pointer,is_planned,planned,rests_over);
     
     // Module arguments
     input wire  clock;
     input wire  restarts;
-    input wire  [4:0] contexts;
+    input wire  [16:0] deal;
     input wire  moves;
-    output reg  [11:0] pointer;
+    output reg  [17:0] pointer;
     output reg  is_planned;
+    output reg  [10:0] planned;
     output reg  rests_over;
     
     // Stub signals
-    reg  [11:0] place$d;
-    wire  [11:0] place$q;
+    reg  [17:0] place$d;
+    wire  [17:0] place$q;
     reg  place$clock;
     reg  [1:0] round$d;
     wire  [1:0] round$q;
     reg  round$clock;
-    reg  planned$d;
-    wire  planned$q;
-    reg  planned$clock;
+    reg  was_round$d;
+    wire  was_round$q;
+    reg  was_round$clock;
     
     // Local signals
     reg  [4:0] after_turn;
+    reg  [4:0] after_team;
+    reg  [4:0] one_team;
     reg  [4:0] one_turn;
     reg  [6:0] three;
     reg  [1:0] one_round;
@@ -13998,43 +14439,56 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$point
         .q(round$q),
         .clock(round$clock)
     );
-    incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$pointer$planned planned(
-        .d(planned$d),
-        .q(planned$q),
-        .clock(planned$clock)
+    incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$pointer$was_round was_round(
+        .d(was_round$d),
+        .q(was_round$q),
+        .clock(was_round$clock)
     );
     
     // Update code
     always @(*) begin
         place$clock = clock;
         round$clock = clock;
-        planned$clock = clock;
+        was_round$clock = clock;
         place$d = place$q;
         round$d = round$q;
-        planned$d = planned$q;
+        was_round$d = was_round$q;
         one_turn = 32'h1;
+        one_team = 32'h1;
         three = 32'h3;
         one_round = 32'h1;
         resting_round = 32'h0;
         pointer = place$q;
-        is_planned = planned$q;
+        is_planned = was_round$q;
+        planned[(64'h0)+:(1)] = ~was_round$q;
+        planned[(64'h1)+:(5)] = place$q[(64'h0)+:(5)];
+        planned[(64'h6)+:(5)] = place$q[(64'h5)+:(5)];
         rests_over = round$q == resting_round;
         after_turn = place$q[(64'h0)+:(5)] + one_turn;
+        after_team = place$q[(64'h5)+:(5)] + one_team;
         if (moves) begin
             place$d[(64'h0)+:(5)] = after_turn;
-            place$d[(64'h5)+:(7)] = place$q[(64'h5)+:(7)] + three;
-            if (after_turn == contexts) begin
+            place$d[(64'hb)+:(7)] = place$q[(64'hb)+:(7)] + three;
+            place$d[(64'h5)+:(5)] = after_team;
+            if (after_team == deal[(64'h5)+:(5)]) begin
+                place$d[(64'h5)+:(5)] = 32'h0;
+                place$d[(64'ha)+:(1)] = 1'b0;
+            end
+            if (after_turn == deal[(64'h0)+:(5)]) begin
                 place$d[(64'h0)+:(5)] = 32'h0;
-                place$d[(64'h5)+:(7)] = 32'h2;
-                planned$d = 1'b1;
+                place$d[(64'hb)+:(7)] = 32'h2;
+                place$d[(64'ha)+:(1)] = 1'b1;
+                was_round$d = 1'b1;
                 round$d = round$q + one_round;
             end
         end
         if (restarts) begin
             place$d[(64'h0)+:(5)] = 32'h0;
-            place$d[(64'h5)+:(7)] = 32'h2;
+            place$d[(64'hb)+:(7)] = 32'h2;
+            place$d[(64'h5)+:(5)] = 32'h0;
+            place$d[(64'ha)+:(1)] = 1'b1;
             round$d = 32'h0;
-            planned$d = 1'b0;
+            was_round$d = 1'b0;
         end
     end
     
@@ -14044,13 +14498,13 @@ endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter
 module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$pointer$place(d,q,clock);
     
     // Module arguments
-    input wire  [11:0] d;
-    output reg  [11:0] q;
+    input wire  [17:0] d;
+    output reg  [17:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 12'h0;
+       q = 18'h0;
     end
     
     always @(posedge clock) begin
@@ -14058,25 +14512,6 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$point
     end
           
 endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$pointer$place
-
-
-module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$pointer$planned(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$pointer$planned
 
 
 module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$pointer$round(d,q,clock);
@@ -14096,6 +14531,25 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$point
     end
           
 endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$pointer$round
+
+
+module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$pointer$was_round(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$pointer$was_round
 
 
 module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$points(clock,write_address,write_data,write_enable,read_address,read_data);
@@ -14142,6 +14596,75 @@ module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$roots
     end
     always @(*) read_data = word;
 endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$roots
+
+
+module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$teams(clock,planned,opens,opened,asked,is_open);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [10:0] planned;
+    input wire  opens;
+    input wire  [4:0] opened;
+    input wire  [4:0] asked;
+    output reg  is_open;
+    
+    // Stub signals
+    reg  flags$clock;
+    reg  [4:0] flags$write_address;
+    reg  flags$write_data;
+    reg  flags$write_enable;
+    reg  [4:0] flags$read_address;
+    wire  flags$read_data;
+    
+    // Sub module instances
+    incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$teams$flags flags(
+        .clock(flags$clock),
+        .write_address(flags$write_address),
+        .write_data(flags$write_data),
+        .write_enable(flags$write_enable),
+        .read_address(flags$read_address),
+        .read_data(flags$read_data)
+    );
+    
+    // Update code
+    always @(*) begin
+        flags$clock = clock;
+        flags$read_address = asked;
+        is_open = |flags$read_data;
+        flags$write_address = opened;
+        flags$write_data = 32'h1;
+        flags$write_enable = opens;
+        if (planned[(64'h0)+:(1)]) begin
+            flags$write_address = planned[(64'h6)+:(5)];
+            flags$write_data = 32'h0;
+            flags$write_enable = 1'b1;
+        end
+    end
+    
+endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$teams
+
+
+module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$teams$flags(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [4:0] write_address;
+    input wire  write_data;
+    input wire  write_enable;
+    input wire  [4:0] read_address;
+    output reg  read_data;
+    
+    // Update code (custom)
+    wire unused_write_address = &{1'b0, write_address[4:4]};
+    wire unused_read_address = &{1'b0, read_address[4:4]};
+    (* ram_style = "distributed" *)
+    reg [0:0] memory [0:15];
+    wire [0:0] word = memory[read_address[3:0]];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address[3:0]] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$teams$flags
 
 
 module incircle_core_logic$slot0$core$engine$insertions$dispatcher$starter$wants_again(d,q,clock);
@@ -19404,6 +19927,11 @@ module incircle_core_logic$slot0$core$engine$pipeline$judge$verdict_logic(turned
     reg  [1:0] third_slot;
     reg  is_second;
     reg  is_third;
+    reg  faces_second;
+    reg  faces_third;
+    reg  is_end0;
+    reg  is_end1;
+    reg  is_end2;
     reg  infinite1;
     reg  infinite2;
     reg  is_beyond;
@@ -19435,22 +19963,27 @@ module incircle_core_logic$slot0$core$engine$pipeline$judge$verdict_logic(turned
         end
         is_beyond = (~edges[(64'h0)+:(1)]) & (~edges[(64'h3)+:(1)]);
         is_on_hull_line = edges[(64'h3)+:(1)];
-        is_between = order[(64'h1)+:(1)] ^ order[(64'h2)+:(1)];
+        is_end0 = order[(64'h3)+:(1)];
+        is_end1 = order[(64'h4)+:(1)];
+        is_end2 = order[(64'h5)+:(1)];
+        is_between = (order[(64'h1)+:(1)] ^ order[(64'h2)+:(1)]) & (~is_end1) & (~is_end2);
         if (infinite1) begin
             is_beyond = (~edges[(64'h1)+:(1)]) & (~edges[(64'h4)+:(1)]);
             is_on_hull_line = edges[(64'h4)+:(1)];
-            is_between = order[(64'h2)+:(1)] ^ order[(64'h0)+:(1)];
+            is_between = (order[(64'h2)+:(1)] ^ order[(64'h0)+:(1)]) & (~is_end2) & (~is_end0);
         end
         if (infinite2) begin
             is_beyond = (~edges[(64'h2)+:(1)]) & (~edges[(64'h5)+:(1)]);
             is_on_hull_line = edges[(64'h5)+:(1)];
-            is_between = order[(64'h0)+:(1)] ^ order[(64'h1)+:(1)];
+            is_between = (order[(64'h0)+:(1)] ^ order[(64'h1)+:(1)]) & (~is_end0) & (~is_end1);
         end
+        faces_second = edges[(64'h1)+:(1)];
+        faces_third = edges[(64'h2)+:(1)];
         takes_tie = (order[(64'h1)+:(1)] & order[(64'h2)+:(1)]) | (order[(64'h6)+:(1)] & order[(64'h7)+:(1)]);
-        if (is_second) begin
+        if (faces_second) begin
             takes_tie = (order[(64'h2)+:(1)] & order[(64'h0)+:(1)]) | (order[(64'h8)+:(1)] & (~order[(64'h6)+:(1)]));
         end
-        if (is_third) begin
+        if (faces_third) begin
             takes_tie = (order[(64'h0)+:(1)] & order[(64'h1)+:(1)]) | ((~order[(64'h7)+:(1)]) & (~order[(64'h8)+:(1)]));
         end
         if (is_ghost) begin
@@ -22193,7 +22726,7 @@ module incircle_core_logic$slot0$core$engine$seeder(clock,reset,clears,infinite,
     input wire  reset;
     input wire  clears;
     input wire  [14:0] infinite;
-    input wire  [12:0] deal;
+    input wire  [16:0] deal;
     input wire  [47:0] arrival;
     input wire  [14:0] arrived;
     input wire  looks;
@@ -22358,7 +22891,7 @@ module incircle_core_logic$slot0$core$engine$seeder(clock,reset,clears,infinite,
         request$d[(64'h0)+:(1)] = is_writing | prepares;
         write = request$q;
         has_triple$d = arrived >= triple$q;
-        is_last_job = (~deal[(64'h5)+:(1)]) | (following$q == deal[(64'h0)+:(5)]);
+        is_last_job = following$q == deal[(64'h5)+:(5)];
         if (is_writing) begin
             step$d = step$q + one;
         end
@@ -22749,7 +23282,7 @@ module incircle_core_logic$slot0$core$engine$solo(clock,reset,start,records,comp
     input wire  [173:0] completion;
     output reg  [93:0] push;
     output reg  [109:0] write;
-    output reg  [4:0] progress;
+    output reg  [9:0] progress;
     
     // Stub signals
     reg  awaits$d;
@@ -22934,10 +23467,11 @@ module incircle_core_logic$slot0$core$engine$solo(clock,reset,start,records,comp
         inserted$d = steps$inserts & (~reset);
         ended$d = steps$ends & (~reset);
         progress[(64'h0)+:(1)] = works$q;
-        progress[(64'h3)+:(1)] = star$tests;
-        progress[(64'h4)+:(1)] = star$flips;
-        progress[(64'h2)+:(1)] = inserted$q;
-        progress[(64'h1)+:(1)] = ended$q;
+        progress[(64'h1)+:(5)] = at_work_for$q;
+        progress[(64'h8)+:(1)] = star$tests;
+        progress[(64'h9)+:(1)] = star$flips;
+        progress[(64'h7)+:(1)] = inserted$q;
+        progress[(64'h6)+:(1)] = ended$q;
         if (steps$is_idle & start[(64'h0)+:(1)]) begin
             at_work_for$d = start[(64'h1)+:(5)];
             vertex$d = start[(64'h6)+:(15)];
@@ -25083,33 +25617,23 @@ module incircle_core_logic$slot0$core$responder$records(clock,reset,starts,first
     reg  some_are_left$d;
     wire  some_are_left$q;
     reg  some_are_left$clock;
-    reg  fetching$d;
-    wire  fetching$q;
-    reg  fetching$clock;
-    reg  buffer$clock;
-    reg  buffer$reset;
-    reg  buffer$read_done;
-    reg  [90:0] buffer$record;
-    wire  buffer$holds;
-    wire  [31:0] buffer$word;
-    wire  buffer$is_at_last;
-    reg  buffer$takes;
-    wire  [14:0] buffer$vertex0;
-    wire  [14:0] buffer$vertex1;
-    wire  [14:0] buffer$vertex2;
-    reg  buffer$takes_whole;
-    reg  vertices$clock;
-    reg  vertices$reset;
-    reg  vertices$starts;
-    reg  [14:0] vertices$count;
-    wire  vertices$has_room;
-    reg  vertices$comes;
-    reg  [14:0] vertices$v0;
-    reg  [14:0] vertices$v1;
-    reg  [14:0] vertices$v2;
-    wire  vertices$valid;
-    wire  [65:0] vertices$beat;
-    reg  vertices$takes;
+    reg  is_second$d;
+    wire  is_second$q;
+    reg  is_second$clock;
+    reg  pauses$d;
+    wire  pauses$q;
+    reg  pauses$clock;
+    reg  stream$clock;
+    reg  stream$reset;
+    reg  stream$starts;
+    reg  [14:0] stream$count;
+    reg  stream$vertices_alone;
+    wire  stream$has_room;
+    reg  stream$comes;
+    reg  [90:0] stream$record;
+    wire  stream$valid;
+    wire  [65:0] stream$beat;
+    reg  stream$takes;
     reg  is_there$d;
     wire  is_there$q;
     reg  is_there$clock;
@@ -25119,10 +25643,7 @@ module incircle_core_logic$slot0$core$responder$records(clock,reset,starts,first
     
     // Local signals
     reg  moves;
-    reg  may_ask;
     reg  asks;
-    reg  packs;
-    reg  [31:0] no_word;
     reg  [14:0] one;
     
     // Sub module instances
@@ -25146,38 +25667,28 @@ module incircle_core_logic$slot0$core$responder$records(clock,reset,starts,first
         .q(some_are_left$q),
         .clock(some_are_left$clock)
     );
-    incircle_core_logic$slot0$core$responder$records$fetching fetching(
-        .d(fetching$d),
-        .q(fetching$q),
-        .clock(fetching$clock)
+    incircle_core_logic$slot0$core$responder$records$is_second is_second(
+        .d(is_second$d),
+        .q(is_second$q),
+        .clock(is_second$clock)
     );
-    incircle_core_logic$slot0$core$responder$records$buffer buffer(
-        .clock(buffer$clock),
-        .reset(buffer$reset),
-        .read_done(buffer$read_done),
-        .record(buffer$record),
-        .holds(buffer$holds),
-        .word(buffer$word),
-        .is_at_last(buffer$is_at_last),
-        .takes(buffer$takes),
-        .vertex0(buffer$vertex0),
-        .vertex1(buffer$vertex1),
-        .vertex2(buffer$vertex2),
-        .takes_whole(buffer$takes_whole)
+    incircle_core_logic$slot0$core$responder$records$pauses pauses(
+        .d(pauses$d),
+        .q(pauses$q),
+        .clock(pauses$clock)
     );
-    incircle_core_logic$slot0$core$responder$records$vertices vertices(
-        .clock(vertices$clock),
-        .reset(vertices$reset),
-        .starts(vertices$starts),
-        .count(vertices$count),
-        .has_room(vertices$has_room),
-        .comes(vertices$comes),
-        .v0(vertices$v0),
-        .v1(vertices$v1),
-        .v2(vertices$v2),
-        .valid(vertices$valid),
-        .beat(vertices$beat),
-        .takes(vertices$takes)
+    incircle_core_logic$slot0$core$responder$records$stream stream(
+        .clock(stream$clock),
+        .reset(stream$reset),
+        .starts(stream$starts),
+        .count(stream$count),
+        .vertices_alone(stream$vertices_alone),
+        .has_room(stream$has_room),
+        .comes(stream$comes),
+        .record(stream$record),
+        .valid(stream$valid),
+        .beat(stream$beat),
+        .takes(stream$takes)
     );
     incircle_core_logic$slot0$core$responder$records$is_there is_there(
         .d(is_there$d),
@@ -25196,385 +25707,58 @@ module incircle_core_logic$slot0$core$responder$records(clock,reset,starts,first
         record_id$clock = clock;
         left$clock = clock;
         some_are_left$clock = clock;
-        fetching$clock = clock;
+        is_second$clock = clock;
+        pauses$clock = clock;
         is_there$clock = clock;
         head$clock = clock;
         vertices_alone$d = vertices_alone$q;
         record_id$d = record_id$q;
         left$d = left$q;
         some_are_left$d = some_are_left$q;
-        fetching$d = fetching$q;
+        is_second$d = is_second$q;
+        pauses$d = pauses$q;
         is_there$d = is_there$q;
         head$d = head$q;
-        buffer$clock = clock;
-        vertices$clock = clock;
-        no_word = 32'h0;
+        stream$clock = clock;
         one = 32'h1;
         vertices_alone$d = is_packed;
-        may_ask = (~fetching$q) & (~buffer$holds);
-        if (vertices_alone$q) begin
-            may_ask = vertices$has_room;
-        end
-        asks = runs & some_are_left$q & may_ask;
+        asks = runs & some_are_left$q & stream$has_room & (~pauses$q);
         read = asks;
         read_id = record_id$q;
+        pauses$d = asks & is_second$q & (~vertices_alone$q);
         if (asks) begin
-            fetching$d = 1'b1;
+            is_second$d = ~is_second$q;
             record_id$d = record_id$q + one;
             left$d = left$q - one;
             some_are_left$d = left$q != one;
         end
-        if (read_done) begin
-            fetching$d = 1'b0;
-        end
         if (starts) begin
+            is_second$d = 1'b0;
             record_id$d = first;
             left$d = count;
             some_are_left$d = |count;
         end
-        buffer$reset = reset;
-        buffer$read_done = read_done;
-        buffer$record = record;
-        packs = vertices_alone$q & buffer$holds;
-        buffer$takes_whole = packs;
-        vertices$reset = reset;
-        vertices$starts = starts;
-        vertices$count = count;
-        vertices$comes = packs;
-        vertices$v0 = buffer$vertex0;
-        vertices$v1 = buffer$vertex1;
-        vertices$v2 = buffer$vertex2;
+        stream$reset = reset;
+        stream$starts = starts;
+        stream$count = count;
+        stream$vertices_alone = vertices_alone$q;
+        stream$comes = read_done;
+        stream$record = record;
         valid = is_there$q;
         beat = head$q;
         moves = (~is_there$q) | takes;
-        buffer$takes = moves & buffer$holds & (~vertices_alone$q);
-        vertices$takes = moves & vertices$valid & vertices_alone$q;
+        stream$takes = moves & stream$valid;
         if (moves) begin
-            is_there$d = buffer$holds;
-            head$d[(64'h0)+:(32)] = buffer$word;
-            head$d[(64'h20)+:(32)] = no_word;
-            head$d[(64'h40)+:(1)] = 1'b0;
-            head$d[(64'h41)+:(1)] = buffer$is_at_last & (~some_are_left$q);
-            if (vertices_alone$q) begin
-                is_there$d = vertices$valid;
-                head$d = vertices$beat;
-            end
+            is_there$d = stream$valid;
+            head$d = stream$beat;
         end
         if (reset) begin
             some_are_left$d = 1'b0;
-            fetching$d = 1'b0;
             is_there$d = 1'b0;
         end
     end
     
 endmodule // incircle_core_logic$slot0$core$responder$records
-
-
-module incircle_core_logic$slot0$core$responder$records$buffer(clock,reset,read_done,record,holds,word,is_at_last,takes,vertex0,vertex1,vertex2,takes_whole);
-    
-    // Module arguments
-    input wire  clock;
-    input wire  reset;
-    input wire  read_done;
-    input wire  [90:0] record;
-    output reg  holds;
-    output reg  [31:0] word;
-    output reg  is_at_last;
-    input wire  takes;
-    output reg  [14:0] vertex0;
-    output reg  [14:0] vertex1;
-    output reg  [14:0] vertex2;
-    input wire  takes_whole;
-    
-    // Stub signals
-    reg  is_held$d;
-    wire  is_held$q;
-    reg  is_held$clock;
-    reg  [31:0] buffer0$d;
-    wire  [31:0] buffer0$q;
-    reg  buffer0$clock;
-    reg  [31:0] buffer1$d;
-    wire  [31:0] buffer1$q;
-    reg  buffer1$clock;
-    reg  [31:0] buffer2$d;
-    wire  [31:0] buffer2$q;
-    reg  buffer2$clock;
-    reg  is_second$d;
-    wire  is_second$q;
-    reg  is_second$clock;
-    reg  is_third$d;
-    wire  is_third$q;
-    reg  is_third$clock;
-    reg  [90:0] words$record;
-    wire  [31:0] words$word0;
-    wire  [31:0] words$word1;
-    wire  [31:0] words$word2;
-    
-    // Sub module instances
-    incircle_core_logic$slot0$core$responder$records$buffer$is_held is_held(
-        .d(is_held$d),
-        .q(is_held$q),
-        .clock(is_held$clock)
-    );
-    incircle_core_logic$slot0$core$responder$records$buffer$buffer0 buffer0(
-        .d(buffer0$d),
-        .q(buffer0$q),
-        .clock(buffer0$clock)
-    );
-    incircle_core_logic$slot0$core$responder$records$buffer$buffer1 buffer1(
-        .d(buffer1$d),
-        .q(buffer1$q),
-        .clock(buffer1$clock)
-    );
-    incircle_core_logic$slot0$core$responder$records$buffer$buffer2 buffer2(
-        .d(buffer2$d),
-        .q(buffer2$q),
-        .clock(buffer2$clock)
-    );
-    incircle_core_logic$slot0$core$responder$records$buffer$is_second is_second(
-        .d(is_second$d),
-        .q(is_second$q),
-        .clock(is_second$clock)
-    );
-    incircle_core_logic$slot0$core$responder$records$buffer$is_third is_third(
-        .d(is_third$d),
-        .q(is_third$q),
-        .clock(is_third$clock)
-    );
-    incircle_core_logic$slot0$core$responder$records$buffer$words words(
-        .record(words$record),
-        .word0(words$word0),
-        .word1(words$word1),
-        .word2(words$word2)
-    );
-    
-    // Update code
-    always @(*) begin
-        is_held$clock = clock;
-        buffer0$clock = clock;
-        buffer1$clock = clock;
-        buffer2$clock = clock;
-        is_second$clock = clock;
-        is_third$clock = clock;
-        is_held$d = is_held$q;
-        buffer0$d = buffer0$q;
-        buffer1$d = buffer1$q;
-        buffer2$d = buffer2$q;
-        is_second$d = is_second$q;
-        is_third$d = is_third$q;
-        holds = is_held$q;
-        words$record = record;
-        vertex0 = buffer0$q[(32'h0)+:(15)];
-        vertex1 = buffer1$q[(32'h0)+:(15)];
-        vertex2 = buffer2$q[(32'h0)+:(15)];
-        if (takes_whole) begin
-            is_held$d = 1'b0;
-        end
-        if (read_done) begin
-            is_held$d = 1'b1;
-            buffer0$d = words$word0;
-            buffer1$d = words$word1;
-            buffer2$d = words$word2;
-        end
-        is_at_last = is_third$q;
-        word = buffer0$q;
-        if (is_second$q) begin
-            word = buffer1$q;
-        end
-        if (is_third$q) begin
-            word = buffer2$q;
-        end
-        if (takes) begin
-            is_second$d = (~is_second$q) & (~is_third$q);
-            is_third$d = is_second$q;
-            is_held$d = ~is_third$q;
-        end
-        if (reset) begin
-            is_held$d = 1'b0;
-            is_second$d = 1'b0;
-            is_third$d = 1'b0;
-        end
-    end
-    
-endmodule // incircle_core_logic$slot0$core$responder$records$buffer
-
-
-module incircle_core_logic$slot0$core$responder$records$buffer$buffer0(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot0$core$responder$records$buffer$buffer0
-
-
-module incircle_core_logic$slot0$core$responder$records$buffer$buffer1(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot0$core$responder$records$buffer$buffer1
-
-
-module incircle_core_logic$slot0$core$responder$records$buffer$buffer2(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot0$core$responder$records$buffer$buffer2
-
-
-module incircle_core_logic$slot0$core$responder$records$buffer$is_held(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot0$core$responder$records$buffer$is_held
-
-
-module incircle_core_logic$slot0$core$responder$records$buffer$is_second(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot0$core$responder$records$buffer$is_second
-
-
-module incircle_core_logic$slot0$core$responder$records$buffer$is_third(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot0$core$responder$records$buffer$is_third
-
-
-module incircle_core_logic$slot0$core$responder$records$buffer$words(record,word0,word1,word2);
-    
-    // Module arguments
-    input wire  [90:0] record;
-    output reg  [31:0] word0;
-    output reg  [31:0] word1;
-    output reg  [31:0] word2;
-    
-    // Local signals
-    reg  [31:0] lock;
-    reg  [31:0] vertex0;
-    reg  [31:0] vertex1;
-    reg  [31:0] vertex2;
-    reg  [31:0] link0;
-    reg  [31:0] link1;
-    reg  [31:0] link2;
-    reg  [31:0] high0;
-    reg  [31:0] high1;
-    reg  [31:0] high2;
-    reg  [31:0] link_shift;
-    
-    // Update code
-    always @(*) begin
-        link_shift = 32'hf;
-        lock = 32'h0;
-        if (record[(64'h5a)+:(1)]) begin
-            lock = 64'h80000000;
-        end
-        vertex0 = ((record[(64'h0)+:(15)]) & 32'hffffffff);
-        vertex1 = ((record[(64'hf)+:(15)]) & 32'hffffffff);
-        vertex2 = ((record[(64'h1e)+:(15)]) & 32'hffffffff);
-        link0 = ((record[(64'h2d)+:(15)]) & 32'hffffffff);
-        link1 = ((record[(64'h3c)+:(15)]) & 32'hffffffff);
-        link2 = ((record[(64'h4b)+:(15)]) & 32'hffffffff);
-        high0 = link0 << link_shift;
-        high1 = link1 << link_shift;
-        high2 = link2 << link_shift;
-        word0 = vertex0 | high0 | lock;
-        word1 = vertex1 | high1;
-        word2 = vertex2 | high2;
-    end
-    
-endmodule // incircle_core_logic$slot0$core$responder$records$buffer$words
-
-
-module incircle_core_logic$slot0$core$responder$records$fetching(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot0$core$responder$records$fetching
 
 
 module incircle_core_logic$slot0$core$responder$records$head(d,q,clock);
@@ -25594,6 +25778,25 @@ module incircle_core_logic$slot0$core$responder$records$head(d,q,clock);
     end
           
 endmodule // incircle_core_logic$slot0$core$responder$records$head
+
+
+module incircle_core_logic$slot0$core$responder$records$is_second(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot0$core$responder$records$is_second
 
 
 module incircle_core_logic$slot0$core$responder$records$is_there(d,q,clock);
@@ -25634,6 +25837,25 @@ module incircle_core_logic$slot0$core$responder$records$left(d,q,clock);
 endmodule // incircle_core_logic$slot0$core$responder$records$left
 
 
+module incircle_core_logic$slot0$core$responder$records$pauses(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot0$core$responder$records$pauses
+
+
 module incircle_core_logic$slot0$core$responder$records$record_id(d,q,clock);
     
     // Module arguments
@@ -25672,18 +25894,17 @@ module incircle_core_logic$slot0$core$responder$records$some_are_left(d,q,clock)
 endmodule // incircle_core_logic$slot0$core$responder$records$some_are_left
 
 
-module incircle_core_logic$slot0$core$responder$records$vertices(clock,reset,starts,count,has_room,comes,v0,v1,v2,valid,beat,takes);
+module incircle_core_logic$slot0$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_room,comes,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  starts;
     input wire  [14:0] count;
+    input wire  vertices_alone;
     output reg  has_room;
     input wire  comes;
-    input wire  [14:0] v0;
-    input wire  [14:0] v1;
-    input wire  [14:0] v2;
+    input wire  [90:0] record;
     output reg  valid;
     output reg  [65:0] beat;
     input wire  takes;
@@ -25695,14 +25916,20 @@ module incircle_core_logic$slot0$core$responder$records$vertices(clock,reset,sta
     reg  roomy$d;
     wire  roomy$q;
     reg  roomy$clock;
+    reg  has_come$d;
+    wire  has_come$q;
+    reg  has_come$clock;
+    reg  halves$clock;
+    reg  [90:0] halves$record;
+    reg  halves$vertices_alone;
+    wire  [95:0] halves$halves;
     reg  packer$clock;
     reg  packer$reset;
     reg  packer$starts;
     reg  [14:0] packer$count;
+    reg  packer$vertices_alone;
     reg  packer$comes;
-    reg  [14:0] packer$v0;
-    reg  [14:0] packer$v1;
-    reg  [14:0] packer$v2;
+    reg  [95:0] packer$halves;
     wire  packer$valid;
     wire  [65:0] packer$beat;
     reg  queue$clock;
@@ -25721,29 +25948,39 @@ module incircle_core_logic$slot0$core$responder$records$vertices(clock,reset,sta
     reg  [4:0] room;
     
     // Sub module instances
-    incircle_core_logic$slot0$core$responder$records$vertices$waiting waiting(
+    incircle_core_logic$slot0$core$responder$records$stream$waiting waiting(
         .d(waiting$d),
         .q(waiting$q),
         .clock(waiting$clock)
     );
-    incircle_core_logic$slot0$core$responder$records$vertices$roomy roomy(
+    incircle_core_logic$slot0$core$responder$records$stream$roomy roomy(
         .d(roomy$d),
         .q(roomy$q),
         .clock(roomy$clock)
     );
-    incircle_core_logic$slot0$core$responder$records$vertices$packer packer(
+    incircle_core_logic$slot0$core$responder$records$stream$has_come has_come(
+        .d(has_come$d),
+        .q(has_come$q),
+        .clock(has_come$clock)
+    );
+    incircle_core_logic$slot0$core$responder$records$stream$halves halves(
+        .clock(halves$clock),
+        .record(halves$record),
+        .vertices_alone(halves$vertices_alone),
+        .halves(halves$halves)
+    );
+    incircle_core_logic$slot0$core$responder$records$stream$packer packer(
         .clock(packer$clock),
         .reset(packer$reset),
         .starts(packer$starts),
         .count(packer$count),
+        .vertices_alone(packer$vertices_alone),
         .comes(packer$comes),
-        .v0(packer$v0),
-        .v1(packer$v1),
-        .v2(packer$v2),
+        .halves(packer$halves),
         .valid(packer$valid),
         .beat(packer$beat)
     );
-    incircle_core_logic$slot0$core$responder$records$vertices$queue queue(
+    incircle_core_logic$slot0$core$responder$records$stream$queue queue(
         .clock(queue$clock),
         .reset(queue$reset),
         .push(queue$push),
@@ -25752,7 +25989,7 @@ module incircle_core_logic$slot0$core$responder$records$vertices(clock,reset,sta
         .valid(queue$valid),
         .data(queue$data)
     );
-    incircle_core_logic$slot0$core$responder$records$vertices$head head(
+    incircle_core_logic$slot0$core$responder$records$stream$head head(
         .bits(head$bits),
         .value(head$value)
     );
@@ -25761,8 +25998,11 @@ module incircle_core_logic$slot0$core$responder$records$vertices(clock,reset,sta
     always @(*) begin
         waiting$clock = clock;
         roomy$clock = clock;
+        has_come$clock = clock;
         waiting$d = waiting$q;
         roomy$d = roomy$q;
+        has_come$d = has_come$q;
+        halves$clock = clock;
         packer$clock = clock;
         queue$clock = clock;
         one_beat = 32'h1;
@@ -25770,10 +26010,12 @@ module incircle_core_logic$slot0$core$responder$records$vertices(clock,reset,sta
         packer$reset = reset;
         packer$starts = starts;
         packer$count = count;
-        packer$comes = comes;
-        packer$v0 = v0;
-        packer$v1 = v1;
-        packer$v2 = v2;
+        has_come$d = comes;
+        halves$record = record;
+        halves$vertices_alone = vertices_alone;
+        packer$vertices_alone = vertices_alone;
+        packer$comes = has_come$q;
+        packer$halves = halves$halves;
         queue$reset = reset;
         queue$push = packer$valid;
         beat_bits = packer$beat;
@@ -25791,14 +26033,125 @@ module incircle_core_logic$slot0$core$responder$records$vertices(clock,reset,sta
             waiting$d = waiting$q - one_beat;
         end
         if (reset) begin
+            has_come$d = 1'b0;
             waiting$d = 32'h0;
         end
     end
     
-endmodule // incircle_core_logic$slot0$core$responder$records$vertices
+endmodule // incircle_core_logic$slot0$core$responder$records$stream
 
 
-module incircle_core_logic$slot0$core$responder$records$vertices$head(bits,value);
+module incircle_core_logic$slot0$core$responder$records$stream$halves(clock,record,vertices_alone,halves);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [90:0] record;
+    input wire  vertices_alone;
+    output reg  [95:0] halves;
+    
+    // Stub signals
+    reg  [90:0] kept$d;
+    wire  [90:0] kept$q;
+    reg  kept$clock;
+    
+    // Local signals
+    reg  [15:0] vertex0;
+    reg  [15:0] vertex1;
+    reg  [15:0] vertex2;
+    reg  [15:0] link0;
+    reg  [15:0] link1;
+    reg  [15:0] link2;
+    reg  [15:0] bottom0;
+    reg  [15:0] bottom1;
+    reg  [15:0] bottom2;
+    reg  [15:0] top0;
+    reg  [15:0] lock;
+    reg  [15:0] id_bits;
+    reg  [15:0] one;
+    
+    // Sub module instances
+    incircle_core_logic$slot0$core$responder$records$stream$halves$kept kept(
+        .d(kept$d),
+        .q(kept$q),
+        .clock(kept$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        kept$clock = clock;
+        kept$d = kept$q;
+        id_bits = 32'hf;
+        one = 32'h1;
+        kept$d = record;
+        lock = 32'h0;
+        if (kept$q[(64'h5a)+:(1)]) begin
+            lock = 32'h8000;
+        end
+        vertex0 = ((kept$q[(64'h0)+:(15)]) & 16'hffff);
+        vertex1 = ((kept$q[(64'hf)+:(15)]) & 16'hffff);
+        vertex2 = ((kept$q[(64'h1e)+:(15)]) & 16'hffff);
+        link0 = ((kept$q[(64'h2d)+:(15)]) & 16'hffff);
+        link1 = ((kept$q[(64'h3c)+:(15)]) & 16'hffff);
+        link2 = ((kept$q[(64'h4b)+:(15)]) & 16'hffff);
+        bottom0 = link0 << id_bits;
+        bottom1 = link1 << id_bits;
+        bottom2 = link2 << id_bits;
+        top0 = link0 >> one;
+        halves[(64'h0)+:(16)] = vertex0 | bottom0;
+        halves[(64'h10)+:(16)] = top0 | lock;
+        halves[(64'h20)+:(16)] = vertex1 | bottom1;
+        halves[(64'h30)+:(16)] = link1 >> one;
+        halves[(64'h40)+:(16)] = vertex2 | bottom2;
+        halves[(64'h50)+:(16)] = link2 >> one;
+        if (vertices_alone) begin
+            halves[(64'h0)+:(16)] = vertex0;
+            halves[(64'h10)+:(16)] = vertex1;
+            halves[(64'h20)+:(16)] = vertex2;
+        end
+    end
+    
+endmodule // incircle_core_logic$slot0$core$responder$records$stream$halves
+
+
+module incircle_core_logic$slot0$core$responder$records$stream$halves$kept(d,q,clock);
+    
+    // Module arguments
+    input wire  [90:0] d;
+    output reg  [90:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 91'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot0$core$responder$records$stream$halves$kept
+
+
+module incircle_core_logic$slot0$core$responder$records$stream$has_come(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot0$core$responder$records$stream$has_come
+
+
+module incircle_core_logic$slot0$core$responder$records$stream$head(bits,value);
     
     // Module arguments
     input wire  [65:0] bits;
@@ -25806,22 +26159,28 @@ module incircle_core_logic$slot0$core$responder$records$vertices$head(bits,value
     
     // Update code (custom)
     always @(*) value = bits;
-endmodule // incircle_core_logic$slot0$core$responder$records$vertices$head
+endmodule // incircle_core_logic$slot0$core$responder$records$stream$head
 
 
-module incircle_core_logic$slot0$core$responder$records$vertices$packer(clock,reset,starts,count,comes,v0,v1,v2,valid,beat);
+module incircle_core_logic$slot0$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,comes,halves,valid,beat);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  starts;
     input wire  [14:0] count;
+    input wire  vertices_alone;
     input wire  comes;
-    input wire  [14:0] v0;
-    input wire  [14:0] v1;
-    input wire  [14:0] v2;
+    input wire  [95:0] halves;
     output reg  valid;
     output reg  [65:0] beat;
+    
+    // Enums
+    localparam KeptHalves$Zero = 0;
+    localparam KeptHalves$One = 1;
+    localparam KeptHalves$Two = 2;
+    localparam KeptHalves$Three = 3;
+    localparam KeptHalves$Rest = 4;
     
     // Stub signals
     reg  is_there$d;
@@ -25830,205 +26189,210 @@ module incircle_core_logic$slot0$core$responder$records$vertices$packer(clock,re
     reg  [65:0] filled$d;
     wire  [65:0] filled$q;
     reg  filled$clock;
-    reg  [1:0] place$d;
-    wire  [1:0] place$q;
-    reg  place$clock;
+    reg  [2:0] number$d;
+    wire  [2:0] number$q;
+    reg  number$clock;
+    reg  [63:0] kept$d;
+    wire  [63:0] kept$q;
+    reg  kept$clock;
+    reg  many_are_kept$d;
+    wire  many_are_kept$q;
+    reg  many_are_kept$clock;
     reg  [14:0] left$d;
     wire  [14:0] left$q;
     reg  left$clock;
     reg  is_last$d;
     wire  is_last$q;
     reg  is_last$clock;
-    reg  flushes$d;
-    wire  flushes$q;
-    reg  flushes$clock;
-    reg  [14:0] held0$d;
-    wire  [14:0] held0$q;
-    reg  held0$clock;
-    reg  [14:0] held1$d;
-    wire  [14:0] held1$q;
-    reg  held1$clock;
-    reg  [14:0] held2$d;
-    wire  [14:0] held2$q;
-    reg  held2$clock;
+    reg  all_came$d;
+    wire  all_came$q;
+    reg  all_came$clock;
     
     // Local signals
     reg  takes;
-    reg  ends_full;
-    reg  [14:0] new0;
-    reg  [14:0] new1;
-    reg  [14:0] new2;
-    reg  [14:0] half1;
-    reg  [14:0] half2;
-    reg  [14:0] half3;
-    reg  [31:0] even0;
-    reg  [31:0] even1;
-    reg  [31:0] odd0;
-    reg  [31:0] odd1;
-    reg  [31:0] high0;
-    reg  [31:0] high1;
-    reg  [31:0] half_shift;
+    reg  [63:0] sent;
+    reg  [63:0] sent_bits;
     reg  [14:0] one;
     reg  [14:0] two;
-    reg  [1:0] first_place;
-    reg  [1:0] second_place;
-    reg  [1:0] last_place;
     
     // Sub module instances
-    incircle_core_logic$slot0$core$responder$records$vertices$packer$is_there is_there(
+    incircle_core_logic$slot0$core$responder$records$stream$packer$is_there is_there(
         .d(is_there$d),
         .q(is_there$q),
         .clock(is_there$clock)
     );
-    incircle_core_logic$slot0$core$responder$records$vertices$packer$filled filled(
+    incircle_core_logic$slot0$core$responder$records$stream$packer$filled filled(
         .d(filled$d),
         .q(filled$q),
         .clock(filled$clock)
     );
-    incircle_core_logic$slot0$core$responder$records$vertices$packer$place place(
-        .d(place$d),
-        .q(place$q),
-        .clock(place$clock)
+    incircle_core_logic$slot0$core$responder$records$stream$packer$number number(
+        .d(number$d),
+        .q(number$q),
+        .clock(number$clock)
     );
-    incircle_core_logic$slot0$core$responder$records$vertices$packer$left left(
+    incircle_core_logic$slot0$core$responder$records$stream$packer$kept kept(
+        .d(kept$d),
+        .q(kept$q),
+        .clock(kept$clock)
+    );
+    incircle_core_logic$slot0$core$responder$records$stream$packer$many_are_kept many_are_kept(
+        .d(many_are_kept$d),
+        .q(many_are_kept$q),
+        .clock(many_are_kept$clock)
+    );
+    incircle_core_logic$slot0$core$responder$records$stream$packer$left left(
         .d(left$d),
         .q(left$q),
         .clock(left$clock)
     );
-    incircle_core_logic$slot0$core$responder$records$vertices$packer$is_last is_last(
+    incircle_core_logic$slot0$core$responder$records$stream$packer$is_last is_last(
         .d(is_last$d),
         .q(is_last$q),
         .clock(is_last$clock)
     );
-    incircle_core_logic$slot0$core$responder$records$vertices$packer$flushes flushes(
-        .d(flushes$d),
-        .q(flushes$q),
-        .clock(flushes$clock)
-    );
-    incircle_core_logic$slot0$core$responder$records$vertices$packer$held0 held0(
-        .d(held0$d),
-        .q(held0$q),
-        .clock(held0$clock)
-    );
-    incircle_core_logic$slot0$core$responder$records$vertices$packer$held1 held1(
-        .d(held1$d),
-        .q(held1$q),
-        .clock(held1$clock)
-    );
-    incircle_core_logic$slot0$core$responder$records$vertices$packer$held2 held2(
-        .d(held2$d),
-        .q(held2$q),
-        .clock(held2$clock)
+    incircle_core_logic$slot0$core$responder$records$stream$packer$all_came all_came(
+        .d(all_came$d),
+        .q(all_came$q),
+        .clock(all_came$clock)
     );
     
     // Update code
     always @(*) begin
         is_there$clock = clock;
         filled$clock = clock;
-        place$clock = clock;
-        left$clock = clock;
-        is_last$clock = clock;
-        flushes$clock = clock;
-        held0$clock = clock;
-        held1$clock = clock;
-        held2$clock = clock;
+        number$clock = clock;
+        kept$clock = clock;
+        many_are_kept$clock = clock;
         is_there$d = is_there$q;
         filled$d = filled$q;
-        place$d = place$q;
+        number$d = number$q;
+        kept$d = kept$q;
+        many_are_kept$d = many_are_kept$q;
+        left$clock = clock;
+        is_last$clock = clock;
+        all_came$clock = clock;
         left$d = left$q;
         is_last$d = is_last$q;
-        flushes$d = flushes$q;
-        held0$d = held0$q;
-        held1$d = held1$q;
-        held2$d = held2$q;
-        half_shift = 32'h10;
+        all_came$d = all_came$q;
         one = 32'h1;
         two = 32'h2;
-        first_place = 32'h0;
-        second_place = 32'h1;
-        last_place = 32'h3;
         valid = is_there$q;
         beat = filled$q;
-        takes = comes | flushes$q;
-        new0 = v0;
-        new1 = v1;
-        new2 = v2;
-        if (flushes$q) begin
-            new0 = 32'h0;
-            new1 = 32'h0;
-            new2 = 32'h0;
-        end
-        half1 = held1$q;
-        half2 = held2$q;
-        half3 = new0;
-        case (place$q)
-            2:
+        sent = kept$q;
+        kept$d[(64'h10)+:(16)] = 32'h0;
+        kept$d[(64'h20)+:(16)] = 32'h0;
+        kept$d[(64'h30)+:(16)] = 32'h0;
+        many_are_kept$d = 1'b0;
+        takes = comes;
+        is_there$d = comes;
+        filled$d[(64'h40)+:(1)] = 1'b1;
+        filled$d[(64'h41)+:(1)] = 1'b0;
+        case (number$q)
+            KeptHalves$Zero:
                 begin
-                    half2 = new0;
-                    half3 = new1;
+                    sent[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
+                    sent[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
+                    sent[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
+                    sent[(64'h30)+:(16)] = halves[(64'h30)+:(16)];
+                    kept$d[(64'h0)+:(16)] = halves[(64'h40)+:(16)];
+                    kept$d[(64'h10)+:(16)] = halves[(64'h50)+:(16)];
+                    number$d = KeptHalves$Two;
+                    if (vertices_alone) begin
+                        is_there$d = 1'b0;
+                        kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
+                        kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
+                        kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
+                        many_are_kept$d = 1'b1;
+                        number$d = KeptHalves$Three;
+                    end
                 end
-            3:
+            KeptHalves$One:
                 begin
-                    half1 = new0;
-                    half2 = new1;
-                    half3 = new2;
+                    sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
+                    sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
+                    sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
+                    filled$d[(64'h41)+:(1)] = is_last$q;
+                    number$d = KeptHalves$Zero;
+                end
+            KeptHalves$Two:
+                begin
+                    sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
+                    sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
+                    kept$d[(64'h0)+:(16)] = halves[(64'h20)+:(16)];
+                    number$d = KeptHalves$One;
+                    if (~vertices_alone) begin
+                        kept$d[(64'h10)+:(16)] = halves[(64'h30)+:(16)];
+                        kept$d[(64'h20)+:(16)] = halves[(64'h40)+:(16)];
+                        kept$d[(64'h30)+:(16)] = halves[(64'h50)+:(16)];
+                        many_are_kept$d = 1'b1;
+                        number$d = KeptHalves$Rest;
+                    end
+                end
+            KeptHalves$Three:
+                begin
+                    sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
+                    kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
+                    kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
+                    number$d = KeptHalves$Two;
                 end
             default:
                 begin
+                    takes = 1'b1;
+                    is_there$d = 1'b1;
+                    filled$d[(64'h40)+:(1)] = many_are_kept$q;
+                    filled$d[(64'h41)+:(1)] = all_came$q;
+                    number$d = KeptHalves$Zero;
                 end
         endcase
-        if (takes) begin
-            case (place$q)
-                0:
-                    begin
-                        held0$d = new0;
-                        held1$d = new1;
-                        held2$d = new2;
-                    end
-                1:
-                    begin
-                        held0$d = new1;
-                        held1$d = new2;
-                    end
-                default:
-                    begin
-                        held0$d = new2;
-                    end
-            endcase
-            place$d = place$q + second_place;
-        end
-        even0 = ((held0$q) & 32'hffffffff);
-        odd0 = ((half1) & 32'hffffffff);
-        even1 = ((half2) & 32'hffffffff);
-        odd1 = ((half3) & 32'hffffffff);
-        high0 = odd0 << half_shift;
-        high1 = odd1 << half_shift;
-        ends_full = is_last$q & (place$q == last_place);
-        filled$d[(64'h0)+:(32)] = even0 | high0;
-        filled$d[(64'h20)+:(32)] = even1 | high1;
-        filled$d[(64'h40)+:(1)] = (~flushes$q) | (place$q == second_place);
-        filled$d[(64'h41)+:(1)] = flushes$q | ends_full;
-        is_there$d = takes & (place$q != first_place);
-        flushes$d = comes & is_last$q & (~ends_full);
+        sent_bits = sent;
+        filled$d[(64'h0)+:(32)] = sent_bits[(32'h0)+:(32)];
+        filled$d[(64'h20)+:(32)] = sent_bits[(32'h20)+:(32)];
         if (comes) begin
             left$d = left$q - one;
             is_last$d = left$q == two;
+            all_came$d = is_last$q;
+            if (is_last$q & (number$q != KeptHalves$One)) begin
+                number$d = KeptHalves$Rest;
+            end
+        end
+        if (~takes) begin
+            number$d = number$q;
+            kept$d = kept$q;
         end
         if (starts) begin
-            place$d = first_place;
             left$d = count;
             is_last$d = count == one;
         end
         if (reset) begin
             is_there$d = 1'b0;
-            flushes$d = 1'b0;
+            number$d = KeptHalves$Zero;
         end
     end
     
-endmodule // incircle_core_logic$slot0$core$responder$records$vertices$packer
+endmodule // incircle_core_logic$slot0$core$responder$records$stream$packer
 
 
-module incircle_core_logic$slot0$core$responder$records$vertices$packer$filled(d,q,clock);
+module incircle_core_logic$slot0$core$responder$records$stream$packer$all_came(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot0$core$responder$records$stream$packer$all_came
+
+
+module incircle_core_logic$slot0$core$responder$records$stream$packer$filled(d,q,clock);
     
     // Module arguments
     input wire  [65:0] d;
@@ -26044,10 +26408,10 @@ module incircle_core_logic$slot0$core$responder$records$vertices$packer$filled(d
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot0$core$responder$records$vertices$packer$filled
+endmodule // incircle_core_logic$slot0$core$responder$records$stream$packer$filled
 
 
-module incircle_core_logic$slot0$core$responder$records$vertices$packer$flushes(d,q,clock);
+module incircle_core_logic$slot0$core$responder$records$stream$packer$is_last(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -26063,67 +26427,10 @@ module incircle_core_logic$slot0$core$responder$records$vertices$packer$flushes(
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot0$core$responder$records$vertices$packer$flushes
+endmodule // incircle_core_logic$slot0$core$responder$records$stream$packer$is_last
 
 
-module incircle_core_logic$slot0$core$responder$records$vertices$packer$held0(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot0$core$responder$records$vertices$packer$held0
-
-
-module incircle_core_logic$slot0$core$responder$records$vertices$packer$held1(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot0$core$responder$records$vertices$packer$held1
-
-
-module incircle_core_logic$slot0$core$responder$records$vertices$packer$held2(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot0$core$responder$records$vertices$packer$held2
-
-
-module incircle_core_logic$slot0$core$responder$records$vertices$packer$is_last(d,q,clock);
+module incircle_core_logic$slot0$core$responder$records$stream$packer$is_there(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -26139,29 +26446,29 @@ module incircle_core_logic$slot0$core$responder$records$vertices$packer$is_last(
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot0$core$responder$records$vertices$packer$is_last
+endmodule // incircle_core_logic$slot0$core$responder$records$stream$packer$is_there
 
 
-module incircle_core_logic$slot0$core$responder$records$vertices$packer$is_there(d,q,clock);
+module incircle_core_logic$slot0$core$responder$records$stream$packer$kept(d,q,clock);
     
     // Module arguments
-    input wire  d;
-    output reg  q;
+    input wire  [63:0] d;
+    output reg  [63:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 1'h0;
+       q = 64'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot0$core$responder$records$vertices$packer$is_there
+endmodule // incircle_core_logic$slot0$core$responder$records$stream$packer$kept
 
 
-module incircle_core_logic$slot0$core$responder$records$vertices$packer$left(d,q,clock);
+module incircle_core_logic$slot0$core$responder$records$stream$packer$left(d,q,clock);
     
     // Module arguments
     input wire  [14:0] d;
@@ -26177,29 +26484,55 @@ module incircle_core_logic$slot0$core$responder$records$vertices$packer$left(d,q
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot0$core$responder$records$vertices$packer$left
+endmodule // incircle_core_logic$slot0$core$responder$records$stream$packer$left
 
 
-module incircle_core_logic$slot0$core$responder$records$vertices$packer$place(d,q,clock);
+module incircle_core_logic$slot0$core$responder$records$stream$packer$many_are_kept(d,q,clock);
     
     // Module arguments
-    input wire  [1:0] d;
-    output reg  [1:0] q;
+    input wire  d;
+    output reg  q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 2'h0;
+       q = 1'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot0$core$responder$records$vertices$packer$place
+endmodule // incircle_core_logic$slot0$core$responder$records$stream$packer$many_are_kept
 
 
-module incircle_core_logic$slot0$core$responder$records$vertices$queue(clock,reset,push,push_data,pop,valid,data);
+module incircle_core_logic$slot0$core$responder$records$stream$packer$number(d,q,clock);
+    
+    // Module arguments
+    input wire  [2:0] d;
+    output reg  [2:0] q;
+    input wire  clock;
+    
+    // Enums
+    localparam KeptHalves$Zero = 0;
+    localparam KeptHalves$One = 1;
+    localparam KeptHalves$Two = 2;
+    localparam KeptHalves$Three = 3;
+    localparam KeptHalves$Rest = 4;
+    
+    // Update code (custom)
+    initial begin
+       q = 64'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot0$core$responder$records$stream$packer$number
+
+
+module incircle_core_logic$slot0$core$responder$records$stream$queue(clock,reset,push,push_data,pop,valid,data);
     
     // Module arguments
     input wire  clock;
@@ -26239,7 +26572,7 @@ module incircle_core_logic$slot0$core$responder$records$vertices$queue(clock,res
     reg  [3:0] after_oldest;
     
     // Sub module instances
-    incircle_core_logic$slot0$core$responder$records$vertices$queue$entries entries(
+    incircle_core_logic$slot0$core$responder$records$stream$queue$entries entries(
         .clock(entries$clock),
         .write_address(entries$write_address),
         .write_data(entries$write_data),
@@ -26247,17 +26580,17 @@ module incircle_core_logic$slot0$core$responder$records$vertices$queue(clock,res
         .read_address(entries$read_address),
         .read_data(entries$read_data)
     );
-    incircle_core_logic$slot0$core$responder$records$vertices$queue$holds_entries holds_entries(
+    incircle_core_logic$slot0$core$responder$records$stream$queue$holds_entries holds_entries(
         .d(holds_entries$d),
         .q(holds_entries$q),
         .clock(holds_entries$clock)
     );
-    incircle_core_logic$slot0$core$responder$records$vertices$queue$newest newest(
+    incircle_core_logic$slot0$core$responder$records$stream$queue$newest newest(
         .d(newest$d),
         .q(newest$q),
         .clock(newest$clock)
     );
-    incircle_core_logic$slot0$core$responder$records$vertices$queue$oldest oldest(
+    incircle_core_logic$slot0$core$responder$records$stream$queue$oldest oldest(
         .d(oldest$d),
         .q(oldest$q),
         .clock(oldest$clock)
@@ -26304,10 +26637,10 @@ module incircle_core_logic$slot0$core$responder$records$vertices$queue(clock,res
         end
     end
     
-endmodule // incircle_core_logic$slot0$core$responder$records$vertices$queue
+endmodule // incircle_core_logic$slot0$core$responder$records$stream$queue
 
 
-module incircle_core_logic$slot0$core$responder$records$vertices$queue$entries(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$slot0$core$responder$records$stream$queue$entries(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -26325,10 +26658,10 @@ module incircle_core_logic$slot0$core$responder$records$vertices$queue$entries(c
         if (write_enable) memory[write_address] <= write_data;
     end
     always @(*) read_data = word;
-endmodule // incircle_core_logic$slot0$core$responder$records$vertices$queue$entries
+endmodule // incircle_core_logic$slot0$core$responder$records$stream$queue$entries
 
 
-module incircle_core_logic$slot0$core$responder$records$vertices$queue$holds_entries(d,q,clock);
+module incircle_core_logic$slot0$core$responder$records$stream$queue$holds_entries(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -26344,10 +26677,10 @@ module incircle_core_logic$slot0$core$responder$records$vertices$queue$holds_ent
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot0$core$responder$records$vertices$queue$holds_entries
+endmodule // incircle_core_logic$slot0$core$responder$records$stream$queue$holds_entries
 
 
-module incircle_core_logic$slot0$core$responder$records$vertices$queue$newest(d,q,clock);
+module incircle_core_logic$slot0$core$responder$records$stream$queue$newest(d,q,clock);
     
     // Module arguments
     input wire  [3:0] d;
@@ -26363,10 +26696,10 @@ module incircle_core_logic$slot0$core$responder$records$vertices$queue$newest(d,
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot0$core$responder$records$vertices$queue$newest
+endmodule // incircle_core_logic$slot0$core$responder$records$stream$queue$newest
 
 
-module incircle_core_logic$slot0$core$responder$records$vertices$queue$oldest(d,q,clock);
+module incircle_core_logic$slot0$core$responder$records$stream$queue$oldest(d,q,clock);
     
     // Module arguments
     input wire  [3:0] d;
@@ -26382,10 +26715,10 @@ module incircle_core_logic$slot0$core$responder$records$vertices$queue$oldest(d,
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot0$core$responder$records$vertices$queue$oldest
+endmodule // incircle_core_logic$slot0$core$responder$records$stream$queue$oldest
 
 
-module incircle_core_logic$slot0$core$responder$records$vertices$roomy(d,q,clock);
+module incircle_core_logic$slot0$core$responder$records$stream$roomy(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -26401,10 +26734,10 @@ module incircle_core_logic$slot0$core$responder$records$vertices$roomy(d,q,clock
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot0$core$responder$records$vertices$roomy
+endmodule // incircle_core_logic$slot0$core$responder$records$stream$roomy
 
 
-module incircle_core_logic$slot0$core$responder$records$vertices$waiting(d,q,clock);
+module incircle_core_logic$slot0$core$responder$records$stream$waiting(d,q,clock);
     
     // Module arguments
     input wire  [4:0] d;
@@ -26420,7 +26753,7 @@ module incircle_core_logic$slot0$core$responder$records$vertices$waiting(d,q,clo
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot0$core$responder$records$vertices$waiting
+endmodule // incircle_core_logic$slot0$core$responder$records$stream$waiting
 
 
 module incircle_core_logic$slot0$core$responder$records$vertices_alone(d,q,clock);
@@ -27255,8 +27588,8 @@ module incircle_core_logic$slot1$core(clock,reset,command$valid,command$ready,co
     reg  command_port$sweeps;
     reg  [19:0] command_port$engine;
     wire  [47:0] command_port$arrival;
-    wire  [9:0] command_port$clearing;
-    wire  [12:0] command_port$deal;
+    wire  [10:0] command_port$clearing;
+    wire  [16:0] command_port$deal;
     wire  command_port$answers;
     wire  [71:0] command_port$request;
     wire  [47:0] command_port$tally;
@@ -27264,7 +27597,7 @@ module incircle_core_logic$slot1$core(clock,reset,command$valid,command$ready,co
     wire  [2:0] command_port$activity;
     reg  answer_head$clock;
     reg  [71:0] answer_head$request;
-    reg  [9:0] answer_head$clearing;
+    reg  [10:0] answer_head$clearing;
     reg  [7:0] answer_head$engine;
     reg  [14:0] answer_head$records;
     reg  answer_head$collinear;
@@ -27304,7 +27637,7 @@ module incircle_core_logic$slot1$core(clock,reset,command$valid,command$ready,co
     reg  engine$clock;
     reg  engine$reset;
     reg  [82:0] engine$limits;
-    reg  [12:0] engine$deal;
+    reg  [16:0] engine$deal;
     reg  engine$clears;
     reg  [47:0] engine$arrival;
     reg  [14:0] engine$arrived;
@@ -27535,7 +27868,7 @@ module incircle_core_logic$slot1$core$answer_head(clock,request,clearing,engine,
     // Module arguments
     input wire  clock;
     input wire  [71:0] request;
-    input wire  [9:0] clearing;
+    input wire  [10:0] clearing;
     input wire  [7:0] engine;
     input wire  [14:0] records;
     input wire  collinear;
@@ -27743,7 +28076,7 @@ module incircle_core_logic$slot1$core$answer_head(clock,request,clearing,engine,
             2:
                 begin
                     has_none$d = 1'b1;
-                    if (clearing[(64'h1)+:(1)]) begin
+                    if (clearing[(64'h2)+:(1)]) begin
                         answer_status$d = 32'h5;
                     end
                 end
@@ -27797,7 +28130,7 @@ module incircle_core_logic$slot1$core$answer_head(clock,request,clearing,engine,
         shifted_opcode = wide_opcode << opcode_shift;
         wide_engine = ((engine) & 32'hffffffff);
         shifted_engine = wide_engine << engine_shift;
-        job = ((clearing[(64'h2)+:(8)]) & 32'hffffffff);
+        job = ((clearing[(64'h3)+:(8)]) & 32'hffffffff);
         head[(64'h0)+:(32)] = shifted_opcode | shifted_status | shifted_engine | job;
     end
     
@@ -28251,8 +28584,8 @@ module incircle_core_logic$slot1$core$command_port(clock,reset,capacity,built,co
     input wire  sweeps;
     input wire  [19:0] engine;
     output reg  [47:0] arrival;
-    output reg  [9:0] clearing;
-    output reg  [12:0] deal;
+    output reg  [10:0] clearing;
+    output reg  [16:0] deal;
     output reg  answers;
     output reg  [71:0] request;
     output reg  [47:0] tally;
@@ -28302,8 +28635,8 @@ module incircle_core_logic$slot1$core$command_port(clock,reset,capacity,built,co
     reg  clear$reset;
     reg  [4:0] clear$built;
     reg  [33:0] clear$taken;
-    wire  [9:0] clear$clearing;
-    wire  [12:0] clear$deal;
+    wire  [10:0] clear$clearing;
+    wire  [16:0] clear$deal;
     
     // Local signals
     reg  [7:0] code;
@@ -28390,7 +28723,7 @@ module incircle_core_logic$slot1$core$command_port(clock,reset,capacity,built,co
         arrival = slot$arrival;
         clearing = clear$clearing;
         deal = clear$deal;
-        answers = (state$q == CommandState$Answer) & (~clear$clearing[(64'h0)+:(1)]);
+        answers = (state$q == CommandState$Answer) & (~clear$clearing[(64'h0)+:(1)]) & (~clear$clearing[(64'h1)+:(1)]);
         request = held$q;
         tally = slot$tally;
         activity[(64'h0)+:(1)] = is_inserting$q;
@@ -28494,8 +28827,8 @@ module incircle_core_logic$slot1$core$command_port$clear(clock,reset,built,taken
     input wire  reset;
     input wire  [4:0] built;
     input wire  [33:0] taken;
-    output reg  [9:0] clearing;
-    output reg  [12:0] deal;
+    output reg  [10:0] clearing;
+    output reg  [16:0] deal;
     
     // Stub signals
     reg  clears$d;
@@ -28504,9 +28837,9 @@ module incircle_core_logic$slot1$core$command_port$clear(clock,reset,built,taken
     reg  [4:0] working$d;
     wire  [4:0] working$q;
     reg  working$clock;
-    reg  batch$d;
-    wire  batch$q;
-    reg  batch$clock;
+    reg  [4:0] jobs$d;
+    wire  [4:0] jobs$q;
+    reg  jobs$clock;
     reg  [6:0] dealt$d;
     wire  [6:0] dealt$q;
     reg  dealt$clock;
@@ -28516,6 +28849,21 @@ module incircle_core_logic$slot1$core$command_port$clear(clock,reset,built,taken
     reg  [7:0] tag$d;
     wire  [7:0] tag$q;
     reg  tag$clock;
+    reg  checking$d;
+    wire  checking$q;
+    reg  checking$clock;
+    reg  [4:0] wanted$d;
+    wire  [4:0] wanted$q;
+    reg  wanted$clock;
+    reg  [6:0] wanted_jobs$d;
+    wire  [6:0] wanted_jobs$q;
+    reg  wanted_jobs$clock;
+    reg  is_batch$d;
+    wire  is_batch$q;
+    reg  is_batch$clock;
+    reg  [7:0] counted$d;
+    wire  [7:0] counted$q;
+    reg  counted$clock;
     
     // Local signals
     reg  [31:0] word;
@@ -28524,12 +28872,14 @@ module incircle_core_logic$slot1$core$command_port$clear(clock,reset,built,taken
     reg  [7:0] wide_built;
     reg  is_clear;
     reg  asks_too_much;
-    reg  [6:0] meshes;
-    reg  shares_contexts;
-    reg  is_impossible;
     reg  is_granted;
-    reg  [6:0] wide_working;
-    reg  [6:0] twice_working;
+    reg  [7:0] wide_wanted;
+    reg  [6:0] checked_jobs;
+    reg  [7:0] sum;
+    reg  is_reached;
+    reg  is_passed;
+    reg  [6:0] wide_jobs;
+    reg  [6:0] twice_jobs;
     reg  [7:0] clear_code;
     reg  [7:0] all_contexts;
     
@@ -28544,10 +28894,10 @@ module incircle_core_logic$slot1$core$command_port$clear(clock,reset,built,taken
         .q(working$q),
         .clock(working$clock)
     );
-    incircle_core_logic$slot1$core$command_port$clear$batch batch(
-        .d(batch$d),
-        .q(batch$q),
-        .clock(batch$clock)
+    incircle_core_logic$slot1$core$command_port$clear$jobs jobs(
+        .d(jobs$d),
+        .q(jobs$q),
+        .clock(jobs$clock)
     );
     incircle_core_logic$slot1$core$command_port$clear$dealt dealt(
         .d(dealt$d),
@@ -28564,64 +28914,116 @@ module incircle_core_logic$slot1$core$command_port$clear(clock,reset,built,taken
         .q(tag$q),
         .clock(tag$clock)
     );
+    incircle_core_logic$slot1$core$command_port$clear$checking checking(
+        .d(checking$d),
+        .q(checking$q),
+        .clock(checking$clock)
+    );
+    incircle_core_logic$slot1$core$command_port$clear$wanted wanted(
+        .d(wanted$d),
+        .q(wanted$q),
+        .clock(wanted$clock)
+    );
+    incircle_core_logic$slot1$core$command_port$clear$wanted_jobs wanted_jobs(
+        .d(wanted_jobs$d),
+        .q(wanted_jobs$q),
+        .clock(wanted_jobs$clock)
+    );
+    incircle_core_logic$slot1$core$command_port$clear$is_batch is_batch(
+        .d(is_batch$d),
+        .q(is_batch$q),
+        .clock(is_batch$clock)
+    );
+    incircle_core_logic$slot1$core$command_port$clear$counted counted(
+        .d(counted$d),
+        .q(counted$q),
+        .clock(counted$clock)
+    );
     
     // Update code
     always @(*) begin
         clears$clock = clock;
         working$clock = clock;
-        batch$clock = clock;
+        jobs$clock = clock;
         dealt$clock = clock;
         refusing$clock = clock;
         tag$clock = clock;
         clears$d = clears$q;
         working$d = working$q;
-        batch$d = batch$q;
+        jobs$d = jobs$q;
         dealt$d = dealt$q;
         refusing$d = refusing$q;
         tag$d = tag$q;
+        checking$clock = clock;
+        wanted$clock = clock;
+        wanted_jobs$clock = clock;
+        is_batch$clock = clock;
+        counted$clock = clock;
+        checking$d = checking$q;
+        wanted$d = wanted$q;
+        wanted_jobs$d = wanted_jobs$q;
+        is_batch$d = is_batch$q;
+        counted$d = counted$q;
         clear_code = 32'h2;
         all_contexts = 32'h0;
         clearing[(64'h0)+:(1)] = clears$q;
+        clearing[(64'h1)+:(1)] = checking$q;
+        clearing[(64'h2)+:(1)] = refusing$q;
+        clearing[(64'h3)+:(8)] = tag$q;
         deal[(64'h0)+:(5)] = working$q;
-        deal[(64'h5)+:(1)] = batch$q;
-        deal[(64'h6)+:(7)] = dealt$q;
-        clearing[(64'h1)+:(1)] = refusing$q;
-        clearing[(64'h2)+:(8)] = tag$q;
+        deal[(64'h5)+:(5)] = jobs$q;
+        deal[(64'ha)+:(7)] = dealt$q;
         word = taken[(64'h2)+:(32)];
         code = word[(32'h18)+:(8)];
         asked = word[(32'h0)+:(8)];
         wide_built = ((built) & 8'hff);
         is_clear = code == clear_code;
         asks_too_much = asked > wide_built;
-        meshes = word[(32'h9)+:(7)];
-        shares_contexts = word[32'h8] & |meshes;
-        is_impossible = asks_too_much | shares_contexts;
-        is_granted = taken[(64'h0)+:(1)] & is_clear & (~is_impossible);
-        clears$d = is_granted;
-        if (taken[(64'h0)+:(1)]) begin
-            refusing$d = is_clear & is_impossible;
-        end
         if (taken[(64'h0)+:(1)] & is_clear) begin
             tag$d = word[(32'h10)+:(8)];
         end
-        if (is_granted) begin
-            batch$d = word[32'h8];
-            working$d = word[(32'h0)+:(5)];
+        if (taken[(64'h0)+:(1)]) begin
+            refusing$d = is_clear & asks_too_much;
+            checking$d = is_clear & (~asks_too_much);
+            counted$d = 32'h0;
+            is_batch$d = word[32'h8];
+            wanted_jobs$d = word[(32'h9)+:(7)];
+            wanted$d = word[(32'h0)+:(5)];
             if (asked == all_contexts) begin
-                working$d = built;
+                wanted$d = built;
             end
         end
-        wide_working = ((working$q) & 7'h7f);
-        twice_working = wide_working + wide_working;
-        dealt$d = 32'h10;
-        if (batch$q) begin
-            dealt$d = twice_working + wide_working;
+        wide_wanted = ((wanted$q) & 8'hff);
+        checked_jobs = wanted_jobs$q;
+        if (~|wanted_jobs$q) begin
+            checked_jobs = ((wanted$q) & 7'h7f);
         end
+        if (~is_batch$q) begin
+            checked_jobs = 32'h1;
+        end
+        sum = counted$q + ((checked_jobs) & 8'hff);
+        is_reached = (sum == wide_wanted) | (~is_batch$q);
+        is_passed = sum > wide_wanted;
+        is_granted = checking$q & is_reached;
+        clears$d = is_granted;
+        if (checking$q) begin
+            counted$d = sum;
+            checking$d = (~is_reached) & (~is_passed);
+            refusing$d = (~is_reached) & is_passed;
+        end
+        if (is_granted) begin
+            working$d = wanted$q;
+            jobs$d = checked_jobs[(32'h0)+:(5)];
+        end
+        wide_jobs = ((jobs$q) & 7'h7f);
+        twice_jobs = wide_jobs + wide_jobs;
+        dealt$d = twice_jobs + wide_jobs;
         if (reset) begin
             clears$d = 1'b0;
-            batch$d = 1'b0;
+            checking$d = 1'b0;
+            jobs$d = 32'h1;
             tag$d = 32'h0;
-            dealt$d = 32'h10;
+            dealt$d = 32'h3;
             working$d = built;
         end
     end
@@ -28629,7 +29031,7 @@ module incircle_core_logic$slot1$core$command_port$clear(clock,reset,built,taken
 endmodule // incircle_core_logic$slot1$core$command_port$clear
 
 
-module incircle_core_logic$slot1$core$command_port$clear$batch(d,q,clock);
+module incircle_core_logic$slot1$core$command_port$clear$checking(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -28645,7 +29047,7 @@ module incircle_core_logic$slot1$core$command_port$clear$batch(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot1$core$command_port$clear$batch
+endmodule // incircle_core_logic$slot1$core$command_port$clear$checking
 
 
 module incircle_core_logic$slot1$core$command_port$clear$clears(d,q,clock);
@@ -28667,6 +29069,25 @@ module incircle_core_logic$slot1$core$command_port$clear$clears(d,q,clock);
 endmodule // incircle_core_logic$slot1$core$command_port$clear$clears
 
 
+module incircle_core_logic$slot1$core$command_port$clear$counted(d,q,clock);
+    
+    // Module arguments
+    input wire  [7:0] d;
+    output reg  [7:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 8'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot1$core$command_port$clear$counted
+
+
 module incircle_core_logic$slot1$core$command_port$clear$dealt(d,q,clock);
     
     // Module arguments
@@ -28684,6 +29105,44 @@ module incircle_core_logic$slot1$core$command_port$clear$dealt(d,q,clock);
     end
           
 endmodule // incircle_core_logic$slot1$core$command_port$clear$dealt
+
+
+module incircle_core_logic$slot1$core$command_port$clear$is_batch(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot1$core$command_port$clear$is_batch
+
+
+module incircle_core_logic$slot1$core$command_port$clear$jobs(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot1$core$command_port$clear$jobs
 
 
 module incircle_core_logic$slot1$core$command_port$clear$refusing(d,q,clock);
@@ -28722,6 +29181,44 @@ module incircle_core_logic$slot1$core$command_port$clear$tag(d,q,clock);
     end
           
 endmodule // incircle_core_logic$slot1$core$command_port$clear$tag
+
+
+module incircle_core_logic$slot1$core$command_port$clear$wanted(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot1$core$command_port$clear$wanted
+
+
+module incircle_core_logic$slot1$core$command_port$clear$wanted_jobs(d,q,clock);
+    
+    // Module arguments
+    input wire  [6:0] d;
+    output reg  [6:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 7'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot1$core$command_port$clear$wanted_jobs
 
 
 module incircle_core_logic$slot1$core$command_port$clear$working(d,q,clock);
@@ -32010,7 +32507,7 @@ module incircle_core_logic$slot1$core$engine(clock,reset,limits,deal,clears,arri
     input wire  clock;
     input wire  reset;
     input wire  [82:0] limits;
-    input wire  [12:0] deal;
+    input wire  [16:0] deal;
     input wire  clears;
     input wire  [47:0] arrival;
     input wire  [14:0] arrived;
@@ -32026,14 +32523,14 @@ module incircle_core_logic$slot1$core$engine(clock,reset,limits,deal,clears,arri
     reg  insertions$reset;
     reg  insertions$clears;
     reg  [82:0] insertions$limits;
-    reg  [12:0] insertions$deal;
+    reg  [16:0] insertions$deal;
     reg  [14:0] insertions$arrived;
     reg  insertions$came;
     reg  [21:0] insertions$now;
     reg  [153:0] insertions$early;
     reg  [173:0] insertions$completion;
     reg  [2:0] insertions$seed;
-    reg  [4:0] insertions$solo;
+    reg  [9:0] insertions$solo;
     wire  [94:0] insertions$follow;
     wire  [36:0] insertions$start;
     wire  insertions$looks;
@@ -32071,12 +32568,12 @@ module incircle_core_logic$slot1$core$engine(clock,reset,limits,deal,clears,arri
     reg  [173:0] solo$completion;
     wire  [93:0] solo$push;
     wire  [109:0] solo$write;
-    wire  [4:0] solo$progress;
+    wire  [9:0] solo$progress;
     reg  seeder$clock;
     reg  seeder$reset;
     reg  seeder$clears;
     reg  [14:0] seeder$infinite;
-    reg  [12:0] seeder$deal;
+    reg  [16:0] seeder$deal;
     reg  [47:0] seeder$arrival;
     reg  [14:0] seeder$arrived;
     reg  seeder$looks;
@@ -32274,14 +32771,14 @@ module incircle_core_logic$slot1$core$engine$insertions(clock,reset,clears,limit
     input wire  reset;
     input wire  clears;
     input wire  [82:0] limits;
-    input wire  [12:0] deal;
+    input wire  [16:0] deal;
     input wire  [14:0] arrived;
     input wire  came;
     input wire  [21:0] now;
     input wire  [153:0] early;
     input wire  [173:0] completion;
     input wire  [2:0] seed;
-    input wire  [4:0] solo;
+    input wire  [9:0] solo;
     output reg  [94:0] follow;
     output reg  [36:0] start;
     output reg  looks;
@@ -32302,19 +32799,21 @@ module incircle_core_logic$slot1$core$engine$insertions(clock,reset,clears,limit
     reg  dispatcher$clears;
     reg  [23:0] dispatcher$built_contexts;
     reg  [21:0] dispatcher$patience;
-    reg  [12:0] dispatcher$deal;
+    reg  [16:0] dispatcher$deal;
     reg  [14:0] dispatcher$arrived;
     reg  dispatcher$came;
     reg  [2:0] dispatcher$seed;
+    reg  [4:0] dispatcher$early_context;
+    wire  dispatcher$holds_priority;
     reg  dispatcher$is_done;
     reg  [28:0] dispatcher$outcome;
     reg  dispatcher$may_ask;
-    reg  [71:0] dispatcher$committed;
+    reg  [56:0] dispatcher$committed;
     reg  [5:0] dispatcher$released;
-    reg  [4:0] dispatcher$solo;
+    reg  [9:0] dispatcher$solo;
     wire  [36:0] dispatcher$start;
     wire  [5:0] dispatcher$fetched;
-    wire  [133:0] dispatcher$contexts;
+    wire  [145:0] dispatcher$contexts;
     wire  [35:0] dispatcher$solo_start;
     wire  dispatcher$takes_priority;
     wire  dispatcher$is_quiet;
@@ -32324,7 +32823,8 @@ module incircle_core_logic$slot1$core$engine$insertions(clock,reset,clears,limit
     reg  [153:0] attempts$early;
     reg  [173:0] attempts$completion;
     reg  attempts$seeded;
-    reg  [133:0] attempts$contexts;
+    reg  [145:0] attempts$contexts;
+    reg  attempts$holds_priority;
     reg  [36:0] attempts$start;
     reg  [21:0] attempts$now;
     wire  attempts$is_done;
@@ -32349,7 +32849,7 @@ module incircle_core_logic$slot1$core$engine$insertions(clock,reset,clears,limit
     reg  commits$seeds;
     reg  commits$solo_inserts;
     wire  [109:0] commits$write;
-    wire  [71:0] commits$committed;
+    wire  [56:0] commits$committed;
     wire  [14:0] commits$records;
     wire  [14:0] commits$fresh;
     wire  commits$is_at_work;
@@ -32359,6 +32859,7 @@ module incircle_core_logic$slot1$core$engine$insertions(clock,reset,clears,limit
     
     // Local signals
     reg  [55:0] job;
+    reg  [54:0] early_visit;
     reg  [16:0] visit_events;
     
     // Sub module instances
@@ -32372,6 +32873,8 @@ module incircle_core_logic$slot1$core$engine$insertions(clock,reset,clears,limit
         .arrived(dispatcher$arrived),
         .came(dispatcher$came),
         .seed(dispatcher$seed),
+        .early_context(dispatcher$early_context),
+        .holds_priority(dispatcher$holds_priority),
         .is_done(dispatcher$is_done),
         .outcome(dispatcher$outcome),
         .may_ask(dispatcher$may_ask),
@@ -32393,6 +32896,7 @@ module incircle_core_logic$slot1$core$engine$insertions(clock,reset,clears,limit
         .completion(attempts$completion),
         .seeded(attempts$seeded),
         .contexts(attempts$contexts),
+        .holds_priority(attempts$holds_priority),
         .start(attempts$start),
         .now(attempts$now),
         .is_done(attempts$is_done),
@@ -32443,6 +32947,7 @@ module incircle_core_logic$slot1$core$engine$insertions(clock,reset,clears,limit
         attempts$seeded = seed[(64'h0)+:(1)];
         attempts$now = now;
         attempts$contexts = dispatcher$contexts;
+        attempts$holds_priority = dispatcher$holds_priority;
         attempts$start = dispatcher$start;
         looks = attempts$looks;
         follow = attempts$follow;
@@ -32453,6 +32958,8 @@ module incircle_core_logic$slot1$core$engine$insertions(clock,reset,clears,limit
         dispatcher$came = came;
         dispatcher$seed = seed;
         dispatcher$solo = solo;
+        early_visit = early[(64'h1)+:(55)];
+        dispatcher$early_context = early_visit[(64'h0)+:(5)];
         dispatcher$is_done = attempts$is_done;
         dispatcher$outcome = attempts$outcome;
         dispatcher$may_ask = attempts$follow[(64'h1)+:(1)];
@@ -32465,7 +32972,7 @@ module incircle_core_logic$slot1$core$engine$insertions(clock,reset,clears,limit
         stuck = dispatcher$stuck;
         commits$last_id = limits[(64'h16)+:(15)];
         commits$seeds = seed[(64'h2)+:(1)];
-        commits$solo_inserts = solo[(64'h2)+:(1)];
+        commits$solo_inserts = solo[(64'h7)+:(1)];
         commits$entry = attempts$entry;
         commits$inner = attempts$inner;
         commits$lock = attempts$lock;
@@ -32477,8 +32984,8 @@ module incircle_core_logic$slot1$core$engine$insertions(clock,reset,clears,limit
         clear = commits$clear;
         sweeps = commits$sweeps;
         visit_events = attempts$events;
-        visit_events[(64'h2)+:(1)] = attempts$events[(64'h2)+:(1)] | solo[(64'h3)+:(1)];
-        visit_events[(64'h5)+:(1)] = solo[(64'h4)+:(1)];
+        visit_events[(64'h2)+:(1)] = attempts$events[(64'h2)+:(1)] | solo[(64'h8)+:(1)];
+        visit_events[(64'h5)+:(1)] = solo[(64'h9)+:(1)];
         visit_events[(64'h8)+:(1)] = dispatcher$takes_priority;
         job = commits$committed[(64'h1)+:(56)];
         events[(64'h0)+:(17)] = visit_events;
@@ -32488,8 +32995,8 @@ module incircle_core_logic$slot1$core$engine$insertions(clock,reset,clears,limit
         events[(64'h2b)+:(1)] = attempts$outcome[(64'hc)+:(1)];
         events[(64'h2e)+:(1)] = commits$is_at_work;
         events[(64'h2f)+:(1)] = commits$clear[(64'h0)+:(1)];
-        events[(64'h29)+:(1)] = solo[(64'h2)+:(1)];
-        events[(64'h2a)+:(1)] = solo[(64'h1)+:(1)] & (~solo[(64'h2)+:(1)]);
+        events[(64'h29)+:(1)] = solo[(64'h7)+:(1)];
+        events[(64'h2a)+:(1)] = solo[(64'h6)+:(1)] & (~solo[(64'h7)+:(1)]);
         events[(64'h2c)+:(1)] = 1'b0;
         events[(64'h2d)+:(1)] = 1'b0;
     end
@@ -32497,7 +33004,7 @@ module incircle_core_logic$slot1$core$engine$insertions(clock,reset,clears,limit
 endmodule // incircle_core_logic$slot1$core$engine$insertions
 
 
-module incircle_core_logic$slot1$core$engine$insertions$attempts(clock,ring_capacity,early,completion,seeded,contexts,start,now,is_done,follow,outcome,looks,entry,inner,lock,commit,releases,events);
+module incircle_core_logic$slot1$core$engine$insertions$attempts(clock,ring_capacity,early,completion,seeded,contexts,holds_priority,start,now,is_done,follow,outcome,looks,entry,inner,lock,commit,releases,events);
     
     // Module arguments
     input wire  clock;
@@ -32505,7 +33012,8 @@ module incircle_core_logic$slot1$core$engine$insertions$attempts(clock,ring_capa
     input wire  [153:0] early;
     input wire  [173:0] completion;
     input wire  seeded;
-    input wire  [133:0] contexts;
+    input wire  [145:0] contexts;
+    input wire  holds_priority;
     input wire  [36:0] start;
     input wire  [21:0] now;
     output reg  is_done;
@@ -32687,7 +33195,7 @@ module incircle_core_logic$slot1$core$engine$insertions$attempts(clock,ring_capa
         meaning$verdict = verdict;
         meaning$seeded = seeded;
         meaning$is_busy = busy[context_index];
-        meaning$holds_priority = contexts[(64'h78)+:(1)] & (contexts[(64'h79)+:(5)] == early_visit[(64'h0)+:(5)]);
+        meaning$holds_priority = holds_priority;
         meaning$drains = attempt[(64'h0)+:(1)];
         meaning$is_full = store$held[(64'h5e)+:(1)];
         is_done = meaning$found[(64'h0)+:(1)];
@@ -32772,7 +33280,7 @@ module incircle_core_logic$slot1$core$engine$insertions$attempts$aftermath(visit
         outcome[(64'h7)+:(1)] = hands_over;
         outcome[(64'h8)+:(1)] = found[(64'he)+:(1)] | found[(64'hf)+:(1)];
         outcome[(64'h9)+:(1)] = found[(64'h6)+:(1)];
-        outcome[(64'ha)+:(1)] = is_duplicate | step[(64'h1)+:(1)];
+        outcome[(64'ha)+:(1)] = is_duplicate | step[(64'h1)+:(1)] | found[(64'hd)+:(1)];
         outcome[(64'hb)+:(1)] = found[(64'hd)+:(1)];
         outcome[(64'hc)+:(1)] = is_duplicate;
         outcome[(64'hd)+:(1)] = found[(64'h2)+:(1)];
@@ -32922,7 +33430,7 @@ module incircle_core_logic$slot1$core$engine$insertions$attempts$meaning(clock,e
     reg  visits_root;
     reg  tests;
     reg  foreign;
-    reg  is_located;
+    reg  is_in_conflict;
     reg  is_corner;
     reg  is_live;
     reg  looks_again;
@@ -33064,16 +33572,16 @@ module incircle_core_logic$slot1$core$engine$insertions$attempts$meaning(clock,e
         found[(64'h2)+:(1)] = rooted$q;
         found[(64'h3)+:(1)] = tested$q;
         found[(64'h4)+:(1)] = looked$q;
-        is_located = verdict[(64'h1)+:(1)] & (~verdict[(64'h2)+:(1)]);
-        is_corner = verdict[(64'h1)+:(1)] & verdict[(64'h2)+:(1)];
-        looks_again = walk_is_torn$q | (walk_counts$q & is_located & context_is_busy$q);
-        found[(64'h7)+:(1)] = walk_counts$q & (~verdict[(64'h1)+:(1)]);
+        is_corner = verdict[(64'h2)+:(1)];
+        is_in_conflict = verdict[(64'h0)+:(1)] & (~is_corner);
+        looks_again = walk_is_torn$q | (walk_counts$q & is_in_conflict & context_is_busy$q);
+        found[(64'h7)+:(1)] = walk_counts$q & (~verdict[(64'h0)+:(1)]) & (~is_corner);
         found[(64'h10)+:(1)] = walk_counts$q & is_corner;
-        found[(64'h8)+:(1)] = walk_counts$q & is_located & (~context_is_busy$q);
+        found[(64'h8)+:(1)] = walk_counts$q & is_in_conflict & (~context_is_busy$q);
         found[(64'he)+:(1)] = root_is_refused$q;
-        found[(64'h9)+:(1)] = root_is_held$q & is_located;
+        found[(64'h9)+:(1)] = root_is_held$q & is_in_conflict;
         found[(64'h11)+:(1)] = root_is_held$q & is_corner;
-        found[(64'ha)+:(1)] = root_is_held$q & (~verdict[(64'h1)+:(1)]);
+        found[(64'ha)+:(1)] = root_is_held$q & (~verdict[(64'h0)+:(1)]) & (~is_corner);
         is_live = test_counts$q & (~drains);
         passes = is_live & verdict[(64'h0)+:(1)] & (~is_full);
         found[(64'hf)+:(1)] = test_is_refused$q & (~drains);
@@ -33083,7 +33591,7 @@ module incircle_core_logic$slot1$core$engine$insertions$attempts$meaning(clock,e
         asks_again = root_is_awaited$q | (test_is_awaited$q & (~drains));
         found[(64'h6)+:(1)] = asks_again;
         found[(64'h5)+:(1)] = looks_again | asks_again;
-        found[(64'h12)+:(1)] = walk_is_torn$q | (walk_counts$q & (~is_corner)) | (root_is_held$q & is_located) | passes | asks_again;
+        found[(64'h12)+:(1)] = walk_is_torn$q | (walk_counts$q & (~is_corner)) | (root_is_held$q & is_in_conflict) | passes | asks_again;
         found[(64'h13)+:(1)] = may_ask_anyway$q | (test_counts$q & verdict[(64'h0)+:(1)]);
     end
     
@@ -34210,7 +34718,7 @@ module incircle_core_logic$slot1$core$engine$insertions$commits(clock,reset,clea
     input wire  seeds;
     input wire  solo_inserts;
     output reg  [109:0] write;
-    output reg  [71:0] committed;
+    output reg  [56:0] committed;
     output reg  [14:0] records;
     output reg  [14:0] fresh;
     output reg  is_at_work;
@@ -34235,7 +34743,7 @@ module incircle_core_logic$slot1$core$engine$insertions$commits(clock,reset,clea
     reg  [14:0] star$fresh;
     wire  star$takes_fresh;
     wire  [109:0] star$write;
-    wire  [71:0] star$committed;
+    wire  [56:0] star$committed;
     wire  star$is_at_work;
     reg  ids$clock;
     reg  ids$reset;
@@ -37315,7 +37823,7 @@ module incircle_core_logic$slot1$core$engine$insertions$commits$star(clock,reset
     input wire  [14:0] fresh;
     output reg  takes_fresh;
     output reg  [109:0] write;
-    output reg  [71:0] committed;
+    output reg  [56:0] committed;
     output reg  is_at_work;
     
     // Stub signals
@@ -37531,7 +38039,6 @@ module incircle_core_logic$slot1$core$engine$insertions$commits$star(clock,reset
         write = request$q;
         committed[(64'h0)+:(1)] = steps$is_close;
         committed[(64'h1)+:(56)] = ring$q;
-        committed[(64'h39)+:(15)] = first$q[(64'h20)+:(15)];
         is_at_work = steps$is_at_work;
         steps$reset = reset;
         steps$head = head;
@@ -38673,7 +39180,7 @@ module incircle_core_logic$slot1$core$engine$insertions$commits$star$steps$wants
 endmodule // incircle_core_logic$slot1$core$engine$insertions$commits$star$steps$wants
 
 
-module incircle_core_logic$slot1$core$engine$insertions$dispatcher(clock,reset,clears,built_contexts,patience,deal,arrived,came,seed,is_done,outcome,may_ask,committed,released,solo,start,fetched,contexts,solo_start,takes_priority,is_quiet,stuck);
+module incircle_core_logic$slot1$core$engine$insertions$dispatcher(clock,reset,clears,built_contexts,patience,deal,arrived,came,seed,early_context,holds_priority,is_done,outcome,may_ask,committed,released,solo,start,fetched,contexts,solo_start,takes_priority,is_quiet,stuck);
     
     // Module arguments
     input wire  clock;
@@ -38681,19 +39188,21 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher(clock,reset,c
     input wire  clears;
     input wire  [23:0] built_contexts;
     input wire  [21:0] patience;
-    input wire  [12:0] deal;
+    input wire  [16:0] deal;
     input wire  [14:0] arrived;
     input wire  came;
     input wire  [2:0] seed;
+    input wire  [4:0] early_context;
+    output reg  holds_priority;
     input wire  is_done;
     input wire  [28:0] outcome;
     input wire  may_ask;
-    input wire  [71:0] committed;
+    input wire  [56:0] committed;
     input wire  [5:0] released;
-    input wire  [4:0] solo;
+    input wire  [9:0] solo;
     output reg  [36:0] start;
     output reg  [5:0] fetched;
-    output reg  [133:0] contexts;
+    output reg  [145:0] contexts;
     output reg  [35:0] solo_start;
     output reg  takes_priority;
     output reg  is_quiet;
@@ -38722,23 +39231,33 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher(clock,reset,c
     reg  [28:0] flags$outcome;
     reg  [36:0] flags$start;
     reg  [5:0] flags$released;
-    reg  [71:0] flags$committed;
+    reg  [56:0] flags$committed;
     reg  flags$solo_ends;
-    wire  [133:0] flags$contexts;
-    wire  flags$takes_priority;
+    reg  [4:0] flags$solo_context;
+    wire  [145:0] flags$contexts;
+    reg  priorities$clock;
+    reg  [10:0] priorities$planned;
+    reg  [4:0] priorities$early_context;
+    wire  priorities$holds_priority;
+    reg  [28:0] priorities$outcome;
+    wire  priorities$takes_priority;
+    reg  [34:0] priorities$passed;
+    wire  priorities$may_retry;
     reg  starter$clock;
     reg  starter$reset;
     reg  starter$clears;
-    reg  [12:0] starter$deal;
+    reg  [16:0] starter$deal;
     reg  [14:0] starter$arrived;
     reg  starter$came;
     reg  starter$seeded;
-    reg  [133:0] starter$contexts;
+    reg  [145:0] starter$contexts;
+    reg  starter$may_retry;
     reg  starter$solo_is_at_work;
     reg  starter$is_done;
     reg  starter$is_blocked;
     reg  [28:0] starter$outcome;
-    reg  [71:0] starter$committed;
+    wire  [10:0] starter$planned;
+    wire  [34:0] starter$passed;
     wire  [36:0] starter$start;
     wire  [35:0] starter$solo_start;
     reg  finished_points$clock;
@@ -38796,8 +39315,18 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher(clock,reset,c
         .released(flags$released),
         .committed(flags$committed),
         .solo_ends(flags$solo_ends),
-        .contexts(flags$contexts),
-        .takes_priority(flags$takes_priority)
+        .solo_context(flags$solo_context),
+        .contexts(flags$contexts)
+    );
+    incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities priorities(
+        .clock(priorities$clock),
+        .planned(priorities$planned),
+        .early_context(priorities$early_context),
+        .holds_priority(priorities$holds_priority),
+        .outcome(priorities$outcome),
+        .takes_priority(priorities$takes_priority),
+        .passed(priorities$passed),
+        .may_retry(priorities$may_retry)
     );
     incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter starter(
         .clock(starter$clock),
@@ -38808,11 +39337,13 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher(clock,reset,c
         .came(starter$came),
         .seeded(starter$seeded),
         .contexts(starter$contexts),
+        .may_retry(starter$may_retry),
         .solo_is_at_work(starter$solo_is_at_work),
         .is_done(starter$is_done),
         .is_blocked(starter$is_blocked),
         .outcome(starter$outcome),
-        .committed(starter$committed),
+        .planned(starter$planned),
+        .passed(starter$passed),
         .start(starter$start),
         .solo_start(starter$solo_start)
     );
@@ -38852,6 +39383,7 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher(clock,reset,c
         taker1$d = taker1$q;
         taker2$d = taker2$q;
         flags$clock = clock;
+        priorities$clock = clock;
         starter$clock = clock;
         finished_points$clock = clock;
         watchdog$clock = clock;
@@ -38878,9 +39410,16 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher(clock,reset,c
         flags$start = starter$start;
         flags$released = released;
         flags$committed = committed;
-        flags$solo_ends = solo[(64'h1)+:(1)];
+        flags$solo_ends = solo[(64'h6)+:(1)];
+        flags$solo_context = solo[(64'h1)+:(5)];
         contexts = flags$contexts;
-        takes_priority = flags$takes_priority;
+        priorities$planned = starter$planned;
+        priorities$early_context = early_context;
+        priorities$outcome = found$q;
+        priorities$passed = starter$passed;
+        holds_priority = priorities$holds_priority;
+        takes_priority = priorities$takes_priority;
+        starter$may_retry = priorities$may_retry;
         starter$deal = deal;
         starter$arrived = arrived;
         starter$came = came;
@@ -38890,7 +39429,6 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher(clock,reset,c
         starter$is_done = is_done;
         starter$is_blocked = may_ask;
         starter$outcome = found$q;
-        starter$committed = committed;
         start = starter$start;
         solo_start = starter$solo_start;
         taken1$d = starter$start[(64'h15)+:(1)] & (~reset);
@@ -38902,10 +39440,10 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher(clock,reset,c
         finished_points$arrived = arrived;
         finished_points$seeds = seed[(64'h2)+:(1)];
         finished_points$commit_ends = committed[(64'h0)+:(1)];
-        finished_points$solo_ends = solo[(64'h1)+:(1)];
+        finished_points$solo_ends = solo[(64'h6)+:(1)];
         finished_points$duplicate = found$q[(64'hc)+:(1)];
         finished_points$has_no_start = seed[(64'h1)+:(1)];
-        finished_points$all_rest = flags$contexts[(64'h85)+:(1)];
+        finished_points$all_rest = flags$contexts[(64'h91)+:(1)];
         is_quiet = finished_points$is_quiet;
         watchdog$patience = patience;
         watchdog$finishes = finished_points$finishes;
@@ -39057,7 +39595,7 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher$finished_poin
 endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$finished_points$more
 
 
-module incircle_core_logic$slot1$core$engine$insertions$dispatcher$flags(clock,reset,clears,built_contexts,outcome,start,released,committed,solo_ends,contexts,takes_priority);
+module incircle_core_logic$slot1$core$engine$insertions$dispatcher$flags(clock,reset,clears,built_contexts,outcome,start,released,committed,solo_ends,solo_context,contexts);
     
     // Module arguments
     input wire  clock;
@@ -39067,18 +39605,15 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher$flags(clock,r
     input wire  [28:0] outcome;
     input wire  [36:0] start;
     input wire  [5:0] released;
-    input wire  [71:0] committed;
+    input wire  [56:0] committed;
     input wire  solo_ends;
-    output reg  [133:0] contexts;
-    output reg  takes_priority;
+    input wire  [4:0] solo_context;
+    output reg  [145:0] contexts;
     
     // Stub signals
-    reg  [133:0] state$d;
-    wire  [133:0] state$q;
+    reg  [145:0] state$d;
+    wire  [145:0] state$q;
     reg  state$clock;
-    reg  [3:0] waited$d;
-    wire  [3:0] waited$q;
-    reg  waited$clock;
     
     // Local signals
     reg  [55:0] job;
@@ -39101,10 +39636,8 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher$flags(clock,r
     reg  [23:0] freed;
     reg  [23:0] had_commit;
     reg  [23:0] solo_ended;
-    reg  takes;
-    reg  is_holder;
-    reg  has_waited_long;
-    reg  [3:0] one_wait;
+    reg  [23:0] overflowed;
+    reg  [23:0] asking;
     reg  [23:0] one;
     reg  [23:0] none;
     
@@ -39114,31 +39647,23 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher$flags(clock,r
         .q(state$q),
         .clock(state$clock)
     );
-    incircle_core_logic$slot1$core$engine$insertions$dispatcher$flags$waited waited(
-        .d(waited$d),
-        .q(waited$q),
-        .clock(waited$clock)
-    );
     
     // Update code
     always @(*) begin
         state$clock = clock;
-        waited$clock = clock;
         state$d = state$q;
-        waited$d = waited$q;
         one = 32'h1;
         none = 32'h0;
-        one_wait = 32'h1;
         contexts = state$q;
         sleeping = state$q[(64'h0)+:(24)];
         due = state$q[(64'h30)+:(24)];
         job = committed[(64'h1)+:(56)];
-        state$d[(64'h85)+:(1)] = (sleeping == built_contexts) & (due == none) & (~start[(64'h0)+:(1)]);
+        state$d[(64'h91)+:(1)] = (sleeping == built_contexts) & (due == none) & (~start[(64'h0)+:(1)]);
         wide_context = ((outcome[(64'h0)+:(5)]) & 24'hffffff);
         wide_starter = ((start[(64'h1)+:(5)]) & 24'hffffff);
         wide_released = ((released[(64'h1)+:(5)]) & 24'hffffff);
         wide_commit = ((job[(64'h0)+:(5)]) & 24'hffffff);
-        wide_solo = ((state$q[(64'h80)+:(5)]) & 24'hffffff);
+        wide_solo = ((solo_context) & 24'hffffff);
         context_bit = one << wide_context;
         starter_bit = one << wide_starter;
         released_bit = one << wide_released;
@@ -39151,6 +39676,7 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher$flags(clock,r
         freed = 32'h0;
         had_commit = 32'h0;
         solo_ended = 32'h0;
+        overflowed = 32'h0;
         if (outcome[(64'h5)+:(1)]) begin
             falls_asleep = context_bit & built_contexts;
         end
@@ -39159,6 +39685,9 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher$flags(clock,r
         end
         if (outcome[(64'h7)+:(1)]) begin
             becomes_due = context_bit & built_contexts;
+        end
+        if (outcome[(64'hb)+:(1)]) begin
+            overflowed = context_bit & built_contexts;
         end
         if (start[(64'h0)+:(1)]) begin
             starting = starter_bit & built_contexts;
@@ -39177,40 +39706,18 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher$flags(clock,r
         state$d[(64'h30)+:(24)] = (due | becomes_due) & (~freed);
         state$d[(64'h48)+:(24)] = state$q[(64'h48)+:(24)] | starting;
         state$d[(64'h60)+:(24)] = state$q[(64'h60)+:(24)] | had_commit;
-        takes = outcome[(64'h8)+:(1)] & (~state$q[(64'h78)+:(1)]);
-        takes_priority = takes;
-        is_holder = (outcome[(64'ha)+:(1)] & (state$q[(64'h79)+:(5)] == outcome[(64'h0)+:(5)])) | (solo_ends & (state$q[(64'h79)+:(5)] == state$q[(64'h80)+:(5)]));
-        if (takes) begin
-            state$d[(64'h78)+:(1)] = 1'b1;
-            state$d[(64'h79)+:(5)] = outcome[(64'h0)+:(5)];
-        end
-        has_waited_long = waited$q[32'h3];
-        contexts[(64'h7e)+:(1)] = state$q[(64'h78)+:(1)] & has_waited_long;
-        if (outcome[(64'h9)+:(1)] & (~has_waited_long)) begin
-            waited$d = waited$q + one_wait;
-        end
-        if (takes) begin
-            waited$d = 32'h0;
-        end
-        if (is_holder) begin
-            state$d[(64'h78)+:(1)] = 1'b0;
-        end
-        if (outcome[(64'hb)+:(1)] & (~state$q[(64'h7f)+:(1)])) begin
-            state$d[(64'h7f)+:(1)] = 1'b1;
-            state$d[(64'h80)+:(5)] = outcome[(64'h0)+:(5)];
-        end
-        if (solo_ends) begin
-            state$d[(64'h7f)+:(1)] = 1'b0;
-        end
+        asking = (state$q[(64'h78)+:(24)] | overflowed) & (~solo_ended);
+        state$d[(64'h78)+:(24)] = asking;
+        state$d[(64'h90)+:(1)] = |asking;
         if (reset | clears) begin
             state$d[(64'h0)+:(24)] = built_contexts;
             state$d[(64'h18)+:(24)] = 32'h0;
             state$d[(64'h30)+:(24)] = 32'h0;
             state$d[(64'h48)+:(24)] = 32'h0;
             state$d[(64'h60)+:(24)] = 32'h0;
-            state$d[(64'h78)+:(1)] = 1'b0;
-            state$d[(64'h7f)+:(1)] = 1'b0;
-            state$d[(64'h85)+:(1)] = 1'b0;
+            state$d[(64'h78)+:(24)] = 32'h0;
+            state$d[(64'h90)+:(1)] = 1'b0;
+            state$d[(64'h91)+:(1)] = 1'b0;
         end
     end
     
@@ -39220,13 +39727,13 @@ endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$flags
 module incircle_core_logic$slot1$core$engine$insertions$dispatcher$flags$state(d,q,clock);
     
     // Module arguments
-    input wire  [133:0] d;
-    output reg  [133:0] q;
+    input wire  [145:0] d;
+    output reg  [145:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 134'h0;
+       q = 146'h0;
     end
     
     always @(posedge clock) begin
@@ -39234,25 +39741,6 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher$flags$state(d
     end
           
 endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$flags$state
-
-
-module incircle_core_logic$slot1$core$engine$insertions$dispatcher$flags$waited(d,q,clock);
-    
-    // Module arguments
-    input wire  [3:0] d;
-    output reg  [3:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 4'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$flags$waited
 
 
 module incircle_core_logic$slot1$core$engine$insertions$dispatcher$found(d,q,clock);
@@ -39274,34 +39762,380 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher$found(d,q,clo
 endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$found
 
 
-module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter(clock,reset,clears,deal,arrived,came,seeded,contexts,solo_is_at_work,is_done,is_blocked,outcome,committed,start,solo_start);
+module incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities(clock,planned,early_context,holds_priority,outcome,takes_priority,passed,may_retry);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [10:0] planned;
+    input wire  [4:0] early_context;
+    output reg  holds_priority;
+    input wire  [28:0] outcome;
+    output reg  takes_priority;
+    input wire  [34:0] passed;
+    output reg  may_retry;
+    
+    // Stub signals
+    reg  [4:0] early_team$d;
+    wire  [4:0] early_team$q;
+    reg  early_team$clock;
+    reg  [4:0] team$d;
+    wire  [4:0] team$q;
+    reg  team$clock;
+    reg  teams$clock;
+    reg  [4:0] teams$write_address;
+    reg  [4:0] teams$write_data;
+    reg  teams$write_enable;
+    reg  [4:0] teams$read_address;
+    wire  [4:0] teams$read_data;
+    reg  of_early$clock;
+    reg  [4:0] of_early$write_address;
+    reg  [9:0] of_early$write_data;
+    reg  of_early$write_enable;
+    reg  [4:0] of_early$read_address;
+    wire  [9:0] of_early$read_data;
+    reg  of_outcome$clock;
+    reg  [4:0] of_outcome$write_address;
+    reg  [9:0] of_outcome$write_data;
+    reg  of_outcome$write_enable;
+    reg  [4:0] of_outcome$read_address;
+    wire  [9:0] of_outcome$read_data;
+    reg  of_passed$clock;
+    reg  [4:0] of_passed$write_address;
+    reg  [9:0] of_passed$write_data;
+    reg  of_passed$write_enable;
+    reg  [4:0] of_passed$read_address;
+    wire  [9:0] of_passed$read_data;
+    reg  [9:0] early$bits;
+    wire  [9:0] early$value;
+    reg  [9:0] held$bits;
+    wire  [9:0] held$value;
+    reg  [9:0] barring$bits;
+    wire  [9:0] barring$value;
+    
+    // Local signals
+    reg  [9:0] changed;
+    reg  [9:0] written;
+    reg  [4:0] written_team;
+    reg  writes;
+    reg  [3:0] waits;
+    reg  [3:0] other_waits;
+    reg  [3:0] one;
+    reg  takes;
+    reg  returns;
+    reg  is_barred;
+    
+    // Sub module instances
+    incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities$early_team early_team(
+        .d(early_team$d),
+        .q(early_team$q),
+        .clock(early_team$clock)
+    );
+    incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities$team team(
+        .d(team$d),
+        .q(team$q),
+        .clock(team$clock)
+    );
+    incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities$teams teams(
+        .clock(teams$clock),
+        .write_address(teams$write_address),
+        .write_data(teams$write_data),
+        .write_enable(teams$write_enable),
+        .read_address(teams$read_address),
+        .read_data(teams$read_data)
+    );
+    incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities$of_early of_early(
+        .clock(of_early$clock),
+        .write_address(of_early$write_address),
+        .write_data(of_early$write_data),
+        .write_enable(of_early$write_enable),
+        .read_address(of_early$read_address),
+        .read_data(of_early$read_data)
+    );
+    incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities$of_outcome of_outcome(
+        .clock(of_outcome$clock),
+        .write_address(of_outcome$write_address),
+        .write_data(of_outcome$write_data),
+        .write_enable(of_outcome$write_enable),
+        .read_address(of_outcome$read_address),
+        .read_data(of_outcome$read_data)
+    );
+    incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities$of_passed of_passed(
+        .clock(of_passed$clock),
+        .write_address(of_passed$write_address),
+        .write_data(of_passed$write_data),
+        .write_enable(of_passed$write_enable),
+        .read_address(of_passed$read_address),
+        .read_data(of_passed$read_data)
+    );
+    incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities$early early(
+        .bits(early$bits),
+        .value(early$value)
+    );
+    incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities$held held(
+        .bits(held$bits),
+        .value(held$value)
+    );
+    incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities$barring barring(
+        .bits(barring$bits),
+        .value(barring$value)
+    );
+    
+    // Update code
+    always @(*) begin
+        early_team$clock = clock;
+        team$clock = clock;
+        early_team$d = early_team$q;
+        team$d = team$q;
+        teams$clock = clock;
+        of_early$clock = clock;
+        of_outcome$clock = clock;
+        of_passed$clock = clock;
+        one = 32'h1;
+        teams$write_address = planned[(64'h1)+:(5)];
+        teams$write_data = planned[(64'h6)+:(5)];
+        teams$write_enable = planned[(64'h0)+:(1)];
+        teams$read_address = early_context;
+        early_team$d = teams$read_data;
+        team$d = early_team$q;
+        of_early$read_address = teams$read_data;
+        early$bits = of_early$read_data;
+        holds_priority = early$value[(64'h0)+:(1)] & (early$value[(64'h1)+:(5)] == early_context);
+        of_outcome$read_address = team$q;
+        held$bits = of_outcome$read_data;
+        waits = held$value[(64'h6)+:(4)];
+        takes = outcome[(64'h8)+:(1)] & (~held$value[(64'h0)+:(1)]);
+        takes_priority = takes;
+        returns = outcome[(64'ha)+:(1)] & held$value[(64'h0)+:(1)] & (held$value[(64'h1)+:(5)] == outcome[(64'h0)+:(5)]);
+        changed = held$value;
+        if (outcome[(64'h9)+:(1)] & (~waits[32'h3])) begin
+            changed[(64'h6)+:(4)] = waits + one;
+        end
+        if (takes) begin
+            changed[(64'h0)+:(1)] = 1'b1;
+            changed[(64'h1)+:(5)] = outcome[(64'h0)+:(5)];
+            changed[(64'h6)+:(4)] = 32'h0;
+        end
+        written_team = team$q;
+        if (planned[(64'h0)+:(1)]) begin
+            written_team = planned[(64'h6)+:(5)];
+        end
+        if (planned[(64'h0)+:(1)] | returns) begin
+            changed[(64'h0)+:(1)] = 1'b0;
+        end
+        writes = planned[(64'h0)+:(1)] | takes | returns | outcome[(64'h9)+:(1)];
+        of_passed$read_address = passed[(64'h5)+:(5)];
+        barring$bits = of_passed$read_data;
+        other_waits = barring$value[(64'h6)+:(4)];
+        is_barred = barring$value[(64'h0)+:(1)] & other_waits[32'h3] & (barring$value[(64'h1)+:(5)] != passed[(64'h0)+:(5)]);
+        may_retry = ~is_barred;
+        written = changed;
+        of_early$write_address = written_team;
+        of_early$write_data = written;
+        of_early$write_enable = writes;
+        of_outcome$write_address = written_team;
+        of_outcome$write_data = written;
+        of_outcome$write_enable = writes;
+        of_passed$write_address = written_team;
+        of_passed$write_data = written;
+        of_passed$write_enable = writes;
+    end
+    
+endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities
+
+
+module incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities$barring(bits,value);
+    
+    // Module arguments
+    input wire  [9:0] bits;
+    output reg  [9:0] value;
+    
+    // Update code (custom)
+    always @(*) value = bits;
+endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities$barring
+
+
+module incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities$early(bits,value);
+    
+    // Module arguments
+    input wire  [9:0] bits;
+    output reg  [9:0] value;
+    
+    // Update code (custom)
+    always @(*) value = bits;
+endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities$early
+
+
+module incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities$early_team(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities$early_team
+
+
+module incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities$held(bits,value);
+    
+    // Module arguments
+    input wire  [9:0] bits;
+    output reg  [9:0] value;
+    
+    // Update code (custom)
+    always @(*) value = bits;
+endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities$held
+
+
+module incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities$of_early(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [4:0] write_address;
+    input wire  [9:0] write_data;
+    input wire  write_enable;
+    input wire  [4:0] read_address;
+    output reg  [9:0] read_data;
+    
+    // Update code (custom)
+    wire unused_write_address = &{1'b0, write_address[4:4]};
+    wire unused_read_address = &{1'b0, read_address[4:4]};
+    (* ram_style = "distributed" *)
+    reg [9:0] memory [0:15];
+    wire [9:0] word = memory[read_address[3:0]];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address[3:0]] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities$of_early
+
+
+module incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities$of_outcome(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [4:0] write_address;
+    input wire  [9:0] write_data;
+    input wire  write_enable;
+    input wire  [4:0] read_address;
+    output reg  [9:0] read_data;
+    
+    // Update code (custom)
+    wire unused_write_address = &{1'b0, write_address[4:4]};
+    wire unused_read_address = &{1'b0, read_address[4:4]};
+    (* ram_style = "distributed" *)
+    reg [9:0] memory [0:15];
+    wire [9:0] word = memory[read_address[3:0]];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address[3:0]] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities$of_outcome
+
+
+module incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities$of_passed(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [4:0] write_address;
+    input wire  [9:0] write_data;
+    input wire  write_enable;
+    input wire  [4:0] read_address;
+    output reg  [9:0] read_data;
+    
+    // Update code (custom)
+    wire unused_write_address = &{1'b0, write_address[4:4]};
+    wire unused_read_address = &{1'b0, read_address[4:4]};
+    (* ram_style = "distributed" *)
+    reg [9:0] memory [0:15];
+    wire [9:0] word = memory[read_address[3:0]];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address[3:0]] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities$of_passed
+
+
+module incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities$team(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities$team
+
+
+module incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities$teams(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [4:0] write_address;
+    input wire  [4:0] write_data;
+    input wire  write_enable;
+    input wire  [4:0] read_address;
+    output reg  [4:0] read_data;
+    
+    // Update code (custom)
+    wire unused_write_address = &{1'b0, write_address[4:4]};
+    wire unused_read_address = &{1'b0, read_address[4:4]};
+    (* ram_style = "distributed" *)
+    reg [4:0] memory [0:15];
+    wire [4:0] word = memory[read_address[3:0]];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address[3:0]] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$priorities$teams
+
+
+module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter(clock,reset,clears,deal,arrived,came,seeded,contexts,may_retry,solo_is_at_work,is_done,is_blocked,outcome,planned,passed,start,solo_start);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  clears;
-    input wire  [12:0] deal;
+    input wire  [16:0] deal;
     input wire  [14:0] arrived;
     input wire  came;
     input wire  seeded;
-    input wire  [133:0] contexts;
+    input wire  [145:0] contexts;
+    input wire  may_retry;
     input wire  solo_is_at_work;
     input wire  is_done;
     input wire  is_blocked;
     input wire  [28:0] outcome;
-    input wire  [71:0] committed;
+    output reg  [10:0] planned;
+    output reg  [34:0] passed;
     output reg  [36:0] start;
     output reg  [35:0] solo_start;
     
     // Stub signals
-    reg  [27:0] passed$d;
-    wire  [27:0] passed$q;
-    reg  passed$clock;
-    reg  [14:0] passed_point$d;
-    wire  [14:0] passed_point$q;
-    reg  passed_point$clock;
-    reg  [66:0] candidate$d;
-    wire  [66:0] candidate$q;
+    reg  [34:0] left$d;
+    wire  [34:0] left$q;
+    reg  left$clock;
+    reg  [14:0] left_point$d;
+    wire  [14:0] left_point$q;
+    reg  left_point$clock;
+    reg  [71:0] candidate$d;
+    wire  [71:0] candidate$q;
     reg  candidate$clock;
     reg  wants_again$d;
     wire  wants_again$q;
@@ -39309,9 +40143,12 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter(clock
     reg  wants_new$d;
     wire  wants_new$q;
     reg  wants_new$clock;
-    reg  all_work$d;
-    wire  all_work$q;
-    reg  all_work$clock;
+    reg  teams$clock;
+    reg  [10:0] teams$planned;
+    reg  teams$opens;
+    reg  [4:0] teams$opened;
+    reg  [4:0] teams$asked;
+    wire  teams$is_open;
     reg  points$clock;
     reg  [4:0] points$write_address;
     reg  [14:0] points$write_data;
@@ -39324,61 +40161,56 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter(clock
     reg  roots$write_enable;
     reg  [4:0] roots$read_address;
     wire  [14:0] roots$read_data;
-    reg  hints$clock;
-    reg  [4:0] hints$write_address;
-    reg  [14:0] hints$write_data;
-    reg  hints$write_enable;
-    reg  [4:0] hints$read_address;
-    wire  [14:0] hints$read_data;
     reg  pointer$clock;
     reg  pointer$restarts;
-    reg  [4:0] pointer$contexts;
+    reg  [16:0] pointer$deal;
     reg  pointer$moves;
-    wire  [11:0] pointer$pointer;
+    wire  [17:0] pointer$pointer;
     wire  pointer$is_planned;
+    wire  [10:0] pointer$planned;
     wire  pointer$rests_over;
     reg  plans$clock;
-    reg  [12:0] plans$deal;
-    reg  [11:0] plans$pointer;
+    reg  [16:0] plans$deal;
+    reg  [17:0] plans$pointer;
     reg  plans$is_planned;
-    wire  [15:0] plans$due;
-    wire  [6:0] plans$first_dealt;
-    reg  [27:0] plans$passed;
-    wire  [30:0] plans$following;
+    wire  [34:0] plans$shown;
+    reg  [34:0] plans$passed;
+    wire  [29:0] plans$following;
     reg  [20:0] plans$write;
-    reg  [133:0] check$contexts;
-    reg  [27:0] check$passed;
+    reg  [145:0] check$contexts;
+    reg  [34:0] check$passed;
     reg  [14:0] check$arrived;
     reg  check$seeded;
     reg  check$is_planned;
     reg  check$rests_over;
-    reg  check$all_work;
+    reg  check$is_open;
+    reg  check$may_retry;
     reg  check$may_be_starting;
     wire  check$wants_again;
     wire  check$wants_new;
-    wire  check$tries_again;
-    wire  check$is_hinted;
+    wire  check$has_root;
     
     // Local signals
-    reg  [55:0] job;
     reg  [4:0] contexts_at_work;
     reg  wants;
     reg  lacks_port;
     reg  begins;
     reg  moves;
     reg  is_taken;
+    reg  [23:0] solo;
+    reg  [4:0] index;
     reg  [4:0] one_turn;
     
     // Sub module instances
-    incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$passed passed(
-        .d(passed$d),
-        .q(passed$q),
-        .clock(passed$clock)
+    incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$left left(
+        .d(left$d),
+        .q(left$q),
+        .clock(left$clock)
     );
-    incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$passed_point passed_point(
-        .d(passed_point$d),
-        .q(passed_point$q),
-        .clock(passed_point$clock)
+    incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$left_point left_point(
+        .d(left_point$d),
+        .q(left_point$q),
+        .clock(left_point$clock)
     );
     incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$candidate candidate(
         .d(candidate$d),
@@ -39395,10 +40227,13 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter(clock
         .q(wants_new$q),
         .clock(wants_new$clock)
     );
-    incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$all_work all_work(
-        .d(all_work$d),
-        .q(all_work$q),
-        .clock(all_work$clock)
+    incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$teams teams(
+        .clock(teams$clock),
+        .planned(teams$planned),
+        .opens(teams$opens),
+        .opened(teams$opened),
+        .asked(teams$asked),
+        .is_open(teams$is_open)
     );
     incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$points points(
         .clock(points$clock),
@@ -39416,21 +40251,14 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter(clock
         .read_address(roots$read_address),
         .read_data(roots$read_data)
     );
-    incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$hints hints(
-        .clock(hints$clock),
-        .write_address(hints$write_address),
-        .write_data(hints$write_data),
-        .write_enable(hints$write_enable),
-        .read_address(hints$read_address),
-        .read_data(hints$read_data)
-    );
     incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$pointer pointer(
         .clock(pointer$clock),
         .restarts(pointer$restarts),
-        .contexts(pointer$contexts),
+        .deal(pointer$deal),
         .moves(pointer$moves),
         .pointer(pointer$pointer),
         .is_planned(pointer$is_planned),
+        .planned(pointer$planned),
         .rests_over(pointer$rests_over)
     );
     incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$plans plans(
@@ -39438,8 +40266,7 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter(clock
         .deal(plans$deal),
         .pointer(plans$pointer),
         .is_planned(plans$is_planned),
-        .due(plans$due),
-        .first_dealt(plans$first_dealt),
+        .shown(plans$shown),
         .passed(plans$passed),
         .following(plans$following),
         .write(plans$write)
@@ -39451,53 +40278,57 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter(clock
         .seeded(check$seeded),
         .is_planned(check$is_planned),
         .rests_over(check$rests_over),
-        .all_work(check$all_work),
+        .is_open(check$is_open),
+        .may_retry(check$may_retry),
         .may_be_starting(check$may_be_starting),
         .wants_again(check$wants_again),
         .wants_new(check$wants_new),
-        .tries_again(check$tries_again),
-        .is_hinted(check$is_hinted)
+        .has_root(check$has_root)
     );
     
     // Update code
     always @(*) begin
-        passed$clock = clock;
-        passed_point$clock = clock;
+        left$clock = clock;
+        left_point$clock = clock;
         candidate$clock = clock;
         wants_again$clock = clock;
         wants_new$clock = clock;
-        all_work$clock = clock;
-        passed$d = passed$q;
-        passed_point$d = passed_point$q;
+        left$d = left$q;
+        left_point$d = left_point$q;
         candidate$d = candidate$q;
         wants_again$d = wants_again$q;
         wants_new$d = wants_new$q;
-        all_work$d = all_work$q;
         points$clock = clock;
         pointer$clock = clock;
         plans$clock = clock;
         roots$clock = clock;
-        hints$clock = clock;
+        teams$clock = clock;
         one_turn = 32'h1;
         contexts_at_work = deal[(64'h0)+:(5)];
+        solo = contexts[(64'h78)+:(24)];
+        index = left$q[(64'h0)+:(5)];
         points$read_address = pointer$pointer[(64'h0)+:(5)];
         plans$pointer = pointer$pointer;
         plans$is_planned = pointer$is_planned;
-        plans$passed = passed$q;
+        plans$passed = left$q;
         plans$deal = deal;
         pointer$restarts = reset | clears;
-        pointer$contexts = contexts_at_work;
+        pointer$deal = deal;
+        planned = pointer$planned;
+        teams$planned = pointer$planned;
+        passed = left$q;
         check$contexts = contexts;
-        check$passed = passed$q;
+        check$passed = left$q;
         check$arrived = arrived;
         check$seeded = seeded;
         check$is_planned = pointer$is_planned;
         check$rests_over = pointer$rests_over;
-        check$all_work = all_work$q;
+        teams$asked = left$q[(64'h5)+:(5)];
+        check$is_open = teams$is_open;
+        check$may_retry = may_retry;
         check$may_be_starting = (wants_again$q | wants_new$q) & (contexts_at_work == one_turn);
-        roots$read_address = passed$q[(64'h0)+:(5)];
-        hints$read_address = passed$q[(64'h0)+:(5)];
-        wants = (wants_again$q | wants_new$q) & (~contexts[(64'h7f)+:(1)]);
+        roots$read_address = left$q[(64'h0)+:(5)];
+        wants = (wants_again$q | wants_new$q) & (~contexts[(64'h90)+:(1)]);
         lacks_port = wants_new$q & came;
         moves = ~(wants & (is_done | lacks_port));
         pointer$moves = moves;
@@ -39505,95 +40336,65 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter(clock
         is_taken = wants_new$q & begins;
         start[(64'h0)+:(1)] = begins;
         start[(64'h1)+:(5)] = candidate$q[(64'h0)+:(5)];
-        start[(64'h6)+:(15)] = candidate$q[(64'h33)+:(15)];
+        start[(64'h6)+:(15)] = candidate$q[(64'h38)+:(15)];
         start[(64'h15)+:(1)] = is_taken;
-        start[(64'h16)+:(15)] = candidate$q[(64'h5)+:(15)];
-        solo_start[(64'h0)+:(1)] = contexts[(64'h7f)+:(1)] & contexts[(64'h85)+:(1)] & (~solo_is_at_work) & candidate$q[(64'h42)+:(1)];
-        solo_start[(64'h1)+:(5)] = contexts[(64'h80)+:(5)];
-        solo_start[(64'h6)+:(15)] = candidate$q[(64'h24)+:(15)];
-        solo_start[(64'h15)+:(15)] = candidate$q[(64'h33)+:(15)];
+        start[(64'h16)+:(15)] = candidate$q[(64'ha)+:(15)];
+        solo_start[(64'h0)+:(1)] = contexts[(64'h91)+:(1)] & (~solo_is_at_work) & candidate$q[(64'h47)+:(1)];
+        solo_start[(64'h1)+:(5)] = candidate$q[(64'h0)+:(5)];
+        solo_start[(64'h6)+:(15)] = candidate$q[(64'h29)+:(15)];
+        solo_start[(64'h15)+:(15)] = candidate$q[(64'h38)+:(15)];
         points$write_address = candidate$q[(64'h0)+:(5)];
-        points$write_data = candidate$q[(64'h5)+:(15)];
+        points$write_data = candidate$q[(64'ha)+:(15)];
         points$write_enable = is_taken;
         plans$write[(64'h0)+:(1)] = is_taken;
         plans$write[(64'h1)+:(5)] = candidate$q[(64'h0)+:(5)];
-        plans$write[(64'h6)+:(15)] = candidate$q[(64'h15)+:(15)];
+        plans$write[(64'h6)+:(15)] = candidate$q[(64'h1a)+:(15)];
         roots$write_address = outcome[(64'h0)+:(5)];
         roots$write_data = outcome[(64'he)+:(15)];
         roots$write_enable = outcome[(64'hd)+:(1)];
-        job = committed[(64'h1)+:(56)];
-        hints$write_address = job[(64'h0)+:(5)];
-        hints$write_data = committed[(64'h39)+:(15)];
-        hints$write_enable = committed[(64'h0)+:(1)];
-        if (is_taken & candidate$q[(64'h14)+:(1)]) begin
-            all_work$d = 1'b1;
-        end
+        teams$opens = is_taken & candidate$q[(64'h19)+:(1)];
+        teams$opened = candidate$q[(64'h5)+:(5)];
         if (begins) begin
             wants_again$d = 1'b0;
             wants_new$d = 1'b0;
         end
         if (moves) begin
-            candidate$d[(64'h0)+:(5)] = passed$q[(64'h0)+:(5)];
-            candidate$d[(64'h5)+:(15)] = passed$q[(64'h5)+:(15)];
-            candidate$d[(64'h14)+:(1)] = plans$following[(64'h0)+:(1)];
-            candidate$d[(64'h15)+:(15)] = plans$following[(64'h1)+:(15)];
-            candidate$d[(64'h24)+:(15)] = passed_point$q;
+            candidate$d[(64'h0)+:(5)] = left$q[(64'h0)+:(5)];
+            candidate$d[(64'ha)+:(15)] = left$q[(64'hb)+:(15)];
+            candidate$d[(64'h5)+:(5)] = left$q[(64'h5)+:(5)];
+            candidate$d[(64'h19)+:(1)] = left$q[(64'h22)+:(1)];
+            candidate$d[(64'h1a)+:(15)] = plans$following[(64'h0)+:(15)];
+            candidate$d[(64'h29)+:(15)] = left_point$q;
             wants_again$d = check$wants_again;
             wants_new$d = check$wants_new;
-            candidate$d[(64'h42)+:(1)] = passed$q[(64'h0)+:(5)] == contexts[(64'h80)+:(5)];
-            candidate$d[(64'h33)+:(15)] = plans$following[(64'h10)+:(15)];
-            if (check$is_hinted) begin
-                candidate$d[(64'h33)+:(15)] = hints$read_data;
+            candidate$d[(64'h47)+:(1)] = solo[index] & (~solo_is_at_work);
+            candidate$d[(64'h38)+:(15)] = plans$following[(64'hf)+:(15)];
+            if (check$has_root) begin
+                candidate$d[(64'h38)+:(15)] = roots$read_data;
             end
-            if (check$tries_again) begin
-                candidate$d[(64'h33)+:(15)] = roots$read_data;
-            end
-            passed$d[(64'h0)+:(5)] = pointer$pointer[(64'h0)+:(5)];
-            passed$d[(64'h5)+:(15)] = plans$due[(64'h0)+:(15)];
-            passed$d[(64'h14)+:(1)] = plans$due[(64'hf)+:(1)];
-            passed$d[(64'h15)+:(7)] = plans$first_dealt;
-            passed_point$d = points$read_data;
+            left$d = plans$shown;
+            left_point$d = points$read_data;
         end
         if (reset | clears) begin
             wants_again$d = 1'b0;
             wants_new$d = 1'b0;
-            candidate$d[(64'h42)+:(1)] = 1'b0;
-            all_work$d = deal[(64'h5)+:(1)] & (~reset);
+            candidate$d[(64'h47)+:(1)] = 1'b0;
         end
     end
     
 endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter
 
 
-module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$all_work(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$all_work
-
-
 module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$candidate(d,q,clock);
     
     // Module arguments
-    input wire  [66:0] d;
-    output reg  [66:0] q;
+    input wire  [71:0] d;
+    output reg  [71:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 67'h0;
+       q = 72'h0;
     end
     
     always @(posedge clock) begin
@@ -39603,109 +40404,79 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$candi
 endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$candidate
 
 
-module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$check(contexts,passed,arrived,seeded,is_planned,rests_over,all_work,may_be_starting,wants_again,wants_new,tries_again,is_hinted);
+module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$check(contexts,passed,arrived,seeded,is_planned,rests_over,is_open,may_retry,may_be_starting,wants_again,wants_new,has_root);
     
     // Module arguments
-    input wire  [133:0] contexts;
-    input wire  [27:0] passed;
+    input wire  [145:0] contexts;
+    input wire  [34:0] passed;
     input wire  [14:0] arrived;
     input wire  seeded;
     input wire  is_planned;
     input wire  rests_over;
-    input wire  all_work;
+    input wire  is_open;
+    input wire  may_retry;
     input wire  may_be_starting;
     output reg  wants_again;
     output reg  wants_new;
-    output reg  tries_again;
-    output reg  is_hinted;
+    output reg  has_root;
     
     // Local signals
     reg  [4:0] index;
     reg  [23:0] asleep;
     reg  [23:0] retrying;
     reg  [23:0] busy;
-    reg  [23:0] began;
     reg  [23:0] hinted;
     reg  is_asleep;
     reg  will_retry;
     reg  is_rested;
-    reg  may_try;
     reg  may_work;
     reg  is_there;
     reg  is_barred;
-    reg  [4:0] first_context;
     
     // Update code
     always @(*) begin
-        first_context = 32'h0;
         index = passed[(64'h0)+:(5)];
         asleep = contexts[(64'h0)+:(24)];
         retrying = contexts[(64'h18)+:(24)];
         busy = contexts[(64'h30)+:(24)];
-        began = contexts[(64'h48)+:(24)];
         hinted = contexts[(64'h60)+:(24)];
-        is_barred = contexts[(64'h7f)+:(1)] | may_be_starting;
+        is_barred = contexts[(64'h90)+:(1)] | may_be_starting;
         is_asleep = asleep[index] & (~is_barred);
         will_retry = retrying[index];
         is_rested = (~busy[index]) & rests_over;
-        may_try = (~contexts[(64'h7e)+:(1)]) | (passed[(64'h0)+:(5)] == contexts[(64'h79)+:(5)]);
-        wants_again = is_asleep & will_retry & is_rested & may_try;
-        may_work = all_work;
-        if (passed[(64'h0)+:(5)] == first_context) begin
-            may_work = seeded | (~began[32'h0]);
+        wants_again = is_asleep & will_retry & is_rested & may_retry;
+        may_work = is_open;
+        if (passed[(64'ha)+:(1)]) begin
+            may_work = seeded | passed[(64'h1a)+:(1)];
         end
-        is_there = is_planned & (passed[(64'h5)+:(15)] < arrived);
+        is_there = is_planned & (passed[(64'hb)+:(15)] < arrived);
         wants_new = is_asleep & (~will_retry) & is_there & may_work;
-        tries_again = will_retry;
-        is_hinted = hinted[index];
+        has_root = will_retry | hinted[index];
     end
     
 endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$check
 
 
-module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$hints(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$left(d,q,clock);
     
     // Module arguments
-    input wire  clock;
-    input wire  [4:0] write_address;
-    input wire  [14:0] write_data;
-    input wire  write_enable;
-    input wire  [4:0] read_address;
-    output reg  [14:0] read_data;
-    
-    // Update code (custom)
-    wire unused_write_address = &{1'b0, write_address[4:4]};
-    wire unused_read_address = &{1'b0, read_address[4:4]};
-    (* ram_style = "distributed" *)
-    reg [14:0] memory [0:15];
-    wire [14:0] word = memory[read_address[3:0]];
-    always @(posedge clock) begin
-        if (write_enable) memory[write_address[3:0]] <= write_data;
-    end
-    always @(*) read_data = word;
-endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$hints
-
-
-module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$passed(d,q,clock);
-    
-    // Module arguments
-    input wire  [27:0] d;
-    output reg  [27:0] q;
+    input wire  [34:0] d;
+    output reg  [34:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 28'h0;
+       q = 35'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$passed
+endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$left
 
 
-module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$passed_point(d,q,clock);
+module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$left_point(d,q,clock);
     
     // Module arguments
     input wire  [14:0] d;
@@ -39721,29 +40492,28 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$passe
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$passed_point
+endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$left_point
 
 
-module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$plans(clock,deal,pointer,is_planned,due,first_dealt,passed,following,write);
+module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$plans(clock,deal,pointer,is_planned,shown,passed,following,write);
     
     // Module arguments
     input wire  clock;
-    input wire  [12:0] deal;
-    input wire  [11:0] pointer;
+    input wire  [16:0] deal;
+    input wire  [17:0] pointer;
     input wire  is_planned;
-    output reg  [15:0] due;
-    output reg  [6:0] first_dealt;
-    input wire  [27:0] passed;
-    output reg  [30:0] following;
+    output reg  [34:0] shown;
+    input wire  [34:0] passed;
+    output reg  [29:0] following;
     input wire  [20:0] write;
     
     // Stub signals
-    reg  [12:0] points$deal;
-    reg  [11:0] points$pointer;
+    reg  [16:0] points$deal;
+    reg  [17:0] points$pointer;
     wire  [15:0] points$first;
     wire  [6:0] points$first_dealt;
-    reg  [27:0] points$passed;
-    wire  [30:0] points$following;
+    reg  [34:0] points$passed;
+    wire  [29:0] points$following;
     reg  plans$clock;
     reg  [4:0] plans$write_address;
     reg  [15:0] plans$write_data;
@@ -39754,6 +40524,10 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$plans
     wire  [15:0] plan$value;
     
     // Local signals
+    reg  [10:0] rounds;
+    reg  [10:0] round_size;
+    reg  [14:0] planned_id;
+    reg  [15:0] first;
     reg  [15:0] written;
     reg  [15:0] written_bits;
     
@@ -39785,16 +40559,27 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$plans
         points$deal = deal;
         points$pointer = pointer;
         points$passed = passed;
-        first_dealt = points$first_dealt;
+        shown[(64'h0)+:(5)] = pointer[(64'h0)+:(5)];
+        shown[(64'h5)+:(5)] = pointer[(64'h5)+:(5)];
+        shown[(64'ha)+:(1)] = pointer[(64'ha)+:(1)];
+        shown[(64'h1b)+:(7)] = points$first_dealt;
         following = points$following;
         plans$read_address = pointer[(64'h0)+:(5)];
         plan$bits = plans$read_data;
         plans$write_address = pointer[(64'h0)+:(5)];
-        due = points$first;
+        first = points$first;
+        shown[(64'hb)+:(15)] = first[(64'h0)+:(15)];
+        shown[(64'h1a)+:(1)] = first[(64'hf)+:(1)];
         written = points$first;
+        planned_id = plan$value[(64'h0)+:(15)];
+        rounds = planned_id[(32'h4)+:(11)];
+        round_size = ((deal[(64'h5)+:(5)]) & 11'h7ff);
+        shown[(64'h22)+:(1)] = ~pointer[(64'ha)+:(1)];
         if (is_planned) begin
             plans$write_address = write[(64'h1)+:(5)];
-            due = plan$value;
+            shown[(64'hb)+:(15)] = plan$value[(64'h0)+:(15)];
+            shown[(64'h1a)+:(1)] = plan$value[(64'hf)+:(1)];
+            shown[(64'h22)+:(1)] = rounds >= round_size;
             written[(64'h0)+:(15)] = write[(64'h6)+:(15)];
             written[(64'hf)+:(1)] = 1'b0;
         end
@@ -39843,95 +40628,84 @@ endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter
 module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$plans$points(deal,pointer,first,first_dealt,passed,following);
     
     // Module arguments
-    input wire  [12:0] deal;
-    input wire  [11:0] pointer;
+    input wire  [16:0] deal;
+    input wire  [17:0] pointer;
     output reg  [15:0] first;
     output reg  [6:0] first_dealt;
-    input wire  [27:0] passed;
-    output reg  [30:0] following;
+    input wire  [34:0] passed;
+    output reg  [29:0] following;
     
     // Local signals
-    reg  [14:0] taken;
-    reg  is_batch;
-    reg  is_early;
-    reg  is_dealt;
-    reg  [10:0] rounds;
     reg  [14:0] from;
     reg  [14:0] step;
     reg  [14:0] wide_turn;
-    reg  [14:0] wide_taker;
+    reg  [14:0] wide_team;
+    reg  [14:0] wide_jobs;
+    reg  [14:0] first_round;
     reg  [6:0] narrow_turn;
     reg  [6:0] dealt_from;
-    reg  [14:0] first_round;
-    reg  [4:0] first_context;
-    reg  [14:0] one;
     reg  [14:0] two;
+    reg  [14:0] four;
     
     // Update code
     always @(*) begin
-        first_round = 32'h10;
-        first_context = 32'h0;
-        one = 32'h1;
         two = 32'h2;
-        is_batch = deal[(64'h5)+:(1)];
-        taken = passed[(64'h5)+:(15)];
+        four = 32'h4;
         wide_turn = ((pointer[(64'h0)+:(5)]) & 15'h7fff);
-        wide_taker = ((passed[(64'h0)+:(5)]) & 15'h7fff);
+        wide_team = ((passed[(64'h5)+:(5)]) & 15'h7fff);
+        wide_jobs = ((deal[(64'h5)+:(5)]) & 15'h7fff);
+        first_round = wide_jobs << four;
         narrow_turn = ((pointer[(64'h0)+:(5)]) & 7'h7f);
-        dealt_from = deal[(64'h6)+:(7)];
+        dealt_from = deal[(64'ha)+:(7)];
         first_dealt = dealt_from + narrow_turn;
-        rounds = taken[(32'h4)+:(11)];
-        is_dealt = |rounds;
-        following[(64'h0)+:(1)] = is_dealt;
-        is_early = (~is_dealt) & (~is_batch);
-        from = taken;
-        step = ((deal[(64'h0)+:(5)]) & 15'h7fff);
-        if (is_early) begin
-            step = one;
+        from = passed[(64'hb)+:(15)];
+        step = wide_jobs;
+        if (passed[(64'h22)+:(1)]) begin
+            step = ((deal[(64'h0)+:(5)]) & 15'h7fff);
         end
-        if (passed[(64'h14)+:(1)]) begin
-            from = ((passed[(64'h15)+:(7)]) & 15'h7fff);
+        if (passed[(64'h1a)+:(1)]) begin
+            from = ((passed[(64'h1b)+:(7)]) & 15'h7fff);
             step = 32'h0;
         end
-        following[(64'h1)+:(15)] = from + step;
-        following[(64'h10)+:(15)] = 32'h0;
-        if (is_batch) begin
-            following[(64'h10)+:(15)] = wide_taker << two;
-        end
+        following[(64'h0)+:(15)] = from + step;
+        following[(64'hf)+:(15)] = wide_team << two;
         first[(64'h0)+:(15)] = wide_turn + first_round;
-        if (is_batch | (pointer[(64'h0)+:(5)] == first_context)) begin
-            first[(64'h0)+:(15)] = ((pointer[(64'h5)+:(7)]) & 15'h7fff);
+        if (pointer[(64'ha)+:(1)]) begin
+            first[(64'h0)+:(15)] = ((pointer[(64'hb)+:(7)]) & 15'h7fff);
         end
-        first[(64'hf)+:(1)] = is_batch;
+        first[(64'hf)+:(1)] = pointer[(64'ha)+:(1)];
     end
     
 endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$plans$points
 
 
-module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$pointer(clock,restarts,contexts,moves,pointer,is_planned,rests_over);
+module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$pointer(clock,restarts,deal,moves,pointer,is_planned,planned,rests_over);
     
     // Module arguments
     input wire  clock;
     input wire  restarts;
-    input wire  [4:0] contexts;
+    input wire  [16:0] deal;
     input wire  moves;
-    output reg  [11:0] pointer;
+    output reg  [17:0] pointer;
     output reg  is_planned;
+    output reg  [10:0] planned;
     output reg  rests_over;
     
     // Stub signals
-    reg  [11:0] place$d;
-    wire  [11:0] place$q;
+    reg  [17:0] place$d;
+    wire  [17:0] place$q;
     reg  place$clock;
     reg  [1:0] round$d;
     wire  [1:0] round$q;
     reg  round$clock;
-    reg  planned$d;
-    wire  planned$q;
-    reg  planned$clock;
+    reg  was_round$d;
+    wire  was_round$q;
+    reg  was_round$clock;
     
     // Local signals
     reg  [4:0] after_turn;
+    reg  [4:0] after_team;
+    reg  [4:0] one_team;
     reg  [4:0] one_turn;
     reg  [6:0] three;
     reg  [1:0] one_round;
@@ -39948,43 +40722,56 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$point
         .q(round$q),
         .clock(round$clock)
     );
-    incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$pointer$planned planned(
-        .d(planned$d),
-        .q(planned$q),
-        .clock(planned$clock)
+    incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$pointer$was_round was_round(
+        .d(was_round$d),
+        .q(was_round$q),
+        .clock(was_round$clock)
     );
     
     // Update code
     always @(*) begin
         place$clock = clock;
         round$clock = clock;
-        planned$clock = clock;
+        was_round$clock = clock;
         place$d = place$q;
         round$d = round$q;
-        planned$d = planned$q;
+        was_round$d = was_round$q;
         one_turn = 32'h1;
+        one_team = 32'h1;
         three = 32'h3;
         one_round = 32'h1;
         resting_round = 32'h0;
         pointer = place$q;
-        is_planned = planned$q;
+        is_planned = was_round$q;
+        planned[(64'h0)+:(1)] = ~was_round$q;
+        planned[(64'h1)+:(5)] = place$q[(64'h0)+:(5)];
+        planned[(64'h6)+:(5)] = place$q[(64'h5)+:(5)];
         rests_over = round$q == resting_round;
         after_turn = place$q[(64'h0)+:(5)] + one_turn;
+        after_team = place$q[(64'h5)+:(5)] + one_team;
         if (moves) begin
             place$d[(64'h0)+:(5)] = after_turn;
-            place$d[(64'h5)+:(7)] = place$q[(64'h5)+:(7)] + three;
-            if (after_turn == contexts) begin
+            place$d[(64'hb)+:(7)] = place$q[(64'hb)+:(7)] + three;
+            place$d[(64'h5)+:(5)] = after_team;
+            if (after_team == deal[(64'h5)+:(5)]) begin
+                place$d[(64'h5)+:(5)] = 32'h0;
+                place$d[(64'ha)+:(1)] = 1'b0;
+            end
+            if (after_turn == deal[(64'h0)+:(5)]) begin
                 place$d[(64'h0)+:(5)] = 32'h0;
-                place$d[(64'h5)+:(7)] = 32'h2;
-                planned$d = 1'b1;
+                place$d[(64'hb)+:(7)] = 32'h2;
+                place$d[(64'ha)+:(1)] = 1'b1;
+                was_round$d = 1'b1;
                 round$d = round$q + one_round;
             end
         end
         if (restarts) begin
             place$d[(64'h0)+:(5)] = 32'h0;
-            place$d[(64'h5)+:(7)] = 32'h2;
+            place$d[(64'hb)+:(7)] = 32'h2;
+            place$d[(64'h5)+:(5)] = 32'h0;
+            place$d[(64'ha)+:(1)] = 1'b1;
             round$d = 32'h0;
-            planned$d = 1'b0;
+            was_round$d = 1'b0;
         end
     end
     
@@ -39994,13 +40781,13 @@ endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter
 module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$pointer$place(d,q,clock);
     
     // Module arguments
-    input wire  [11:0] d;
-    output reg  [11:0] q;
+    input wire  [17:0] d;
+    output reg  [17:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 12'h0;
+       q = 18'h0;
     end
     
     always @(posedge clock) begin
@@ -40008,25 +40795,6 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$point
     end
           
 endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$pointer$place
-
-
-module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$pointer$planned(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$pointer$planned
 
 
 module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$pointer$round(d,q,clock);
@@ -40046,6 +40814,25 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$point
     end
           
 endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$pointer$round
+
+
+module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$pointer$was_round(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$pointer$was_round
 
 
 module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$points(clock,write_address,write_data,write_enable,read_address,read_data);
@@ -40092,6 +40879,75 @@ module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$roots
     end
     always @(*) read_data = word;
 endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$roots
+
+
+module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$teams(clock,planned,opens,opened,asked,is_open);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [10:0] planned;
+    input wire  opens;
+    input wire  [4:0] opened;
+    input wire  [4:0] asked;
+    output reg  is_open;
+    
+    // Stub signals
+    reg  flags$clock;
+    reg  [4:0] flags$write_address;
+    reg  flags$write_data;
+    reg  flags$write_enable;
+    reg  [4:0] flags$read_address;
+    wire  flags$read_data;
+    
+    // Sub module instances
+    incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$teams$flags flags(
+        .clock(flags$clock),
+        .write_address(flags$write_address),
+        .write_data(flags$write_data),
+        .write_enable(flags$write_enable),
+        .read_address(flags$read_address),
+        .read_data(flags$read_data)
+    );
+    
+    // Update code
+    always @(*) begin
+        flags$clock = clock;
+        flags$read_address = asked;
+        is_open = |flags$read_data;
+        flags$write_address = opened;
+        flags$write_data = 32'h1;
+        flags$write_enable = opens;
+        if (planned[(64'h0)+:(1)]) begin
+            flags$write_address = planned[(64'h6)+:(5)];
+            flags$write_data = 32'h0;
+            flags$write_enable = 1'b1;
+        end
+    end
+    
+endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$teams
+
+
+module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$teams$flags(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [4:0] write_address;
+    input wire  write_data;
+    input wire  write_enable;
+    input wire  [4:0] read_address;
+    output reg  read_data;
+    
+    // Update code (custom)
+    wire unused_write_address = &{1'b0, write_address[4:4]};
+    wire unused_read_address = &{1'b0, read_address[4:4]};
+    (* ram_style = "distributed" *)
+    reg [0:0] memory [0:15];
+    wire [0:0] word = memory[read_address[3:0]];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address[3:0]] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$teams$flags
 
 
 module incircle_core_logic$slot1$core$engine$insertions$dispatcher$starter$wants_again(d,q,clock);
@@ -45354,6 +46210,11 @@ module incircle_core_logic$slot1$core$engine$pipeline$judge$verdict_logic(turned
     reg  [1:0] third_slot;
     reg  is_second;
     reg  is_third;
+    reg  faces_second;
+    reg  faces_third;
+    reg  is_end0;
+    reg  is_end1;
+    reg  is_end2;
     reg  infinite1;
     reg  infinite2;
     reg  is_beyond;
@@ -45385,22 +46246,27 @@ module incircle_core_logic$slot1$core$engine$pipeline$judge$verdict_logic(turned
         end
         is_beyond = (~edges[(64'h0)+:(1)]) & (~edges[(64'h3)+:(1)]);
         is_on_hull_line = edges[(64'h3)+:(1)];
-        is_between = order[(64'h1)+:(1)] ^ order[(64'h2)+:(1)];
+        is_end0 = order[(64'h3)+:(1)];
+        is_end1 = order[(64'h4)+:(1)];
+        is_end2 = order[(64'h5)+:(1)];
+        is_between = (order[(64'h1)+:(1)] ^ order[(64'h2)+:(1)]) & (~is_end1) & (~is_end2);
         if (infinite1) begin
             is_beyond = (~edges[(64'h1)+:(1)]) & (~edges[(64'h4)+:(1)]);
             is_on_hull_line = edges[(64'h4)+:(1)];
-            is_between = order[(64'h2)+:(1)] ^ order[(64'h0)+:(1)];
+            is_between = (order[(64'h2)+:(1)] ^ order[(64'h0)+:(1)]) & (~is_end2) & (~is_end0);
         end
         if (infinite2) begin
             is_beyond = (~edges[(64'h2)+:(1)]) & (~edges[(64'h5)+:(1)]);
             is_on_hull_line = edges[(64'h5)+:(1)];
-            is_between = order[(64'h0)+:(1)] ^ order[(64'h1)+:(1)];
+            is_between = (order[(64'h0)+:(1)] ^ order[(64'h1)+:(1)]) & (~is_end0) & (~is_end1);
         end
+        faces_second = edges[(64'h1)+:(1)];
+        faces_third = edges[(64'h2)+:(1)];
         takes_tie = (order[(64'h1)+:(1)] & order[(64'h2)+:(1)]) | (order[(64'h6)+:(1)] & order[(64'h7)+:(1)]);
-        if (is_second) begin
+        if (faces_second) begin
             takes_tie = (order[(64'h2)+:(1)] & order[(64'h0)+:(1)]) | (order[(64'h8)+:(1)] & (~order[(64'h6)+:(1)]));
         end
-        if (is_third) begin
+        if (faces_third) begin
             takes_tie = (order[(64'h0)+:(1)] & order[(64'h1)+:(1)]) | ((~order[(64'h7)+:(1)]) & (~order[(64'h8)+:(1)]));
         end
         if (is_ghost) begin
@@ -48143,7 +49009,7 @@ module incircle_core_logic$slot1$core$engine$seeder(clock,reset,clears,infinite,
     input wire  reset;
     input wire  clears;
     input wire  [14:0] infinite;
-    input wire  [12:0] deal;
+    input wire  [16:0] deal;
     input wire  [47:0] arrival;
     input wire  [14:0] arrived;
     input wire  looks;
@@ -48308,7 +49174,7 @@ module incircle_core_logic$slot1$core$engine$seeder(clock,reset,clears,infinite,
         request$d[(64'h0)+:(1)] = is_writing | prepares;
         write = request$q;
         has_triple$d = arrived >= triple$q;
-        is_last_job = (~deal[(64'h5)+:(1)]) | (following$q == deal[(64'h0)+:(5)]);
+        is_last_job = following$q == deal[(64'h5)+:(5)];
         if (is_writing) begin
             step$d = step$q + one;
         end
@@ -48699,7 +49565,7 @@ module incircle_core_logic$slot1$core$engine$solo(clock,reset,start,records,comp
     input wire  [173:0] completion;
     output reg  [93:0] push;
     output reg  [109:0] write;
-    output reg  [4:0] progress;
+    output reg  [9:0] progress;
     
     // Stub signals
     reg  awaits$d;
@@ -48884,10 +49750,11 @@ module incircle_core_logic$slot1$core$engine$solo(clock,reset,start,records,comp
         inserted$d = steps$inserts & (~reset);
         ended$d = steps$ends & (~reset);
         progress[(64'h0)+:(1)] = works$q;
-        progress[(64'h3)+:(1)] = star$tests;
-        progress[(64'h4)+:(1)] = star$flips;
-        progress[(64'h2)+:(1)] = inserted$q;
-        progress[(64'h1)+:(1)] = ended$q;
+        progress[(64'h1)+:(5)] = at_work_for$q;
+        progress[(64'h8)+:(1)] = star$tests;
+        progress[(64'h9)+:(1)] = star$flips;
+        progress[(64'h7)+:(1)] = inserted$q;
+        progress[(64'h6)+:(1)] = ended$q;
         if (steps$is_idle & start[(64'h0)+:(1)]) begin
             at_work_for$d = start[(64'h1)+:(5)];
             vertex$d = start[(64'h6)+:(15)];
@@ -51033,33 +51900,23 @@ module incircle_core_logic$slot1$core$responder$records(clock,reset,starts,first
     reg  some_are_left$d;
     wire  some_are_left$q;
     reg  some_are_left$clock;
-    reg  fetching$d;
-    wire  fetching$q;
-    reg  fetching$clock;
-    reg  buffer$clock;
-    reg  buffer$reset;
-    reg  buffer$read_done;
-    reg  [90:0] buffer$record;
-    wire  buffer$holds;
-    wire  [31:0] buffer$word;
-    wire  buffer$is_at_last;
-    reg  buffer$takes;
-    wire  [14:0] buffer$vertex0;
-    wire  [14:0] buffer$vertex1;
-    wire  [14:0] buffer$vertex2;
-    reg  buffer$takes_whole;
-    reg  vertices$clock;
-    reg  vertices$reset;
-    reg  vertices$starts;
-    reg  [14:0] vertices$count;
-    wire  vertices$has_room;
-    reg  vertices$comes;
-    reg  [14:0] vertices$v0;
-    reg  [14:0] vertices$v1;
-    reg  [14:0] vertices$v2;
-    wire  vertices$valid;
-    wire  [65:0] vertices$beat;
-    reg  vertices$takes;
+    reg  is_second$d;
+    wire  is_second$q;
+    reg  is_second$clock;
+    reg  pauses$d;
+    wire  pauses$q;
+    reg  pauses$clock;
+    reg  stream$clock;
+    reg  stream$reset;
+    reg  stream$starts;
+    reg  [14:0] stream$count;
+    reg  stream$vertices_alone;
+    wire  stream$has_room;
+    reg  stream$comes;
+    reg  [90:0] stream$record;
+    wire  stream$valid;
+    wire  [65:0] stream$beat;
+    reg  stream$takes;
     reg  is_there$d;
     wire  is_there$q;
     reg  is_there$clock;
@@ -51069,10 +51926,7 @@ module incircle_core_logic$slot1$core$responder$records(clock,reset,starts,first
     
     // Local signals
     reg  moves;
-    reg  may_ask;
     reg  asks;
-    reg  packs;
-    reg  [31:0] no_word;
     reg  [14:0] one;
     
     // Sub module instances
@@ -51096,38 +51950,28 @@ module incircle_core_logic$slot1$core$responder$records(clock,reset,starts,first
         .q(some_are_left$q),
         .clock(some_are_left$clock)
     );
-    incircle_core_logic$slot1$core$responder$records$fetching fetching(
-        .d(fetching$d),
-        .q(fetching$q),
-        .clock(fetching$clock)
+    incircle_core_logic$slot1$core$responder$records$is_second is_second(
+        .d(is_second$d),
+        .q(is_second$q),
+        .clock(is_second$clock)
     );
-    incircle_core_logic$slot1$core$responder$records$buffer buffer(
-        .clock(buffer$clock),
-        .reset(buffer$reset),
-        .read_done(buffer$read_done),
-        .record(buffer$record),
-        .holds(buffer$holds),
-        .word(buffer$word),
-        .is_at_last(buffer$is_at_last),
-        .takes(buffer$takes),
-        .vertex0(buffer$vertex0),
-        .vertex1(buffer$vertex1),
-        .vertex2(buffer$vertex2),
-        .takes_whole(buffer$takes_whole)
+    incircle_core_logic$slot1$core$responder$records$pauses pauses(
+        .d(pauses$d),
+        .q(pauses$q),
+        .clock(pauses$clock)
     );
-    incircle_core_logic$slot1$core$responder$records$vertices vertices(
-        .clock(vertices$clock),
-        .reset(vertices$reset),
-        .starts(vertices$starts),
-        .count(vertices$count),
-        .has_room(vertices$has_room),
-        .comes(vertices$comes),
-        .v0(vertices$v0),
-        .v1(vertices$v1),
-        .v2(vertices$v2),
-        .valid(vertices$valid),
-        .beat(vertices$beat),
-        .takes(vertices$takes)
+    incircle_core_logic$slot1$core$responder$records$stream stream(
+        .clock(stream$clock),
+        .reset(stream$reset),
+        .starts(stream$starts),
+        .count(stream$count),
+        .vertices_alone(stream$vertices_alone),
+        .has_room(stream$has_room),
+        .comes(stream$comes),
+        .record(stream$record),
+        .valid(stream$valid),
+        .beat(stream$beat),
+        .takes(stream$takes)
     );
     incircle_core_logic$slot1$core$responder$records$is_there is_there(
         .d(is_there$d),
@@ -51146,385 +51990,58 @@ module incircle_core_logic$slot1$core$responder$records(clock,reset,starts,first
         record_id$clock = clock;
         left$clock = clock;
         some_are_left$clock = clock;
-        fetching$clock = clock;
+        is_second$clock = clock;
+        pauses$clock = clock;
         is_there$clock = clock;
         head$clock = clock;
         vertices_alone$d = vertices_alone$q;
         record_id$d = record_id$q;
         left$d = left$q;
         some_are_left$d = some_are_left$q;
-        fetching$d = fetching$q;
+        is_second$d = is_second$q;
+        pauses$d = pauses$q;
         is_there$d = is_there$q;
         head$d = head$q;
-        buffer$clock = clock;
-        vertices$clock = clock;
-        no_word = 32'h0;
+        stream$clock = clock;
         one = 32'h1;
         vertices_alone$d = is_packed;
-        may_ask = (~fetching$q) & (~buffer$holds);
-        if (vertices_alone$q) begin
-            may_ask = vertices$has_room;
-        end
-        asks = runs & some_are_left$q & may_ask;
+        asks = runs & some_are_left$q & stream$has_room & (~pauses$q);
         read = asks;
         read_id = record_id$q;
+        pauses$d = asks & is_second$q & (~vertices_alone$q);
         if (asks) begin
-            fetching$d = 1'b1;
+            is_second$d = ~is_second$q;
             record_id$d = record_id$q + one;
             left$d = left$q - one;
             some_are_left$d = left$q != one;
         end
-        if (read_done) begin
-            fetching$d = 1'b0;
-        end
         if (starts) begin
+            is_second$d = 1'b0;
             record_id$d = first;
             left$d = count;
             some_are_left$d = |count;
         end
-        buffer$reset = reset;
-        buffer$read_done = read_done;
-        buffer$record = record;
-        packs = vertices_alone$q & buffer$holds;
-        buffer$takes_whole = packs;
-        vertices$reset = reset;
-        vertices$starts = starts;
-        vertices$count = count;
-        vertices$comes = packs;
-        vertices$v0 = buffer$vertex0;
-        vertices$v1 = buffer$vertex1;
-        vertices$v2 = buffer$vertex2;
+        stream$reset = reset;
+        stream$starts = starts;
+        stream$count = count;
+        stream$vertices_alone = vertices_alone$q;
+        stream$comes = read_done;
+        stream$record = record;
         valid = is_there$q;
         beat = head$q;
         moves = (~is_there$q) | takes;
-        buffer$takes = moves & buffer$holds & (~vertices_alone$q);
-        vertices$takes = moves & vertices$valid & vertices_alone$q;
+        stream$takes = moves & stream$valid;
         if (moves) begin
-            is_there$d = buffer$holds;
-            head$d[(64'h0)+:(32)] = buffer$word;
-            head$d[(64'h20)+:(32)] = no_word;
-            head$d[(64'h40)+:(1)] = 1'b0;
-            head$d[(64'h41)+:(1)] = buffer$is_at_last & (~some_are_left$q);
-            if (vertices_alone$q) begin
-                is_there$d = vertices$valid;
-                head$d = vertices$beat;
-            end
+            is_there$d = stream$valid;
+            head$d = stream$beat;
         end
         if (reset) begin
             some_are_left$d = 1'b0;
-            fetching$d = 1'b0;
             is_there$d = 1'b0;
         end
     end
     
 endmodule // incircle_core_logic$slot1$core$responder$records
-
-
-module incircle_core_logic$slot1$core$responder$records$buffer(clock,reset,read_done,record,holds,word,is_at_last,takes,vertex0,vertex1,vertex2,takes_whole);
-    
-    // Module arguments
-    input wire  clock;
-    input wire  reset;
-    input wire  read_done;
-    input wire  [90:0] record;
-    output reg  holds;
-    output reg  [31:0] word;
-    output reg  is_at_last;
-    input wire  takes;
-    output reg  [14:0] vertex0;
-    output reg  [14:0] vertex1;
-    output reg  [14:0] vertex2;
-    input wire  takes_whole;
-    
-    // Stub signals
-    reg  is_held$d;
-    wire  is_held$q;
-    reg  is_held$clock;
-    reg  [31:0] buffer0$d;
-    wire  [31:0] buffer0$q;
-    reg  buffer0$clock;
-    reg  [31:0] buffer1$d;
-    wire  [31:0] buffer1$q;
-    reg  buffer1$clock;
-    reg  [31:0] buffer2$d;
-    wire  [31:0] buffer2$q;
-    reg  buffer2$clock;
-    reg  is_second$d;
-    wire  is_second$q;
-    reg  is_second$clock;
-    reg  is_third$d;
-    wire  is_third$q;
-    reg  is_third$clock;
-    reg  [90:0] words$record;
-    wire  [31:0] words$word0;
-    wire  [31:0] words$word1;
-    wire  [31:0] words$word2;
-    
-    // Sub module instances
-    incircle_core_logic$slot1$core$responder$records$buffer$is_held is_held(
-        .d(is_held$d),
-        .q(is_held$q),
-        .clock(is_held$clock)
-    );
-    incircle_core_logic$slot1$core$responder$records$buffer$buffer0 buffer0(
-        .d(buffer0$d),
-        .q(buffer0$q),
-        .clock(buffer0$clock)
-    );
-    incircle_core_logic$slot1$core$responder$records$buffer$buffer1 buffer1(
-        .d(buffer1$d),
-        .q(buffer1$q),
-        .clock(buffer1$clock)
-    );
-    incircle_core_logic$slot1$core$responder$records$buffer$buffer2 buffer2(
-        .d(buffer2$d),
-        .q(buffer2$q),
-        .clock(buffer2$clock)
-    );
-    incircle_core_logic$slot1$core$responder$records$buffer$is_second is_second(
-        .d(is_second$d),
-        .q(is_second$q),
-        .clock(is_second$clock)
-    );
-    incircle_core_logic$slot1$core$responder$records$buffer$is_third is_third(
-        .d(is_third$d),
-        .q(is_third$q),
-        .clock(is_third$clock)
-    );
-    incircle_core_logic$slot1$core$responder$records$buffer$words words(
-        .record(words$record),
-        .word0(words$word0),
-        .word1(words$word1),
-        .word2(words$word2)
-    );
-    
-    // Update code
-    always @(*) begin
-        is_held$clock = clock;
-        buffer0$clock = clock;
-        buffer1$clock = clock;
-        buffer2$clock = clock;
-        is_second$clock = clock;
-        is_third$clock = clock;
-        is_held$d = is_held$q;
-        buffer0$d = buffer0$q;
-        buffer1$d = buffer1$q;
-        buffer2$d = buffer2$q;
-        is_second$d = is_second$q;
-        is_third$d = is_third$q;
-        holds = is_held$q;
-        words$record = record;
-        vertex0 = buffer0$q[(32'h0)+:(15)];
-        vertex1 = buffer1$q[(32'h0)+:(15)];
-        vertex2 = buffer2$q[(32'h0)+:(15)];
-        if (takes_whole) begin
-            is_held$d = 1'b0;
-        end
-        if (read_done) begin
-            is_held$d = 1'b1;
-            buffer0$d = words$word0;
-            buffer1$d = words$word1;
-            buffer2$d = words$word2;
-        end
-        is_at_last = is_third$q;
-        word = buffer0$q;
-        if (is_second$q) begin
-            word = buffer1$q;
-        end
-        if (is_third$q) begin
-            word = buffer2$q;
-        end
-        if (takes) begin
-            is_second$d = (~is_second$q) & (~is_third$q);
-            is_third$d = is_second$q;
-            is_held$d = ~is_third$q;
-        end
-        if (reset) begin
-            is_held$d = 1'b0;
-            is_second$d = 1'b0;
-            is_third$d = 1'b0;
-        end
-    end
-    
-endmodule // incircle_core_logic$slot1$core$responder$records$buffer
-
-
-module incircle_core_logic$slot1$core$responder$records$buffer$buffer0(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot1$core$responder$records$buffer$buffer0
-
-
-module incircle_core_logic$slot1$core$responder$records$buffer$buffer1(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot1$core$responder$records$buffer$buffer1
-
-
-module incircle_core_logic$slot1$core$responder$records$buffer$buffer2(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot1$core$responder$records$buffer$buffer2
-
-
-module incircle_core_logic$slot1$core$responder$records$buffer$is_held(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot1$core$responder$records$buffer$is_held
-
-
-module incircle_core_logic$slot1$core$responder$records$buffer$is_second(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot1$core$responder$records$buffer$is_second
-
-
-module incircle_core_logic$slot1$core$responder$records$buffer$is_third(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot1$core$responder$records$buffer$is_third
-
-
-module incircle_core_logic$slot1$core$responder$records$buffer$words(record,word0,word1,word2);
-    
-    // Module arguments
-    input wire  [90:0] record;
-    output reg  [31:0] word0;
-    output reg  [31:0] word1;
-    output reg  [31:0] word2;
-    
-    // Local signals
-    reg  [31:0] lock;
-    reg  [31:0] vertex0;
-    reg  [31:0] vertex1;
-    reg  [31:0] vertex2;
-    reg  [31:0] link0;
-    reg  [31:0] link1;
-    reg  [31:0] link2;
-    reg  [31:0] high0;
-    reg  [31:0] high1;
-    reg  [31:0] high2;
-    reg  [31:0] link_shift;
-    
-    // Update code
-    always @(*) begin
-        link_shift = 32'hf;
-        lock = 32'h0;
-        if (record[(64'h5a)+:(1)]) begin
-            lock = 64'h80000000;
-        end
-        vertex0 = ((record[(64'h0)+:(15)]) & 32'hffffffff);
-        vertex1 = ((record[(64'hf)+:(15)]) & 32'hffffffff);
-        vertex2 = ((record[(64'h1e)+:(15)]) & 32'hffffffff);
-        link0 = ((record[(64'h2d)+:(15)]) & 32'hffffffff);
-        link1 = ((record[(64'h3c)+:(15)]) & 32'hffffffff);
-        link2 = ((record[(64'h4b)+:(15)]) & 32'hffffffff);
-        high0 = link0 << link_shift;
-        high1 = link1 << link_shift;
-        high2 = link2 << link_shift;
-        word0 = vertex0 | high0 | lock;
-        word1 = vertex1 | high1;
-        word2 = vertex2 | high2;
-    end
-    
-endmodule // incircle_core_logic$slot1$core$responder$records$buffer$words
-
-
-module incircle_core_logic$slot1$core$responder$records$fetching(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot1$core$responder$records$fetching
 
 
 module incircle_core_logic$slot1$core$responder$records$head(d,q,clock);
@@ -51544,6 +52061,25 @@ module incircle_core_logic$slot1$core$responder$records$head(d,q,clock);
     end
           
 endmodule // incircle_core_logic$slot1$core$responder$records$head
+
+
+module incircle_core_logic$slot1$core$responder$records$is_second(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot1$core$responder$records$is_second
 
 
 module incircle_core_logic$slot1$core$responder$records$is_there(d,q,clock);
@@ -51584,6 +52120,25 @@ module incircle_core_logic$slot1$core$responder$records$left(d,q,clock);
 endmodule // incircle_core_logic$slot1$core$responder$records$left
 
 
+module incircle_core_logic$slot1$core$responder$records$pauses(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot1$core$responder$records$pauses
+
+
 module incircle_core_logic$slot1$core$responder$records$record_id(d,q,clock);
     
     // Module arguments
@@ -51622,18 +52177,17 @@ module incircle_core_logic$slot1$core$responder$records$some_are_left(d,q,clock)
 endmodule // incircle_core_logic$slot1$core$responder$records$some_are_left
 
 
-module incircle_core_logic$slot1$core$responder$records$vertices(clock,reset,starts,count,has_room,comes,v0,v1,v2,valid,beat,takes);
+module incircle_core_logic$slot1$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_room,comes,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  starts;
     input wire  [14:0] count;
+    input wire  vertices_alone;
     output reg  has_room;
     input wire  comes;
-    input wire  [14:0] v0;
-    input wire  [14:0] v1;
-    input wire  [14:0] v2;
+    input wire  [90:0] record;
     output reg  valid;
     output reg  [65:0] beat;
     input wire  takes;
@@ -51645,14 +52199,20 @@ module incircle_core_logic$slot1$core$responder$records$vertices(clock,reset,sta
     reg  roomy$d;
     wire  roomy$q;
     reg  roomy$clock;
+    reg  has_come$d;
+    wire  has_come$q;
+    reg  has_come$clock;
+    reg  halves$clock;
+    reg  [90:0] halves$record;
+    reg  halves$vertices_alone;
+    wire  [95:0] halves$halves;
     reg  packer$clock;
     reg  packer$reset;
     reg  packer$starts;
     reg  [14:0] packer$count;
+    reg  packer$vertices_alone;
     reg  packer$comes;
-    reg  [14:0] packer$v0;
-    reg  [14:0] packer$v1;
-    reg  [14:0] packer$v2;
+    reg  [95:0] packer$halves;
     wire  packer$valid;
     wire  [65:0] packer$beat;
     reg  queue$clock;
@@ -51671,29 +52231,39 @@ module incircle_core_logic$slot1$core$responder$records$vertices(clock,reset,sta
     reg  [4:0] room;
     
     // Sub module instances
-    incircle_core_logic$slot1$core$responder$records$vertices$waiting waiting(
+    incircle_core_logic$slot1$core$responder$records$stream$waiting waiting(
         .d(waiting$d),
         .q(waiting$q),
         .clock(waiting$clock)
     );
-    incircle_core_logic$slot1$core$responder$records$vertices$roomy roomy(
+    incircle_core_logic$slot1$core$responder$records$stream$roomy roomy(
         .d(roomy$d),
         .q(roomy$q),
         .clock(roomy$clock)
     );
-    incircle_core_logic$slot1$core$responder$records$vertices$packer packer(
+    incircle_core_logic$slot1$core$responder$records$stream$has_come has_come(
+        .d(has_come$d),
+        .q(has_come$q),
+        .clock(has_come$clock)
+    );
+    incircle_core_logic$slot1$core$responder$records$stream$halves halves(
+        .clock(halves$clock),
+        .record(halves$record),
+        .vertices_alone(halves$vertices_alone),
+        .halves(halves$halves)
+    );
+    incircle_core_logic$slot1$core$responder$records$stream$packer packer(
         .clock(packer$clock),
         .reset(packer$reset),
         .starts(packer$starts),
         .count(packer$count),
+        .vertices_alone(packer$vertices_alone),
         .comes(packer$comes),
-        .v0(packer$v0),
-        .v1(packer$v1),
-        .v2(packer$v2),
+        .halves(packer$halves),
         .valid(packer$valid),
         .beat(packer$beat)
     );
-    incircle_core_logic$slot1$core$responder$records$vertices$queue queue(
+    incircle_core_logic$slot1$core$responder$records$stream$queue queue(
         .clock(queue$clock),
         .reset(queue$reset),
         .push(queue$push),
@@ -51702,7 +52272,7 @@ module incircle_core_logic$slot1$core$responder$records$vertices(clock,reset,sta
         .valid(queue$valid),
         .data(queue$data)
     );
-    incircle_core_logic$slot1$core$responder$records$vertices$head head(
+    incircle_core_logic$slot1$core$responder$records$stream$head head(
         .bits(head$bits),
         .value(head$value)
     );
@@ -51711,8 +52281,11 @@ module incircle_core_logic$slot1$core$responder$records$vertices(clock,reset,sta
     always @(*) begin
         waiting$clock = clock;
         roomy$clock = clock;
+        has_come$clock = clock;
         waiting$d = waiting$q;
         roomy$d = roomy$q;
+        has_come$d = has_come$q;
+        halves$clock = clock;
         packer$clock = clock;
         queue$clock = clock;
         one_beat = 32'h1;
@@ -51720,10 +52293,12 @@ module incircle_core_logic$slot1$core$responder$records$vertices(clock,reset,sta
         packer$reset = reset;
         packer$starts = starts;
         packer$count = count;
-        packer$comes = comes;
-        packer$v0 = v0;
-        packer$v1 = v1;
-        packer$v2 = v2;
+        has_come$d = comes;
+        halves$record = record;
+        halves$vertices_alone = vertices_alone;
+        packer$vertices_alone = vertices_alone;
+        packer$comes = has_come$q;
+        packer$halves = halves$halves;
         queue$reset = reset;
         queue$push = packer$valid;
         beat_bits = packer$beat;
@@ -51741,14 +52316,125 @@ module incircle_core_logic$slot1$core$responder$records$vertices(clock,reset,sta
             waiting$d = waiting$q - one_beat;
         end
         if (reset) begin
+            has_come$d = 1'b0;
             waiting$d = 32'h0;
         end
     end
     
-endmodule // incircle_core_logic$slot1$core$responder$records$vertices
+endmodule // incircle_core_logic$slot1$core$responder$records$stream
 
 
-module incircle_core_logic$slot1$core$responder$records$vertices$head(bits,value);
+module incircle_core_logic$slot1$core$responder$records$stream$halves(clock,record,vertices_alone,halves);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [90:0] record;
+    input wire  vertices_alone;
+    output reg  [95:0] halves;
+    
+    // Stub signals
+    reg  [90:0] kept$d;
+    wire  [90:0] kept$q;
+    reg  kept$clock;
+    
+    // Local signals
+    reg  [15:0] vertex0;
+    reg  [15:0] vertex1;
+    reg  [15:0] vertex2;
+    reg  [15:0] link0;
+    reg  [15:0] link1;
+    reg  [15:0] link2;
+    reg  [15:0] bottom0;
+    reg  [15:0] bottom1;
+    reg  [15:0] bottom2;
+    reg  [15:0] top0;
+    reg  [15:0] lock;
+    reg  [15:0] id_bits;
+    reg  [15:0] one;
+    
+    // Sub module instances
+    incircle_core_logic$slot1$core$responder$records$stream$halves$kept kept(
+        .d(kept$d),
+        .q(kept$q),
+        .clock(kept$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        kept$clock = clock;
+        kept$d = kept$q;
+        id_bits = 32'hf;
+        one = 32'h1;
+        kept$d = record;
+        lock = 32'h0;
+        if (kept$q[(64'h5a)+:(1)]) begin
+            lock = 32'h8000;
+        end
+        vertex0 = ((kept$q[(64'h0)+:(15)]) & 16'hffff);
+        vertex1 = ((kept$q[(64'hf)+:(15)]) & 16'hffff);
+        vertex2 = ((kept$q[(64'h1e)+:(15)]) & 16'hffff);
+        link0 = ((kept$q[(64'h2d)+:(15)]) & 16'hffff);
+        link1 = ((kept$q[(64'h3c)+:(15)]) & 16'hffff);
+        link2 = ((kept$q[(64'h4b)+:(15)]) & 16'hffff);
+        bottom0 = link0 << id_bits;
+        bottom1 = link1 << id_bits;
+        bottom2 = link2 << id_bits;
+        top0 = link0 >> one;
+        halves[(64'h0)+:(16)] = vertex0 | bottom0;
+        halves[(64'h10)+:(16)] = top0 | lock;
+        halves[(64'h20)+:(16)] = vertex1 | bottom1;
+        halves[(64'h30)+:(16)] = link1 >> one;
+        halves[(64'h40)+:(16)] = vertex2 | bottom2;
+        halves[(64'h50)+:(16)] = link2 >> one;
+        if (vertices_alone) begin
+            halves[(64'h0)+:(16)] = vertex0;
+            halves[(64'h10)+:(16)] = vertex1;
+            halves[(64'h20)+:(16)] = vertex2;
+        end
+    end
+    
+endmodule // incircle_core_logic$slot1$core$responder$records$stream$halves
+
+
+module incircle_core_logic$slot1$core$responder$records$stream$halves$kept(d,q,clock);
+    
+    // Module arguments
+    input wire  [90:0] d;
+    output reg  [90:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 91'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot1$core$responder$records$stream$halves$kept
+
+
+module incircle_core_logic$slot1$core$responder$records$stream$has_come(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot1$core$responder$records$stream$has_come
+
+
+module incircle_core_logic$slot1$core$responder$records$stream$head(bits,value);
     
     // Module arguments
     input wire  [65:0] bits;
@@ -51756,22 +52442,28 @@ module incircle_core_logic$slot1$core$responder$records$vertices$head(bits,value
     
     // Update code (custom)
     always @(*) value = bits;
-endmodule // incircle_core_logic$slot1$core$responder$records$vertices$head
+endmodule // incircle_core_logic$slot1$core$responder$records$stream$head
 
 
-module incircle_core_logic$slot1$core$responder$records$vertices$packer(clock,reset,starts,count,comes,v0,v1,v2,valid,beat);
+module incircle_core_logic$slot1$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,comes,halves,valid,beat);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  starts;
     input wire  [14:0] count;
+    input wire  vertices_alone;
     input wire  comes;
-    input wire  [14:0] v0;
-    input wire  [14:0] v1;
-    input wire  [14:0] v2;
+    input wire  [95:0] halves;
     output reg  valid;
     output reg  [65:0] beat;
+    
+    // Enums
+    localparam KeptHalves$Zero = 0;
+    localparam KeptHalves$One = 1;
+    localparam KeptHalves$Two = 2;
+    localparam KeptHalves$Three = 3;
+    localparam KeptHalves$Rest = 4;
     
     // Stub signals
     reg  is_there$d;
@@ -51780,205 +52472,210 @@ module incircle_core_logic$slot1$core$responder$records$vertices$packer(clock,re
     reg  [65:0] filled$d;
     wire  [65:0] filled$q;
     reg  filled$clock;
-    reg  [1:0] place$d;
-    wire  [1:0] place$q;
-    reg  place$clock;
+    reg  [2:0] number$d;
+    wire  [2:0] number$q;
+    reg  number$clock;
+    reg  [63:0] kept$d;
+    wire  [63:0] kept$q;
+    reg  kept$clock;
+    reg  many_are_kept$d;
+    wire  many_are_kept$q;
+    reg  many_are_kept$clock;
     reg  [14:0] left$d;
     wire  [14:0] left$q;
     reg  left$clock;
     reg  is_last$d;
     wire  is_last$q;
     reg  is_last$clock;
-    reg  flushes$d;
-    wire  flushes$q;
-    reg  flushes$clock;
-    reg  [14:0] held0$d;
-    wire  [14:0] held0$q;
-    reg  held0$clock;
-    reg  [14:0] held1$d;
-    wire  [14:0] held1$q;
-    reg  held1$clock;
-    reg  [14:0] held2$d;
-    wire  [14:0] held2$q;
-    reg  held2$clock;
+    reg  all_came$d;
+    wire  all_came$q;
+    reg  all_came$clock;
     
     // Local signals
     reg  takes;
-    reg  ends_full;
-    reg  [14:0] new0;
-    reg  [14:0] new1;
-    reg  [14:0] new2;
-    reg  [14:0] half1;
-    reg  [14:0] half2;
-    reg  [14:0] half3;
-    reg  [31:0] even0;
-    reg  [31:0] even1;
-    reg  [31:0] odd0;
-    reg  [31:0] odd1;
-    reg  [31:0] high0;
-    reg  [31:0] high1;
-    reg  [31:0] half_shift;
+    reg  [63:0] sent;
+    reg  [63:0] sent_bits;
     reg  [14:0] one;
     reg  [14:0] two;
-    reg  [1:0] first_place;
-    reg  [1:0] second_place;
-    reg  [1:0] last_place;
     
     // Sub module instances
-    incircle_core_logic$slot1$core$responder$records$vertices$packer$is_there is_there(
+    incircle_core_logic$slot1$core$responder$records$stream$packer$is_there is_there(
         .d(is_there$d),
         .q(is_there$q),
         .clock(is_there$clock)
     );
-    incircle_core_logic$slot1$core$responder$records$vertices$packer$filled filled(
+    incircle_core_logic$slot1$core$responder$records$stream$packer$filled filled(
         .d(filled$d),
         .q(filled$q),
         .clock(filled$clock)
     );
-    incircle_core_logic$slot1$core$responder$records$vertices$packer$place place(
-        .d(place$d),
-        .q(place$q),
-        .clock(place$clock)
+    incircle_core_logic$slot1$core$responder$records$stream$packer$number number(
+        .d(number$d),
+        .q(number$q),
+        .clock(number$clock)
     );
-    incircle_core_logic$slot1$core$responder$records$vertices$packer$left left(
+    incircle_core_logic$slot1$core$responder$records$stream$packer$kept kept(
+        .d(kept$d),
+        .q(kept$q),
+        .clock(kept$clock)
+    );
+    incircle_core_logic$slot1$core$responder$records$stream$packer$many_are_kept many_are_kept(
+        .d(many_are_kept$d),
+        .q(many_are_kept$q),
+        .clock(many_are_kept$clock)
+    );
+    incircle_core_logic$slot1$core$responder$records$stream$packer$left left(
         .d(left$d),
         .q(left$q),
         .clock(left$clock)
     );
-    incircle_core_logic$slot1$core$responder$records$vertices$packer$is_last is_last(
+    incircle_core_logic$slot1$core$responder$records$stream$packer$is_last is_last(
         .d(is_last$d),
         .q(is_last$q),
         .clock(is_last$clock)
     );
-    incircle_core_logic$slot1$core$responder$records$vertices$packer$flushes flushes(
-        .d(flushes$d),
-        .q(flushes$q),
-        .clock(flushes$clock)
-    );
-    incircle_core_logic$slot1$core$responder$records$vertices$packer$held0 held0(
-        .d(held0$d),
-        .q(held0$q),
-        .clock(held0$clock)
-    );
-    incircle_core_logic$slot1$core$responder$records$vertices$packer$held1 held1(
-        .d(held1$d),
-        .q(held1$q),
-        .clock(held1$clock)
-    );
-    incircle_core_logic$slot1$core$responder$records$vertices$packer$held2 held2(
-        .d(held2$d),
-        .q(held2$q),
-        .clock(held2$clock)
+    incircle_core_logic$slot1$core$responder$records$stream$packer$all_came all_came(
+        .d(all_came$d),
+        .q(all_came$q),
+        .clock(all_came$clock)
     );
     
     // Update code
     always @(*) begin
         is_there$clock = clock;
         filled$clock = clock;
-        place$clock = clock;
-        left$clock = clock;
-        is_last$clock = clock;
-        flushes$clock = clock;
-        held0$clock = clock;
-        held1$clock = clock;
-        held2$clock = clock;
+        number$clock = clock;
+        kept$clock = clock;
+        many_are_kept$clock = clock;
         is_there$d = is_there$q;
         filled$d = filled$q;
-        place$d = place$q;
+        number$d = number$q;
+        kept$d = kept$q;
+        many_are_kept$d = many_are_kept$q;
+        left$clock = clock;
+        is_last$clock = clock;
+        all_came$clock = clock;
         left$d = left$q;
         is_last$d = is_last$q;
-        flushes$d = flushes$q;
-        held0$d = held0$q;
-        held1$d = held1$q;
-        held2$d = held2$q;
-        half_shift = 32'h10;
+        all_came$d = all_came$q;
         one = 32'h1;
         two = 32'h2;
-        first_place = 32'h0;
-        second_place = 32'h1;
-        last_place = 32'h3;
         valid = is_there$q;
         beat = filled$q;
-        takes = comes | flushes$q;
-        new0 = v0;
-        new1 = v1;
-        new2 = v2;
-        if (flushes$q) begin
-            new0 = 32'h0;
-            new1 = 32'h0;
-            new2 = 32'h0;
-        end
-        half1 = held1$q;
-        half2 = held2$q;
-        half3 = new0;
-        case (place$q)
-            2:
+        sent = kept$q;
+        kept$d[(64'h10)+:(16)] = 32'h0;
+        kept$d[(64'h20)+:(16)] = 32'h0;
+        kept$d[(64'h30)+:(16)] = 32'h0;
+        many_are_kept$d = 1'b0;
+        takes = comes;
+        is_there$d = comes;
+        filled$d[(64'h40)+:(1)] = 1'b1;
+        filled$d[(64'h41)+:(1)] = 1'b0;
+        case (number$q)
+            KeptHalves$Zero:
                 begin
-                    half2 = new0;
-                    half3 = new1;
+                    sent[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
+                    sent[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
+                    sent[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
+                    sent[(64'h30)+:(16)] = halves[(64'h30)+:(16)];
+                    kept$d[(64'h0)+:(16)] = halves[(64'h40)+:(16)];
+                    kept$d[(64'h10)+:(16)] = halves[(64'h50)+:(16)];
+                    number$d = KeptHalves$Two;
+                    if (vertices_alone) begin
+                        is_there$d = 1'b0;
+                        kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
+                        kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
+                        kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
+                        many_are_kept$d = 1'b1;
+                        number$d = KeptHalves$Three;
+                    end
                 end
-            3:
+            KeptHalves$One:
                 begin
-                    half1 = new0;
-                    half2 = new1;
-                    half3 = new2;
+                    sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
+                    sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
+                    sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
+                    filled$d[(64'h41)+:(1)] = is_last$q;
+                    number$d = KeptHalves$Zero;
+                end
+            KeptHalves$Two:
+                begin
+                    sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
+                    sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
+                    kept$d[(64'h0)+:(16)] = halves[(64'h20)+:(16)];
+                    number$d = KeptHalves$One;
+                    if (~vertices_alone) begin
+                        kept$d[(64'h10)+:(16)] = halves[(64'h30)+:(16)];
+                        kept$d[(64'h20)+:(16)] = halves[(64'h40)+:(16)];
+                        kept$d[(64'h30)+:(16)] = halves[(64'h50)+:(16)];
+                        many_are_kept$d = 1'b1;
+                        number$d = KeptHalves$Rest;
+                    end
+                end
+            KeptHalves$Three:
+                begin
+                    sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
+                    kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
+                    kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
+                    number$d = KeptHalves$Two;
                 end
             default:
                 begin
+                    takes = 1'b1;
+                    is_there$d = 1'b1;
+                    filled$d[(64'h40)+:(1)] = many_are_kept$q;
+                    filled$d[(64'h41)+:(1)] = all_came$q;
+                    number$d = KeptHalves$Zero;
                 end
         endcase
-        if (takes) begin
-            case (place$q)
-                0:
-                    begin
-                        held0$d = new0;
-                        held1$d = new1;
-                        held2$d = new2;
-                    end
-                1:
-                    begin
-                        held0$d = new1;
-                        held1$d = new2;
-                    end
-                default:
-                    begin
-                        held0$d = new2;
-                    end
-            endcase
-            place$d = place$q + second_place;
-        end
-        even0 = ((held0$q) & 32'hffffffff);
-        odd0 = ((half1) & 32'hffffffff);
-        even1 = ((half2) & 32'hffffffff);
-        odd1 = ((half3) & 32'hffffffff);
-        high0 = odd0 << half_shift;
-        high1 = odd1 << half_shift;
-        ends_full = is_last$q & (place$q == last_place);
-        filled$d[(64'h0)+:(32)] = even0 | high0;
-        filled$d[(64'h20)+:(32)] = even1 | high1;
-        filled$d[(64'h40)+:(1)] = (~flushes$q) | (place$q == second_place);
-        filled$d[(64'h41)+:(1)] = flushes$q | ends_full;
-        is_there$d = takes & (place$q != first_place);
-        flushes$d = comes & is_last$q & (~ends_full);
+        sent_bits = sent;
+        filled$d[(64'h0)+:(32)] = sent_bits[(32'h0)+:(32)];
+        filled$d[(64'h20)+:(32)] = sent_bits[(32'h20)+:(32)];
         if (comes) begin
             left$d = left$q - one;
             is_last$d = left$q == two;
+            all_came$d = is_last$q;
+            if (is_last$q & (number$q != KeptHalves$One)) begin
+                number$d = KeptHalves$Rest;
+            end
+        end
+        if (~takes) begin
+            number$d = number$q;
+            kept$d = kept$q;
         end
         if (starts) begin
-            place$d = first_place;
             left$d = count;
             is_last$d = count == one;
         end
         if (reset) begin
             is_there$d = 1'b0;
-            flushes$d = 1'b0;
+            number$d = KeptHalves$Zero;
         end
     end
     
-endmodule // incircle_core_logic$slot1$core$responder$records$vertices$packer
+endmodule // incircle_core_logic$slot1$core$responder$records$stream$packer
 
 
-module incircle_core_logic$slot1$core$responder$records$vertices$packer$filled(d,q,clock);
+module incircle_core_logic$slot1$core$responder$records$stream$packer$all_came(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot1$core$responder$records$stream$packer$all_came
+
+
+module incircle_core_logic$slot1$core$responder$records$stream$packer$filled(d,q,clock);
     
     // Module arguments
     input wire  [65:0] d;
@@ -51994,10 +52691,10 @@ module incircle_core_logic$slot1$core$responder$records$vertices$packer$filled(d
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot1$core$responder$records$vertices$packer$filled
+endmodule // incircle_core_logic$slot1$core$responder$records$stream$packer$filled
 
 
-module incircle_core_logic$slot1$core$responder$records$vertices$packer$flushes(d,q,clock);
+module incircle_core_logic$slot1$core$responder$records$stream$packer$is_last(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -52013,67 +52710,10 @@ module incircle_core_logic$slot1$core$responder$records$vertices$packer$flushes(
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot1$core$responder$records$vertices$packer$flushes
+endmodule // incircle_core_logic$slot1$core$responder$records$stream$packer$is_last
 
 
-module incircle_core_logic$slot1$core$responder$records$vertices$packer$held0(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot1$core$responder$records$vertices$packer$held0
-
-
-module incircle_core_logic$slot1$core$responder$records$vertices$packer$held1(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot1$core$responder$records$vertices$packer$held1
-
-
-module incircle_core_logic$slot1$core$responder$records$vertices$packer$held2(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot1$core$responder$records$vertices$packer$held2
-
-
-module incircle_core_logic$slot1$core$responder$records$vertices$packer$is_last(d,q,clock);
+module incircle_core_logic$slot1$core$responder$records$stream$packer$is_there(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -52089,29 +52729,29 @@ module incircle_core_logic$slot1$core$responder$records$vertices$packer$is_last(
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot1$core$responder$records$vertices$packer$is_last
+endmodule // incircle_core_logic$slot1$core$responder$records$stream$packer$is_there
 
 
-module incircle_core_logic$slot1$core$responder$records$vertices$packer$is_there(d,q,clock);
+module incircle_core_logic$slot1$core$responder$records$stream$packer$kept(d,q,clock);
     
     // Module arguments
-    input wire  d;
-    output reg  q;
+    input wire  [63:0] d;
+    output reg  [63:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 1'h0;
+       q = 64'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot1$core$responder$records$vertices$packer$is_there
+endmodule // incircle_core_logic$slot1$core$responder$records$stream$packer$kept
 
 
-module incircle_core_logic$slot1$core$responder$records$vertices$packer$left(d,q,clock);
+module incircle_core_logic$slot1$core$responder$records$stream$packer$left(d,q,clock);
     
     // Module arguments
     input wire  [14:0] d;
@@ -52127,29 +52767,55 @@ module incircle_core_logic$slot1$core$responder$records$vertices$packer$left(d,q
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot1$core$responder$records$vertices$packer$left
+endmodule // incircle_core_logic$slot1$core$responder$records$stream$packer$left
 
 
-module incircle_core_logic$slot1$core$responder$records$vertices$packer$place(d,q,clock);
+module incircle_core_logic$slot1$core$responder$records$stream$packer$many_are_kept(d,q,clock);
     
     // Module arguments
-    input wire  [1:0] d;
-    output reg  [1:0] q;
+    input wire  d;
+    output reg  q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 2'h0;
+       q = 1'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot1$core$responder$records$vertices$packer$place
+endmodule // incircle_core_logic$slot1$core$responder$records$stream$packer$many_are_kept
 
 
-module incircle_core_logic$slot1$core$responder$records$vertices$queue(clock,reset,push,push_data,pop,valid,data);
+module incircle_core_logic$slot1$core$responder$records$stream$packer$number(d,q,clock);
+    
+    // Module arguments
+    input wire  [2:0] d;
+    output reg  [2:0] q;
+    input wire  clock;
+    
+    // Enums
+    localparam KeptHalves$Zero = 0;
+    localparam KeptHalves$One = 1;
+    localparam KeptHalves$Two = 2;
+    localparam KeptHalves$Three = 3;
+    localparam KeptHalves$Rest = 4;
+    
+    // Update code (custom)
+    initial begin
+       q = 64'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot1$core$responder$records$stream$packer$number
+
+
+module incircle_core_logic$slot1$core$responder$records$stream$queue(clock,reset,push,push_data,pop,valid,data);
     
     // Module arguments
     input wire  clock;
@@ -52189,7 +52855,7 @@ module incircle_core_logic$slot1$core$responder$records$vertices$queue(clock,res
     reg  [3:0] after_oldest;
     
     // Sub module instances
-    incircle_core_logic$slot1$core$responder$records$vertices$queue$entries entries(
+    incircle_core_logic$slot1$core$responder$records$stream$queue$entries entries(
         .clock(entries$clock),
         .write_address(entries$write_address),
         .write_data(entries$write_data),
@@ -52197,17 +52863,17 @@ module incircle_core_logic$slot1$core$responder$records$vertices$queue(clock,res
         .read_address(entries$read_address),
         .read_data(entries$read_data)
     );
-    incircle_core_logic$slot1$core$responder$records$vertices$queue$holds_entries holds_entries(
+    incircle_core_logic$slot1$core$responder$records$stream$queue$holds_entries holds_entries(
         .d(holds_entries$d),
         .q(holds_entries$q),
         .clock(holds_entries$clock)
     );
-    incircle_core_logic$slot1$core$responder$records$vertices$queue$newest newest(
+    incircle_core_logic$slot1$core$responder$records$stream$queue$newest newest(
         .d(newest$d),
         .q(newest$q),
         .clock(newest$clock)
     );
-    incircle_core_logic$slot1$core$responder$records$vertices$queue$oldest oldest(
+    incircle_core_logic$slot1$core$responder$records$stream$queue$oldest oldest(
         .d(oldest$d),
         .q(oldest$q),
         .clock(oldest$clock)
@@ -52254,10 +52920,10 @@ module incircle_core_logic$slot1$core$responder$records$vertices$queue(clock,res
         end
     end
     
-endmodule // incircle_core_logic$slot1$core$responder$records$vertices$queue
+endmodule // incircle_core_logic$slot1$core$responder$records$stream$queue
 
 
-module incircle_core_logic$slot1$core$responder$records$vertices$queue$entries(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$slot1$core$responder$records$stream$queue$entries(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -52275,10 +52941,10 @@ module incircle_core_logic$slot1$core$responder$records$vertices$queue$entries(c
         if (write_enable) memory[write_address] <= write_data;
     end
     always @(*) read_data = word;
-endmodule // incircle_core_logic$slot1$core$responder$records$vertices$queue$entries
+endmodule // incircle_core_logic$slot1$core$responder$records$stream$queue$entries
 
 
-module incircle_core_logic$slot1$core$responder$records$vertices$queue$holds_entries(d,q,clock);
+module incircle_core_logic$slot1$core$responder$records$stream$queue$holds_entries(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -52294,10 +52960,10 @@ module incircle_core_logic$slot1$core$responder$records$vertices$queue$holds_ent
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot1$core$responder$records$vertices$queue$holds_entries
+endmodule // incircle_core_logic$slot1$core$responder$records$stream$queue$holds_entries
 
 
-module incircle_core_logic$slot1$core$responder$records$vertices$queue$newest(d,q,clock);
+module incircle_core_logic$slot1$core$responder$records$stream$queue$newest(d,q,clock);
     
     // Module arguments
     input wire  [3:0] d;
@@ -52313,10 +52979,10 @@ module incircle_core_logic$slot1$core$responder$records$vertices$queue$newest(d,
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot1$core$responder$records$vertices$queue$newest
+endmodule // incircle_core_logic$slot1$core$responder$records$stream$queue$newest
 
 
-module incircle_core_logic$slot1$core$responder$records$vertices$queue$oldest(d,q,clock);
+module incircle_core_logic$slot1$core$responder$records$stream$queue$oldest(d,q,clock);
     
     // Module arguments
     input wire  [3:0] d;
@@ -52332,10 +52998,10 @@ module incircle_core_logic$slot1$core$responder$records$vertices$queue$oldest(d,
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot1$core$responder$records$vertices$queue$oldest
+endmodule // incircle_core_logic$slot1$core$responder$records$stream$queue$oldest
 
 
-module incircle_core_logic$slot1$core$responder$records$vertices$roomy(d,q,clock);
+module incircle_core_logic$slot1$core$responder$records$stream$roomy(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -52351,10 +53017,10 @@ module incircle_core_logic$slot1$core$responder$records$vertices$roomy(d,q,clock
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot1$core$responder$records$vertices$roomy
+endmodule // incircle_core_logic$slot1$core$responder$records$stream$roomy
 
 
-module incircle_core_logic$slot1$core$responder$records$vertices$waiting(d,q,clock);
+module incircle_core_logic$slot1$core$responder$records$stream$waiting(d,q,clock);
     
     // Module arguments
     input wire  [4:0] d;
@@ -52370,7 +53036,7 @@ module incircle_core_logic$slot1$core$responder$records$vertices$waiting(d,q,clo
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot1$core$responder$records$vertices$waiting
+endmodule // incircle_core_logic$slot1$core$responder$records$stream$waiting
 
 
 module incircle_core_logic$slot1$core$responder$records$vertices_alone(d,q,clock);
