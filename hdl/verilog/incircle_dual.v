@@ -2578,9 +2578,12 @@ module incircle_core_logic$slot0$core$command_port$clear(clock,reset,built,taken
     reg  is_batch$d;
     wire  is_batch$q;
     reg  is_batch$clock;
-    reg  [7:0] counted$d;
-    wire  [7:0] counted$q;
-    reg  counted$clock;
+    reg  names_jobs$d;
+    wire  names_jobs$q;
+    reg  names_jobs$clock;
+    reg  [4:0] left$d;
+    wire  [4:0] left$q;
+    reg  left$clock;
     
     // Local signals
     reg  [31:0] word;
@@ -2590,9 +2593,10 @@ module incircle_core_logic$slot0$core$command_port$clear(clock,reset,built,taken
     reg  is_clear;
     reg  asks_too_much;
     reg  is_granted;
-    reg  [7:0] wide_wanted;
+    reg  [6:0] named_jobs;
     reg  [6:0] checked_jobs;
-    reg  [7:0] sum;
+    reg  [6:0] wide_left;
+    reg  [6:0] rest;
     reg  is_reached;
     reg  is_passed;
     reg  [6:0] wide_jobs;
@@ -2651,10 +2655,15 @@ module incircle_core_logic$slot0$core$command_port$clear(clock,reset,built,taken
         .q(is_batch$q),
         .clock(is_batch$clock)
     );
-    incircle_core_logic$slot0$core$command_port$clear$counted counted(
-        .d(counted$d),
-        .q(counted$q),
-        .clock(counted$clock)
+    incircle_core_logic$slot0$core$command_port$clear$names_jobs names_jobs(
+        .d(names_jobs$d),
+        .q(names_jobs$q),
+        .clock(names_jobs$clock)
+    );
+    incircle_core_logic$slot0$core$command_port$clear$left left(
+        .d(left$d),
+        .q(left$q),
+        .clock(left$clock)
     );
     
     // Update code
@@ -2675,12 +2684,14 @@ module incircle_core_logic$slot0$core$command_port$clear(clock,reset,built,taken
         wanted$clock = clock;
         wanted_jobs$clock = clock;
         is_batch$clock = clock;
-        counted$clock = clock;
+        names_jobs$clock = clock;
+        left$clock = clock;
         checking$d = checking$q;
         wanted$d = wanted$q;
         wanted_jobs$d = wanted_jobs$q;
         is_batch$d = is_batch$q;
-        counted$d = counted$q;
+        names_jobs$d = names_jobs$q;
+        left$d = left$q;
         clear_code = 32'h2;
         all_contexts = 32'h0;
         clearing[(64'h0)+:(1)] = clears$q;
@@ -2693,6 +2704,7 @@ module incircle_core_logic$slot0$core$command_port$clear(clock,reset,built,taken
         word = taken[(64'h2)+:(32)];
         code = word[(32'h18)+:(8)];
         asked = word[(32'h0)+:(8)];
+        named_jobs = word[(32'h9)+:(7)];
         wide_built = ((built) & 8'hff);
         is_clear = code == clear_code;
         asks_too_much = asked > wide_built;
@@ -2702,29 +2714,31 @@ module incircle_core_logic$slot0$core$command_port$clear(clock,reset,built,taken
         if (taken[(64'h0)+:(1)]) begin
             refusing$d = is_clear & asks_too_much;
             checking$d = is_clear & (~asks_too_much);
-            counted$d = 32'h0;
             is_batch$d = word[32'h8];
-            wanted_jobs$d = word[(32'h9)+:(7)];
+            wanted_jobs$d = named_jobs;
+            names_jobs$d = |named_jobs;
             wanted$d = word[(32'h0)+:(5)];
+            left$d = word[(32'h0)+:(5)];
             if (asked == all_contexts) begin
                 wanted$d = built;
+                left$d = built;
             end
         end
-        wide_wanted = ((wanted$q) & 8'hff);
         checked_jobs = wanted_jobs$q;
-        if (~|wanted_jobs$q) begin
+        if (~names_jobs$q) begin
             checked_jobs = ((wanted$q) & 7'h7f);
         end
         if (~is_batch$q) begin
             checked_jobs = 32'h1;
         end
-        sum = counted$q + ((checked_jobs) & 8'hff);
-        is_reached = (sum == wide_wanted) | (~is_batch$q);
-        is_passed = sum > wide_wanted;
+        wide_left = ((left$q) & 7'h7f);
+        rest = wide_left - checked_jobs;
+        is_reached = (checked_jobs == wide_left) | (~is_batch$q);
+        is_passed = checked_jobs > wide_left;
         is_granted = checking$q & is_reached;
         clears$d = is_granted;
         if (checking$q) begin
-            counted$d = sum;
+            left$d = rest[(32'h0)+:(5)];
             checking$d = (~is_reached) & (~is_passed);
             refusing$d = (~is_reached) & is_passed;
         end
@@ -2786,25 +2800,6 @@ module incircle_core_logic$slot0$core$command_port$clear$clears(d,q,clock);
 endmodule // incircle_core_logic$slot0$core$command_port$clear$clears
 
 
-module incircle_core_logic$slot0$core$command_port$clear$counted(d,q,clock);
-    
-    // Module arguments
-    input wire  [7:0] d;
-    output reg  [7:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 8'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot0$core$command_port$clear$counted
-
-
 module incircle_core_logic$slot0$core$command_port$clear$dealt(d,q,clock);
     
     // Module arguments
@@ -2860,6 +2855,44 @@ module incircle_core_logic$slot0$core$command_port$clear$jobs(d,q,clock);
     end
           
 endmodule // incircle_core_logic$slot0$core$command_port$clear$jobs
+
+
+module incircle_core_logic$slot0$core$command_port$clear$left(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot0$core$command_port$clear$left
+
+
+module incircle_core_logic$slot0$core$command_port$clear$names_jobs(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot0$core$command_port$clear$names_jobs
 
 
 module incircle_core_logic$slot0$core$command_port$clear$refusing(d,q,clock);
@@ -28861,9 +28894,12 @@ module incircle_core_logic$slot1$core$command_port$clear(clock,reset,built,taken
     reg  is_batch$d;
     wire  is_batch$q;
     reg  is_batch$clock;
-    reg  [7:0] counted$d;
-    wire  [7:0] counted$q;
-    reg  counted$clock;
+    reg  names_jobs$d;
+    wire  names_jobs$q;
+    reg  names_jobs$clock;
+    reg  [4:0] left$d;
+    wire  [4:0] left$q;
+    reg  left$clock;
     
     // Local signals
     reg  [31:0] word;
@@ -28873,9 +28909,10 @@ module incircle_core_logic$slot1$core$command_port$clear(clock,reset,built,taken
     reg  is_clear;
     reg  asks_too_much;
     reg  is_granted;
-    reg  [7:0] wide_wanted;
+    reg  [6:0] named_jobs;
     reg  [6:0] checked_jobs;
-    reg  [7:0] sum;
+    reg  [6:0] wide_left;
+    reg  [6:0] rest;
     reg  is_reached;
     reg  is_passed;
     reg  [6:0] wide_jobs;
@@ -28934,10 +28971,15 @@ module incircle_core_logic$slot1$core$command_port$clear(clock,reset,built,taken
         .q(is_batch$q),
         .clock(is_batch$clock)
     );
-    incircle_core_logic$slot1$core$command_port$clear$counted counted(
-        .d(counted$d),
-        .q(counted$q),
-        .clock(counted$clock)
+    incircle_core_logic$slot1$core$command_port$clear$names_jobs names_jobs(
+        .d(names_jobs$d),
+        .q(names_jobs$q),
+        .clock(names_jobs$clock)
+    );
+    incircle_core_logic$slot1$core$command_port$clear$left left(
+        .d(left$d),
+        .q(left$q),
+        .clock(left$clock)
     );
     
     // Update code
@@ -28958,12 +29000,14 @@ module incircle_core_logic$slot1$core$command_port$clear(clock,reset,built,taken
         wanted$clock = clock;
         wanted_jobs$clock = clock;
         is_batch$clock = clock;
-        counted$clock = clock;
+        names_jobs$clock = clock;
+        left$clock = clock;
         checking$d = checking$q;
         wanted$d = wanted$q;
         wanted_jobs$d = wanted_jobs$q;
         is_batch$d = is_batch$q;
-        counted$d = counted$q;
+        names_jobs$d = names_jobs$q;
+        left$d = left$q;
         clear_code = 32'h2;
         all_contexts = 32'h0;
         clearing[(64'h0)+:(1)] = clears$q;
@@ -28976,6 +29020,7 @@ module incircle_core_logic$slot1$core$command_port$clear(clock,reset,built,taken
         word = taken[(64'h2)+:(32)];
         code = word[(32'h18)+:(8)];
         asked = word[(32'h0)+:(8)];
+        named_jobs = word[(32'h9)+:(7)];
         wide_built = ((built) & 8'hff);
         is_clear = code == clear_code;
         asks_too_much = asked > wide_built;
@@ -28985,29 +29030,31 @@ module incircle_core_logic$slot1$core$command_port$clear(clock,reset,built,taken
         if (taken[(64'h0)+:(1)]) begin
             refusing$d = is_clear & asks_too_much;
             checking$d = is_clear & (~asks_too_much);
-            counted$d = 32'h0;
             is_batch$d = word[32'h8];
-            wanted_jobs$d = word[(32'h9)+:(7)];
+            wanted_jobs$d = named_jobs;
+            names_jobs$d = |named_jobs;
             wanted$d = word[(32'h0)+:(5)];
+            left$d = word[(32'h0)+:(5)];
             if (asked == all_contexts) begin
                 wanted$d = built;
+                left$d = built;
             end
         end
-        wide_wanted = ((wanted$q) & 8'hff);
         checked_jobs = wanted_jobs$q;
-        if (~|wanted_jobs$q) begin
+        if (~names_jobs$q) begin
             checked_jobs = ((wanted$q) & 7'h7f);
         end
         if (~is_batch$q) begin
             checked_jobs = 32'h1;
         end
-        sum = counted$q + ((checked_jobs) & 8'hff);
-        is_reached = (sum == wide_wanted) | (~is_batch$q);
-        is_passed = sum > wide_wanted;
+        wide_left = ((left$q) & 7'h7f);
+        rest = wide_left - checked_jobs;
+        is_reached = (checked_jobs == wide_left) | (~is_batch$q);
+        is_passed = checked_jobs > wide_left;
         is_granted = checking$q & is_reached;
         clears$d = is_granted;
         if (checking$q) begin
-            counted$d = sum;
+            left$d = rest[(32'h0)+:(5)];
             checking$d = (~is_reached) & (~is_passed);
             refusing$d = (~is_reached) & is_passed;
         end
@@ -29069,25 +29116,6 @@ module incircle_core_logic$slot1$core$command_port$clear$clears(d,q,clock);
 endmodule // incircle_core_logic$slot1$core$command_port$clear$clears
 
 
-module incircle_core_logic$slot1$core$command_port$clear$counted(d,q,clock);
-    
-    // Module arguments
-    input wire  [7:0] d;
-    output reg  [7:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 8'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot1$core$command_port$clear$counted
-
-
 module incircle_core_logic$slot1$core$command_port$clear$dealt(d,q,clock);
     
     // Module arguments
@@ -29143,6 +29171,44 @@ module incircle_core_logic$slot1$core$command_port$clear$jobs(d,q,clock);
     end
           
 endmodule // incircle_core_logic$slot1$core$command_port$clear$jobs
+
+
+module incircle_core_logic$slot1$core$command_port$clear$left(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot1$core$command_port$clear$left
+
+
+module incircle_core_logic$slot1$core$command_port$clear$names_jobs(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot1$core$command_port$clear$names_jobs
 
 
 module incircle_core_logic$slot1$core$command_port$clear$refusing(d,q,clock);

@@ -2632,9 +2632,12 @@ module incircle_core_logic$slot0$core$command_port$clear(clock,reset,built,taken
     reg  is_batch$d;
     wire  is_batch$q;
     reg  is_batch$clock;
-    reg  [7:0] counted$d;
-    wire  [7:0] counted$q;
-    reg  counted$clock;
+    reg  names_jobs$d;
+    wire  names_jobs$q;
+    reg  names_jobs$clock;
+    reg  [4:0] left$d;
+    wire  [4:0] left$q;
+    reg  left$clock;
     
     // Local signals
     reg  [31:0] word;
@@ -2644,9 +2647,10 @@ module incircle_core_logic$slot0$core$command_port$clear(clock,reset,built,taken
     reg  is_clear;
     reg  asks_too_much;
     reg  is_granted;
-    reg  [7:0] wide_wanted;
+    reg  [6:0] named_jobs;
     reg  [6:0] checked_jobs;
-    reg  [7:0] sum;
+    reg  [6:0] wide_left;
+    reg  [6:0] rest;
     reg  is_reached;
     reg  is_passed;
     reg  [6:0] wide_jobs;
@@ -2705,10 +2709,15 @@ module incircle_core_logic$slot0$core$command_port$clear(clock,reset,built,taken
         .q(is_batch$q),
         .clock(is_batch$clock)
     );
-    incircle_core_logic$slot0$core$command_port$clear$counted counted(
-        .d(counted$d),
-        .q(counted$q),
-        .clock(counted$clock)
+    incircle_core_logic$slot0$core$command_port$clear$names_jobs names_jobs(
+        .d(names_jobs$d),
+        .q(names_jobs$q),
+        .clock(names_jobs$clock)
+    );
+    incircle_core_logic$slot0$core$command_port$clear$left left(
+        .d(left$d),
+        .q(left$q),
+        .clock(left$clock)
     );
     
     // Update code
@@ -2729,12 +2738,14 @@ module incircle_core_logic$slot0$core$command_port$clear(clock,reset,built,taken
         wanted$clock = clock;
         wanted_jobs$clock = clock;
         is_batch$clock = clock;
-        counted$clock = clock;
+        names_jobs$clock = clock;
+        left$clock = clock;
         checking$d = checking$q;
         wanted$d = wanted$q;
         wanted_jobs$d = wanted_jobs$q;
         is_batch$d = is_batch$q;
-        counted$d = counted$q;
+        names_jobs$d = names_jobs$q;
+        left$d = left$q;
         clear_code = 32'h2;
         all_contexts = 32'h0;
         clearing[(64'h0)+:(1)] = clears$q;
@@ -2747,6 +2758,7 @@ module incircle_core_logic$slot0$core$command_port$clear(clock,reset,built,taken
         word = taken[(64'h2)+:(32)];
         code = word[(32'h18)+:(8)];
         asked = word[(32'h0)+:(8)];
+        named_jobs = word[(32'h9)+:(7)];
         wide_built = ((built) & 8'hff);
         is_clear = code == clear_code;
         asks_too_much = asked > wide_built;
@@ -2756,29 +2768,31 @@ module incircle_core_logic$slot0$core$command_port$clear(clock,reset,built,taken
         if (taken[(64'h0)+:(1)]) begin
             refusing$d = is_clear & asks_too_much;
             checking$d = is_clear & (~asks_too_much);
-            counted$d = 32'h0;
             is_batch$d = word[32'h8];
-            wanted_jobs$d = word[(32'h9)+:(7)];
+            wanted_jobs$d = named_jobs;
+            names_jobs$d = |named_jobs;
             wanted$d = word[(32'h0)+:(5)];
+            left$d = word[(32'h0)+:(5)];
             if (asked == all_contexts) begin
                 wanted$d = built;
+                left$d = built;
             end
         end
-        wide_wanted = ((wanted$q) & 8'hff);
         checked_jobs = wanted_jobs$q;
-        if (~|wanted_jobs$q) begin
+        if (~names_jobs$q) begin
             checked_jobs = ((wanted$q) & 7'h7f);
         end
         if (~is_batch$q) begin
             checked_jobs = 32'h1;
         end
-        sum = counted$q + ((checked_jobs) & 8'hff);
-        is_reached = (sum == wide_wanted) | (~is_batch$q);
-        is_passed = sum > wide_wanted;
+        wide_left = ((left$q) & 7'h7f);
+        rest = wide_left - checked_jobs;
+        is_reached = (checked_jobs == wide_left) | (~is_batch$q);
+        is_passed = checked_jobs > wide_left;
         is_granted = checking$q & is_reached;
         clears$d = is_granted;
         if (checking$q) begin
-            counted$d = sum;
+            left$d = rest[(32'h0)+:(5)];
             checking$d = (~is_reached) & (~is_passed);
             refusing$d = (~is_reached) & is_passed;
         end
@@ -2840,25 +2854,6 @@ module incircle_core_logic$slot0$core$command_port$clear$clears(d,q,clock);
 endmodule // incircle_core_logic$slot0$core$command_port$clear$clears
 
 
-module incircle_core_logic$slot0$core$command_port$clear$counted(d,q,clock);
-    
-    // Module arguments
-    input wire  [7:0] d;
-    output reg  [7:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 8'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot0$core$command_port$clear$counted
-
-
 module incircle_core_logic$slot0$core$command_port$clear$dealt(d,q,clock);
     
     // Module arguments
@@ -2914,6 +2909,44 @@ module incircle_core_logic$slot0$core$command_port$clear$jobs(d,q,clock);
     end
           
 endmodule // incircle_core_logic$slot0$core$command_port$clear$jobs
+
+
+module incircle_core_logic$slot0$core$command_port$clear$left(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot0$core$command_port$clear$left
+
+
+module incircle_core_logic$slot0$core$command_port$clear$names_jobs(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot0$core$command_port$clear$names_jobs
 
 
 module incircle_core_logic$slot0$core$command_port$clear$refusing(d,q,clock);
@@ -28915,9 +28948,12 @@ module incircle_core_logic$slot1$core$command_port$clear(clock,reset,built,taken
     reg  is_batch$d;
     wire  is_batch$q;
     reg  is_batch$clock;
-    reg  [7:0] counted$d;
-    wire  [7:0] counted$q;
-    reg  counted$clock;
+    reg  names_jobs$d;
+    wire  names_jobs$q;
+    reg  names_jobs$clock;
+    reg  [4:0] left$d;
+    wire  [4:0] left$q;
+    reg  left$clock;
     
     // Local signals
     reg  [31:0] word;
@@ -28927,9 +28963,10 @@ module incircle_core_logic$slot1$core$command_port$clear(clock,reset,built,taken
     reg  is_clear;
     reg  asks_too_much;
     reg  is_granted;
-    reg  [7:0] wide_wanted;
+    reg  [6:0] named_jobs;
     reg  [6:0] checked_jobs;
-    reg  [7:0] sum;
+    reg  [6:0] wide_left;
+    reg  [6:0] rest;
     reg  is_reached;
     reg  is_passed;
     reg  [6:0] wide_jobs;
@@ -28988,10 +29025,15 @@ module incircle_core_logic$slot1$core$command_port$clear(clock,reset,built,taken
         .q(is_batch$q),
         .clock(is_batch$clock)
     );
-    incircle_core_logic$slot1$core$command_port$clear$counted counted(
-        .d(counted$d),
-        .q(counted$q),
-        .clock(counted$clock)
+    incircle_core_logic$slot1$core$command_port$clear$names_jobs names_jobs(
+        .d(names_jobs$d),
+        .q(names_jobs$q),
+        .clock(names_jobs$clock)
+    );
+    incircle_core_logic$slot1$core$command_port$clear$left left(
+        .d(left$d),
+        .q(left$q),
+        .clock(left$clock)
     );
     
     // Update code
@@ -29012,12 +29054,14 @@ module incircle_core_logic$slot1$core$command_port$clear(clock,reset,built,taken
         wanted$clock = clock;
         wanted_jobs$clock = clock;
         is_batch$clock = clock;
-        counted$clock = clock;
+        names_jobs$clock = clock;
+        left$clock = clock;
         checking$d = checking$q;
         wanted$d = wanted$q;
         wanted_jobs$d = wanted_jobs$q;
         is_batch$d = is_batch$q;
-        counted$d = counted$q;
+        names_jobs$d = names_jobs$q;
+        left$d = left$q;
         clear_code = 32'h2;
         all_contexts = 32'h0;
         clearing[(64'h0)+:(1)] = clears$q;
@@ -29030,6 +29074,7 @@ module incircle_core_logic$slot1$core$command_port$clear(clock,reset,built,taken
         word = taken[(64'h2)+:(32)];
         code = word[(32'h18)+:(8)];
         asked = word[(32'h0)+:(8)];
+        named_jobs = word[(32'h9)+:(7)];
         wide_built = ((built) & 8'hff);
         is_clear = code == clear_code;
         asks_too_much = asked > wide_built;
@@ -29039,29 +29084,31 @@ module incircle_core_logic$slot1$core$command_port$clear(clock,reset,built,taken
         if (taken[(64'h0)+:(1)]) begin
             refusing$d = is_clear & asks_too_much;
             checking$d = is_clear & (~asks_too_much);
-            counted$d = 32'h0;
             is_batch$d = word[32'h8];
-            wanted_jobs$d = word[(32'h9)+:(7)];
+            wanted_jobs$d = named_jobs;
+            names_jobs$d = |named_jobs;
             wanted$d = word[(32'h0)+:(5)];
+            left$d = word[(32'h0)+:(5)];
             if (asked == all_contexts) begin
                 wanted$d = built;
+                left$d = built;
             end
         end
-        wide_wanted = ((wanted$q) & 8'hff);
         checked_jobs = wanted_jobs$q;
-        if (~|wanted_jobs$q) begin
+        if (~names_jobs$q) begin
             checked_jobs = ((wanted$q) & 7'h7f);
         end
         if (~is_batch$q) begin
             checked_jobs = 32'h1;
         end
-        sum = counted$q + ((checked_jobs) & 8'hff);
-        is_reached = (sum == wide_wanted) | (~is_batch$q);
-        is_passed = sum > wide_wanted;
+        wide_left = ((left$q) & 7'h7f);
+        rest = wide_left - checked_jobs;
+        is_reached = (checked_jobs == wide_left) | (~is_batch$q);
+        is_passed = checked_jobs > wide_left;
         is_granted = checking$q & is_reached;
         clears$d = is_granted;
         if (checking$q) begin
-            counted$d = sum;
+            left$d = rest[(32'h0)+:(5)];
             checking$d = (~is_reached) & (~is_passed);
             refusing$d = (~is_reached) & is_passed;
         end
@@ -29123,25 +29170,6 @@ module incircle_core_logic$slot1$core$command_port$clear$clears(d,q,clock);
 endmodule // incircle_core_logic$slot1$core$command_port$clear$clears
 
 
-module incircle_core_logic$slot1$core$command_port$clear$counted(d,q,clock);
-    
-    // Module arguments
-    input wire  [7:0] d;
-    output reg  [7:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 8'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot1$core$command_port$clear$counted
-
-
 module incircle_core_logic$slot1$core$command_port$clear$dealt(d,q,clock);
     
     // Module arguments
@@ -29197,6 +29225,44 @@ module incircle_core_logic$slot1$core$command_port$clear$jobs(d,q,clock);
     end
           
 endmodule // incircle_core_logic$slot1$core$command_port$clear$jobs
+
+
+module incircle_core_logic$slot1$core$command_port$clear$left(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot1$core$command_port$clear$left
+
+
+module incircle_core_logic$slot1$core$command_port$clear$names_jobs(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot1$core$command_port$clear$names_jobs
 
 
 module incircle_core_logic$slot1$core$command_port$clear$refusing(d,q,clock);
@@ -55198,9 +55264,12 @@ module incircle_core_logic$slot2$core$command_port$clear(clock,reset,built,taken
     reg  is_batch$d;
     wire  is_batch$q;
     reg  is_batch$clock;
-    reg  [7:0] counted$d;
-    wire  [7:0] counted$q;
-    reg  counted$clock;
+    reg  names_jobs$d;
+    wire  names_jobs$q;
+    reg  names_jobs$clock;
+    reg  [4:0] left$d;
+    wire  [4:0] left$q;
+    reg  left$clock;
     
     // Local signals
     reg  [31:0] word;
@@ -55210,9 +55279,10 @@ module incircle_core_logic$slot2$core$command_port$clear(clock,reset,built,taken
     reg  is_clear;
     reg  asks_too_much;
     reg  is_granted;
-    reg  [7:0] wide_wanted;
+    reg  [6:0] named_jobs;
     reg  [6:0] checked_jobs;
-    reg  [7:0] sum;
+    reg  [6:0] wide_left;
+    reg  [6:0] rest;
     reg  is_reached;
     reg  is_passed;
     reg  [6:0] wide_jobs;
@@ -55271,10 +55341,15 @@ module incircle_core_logic$slot2$core$command_port$clear(clock,reset,built,taken
         .q(is_batch$q),
         .clock(is_batch$clock)
     );
-    incircle_core_logic$slot2$core$command_port$clear$counted counted(
-        .d(counted$d),
-        .q(counted$q),
-        .clock(counted$clock)
+    incircle_core_logic$slot2$core$command_port$clear$names_jobs names_jobs(
+        .d(names_jobs$d),
+        .q(names_jobs$q),
+        .clock(names_jobs$clock)
+    );
+    incircle_core_logic$slot2$core$command_port$clear$left left(
+        .d(left$d),
+        .q(left$q),
+        .clock(left$clock)
     );
     
     // Update code
@@ -55295,12 +55370,14 @@ module incircle_core_logic$slot2$core$command_port$clear(clock,reset,built,taken
         wanted$clock = clock;
         wanted_jobs$clock = clock;
         is_batch$clock = clock;
-        counted$clock = clock;
+        names_jobs$clock = clock;
+        left$clock = clock;
         checking$d = checking$q;
         wanted$d = wanted$q;
         wanted_jobs$d = wanted_jobs$q;
         is_batch$d = is_batch$q;
-        counted$d = counted$q;
+        names_jobs$d = names_jobs$q;
+        left$d = left$q;
         clear_code = 32'h2;
         all_contexts = 32'h0;
         clearing[(64'h0)+:(1)] = clears$q;
@@ -55313,6 +55390,7 @@ module incircle_core_logic$slot2$core$command_port$clear(clock,reset,built,taken
         word = taken[(64'h2)+:(32)];
         code = word[(32'h18)+:(8)];
         asked = word[(32'h0)+:(8)];
+        named_jobs = word[(32'h9)+:(7)];
         wide_built = ((built) & 8'hff);
         is_clear = code == clear_code;
         asks_too_much = asked > wide_built;
@@ -55322,29 +55400,31 @@ module incircle_core_logic$slot2$core$command_port$clear(clock,reset,built,taken
         if (taken[(64'h0)+:(1)]) begin
             refusing$d = is_clear & asks_too_much;
             checking$d = is_clear & (~asks_too_much);
-            counted$d = 32'h0;
             is_batch$d = word[32'h8];
-            wanted_jobs$d = word[(32'h9)+:(7)];
+            wanted_jobs$d = named_jobs;
+            names_jobs$d = |named_jobs;
             wanted$d = word[(32'h0)+:(5)];
+            left$d = word[(32'h0)+:(5)];
             if (asked == all_contexts) begin
                 wanted$d = built;
+                left$d = built;
             end
         end
-        wide_wanted = ((wanted$q) & 8'hff);
         checked_jobs = wanted_jobs$q;
-        if (~|wanted_jobs$q) begin
+        if (~names_jobs$q) begin
             checked_jobs = ((wanted$q) & 7'h7f);
         end
         if (~is_batch$q) begin
             checked_jobs = 32'h1;
         end
-        sum = counted$q + ((checked_jobs) & 8'hff);
-        is_reached = (sum == wide_wanted) | (~is_batch$q);
-        is_passed = sum > wide_wanted;
+        wide_left = ((left$q) & 7'h7f);
+        rest = wide_left - checked_jobs;
+        is_reached = (checked_jobs == wide_left) | (~is_batch$q);
+        is_passed = checked_jobs > wide_left;
         is_granted = checking$q & is_reached;
         clears$d = is_granted;
         if (checking$q) begin
-            counted$d = sum;
+            left$d = rest[(32'h0)+:(5)];
             checking$d = (~is_reached) & (~is_passed);
             refusing$d = (~is_reached) & is_passed;
         end
@@ -55406,25 +55486,6 @@ module incircle_core_logic$slot2$core$command_port$clear$clears(d,q,clock);
 endmodule // incircle_core_logic$slot2$core$command_port$clear$clears
 
 
-module incircle_core_logic$slot2$core$command_port$clear$counted(d,q,clock);
-    
-    // Module arguments
-    input wire  [7:0] d;
-    output reg  [7:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 8'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot2$core$command_port$clear$counted
-
-
 module incircle_core_logic$slot2$core$command_port$clear$dealt(d,q,clock);
     
     // Module arguments
@@ -55480,6 +55541,44 @@ module incircle_core_logic$slot2$core$command_port$clear$jobs(d,q,clock);
     end
           
 endmodule // incircle_core_logic$slot2$core$command_port$clear$jobs
+
+
+module incircle_core_logic$slot2$core$command_port$clear$left(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot2$core$command_port$clear$left
+
+
+module incircle_core_logic$slot2$core$command_port$clear$names_jobs(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot2$core$command_port$clear$names_jobs
 
 
 module incircle_core_logic$slot2$core$command_port$clear$refusing(d,q,clock);
@@ -81481,9 +81580,12 @@ module incircle_core_logic$slot3$core$command_port$clear(clock,reset,built,taken
     reg  is_batch$d;
     wire  is_batch$q;
     reg  is_batch$clock;
-    reg  [7:0] counted$d;
-    wire  [7:0] counted$q;
-    reg  counted$clock;
+    reg  names_jobs$d;
+    wire  names_jobs$q;
+    reg  names_jobs$clock;
+    reg  [4:0] left$d;
+    wire  [4:0] left$q;
+    reg  left$clock;
     
     // Local signals
     reg  [31:0] word;
@@ -81493,9 +81595,10 @@ module incircle_core_logic$slot3$core$command_port$clear(clock,reset,built,taken
     reg  is_clear;
     reg  asks_too_much;
     reg  is_granted;
-    reg  [7:0] wide_wanted;
+    reg  [6:0] named_jobs;
     reg  [6:0] checked_jobs;
-    reg  [7:0] sum;
+    reg  [6:0] wide_left;
+    reg  [6:0] rest;
     reg  is_reached;
     reg  is_passed;
     reg  [6:0] wide_jobs;
@@ -81554,10 +81657,15 @@ module incircle_core_logic$slot3$core$command_port$clear(clock,reset,built,taken
         .q(is_batch$q),
         .clock(is_batch$clock)
     );
-    incircle_core_logic$slot3$core$command_port$clear$counted counted(
-        .d(counted$d),
-        .q(counted$q),
-        .clock(counted$clock)
+    incircle_core_logic$slot3$core$command_port$clear$names_jobs names_jobs(
+        .d(names_jobs$d),
+        .q(names_jobs$q),
+        .clock(names_jobs$clock)
+    );
+    incircle_core_logic$slot3$core$command_port$clear$left left(
+        .d(left$d),
+        .q(left$q),
+        .clock(left$clock)
     );
     
     // Update code
@@ -81578,12 +81686,14 @@ module incircle_core_logic$slot3$core$command_port$clear(clock,reset,built,taken
         wanted$clock = clock;
         wanted_jobs$clock = clock;
         is_batch$clock = clock;
-        counted$clock = clock;
+        names_jobs$clock = clock;
+        left$clock = clock;
         checking$d = checking$q;
         wanted$d = wanted$q;
         wanted_jobs$d = wanted_jobs$q;
         is_batch$d = is_batch$q;
-        counted$d = counted$q;
+        names_jobs$d = names_jobs$q;
+        left$d = left$q;
         clear_code = 32'h2;
         all_contexts = 32'h0;
         clearing[(64'h0)+:(1)] = clears$q;
@@ -81596,6 +81706,7 @@ module incircle_core_logic$slot3$core$command_port$clear(clock,reset,built,taken
         word = taken[(64'h2)+:(32)];
         code = word[(32'h18)+:(8)];
         asked = word[(32'h0)+:(8)];
+        named_jobs = word[(32'h9)+:(7)];
         wide_built = ((built) & 8'hff);
         is_clear = code == clear_code;
         asks_too_much = asked > wide_built;
@@ -81605,29 +81716,31 @@ module incircle_core_logic$slot3$core$command_port$clear(clock,reset,built,taken
         if (taken[(64'h0)+:(1)]) begin
             refusing$d = is_clear & asks_too_much;
             checking$d = is_clear & (~asks_too_much);
-            counted$d = 32'h0;
             is_batch$d = word[32'h8];
-            wanted_jobs$d = word[(32'h9)+:(7)];
+            wanted_jobs$d = named_jobs;
+            names_jobs$d = |named_jobs;
             wanted$d = word[(32'h0)+:(5)];
+            left$d = word[(32'h0)+:(5)];
             if (asked == all_contexts) begin
                 wanted$d = built;
+                left$d = built;
             end
         end
-        wide_wanted = ((wanted$q) & 8'hff);
         checked_jobs = wanted_jobs$q;
-        if (~|wanted_jobs$q) begin
+        if (~names_jobs$q) begin
             checked_jobs = ((wanted$q) & 7'h7f);
         end
         if (~is_batch$q) begin
             checked_jobs = 32'h1;
         end
-        sum = counted$q + ((checked_jobs) & 8'hff);
-        is_reached = (sum == wide_wanted) | (~is_batch$q);
-        is_passed = sum > wide_wanted;
+        wide_left = ((left$q) & 7'h7f);
+        rest = wide_left - checked_jobs;
+        is_reached = (checked_jobs == wide_left) | (~is_batch$q);
+        is_passed = checked_jobs > wide_left;
         is_granted = checking$q & is_reached;
         clears$d = is_granted;
         if (checking$q) begin
-            counted$d = sum;
+            left$d = rest[(32'h0)+:(5)];
             checking$d = (~is_reached) & (~is_passed);
             refusing$d = (~is_reached) & is_passed;
         end
@@ -81689,25 +81802,6 @@ module incircle_core_logic$slot3$core$command_port$clear$clears(d,q,clock);
 endmodule // incircle_core_logic$slot3$core$command_port$clear$clears
 
 
-module incircle_core_logic$slot3$core$command_port$clear$counted(d,q,clock);
-    
-    // Module arguments
-    input wire  [7:0] d;
-    output reg  [7:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 8'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot3$core$command_port$clear$counted
-
-
 module incircle_core_logic$slot3$core$command_port$clear$dealt(d,q,clock);
     
     // Module arguments
@@ -81763,6 +81857,44 @@ module incircle_core_logic$slot3$core$command_port$clear$jobs(d,q,clock);
     end
           
 endmodule // incircle_core_logic$slot3$core$command_port$clear$jobs
+
+
+module incircle_core_logic$slot3$core$command_port$clear$left(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot3$core$command_port$clear$left
+
+
+module incircle_core_logic$slot3$core$command_port$clear$names_jobs(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot3$core$command_port$clear$names_jobs
 
 
 module incircle_core_logic$slot3$core$command_port$clear$refusing(d,q,clock);

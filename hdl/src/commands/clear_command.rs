@@ -6,8 +6,8 @@
 //!    one job.
 //! 3. A number of jobs that does not divide that of the contexts is refused, and so are more contexts than there are. A
 //!    refused `Clear` changes nothing but the tag, in bits 23 to 16. After a reset there is no batch, and the tag is 0.
-//! 4. To divide, the block counts the contexts of one member of each team after another (`is_checking`) until it has
-//!    reached the number of contexts or passed it.
+//! 4. To divide, the block takes the contexts of one member of each team after another (`is_checking`) from the number of
+//!    contexts, until as many or fewer are left as there are jobs.
 //!
 //! Latency: 2 clocks from the word to `clears`, and one more for each further context of a team in a batch; 1 more to
 //! `deal.dealt_from`.
@@ -35,12 +35,13 @@ pub struct ClearCommand {
     dealt: DFF<Bits<7>>,
     refusing: DFF<Bit>,
     tag: DFF<Bits<8>>,
-    /// The numbers that are being checked, and the contexts that are counted.
+    /// The numbers that are being checked (the number of jobs is 0 unless `names_jobs`), and the contexts that are left.
     checking: DFF<Bit>,
     wanted: DFF<Bits<5>>,
     wanted_jobs: DFF<Bits<7>>,
     is_batch: DFF<Bit>,
-    counted: DFF<Bits<8>>,
+    names_jobs: DFF<Bit>,
+    left: DFF<Bits<5>>,
     word: Signal<Local, Word>,
     code: Signal<Local, Bits<8>>,
     asked: Signal<Local, Bits<8>>,
@@ -48,9 +49,10 @@ pub struct ClearCommand {
     is_clear: Signal<Local, Bit>,
     asks_too_much: Signal<Local, Bit>,
     is_granted: Signal<Local, Bit>,
-    wide_wanted: Signal<Local, Bits<8>>,
+    named_jobs: Signal<Local, Bits<7>>,
     checked_jobs: Signal<Local, Bits<7>>,
-    sum: Signal<Local, Bits<8>>,
+    wide_left: Signal<Local, Bits<7>>,
+    rest: Signal<Local, Bits<7>>,
     is_reached: Signal<Local, Bit>,
     is_passed: Signal<Local, Bit>,
     wide_jobs: Signal<Local, Bits<7>>,
@@ -73,7 +75,7 @@ impl Logic for ClearCommand {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, clears, working, jobs, dealt, refusing, tag);
-        dff_setup!(self, clock, checking, wanted, wanted_jobs, is_batch, counted);
+        dff_setup!(self, clock, checking, wanted, wanted_jobs, is_batch, names_jobs, left);
         self.clear_code.next = 2.into();
         self.all_contexts.next = 0.into();
         self.clearing.next.clears = self.clears.q.val();
@@ -87,6 +89,7 @@ impl Logic for ClearCommand {
         self.word.next = self.taken.val().word;
         self.code.next = self.word.val().get_bits::<8>(24);
         self.asked.next = self.word.val().get_bits::<8>(0);
+        self.named_jobs.next = self.word.val().get_bits::<7>(9);
         self.wide_built.next = bit_cast::<8, 5>(self.built.val());
         self.is_clear.next = self.code.val() == self.clear_code.val();
         self.asks_too_much.next = self.asked.val() > self.wide_built.val();
@@ -96,30 +99,33 @@ impl Logic for ClearCommand {
         if self.taken.val().is_command {
             self.refusing.d.next = self.is_clear.val() & self.asks_too_much.val();
             self.checking.d.next = self.is_clear.val() & (!self.asks_too_much.val());
-            self.counted.d.next = 0.into();
             self.is_batch.d.next = self.word.val().get_bit(8);
-            self.wanted_jobs.d.next = self.word.val().get_bits::<7>(9);
+            self.wanted_jobs.d.next = self.named_jobs.val();
+            self.names_jobs.d.next = self.named_jobs.val().any();
             self.wanted.d.next = self.word.val().get_bits::<5>(0);
+            self.left.d.next = self.word.val().get_bits::<5>(0);
             if self.asked.val() == self.all_contexts.val() {
                 self.wanted.d.next = self.built.val();
+                self.left.d.next = self.built.val();
             }
         }
 
-        self.wide_wanted.next = bit_cast::<8, 5>(self.wanted.q.val());
         self.checked_jobs.next = self.wanted_jobs.q.val();
-        if !self.wanted_jobs.q.val().any() {
+        if !self.names_jobs.q.val() {
             self.checked_jobs.next = bit_cast::<7, 5>(self.wanted.q.val());
         }
         if !self.is_batch.q.val() {
             self.checked_jobs.next = 1.into();
         }
-        self.sum.next = self.counted.q.val() + bit_cast::<8, 7>(self.checked_jobs.val());
-        self.is_reached.next = (self.sum.val() == self.wide_wanted.val()) | (!self.is_batch.q.val());
-        self.is_passed.next = self.sum.val() > self.wide_wanted.val();
+        // A comparison behind the difference would limit the clock of the core.
+        self.wide_left.next = bit_cast::<7, 5>(self.left.q.val());
+        self.rest.next = self.wide_left.val() - self.checked_jobs.val();
+        self.is_reached.next = (self.checked_jobs.val() == self.wide_left.val()) | (!self.is_batch.q.val());
+        self.is_passed.next = self.checked_jobs.val() > self.wide_left.val();
         self.is_granted.next = self.checking.q.val() & self.is_reached.val();
         self.clears.d.next = self.is_granted.val();
         if self.checking.q.val() {
-            self.counted.d.next = self.sum.val();
+            self.left.d.next = self.rest.val().get_bits::<5>(0);
             self.checking.d.next = (!self.is_reached.val()) & (!self.is_passed.val());
             self.refusing.d.next = (!self.is_reached.val()) & self.is_passed.val();
         }

@@ -79,9 +79,10 @@ pub fn crossings(
     Ok(found.into_iter().map(crossing).collect())
 }
 
-/// The clock to which a port of the stream link, or of the top around it, belongs.
+/// The clock to which a port of the stream link, or of the top around it, belongs. The ports towards the core, or
+/// towards the engines of a chip, have the clock of the core.
 pub fn stream_port_clock(port: &str) -> &'static str {
-    let is_of_core = ["core", "command", "response", "write"].iter().any(|prefix| port.starts_with(prefix));
+    let is_of_core = ["core", "command", "response", "write", "device"].iter().any(|prefix| port.starts_with(prefix));
     if is_of_core {
         "core_clock"
     } else {

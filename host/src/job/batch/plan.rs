@@ -15,24 +15,24 @@ mod tests;
 
 /// Hundredths of a clock in a clock. The costs below are in hundredths of a clock, unless they say otherwise.
 const CLOCK: u64 = 100;
-/// Cost of an insertion by a context that meets no other context: 155 clocks counted.
-const UNDISTURBED_INSERTION: u64 = 155 * CLOCK;
+/// Cost of an insertion by a context that meets no other context: 136 clocks counted.
+const UNDISTURBED_INSERTION: u64 = 136 * CLOCK;
 /// Cost that one more context adds to a round while the read port has room: now and then one of its visits waits for a
 /// visit of another context. Fitted to the table at [`rounds`], up to 8 contexts.
-const EXTRA_CONTEXT: u64 = 230;
+const EXTRA_CONTEXT: u64 = 190;
 /// Contexts, as a count, up to which the read port has room.
 const UNCROWDED_CONTEXTS: u64 = 8;
 /// Growth of the cost of one more context, for each one beyond [`UNCROWDED_CONTEXTS`]. Fitted to the table at
 /// [`rounds`], from 10 contexts on.
-const EXTRA_CONTEXT_GROWTH: u64 = 120;
-/// Upper bound on the cost of one more context: the 13 visits of an insertion, a clock of the read port each,
+const EXTRA_CONTEXT_GROWTH: u64 = 105;
+/// Upper bound on the cost of one more context: the 12 visits of an insertion, a clock of the read port each,
 /// once nothing hides them.
-const MOST_EXTRA_CONTEXT: u64 = 13 * CLOCK;
+const MOST_EXTRA_CONTEXT: u64 = 12 * CLOCK;
 /// Factor of the contention in a mesh, in whole clocks; see [`contention`].
-const CONTENTION: u64 = 300;
+const CONTENTION: u64 = 340;
 /// Contention in the mesh of a team, beside that in an exclusive job, in hundredths: a context that waits, waits longer
 /// while other teams keep the read port busy. Fitted to the table at [`Plan::group_with`].
-const TEAM_CONTENTION: u64 = 125;
+const TEAM_CONTENTION: u64 = 115;
 /// Points of a mesh, as a count, from which on contention does not grow.
 const CONTENTION_POINTS: u64 = 1024;
 /// Cost of the commands of a group or an exclusive job, with headers and pauses.
@@ -44,8 +44,8 @@ const FIRST_TRIANGLE: u64 = 42 * CLOCK;
 ///
 /// | contexts | 1 | 2 | 4 | 6 | 8 | 10 | 12 | 14 | 16 | 20 | 24 |
 /// |---|---|---|---|---|---|---|---|---|---|---|---|
-/// | clocks counted, a job of 500 points for each | 155 | 157 | 161 | 166 | 171 | 179 | 191 | 207 | 230 | 282 | 335 |
-/// | by this formula | 155 | 157 | 162 | 166 | 171 | 179 | 192 | 210 | 233 | 285 | 337 |
+/// | clocks counted, a job of 500 points for each | 136 | 139 | 143 | 146 | 151 | 157 | 167 | 184 | 204 | 252 | 300 |
+/// | by this formula | 136 | 138 | 142 | 146 | 149 | 156 | 167 | 183 | 202 | 250 | 298 |
 fn rounds(most: u32) -> Vec<u64> {
     let sums = (1..=u64::from(most)).scan(0, |clocks, contexts| {
         *clocks += one_more(contexts);
@@ -116,7 +116,7 @@ impl Plan {
 
     /// Whether jobs of this many points may share the memory: with some size of teams, as many of them as fit side by
     /// side take no longer than one after another. On a device of 8,192 points and 16 contexts that is so up to 4,096
-    /// points, of which 2 fit; without teams up to 1,170 points, of which 7 fit.
+    /// points, of which 2 fit; without teams up to 1,224 points, of which 6 fit.
     pub(super) fn shares(&self, points: usize) -> bool {
         let exclusive = self.exclusive(points).0;
         (1..=self.most_of_team).any(|contexts| {
@@ -192,8 +192,8 @@ impl Plan {
     /// | points of a job | 200 | 200 | 200 | 1,000 | 1,000 | 1,000 | 2,000 | 4,000 |
     /// |---|---|---|---|---|---|---|---|---|
     /// | jobs, contexts of each | 8, 2 | 5, 3 | 4, 4 | 8, 2 | 5, 3 | 4, 4 | 4, 4 | 2, 8 |
-    /// | clocks a point counted | 15.6 | 18.6 | 20.2 | 14.8 | 15.7 | 16.1 | 15.1 | 15.8 |
-    /// | by this formula | 16.4 | 18.3 | 20.0 | 15.1 | 15.8 | 16.2 | 15.4 | 15.8 |
+    /// | clocks a point counted | 14.2 | 17.6 | 19.0 | 13.3 | 14.6 | 14.7 | 13.8 | 14.4 |
+    /// | by this formula | 14.6 | 16.6 | 18.4 | 13.2 | 13.9 | 14.3 | 13.5 | 14.0 |
     fn group_with(&self, lengths: &[usize], contexts: u32) -> u64 {
         let longest = lengths.first().map_or(0, |&first| first);
         let steps = (1..).zip(lengths).map(|(jobs, &points)| self.one_more_job(points, jobs, contexts));
@@ -212,8 +212,8 @@ impl Plan {
     /// | points | 200 | 300 | 500 | 1,000 | 1,000 | 1,000 | 2,000 | 3,000 |
     /// |---|---|---|---|---|---|---|---|---|
     /// | contexts | 6 | 4 | 12 | 9 | 14 | 16 | 15 | 16 |
-    /// | clocks a point counted | 53.8 | 51.3 | 33.9 | 28.5 | 26.7 | 28.1 | 20.9 | 19.2 |
-    /// | by this formula | 49.4 | 52.2 | 34.3 | 28.2 | 27.2 | 28.0 | 21.2 | 19.1 |
+    /// | clocks a point counted | 56.6 | 49.4 | 35.7 | 27.9 | 28.2 | 28.1 | 20.3 | 18.2 |
+    /// | by this formula | 50.2 | 49.7 | 35.3 | 27.1 | 27.2 | 28.2 | 20.3 | 17.9 |
     fn exclusive_with(&self, points: usize, contexts: u32) -> u64 {
         let round = self.rounds[contexts as usize - 1];
         points as u64 * round / u64::from(contexts) + contention(points, contexts) + FIRST_TRIANGLE + COMMANDS

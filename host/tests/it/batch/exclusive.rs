@@ -245,7 +245,7 @@ fn lies_about_exclusive_jobs_end_in_typed_errors() {
 #[test]
 fn the_clocks_of_exclusive_jobs_are_all_there_are() {
     let mut random = Random(79);
-    let jobs: Vec<Vec<Point>> = (0..5).map(|_| random.points(4500, 1 << 16)).collect();
+    let jobs: Vec<Vec<Point>> = (0..5).map(|_| random.points(5000, 1 << 16)).collect();
     let mut device = Device::clock_model(FULL).expect("possible");
     let mut session = device.session().expect("a session");
     let before = session.clocks().expect("a clock");

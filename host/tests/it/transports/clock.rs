@@ -92,7 +92,7 @@ fn hard_sets_on_every_configuration() {
 #[test]
 fn contexts_that_are_not_there_are_refused_and_the_session_goes_on() {
     let points: Vec<Point> = Random(26).points(FIRST_ROUND as usize, 1 << 16);
-    for (address, has) in [("clock?config=tiny", 2), ("clock?config=small", 4), ("model", 1)] {
+    for (address, has) in [("clock?config=tiny", 2), ("clock?config=small", 16), ("model", 1)] {
         let mut device = Device::open(address).expect("it opens");
         let mut session = device.session().expect("a session");
         for asked in [0, has + 1, 255, 256, u32::MAX] {

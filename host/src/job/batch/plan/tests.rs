@@ -142,21 +142,22 @@ fn the_full_core_shares_its_memory_up_to_a_half() {
 }
 
 #[test]
-fn the_full_core_without_teams_shares_its_memory_up_to_a_seventh() {
+fn the_full_core_without_teams_shares_its_memory_among_six_jobs_or_more() {
     let plan = Plan::new(FULL.contexts, FULL.points, false);
-    // 7 jobs of 1,170 points fit, and 6 are too few.
+    // Six jobs of 1,224 points share the memory. Longer ones are quicker one after another.
     for points in 1..8192 {
-        assert_eq!(plan.shares(points), points <= 1170, "{points}");
+        assert_eq!(plan.shares(points), points <= 1224, "{points}");
     }
     assert!(!plan.shares(8193) && !plan.shares(u32::MAX as usize));
     let group = |jobs| Part::Group { jobs, contexts: 1 };
     assert_eq!(plan.divide(&[1170; 7]), [group(7)]);
-    assert_eq!(plan.divide(&[1171; 7]), [Part::Exclusive; 7]);
+    assert_eq!(plan.divide(&[1224; 6]), [group(6)]);
+    assert_eq!(plan.divide(&[1225; 6]), [Part::Exclusive; 6]);
     // A few jobs that are left over go one after another.
     assert_eq!(plan.divide(&[1000; 17]), [group(8), group(8), Part::Exclusive]);
     assert_eq!(plan.divide(&[300; 2]), [Part::Exclusive; 2]);
     assert_eq!(plan.divide(&[]), []);
-    assert_eq!([4000, 1000, 10].map(|points| plan.exclusive_contexts(points)), [16, 12, 1]);
+    assert_eq!([4000, 1000, 10].map(|points| plan.exclusive_contexts(points)), [15, 11, 1]);
 }
 
 #[test]
