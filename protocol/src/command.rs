@@ -80,7 +80,8 @@ pub enum Meshes {
 
 /// The bit of a [`Clear`] that begins a batch.
 pub const CLEAR_BATCH: u32 = 1 << 8;
-/// Lowest bit of the number of meshes in the word of a [`Clear`] that begins a batch; 0 stands for one for each context.
+/// Lowest bit of the number of meshes in the word of a [`Clear`] that begins a batch; 0 stands for one for each
+/// context.
 pub const CLEAR_MESHES_SHIFT: u32 = 9;
 /// Largest number of meshes that the word of a [`Clear`] can name.
 pub const MAX_SIDE_BY_SIDE: u32 = 127;

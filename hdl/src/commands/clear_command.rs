@@ -6,8 +6,8 @@
 //!    one job.
 //! 3. A number of jobs that does not divide that of the contexts is refused, and so are more contexts than there are. A
 //!    refused `Clear` changes nothing but the tag, in bits 23 to 16. After a reset there is no batch, and the tag is 0.
-//! 4. To divide, the block takes the contexts of one member of each team after another (`is_checking`) from the number of
-//!    contexts, until as many or fewer are left as there are jobs.
+//! 4. To divide, the block subtracts the number of jobs from the number of contexts, once a clock (`is_checking`), until
+//!    no more contexts are left than there are jobs. Equal numbers are granted.
 //!
 //! Latency: 2 clocks from the word to `clears`, and one more for each further context of a team in a batch; 1 more to
 //! `deal.dealt_from`.
@@ -35,7 +35,8 @@ pub struct ClearCommand {
     dealt: DFF<Bits<7>>,
     refusing: DFF<Bit>,
     tag: DFF<Bits<8>>,
-    /// The numbers that are being checked (the number of jobs is 0 unless `names_jobs`), and the contexts that are left.
+    /// The numbers that are being checked (the number of jobs is 0 unless `names_jobs`), and the contexts that are
+    /// left.
     checking: DFF<Bit>,
     wanted: DFF<Bits<5>>,
     wanted_jobs: DFF<Bits<7>>,

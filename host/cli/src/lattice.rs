@@ -53,7 +53,8 @@ pub enum Kind {
     Decimal(i64, i32),
     /// Whole numbers of steps. The length of a step is the power of two with this exponent.
     Binary(i32),
-    /// The doubles in the file, or the doubles nearest to its decimals, with the number of coordinates that were rounded.
+    /// The doubles in the file, or the doubles nearest to its decimals, with the number of coordinates that were
+    /// rounded.
     Doubles(usize),
     /// Points of a grid, onto which the points of the file were rounded by `--quantize`.
     Quantized(Quantization),
@@ -148,10 +149,10 @@ impl Laid<'_> {
 }
 
 /// Finds the lattice of the points. The first that fits is taken: whole numbers, steps of a power of ten (above 1 where
-/// whole numbers do not fit), steps of a power of two, each with spans below 2^32 steps. Without a lattice the points are
-/// whole numbers of 64 bits, or doubles. Steps of a power of two are tried only if every number is a double, so that no
-/// rounded number passes for the one in the file. If `how` is given, the points are laid onto a grid of that many bits
-/// instead.
+/// whole numbers do not fit), steps of a power of two, each with spans below 2^32 steps. Without a lattice the points
+/// are whole numbers of 64 bits, or doubles. Steps of a power of two are tried only if every number is a double, so
+/// that no rounded number passes for the one in the file. If `how` is given, the points are laid onto a grid of that
+/// many bits instead.
 pub fn lay(table: &PointTable, how: Option<(Quantize, u32)>) -> Result<Laid<'_>, Failure> {
     if let Some((how, coord_bits)) = how {
         return lay_onto_grid(table, how, coord_bits);

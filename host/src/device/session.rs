@@ -111,8 +111,8 @@ impl<'d> Session<'d> {
     /// one that [`Session::triangulate_with`] gives.
     ///
     /// Reach for a batch when there are many small jobs: a single small mesh has no room for many insertions at once,
-    /// so a device works on several jobs side by side, each with a team of contexts. [`Options::contexts`] bounds their sum.
-    /// Jobs that are too large to share the memory are *exclusive*: each has the memory to itself, with as many
+    /// so a device works on several jobs side by side, each with a team of contexts. [`Options::contexts`] bounds their
+    /// sum. Jobs that are too large to share the memory are *exclusive*: each has the memory to itself, with as many
     /// contexts as pay. The host decides which jobs share the memory, so as to need the fewest clocks. While the device
     /// works on one job, the host sends the next and orders the points of the one after it, if the transport takes
     /// commands ahead. The CPU triangulator works on one small job in each thread.

@@ -38,9 +38,9 @@ pub(crate) fn deal_rounds(order: &mut [u32], starts: &[usize], contexts: u32) {
     }
 }
 
-/// The place whose point a job repeats at `place`, once its `vertices` points are over: the last one of the same context
-/// of its team. That context inserts its points one after another, so the point is in the mesh by then, and is found
-/// where the context was last. A context without points repeats the first point of the job.
+/// The place whose point a job repeats at `place`, once its `vertices` points are over: the last one of the same
+/// context of its team. That context inserts its points one after another, so the point is in the mesh by then, and is
+/// found where the context was last. A context without points repeats the first point of the job.
 pub(crate) fn repeated_place(place: usize, vertices: usize, contexts: u32) -> usize {
     let contexts = contexts as usize;
     let member = place.saturating_sub(FIRST) % contexts;

@@ -104,8 +104,8 @@ impl Load {
         }))
     }
 
-    /// The `Clear` of the group, without its tag. A batch with a context for each job is told without the number of jobs, which a device
-    /// of version 1.2 does not know.
+    /// The `Clear` of the group, without its tag. A batch with a context for each job is told without the number of
+    /// jobs, which a device of version 1.2 does not know.
     fn clear(&self) -> Clear {
         let Group { jobs, contexts, is_shared } = &self.group;
         let jobs = jobs.len() as u32;

@@ -8,10 +8,10 @@
 //!                              v        (cavity)        (point of each context)
 //!                          NextVisits -> up to three visits: PushPort
 //! ```
-//! An insertion walks to a record that conflicts with its point, locks this root, and digs the cavity by tests, many of which are in
-//! flight at once. The whole state of an attempt is one word of [`AttemptStore`]. The word is read a clock before one
-//! of the visits completes, and is changed and written back in the clock in which the visit completes. So visits of
-//! different contexts may complete in any mixture, one in each clock.
+//! An insertion walks to a record that conflicts with its point, locks this root, and digs the cavity by tests, many of
+//! which are in flight at once. The whole state of an attempt is one word of [`AttemptStore`]. The word is read a clock
+//! before one of the visits completes, and is changed and written back in the clock in which the visit completes. So
+//! visits of different contexts may complete in any mixture, one in each clock.
 //!
 //! Lock rules (see `docs/engine.md`): L1, an attempt that meets a foreign lock drains and releases ([`VisitCase`],
 //! [`AttemptStep`], [`Aftermath`]); L2, the context with the priority visits the record again instead ([`VisitCase`]);

@@ -13,8 +13,8 @@
 //!
 //! Latency: 1 clock from the early inputs; none from `verdict`, `drains` and `is_full`.
 //!
-//! A walk ends at a record that conflicts with its point. The record is visited again as root and opens the cavity. Then another
-//! context holds the lock of a neighbour:
+//! A walk ends at a record that conflicts with its point. The record is visited again as root and opens the cavity.
+//! Then another context holds the lock of a neighbour:
 //! ```text
 //! early_done      ___/^^\__/^^\__/^^\________
 //! early.rotates   _______________/^^\________

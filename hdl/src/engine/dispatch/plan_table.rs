@@ -78,8 +78,8 @@ impl Logic for PlanTable {
         self.shown.next.id = self.first.val().id;
         self.shown.next.is_seed = self.first.val().is_seed;
         self.written.next = self.points.first.val();
-        // The first round of a job has 16 points, so the ids behind it are those from `16 jobs` on. The first context of
-        // a team begins in front of it, and the others begin behind it.
+        // The first round of a job has 16 points, so the ids behind it are those from `16 jobs` on. The first context
+        // of a team begins in front of it, and the others begin behind it.
         self.planned_id.next = self.plan.value.val().id;
         self.rounds.next = self.planned_id.val().get_bits::<11>(4);
         self.round_size.next = bit_cast::<11, 5>(self.deal.val().jobs);

@@ -42,7 +42,8 @@ pub struct Priorities {
     /// The consequences of a completed visit for its context, a clock after the visit; the context takes the priority.
     pub outcome: Signal<In, Outcome>,
     pub takes_priority: Signal<Out, Bit>,
-    /// The context that the pointer has left; no other context of its team has waited for so long that it may not retry.
+    /// The context that the pointer has left; no other context of its team has waited for so long that it may not
+    /// retry.
     pub passed: Signal<In, Passed>,
     pub may_retry: Signal<Out, Bit>,
     early_team: DFF<ContextId>,

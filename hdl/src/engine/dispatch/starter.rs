@@ -7,8 +7,8 @@
 //!    of a team has taken point 16 of its job, no other context of the team works (L8).
 //! 3. A start waits while the queue or the port of the vertex memory may be taken. While a start is due, the pointer
 //!    waits in every clock in which a visit completes, because the visits that follow are known late.
-//! 4. A walk starts at the root of the context's last attempt, or at the first record of its mesh if the context has had
-//!    no commit.
+//! 4. A walk starts at the root of the context's last attempt, or at the first record of its mesh if the context has
+//!    had no commit.
 //! 5. A context that asks for a solo insertion starts it when all contexts rest, none is at work, and the pointer has
 //!    passed the context.
 //! 6. In the first round of the pointer no context starts: `PlanTable` writes down the first vertex of each.

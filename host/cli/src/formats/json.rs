@@ -1,8 +1,8 @@
 //! JSON: one object with `points`, `triangles`, `hull` and `duplicates`.
 //!
 //! `points` has the input points `[x, y]`, `triangles` triples of indices into `points`, `hull` indices, and
-//! `duplicates` pairs `[index, lowest index at the same place]`. The key `numbers` with the value `doubles` says that the
-//! decimals in `points` stand for the nearest doubles.
+//! `duplicates` pairs `[index, lowest index at the same place]`. The key `numbers` with the value `doubles` says that
+//! the decimals in `points` stand for the nearest doubles.
 
 use std::io::{self, Write};
 

@@ -88,8 +88,8 @@ impl PointFormat {
         names_of(Self::value_variants().iter())
     }
 
-    /// Reads the selected points of an input. Every wrong value is refused with its place, and more points than the memory
-    /// of the input holds are refused while they are read.
+    /// Reads the selected points of an input. Every wrong value is refused with its place, and more points than the
+    /// memory of the input holds are refused while they are read.
     pub fn read(self, mut input: Input, selection: &Selection) -> Result<PointTable, Failure> {
         let memory = input.memory();
         match self {

@@ -76,8 +76,8 @@ impl PointTable {
         self.takes_doubles = true;
     }
 
-    /// Whether a text of the coordinates needs the mark [`DOUBLES`]. A double is written in the fewest digits that tell it
-    /// from all other doubles, and the decimal that stands there is often another number.
+    /// Whether a text of the coordinates needs the mark [`DOUBLES`]. A double is written in the fewest digits that tell
+    /// it from all other doubles, and the decimal that stands there is often another number.
     pub fn needs_mark(&self) -> bool {
         let is_written = |value: f64| {
             let text = Coordinate::Double(value).to_string();

@@ -1,10 +1,10 @@
 //! Many jobs on one device.
 //!
 //! A small mesh has no room for many insertions at once. A device with several contexts therefore gets a *group* of
-//! jobs side by side, each with a mesh and a team of contexts of its own. A job that is too large for that, or left over,
-//! is an *exclusive job*: it has the whole memory to itself ([`plan`] decides). If the transport takes commands ahead, the commands of the next group
-//! or exclusive job are sent before the answers to the current one are received ([`super::flight`]), so that the device
-//! never waits for the host.
+//! jobs side by side, each with a mesh and a team of contexts of its own. A job that is too large for that, or left
+//! over, is an *exclusive job*: it has the whole memory to itself ([`plan`] decides). If the transport takes commands
+//! ahead, the commands of the next group or exclusive job are sent before the answers to the current one are received
+//! ([`super::flight`]), so that the device never waits for the host.
 
 mod plan;
 

@@ -1,8 +1,8 @@
 //! The division of a batch into groups and exclusive jobs that is expected to take the device the fewest clocks.
 //!
-//! A single context waits for its own visits most of the time. More contexts therefore cost little more than one,
-//! until the read port of the triangle memory is busy ([`rounds`]). The contexts that work on one mesh share its points,
-//! but are in each other's way while the mesh is small ([`contention`]). So small jobs share the memory with a context
+//! A single context waits for its own visits most of the time. More contexts therefore cost little more than one, until
+//! the read port of the triangle memory is busy ([`rounds`]). The contexts that work on one mesh share its points, but
+//! are in each other's way while the mesh is small ([`contention`]). So small jobs share the memory with a context
 //! each, larger ones with a team of contexts each, and an exclusive job has all contexts that make it faster. A group
 //! takes as long as its longest job, and each of its jobs takes the memory of the longest.
 //!
@@ -64,8 +64,8 @@ fn one_more(contexts: u64) -> u64 {
     }
 }
 
-/// Cost of the contention in a mesh of so many points: a small mesh has no room for many insertions at once, which costs
-/// `CONTENTION * (min(points, CONTENTION_POINTS) * contexts^3)^(1/4)` clocks. Fitted to the table at
+/// Cost of the contention in a mesh of so many points: a small mesh has no room for many insertions at once, which
+/// costs `CONTENTION * (min(points, CONTENTION_POINTS) * contexts^3)^(1/4)` clocks. Fitted to the table at
 /// [`Plan::exclusive_with`].
 fn contention(points: usize, contexts: u32) -> u64 {
     // The fourth power of CLOCK below the root makes the result a cost, in hundredths of a clock.
@@ -178,9 +178,9 @@ impl Plan {
         fitting.filter(move |&(jobs, ..)| jobs >= least_jobs(contexts)).map(|(jobs, clocks, _)| (jobs, clocks))
     }
 
-    /// Cost that the last of so many jobs adds to a group with teams of this size: its contexts take part in a round for
-    /// each of its points and each of them. A job that is over repeats points, which are found at once and cost next to
-    /// nothing.
+    /// Cost that the last of so many jobs adds to a group with teams of this size: its contexts take part in a round
+    /// for each of its points and each of them. A job that is over repeats points, which are found at once and cost
+    /// next to nothing.
     fn one_more_job(&self, points: usize, jobs: usize, contexts: u32) -> u64 {
         let last = jobs * contexts as usize;
         let before = (last - contexts as usize).checked_sub(1).map_or(0, |place| self.rounds[place]);

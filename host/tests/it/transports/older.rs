@@ -1,5 +1,5 @@
-//! A device of version 1.2 of the protocol, which knows no engines, no tags and no number of jobs: the host must send it
-//! what that version has and nothing else.
+//! A device of version 1.2 of the protocol, which knows no engines, no tags and no number of jobs: the host must send
+//! it what that version has and nothing else.
 
 use std::time::Instant;
 

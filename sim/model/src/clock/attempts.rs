@@ -127,7 +127,8 @@ impl Outcome {
         if done.again {
             return self.again(done);
         }
-        // L10: the first record on the walk that conflicts with the point is the root, whether it holds the point or not.
+        // L10: the first record on the walk that conflicts with the point is the root, whether it holds the point or
+        // not.
         let ends = match around.defect {
             Some(Defect::WalksToTheEnd) => done.located,
             _ => done.conflict,

@@ -27,7 +27,8 @@ pub(super) struct Contexts {
     /// For each team, the number of foreign locks that the context with the priority has met since it acquired the
     /// priority, up to `URGENT`.
     waits: [u8; Self::BITS as usize],
-    /// Contexts whose list has overflowed. No context starts until the solo insertion of each of their points has ended.
+    /// Contexts whose list has overflowed. No context starts until the solo insertion of each of their points has
+    /// ended.
     pub solo: Set,
     /// Number of points that are in the mesh or known to be duplicates.
     pub finished: u32,

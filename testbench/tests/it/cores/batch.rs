@@ -1,7 +1,8 @@
 //! Runs batches in lock-step: the core and its model are compared at every root port and every clock. There are 2, 4
-//! and 16 jobs side by side and teams of every size, crossed with idle clocks and back-pressure, jobs of several lengths,
-//! lists that overflow, three points on a line, and resets. `sim/model/tests/it/clock/batch.rs` proves for the model that every job gets the
-//! mesh it gets alone; these tests compare the reports with the model by commands as well.
+//! and 16 jobs side by side and teams of every size, crossed with idle clocks and back-pressure, jobs of several
+//! lengths, lists that overflow, three points on a line, and resets. `sim/model/tests/it/clock/batch.rs` proves for the
+//! model that every job gets the mesh it gets alone; these tests compare the reports with the model by commands as
+//! well.
 
 use incircle_model::{CommandModel, Inputs};
 use incircle_protocol::{

@@ -1,5 +1,5 @@
-//! Runs a chip of two engines at its AXI ports, with random stalls and clocks at all ratios: each job must get the answers
-//! that the model by commands gives to it alone, and both engines must work.
+//! Runs a chip of two engines at its AXI ports, with random stalls and clocks at all ratios: each job must get the
+//! answers that the model by commands gives to it alone, and both engines must work.
 
 use std::collections::BTreeMap;
 

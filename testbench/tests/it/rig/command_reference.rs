@@ -179,8 +179,8 @@ impl Reference {
     }
 }
 
-/// The numbers of contexts and jobs of a `Clear`, and the clocks that their check takes: one for each context of a team,
-/// or one outside a batch.
+/// The numbers of contexts and jobs of a `Clear`, and the clocks that their check takes: one for each context of a
+/// team, or one outside a batch.
 pub fn check(contexts: u32, word: u32) -> (u32, u32, u32) {
     match command_meshes(word) {
         _ if !command_starts_batch(word) => (contexts, 1, 1),

@@ -99,8 +99,8 @@ impl Mesh {
         }
         let [apex, a, b] = v.map(|v| self.at(v));
         match lifted([apex, a, b], p) {
-            // By the tie rule, the diagonal from `p` starts at the smallest of the four points or ends there. It crosses
-            // the side that faces `p`.
+            // By the tie rule, the diagonal from `p` starts at the smallest of the four points or ends there. It
+            // crosses the side that faces `p`.
             0 => {
                 let opposite = match () {
                     () if area(b, apex, p) < 0 => a,

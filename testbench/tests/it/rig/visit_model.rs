@@ -8,8 +8,8 @@ use crate::rig::stepper::bundles::{turned, Finding, LockFinding};
 /// hold only if it is not turned.
 pub const VERDICT_PARTS: [&str; 3] = ["verdict[0+:1]", "verdict[1+:2]", "verdict[3+:17]"];
 
-/// The parts of a verdict about `p`; `None` where a part is arbitrary: a tie unless the corners turn left and `p` is none
-/// of them, or bits for which no turned record is visited.
+/// The parts of a verdict about `p`; `None` where a part is arbitrary: a tie unless the corners turn left and `p` is
+/// none of them, or bits for which no turned record is visited.
 pub fn verdict_parts(verdict: u128, slot: usize, r: [Point; 3], p: Point) -> [Option<u128>; 3] {
     let counts = incircle(r, p) != 0 || orientation(r[0], r[1], r[2]) > 0 && !r.contains(&p);
     [counts.then_some(verdict & 1), Some(verdict >> 1 & 3), (slot == 0).then_some(verdict >> 3)]

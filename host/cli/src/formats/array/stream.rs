@@ -29,8 +29,8 @@ impl<'a> Source<'a> {
         Self { bytes, size: None, memory }
     }
 
-    /// Reads the header. An array is refused if it has more rows than `check` lets pass, or if the file has another length
-    /// than its header promises.
+    /// Reads the header. An array is refused if it has more rows than `check` lets pass, or if the file has another
+    /// length than its header promises.
     pub fn open(&mut self, wanted: &Wanted, check: fn(Memory, u64) -> Result<(), Failure>) -> Result<Layout, Failure> {
         let (layout, header_bytes) = Layout::read(self.bytes, wanted)?;
         if let Some(size) = self.size {

@@ -144,8 +144,8 @@ fn shares(total: u64, size: u64, count: u64) -> Option<Vec<u64>> {
     Some((0..count).map(|index| size.min(total.saturating_sub(index * size))).collect())
 }
 
-/// Refuses a layered chunk whose own count of points differs from `chunk` or is too large for its bytes, or whose layers
-/// do not fill its bytes.
+/// Refuses a layered chunk whose own count of points differs from `chunk` or is too large for its bytes, or whose
+/// layers do not fill its bytes.
 fn check_layers(bytes: &[u8], chunk: &Chunk, header: &Header, packing: &Packing) -> Result<(), String> {
     let word = |place: usize| bytes.get(place..place + 4)?.try_into().ok().map(u32::from_le_bytes);
     let first = header.record_bytes;

@@ -283,8 +283,8 @@ fn walks_end_at_the_cavity() {
     assert!(cycles.iter().all(|(with, without)| with <= without) && differ(&cycles), "{cycles:?}");
 }
 
-/// L10: the side of a record that faces the point decides a tie. The root need not hold the point, so a test may come to
-/// a record from the side on which the point lies, and the edge that it comes across says nothing.
+/// L10: the side of a record that faces the point decides a tie. The root need not hold the point, so a test may come
+/// to a record from the side on which the point lies, and the edge that it comes across says nothing.
 #[test]
 fn the_side_that_faces_the_point_decides_a_tie() {
     let jobs = Jobs {
