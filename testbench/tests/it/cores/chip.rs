@@ -78,8 +78,8 @@ fn job(random: &mut SplitMix64, tag: u8, config: Config) -> Vec<u32> {
         words.extend((0..count).map(|_| (random.below(side) | random.below(side) << 16) as u32));
     }
     let answers = alone(&words, config);
-    let reports = answers.iter().filter(|answer| answer_opcode(answer[0]) == Opcode::Insert as u8);
-    let records = reports.last().map_or(0, |answer| answer[6]);
+    let mut reports = answers.iter().filter(|answer| answer_opcode(answer[0]) == Opcode::Insert as u8);
+    let records = reports.next_back().map_or(0, |answer| answer[6]);
     for _ in 0..random.below(5) {
         match random.below(if is_refused { 4 } else { 7 }) {
             0 => words.extend([PADDING, PADDING]),

@@ -33,7 +33,8 @@ fn run(seed: u64, pace: u64) {
     let mut random = SplitMix64::new(seed);
     let mut block = Stepper::new("job_router", JobRouter::default(), seed as u32);
     // Words that the host has to send, and words that went into the router, each with its place in its command.
-    let (mut words, mut inside): (VecDeque<(u32, usize)>, VecDeque<(u32, usize)>) = Default::default();
+    let mut words = VecDeque::<(u32, usize)>::new();
+    let mut inside = VecDeque::<(u32, usize)>::new();
     let mut engines = [Engine::default(); 4];
     let mut current = 0;
     let mut used = [0; 4];
