@@ -32,11 +32,11 @@ pub(super) struct Awaited {
 }
 
 impl Awaited {
-    /// A tag that no answer to come has.
+    /// A tag that no answer to come has, and not 0, which is the tag of a device that was reset.
     pub(super) fn new_tag(&mut self) -> u8 {
         for _ in 0..=u8::MAX {
             self.last = self.last.wrapping_add(1);
-            if !self.jobs.contains_key(&self.last) {
+            if self.last != 0 && !self.jobs.contains_key(&self.last) {
                 break;
             }
         }

@@ -152,7 +152,7 @@ impl CommandChannel {
             let mut words_of = |head| awaited.words_of(head, engines);
             let came = self.transport.receive_next(&mut words_of, &mut words, limit.deadline());
             let came = came.map_err(|source| self.failed(opcode, source, limit))?;
-            if self.awaited.words_of(came, self.engines).is_none() {
+            if self.awaited.words_of(came, self.engines) != Some(words.len()) {
                 let words = u32::try_from(command.payload_words(self.layout)).unwrap_or(u32::MAX);
                 return Err(self.distrust(opcode, fault_of(came, opcode, words)));
             }

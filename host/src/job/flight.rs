@@ -23,6 +23,8 @@ use incircle_geometry::Point;
 /// Most loads under way for each engine where commands may be sent ahead: one in the engine, one behind it. A device
 /// of several engines has one more under way, since a job waits at the device until some engine is free.
 const MOST_SENT: usize = 2;
+/// Most loads under way on a device that gives answers in any order: half of the tags.
+const MOST_TAGGED: usize = 128;
 
 /// An error, with the index of the job that it is about, if it is about one job.
 #[derive(Debug)]
@@ -137,7 +139,8 @@ impl Carrier<'_> {
         match self.identity.engines {
             _ if !self.channel.capabilities().takes_ahead => 1,
             1 => MOST_SENT,
-            engines if self.channel.takes_any_order() => MOST_SENT * engines as usize + 1,
+            // A byte has the tags, and loads that were dropped keep theirs for a while.
+            engines if self.channel.takes_any_order() => (MOST_SENT * engines as usize + 1).min(MOST_TAGGED),
             _ => 1,
         }
     }
@@ -236,17 +239,18 @@ impl Carrier<'_> {
     /// Puts the first load, over which this engine got stuck, behind all others, to be sent once more. The device gives
     /// it to another engine. Fails if as many engines as there are got stuck over it.
     fn send_elsewhere(&mut self, flight: &mut Flight, engine: u32) -> Result<(), Error> {
-        let Some(mut load) = flight.loads.pop_front() else {
+        // The load stays in front until it is certain that it goes again: an error names the job in front.
+        let Some(load) = flight.loads.front_mut() else {
             return Ok(());
         };
-        flight.sent -= 1;
         load.stuck_engines.push(engine);
         if load.stuck_engines.len() >= self.identity.engines as usize {
             let fault = DeviceFault::AllStuck { engines: self.identity.engines };
             return Err(self.channel.distrust(Opcode::Insert, fault));
         }
         self.watch.again();
-        flight.loads.push_back(load);
+        flight.loads.rotate_left(1);
+        flight.sent -= 1;
         (flight.limit, flight.is_second_try) = (None, false);
         Ok(())
     }

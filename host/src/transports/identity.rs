@@ -26,8 +26,37 @@ pub(crate) fn check_identity(identity: &Identity) -> Result<(), DeviceFault> {
     if !(MIN_CONTEXTS..=MAX_DEVICE_CONTEXTS).contains(&identity.contexts) {
         return Err(DeviceFault::Contexts(identity.contexts));
     }
-    if !(1..=MAX_DEVICE_ENGINES).contains(&identity.engines) {
+    // Version 1.2 knows one engine: its answers have neither tags nor another order.
+    let most = if found >> 16 < 2 { 1 } else { MAX_DEVICE_ENGINES };
+    if !(1..=most).contains(&identity.engines) {
         return Err(DeviceFault::Engines(identity.engines));
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use incircle_protocol::CORE_VERSION;
+
+    #[test]
+    fn version_1_2_has_one_engine() {
+        let identity = |protocol_version, engines| Identity {
+            magic: MAGIC,
+            protocol_version,
+            core_version: CORE_VERSION,
+            coord_bits: MIN_COORD_BITS,
+            capacity: MIN_POINTS,
+            contexts: 1,
+            engines,
+            ring_capacity: 32,
+        };
+        for version in [1 << 16 | 2, 1 << 16 | 3] {
+            assert_eq!(check_identity(&identity(version, 1)), Ok(()));
+            assert_eq!(check_identity(&identity(version, 2)), Err(DeviceFault::Engines(2)));
+        }
+        for version in [2 << 16, 2 << 16 | 1] {
+            assert_eq!(check_identity(&identity(version, 4)), Ok(()));
+        }
+    }
 }

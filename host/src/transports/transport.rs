@@ -98,7 +98,8 @@ pub trait Transport {
 pub struct Capabilities {
     /// Whether commands may be submitted before the answers to earlier ones are received. Set it only if
     /// [`submit`](Transport::submit) never waits until answers are received: the transport must keep what comes
-    /// meanwhile: the answers of two jobs, and on a device of several engines those of two jobs for each.
+    /// meanwhile: the answers of two jobs, and on a device of several engines those of two jobs for each and of one
+    /// more.
     pub takes_ahead: bool,
     /// Whether answers are taken in the order in which they come, by [`receive_next`](Transport::receive_next). Without
     /// it a device of several engines gets one job at a time.

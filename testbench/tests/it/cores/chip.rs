@@ -235,7 +235,7 @@ fn a_broken_engine_says_so_and_the_other_goes_on() {
         let expected: Vec<_> = alone(job, BROKEN).iter().map(|answer| essence(answer, BROKEN)).collect();
         assert_eq!(found, expected, "job {tag}");
     }
-    // If the only sound engine were stuck as well, jobs would still be answered: after a reset both work again.
+    // After a reset both engines get jobs again.
     pair.clock(Inputs { reset: true, ..Inputs::default() }).unwrap_or_else(|mismatch| panic!("{mismatch}"));
     let few = vec![Clear::one_mesh(0).word(), command_word(Opcode::Insert), 3, 0, 9, 0x9_0000];
     let first = run(&mut pair, &[few], BROKEN, Stalls::NONE, 1);

@@ -184,7 +184,7 @@ fn a_batch_of_too_many_points_is_refused() {
     scratch.run("bench --batch 4096 -n 16384 --backend clock --config small").fails(7, &["16384"]);
 }
 
-/// As many jobs share the core as fit. Jobs of 1,200 points, of which only 6 would fit, are exclusive jobs.
+/// As many jobs share the core as fit. Jobs of 5,000 points, of which only one fits, are exclusive jobs.
 #[test]
 fn jobs_of_middle_size_go_side_by_side() {
     let scratch = Scratch::new();
@@ -193,8 +193,8 @@ fn jobs_of_middle_size_go_side_by_side() {
         serde_json::from_str::<Value>(&run.stdout).expect("an object")["sets"][0].clone()
     };
     let cycles = |set: &Value| set["cycles_per_point"].as_f64().expect("cycles are counted");
-    let [small, middle, large] = [(39, 520), (40, 1000), (10, 1200)].map(|(jobs, n)| measured(jobs, n));
-    assert!(cycles(&small) < 18.0 && cycles(&middle) < 24.0 && cycles(&large) < 28.0, "{small} {middle} {large}");
+    let [small, middle, large] = [(39, 520), (40, 1000), (10, 5000)].map(|(jobs, n)| measured(jobs, n));
+    assert!(cycles(&small) < 17.0 && cycles(&middle) < 16.0 && cycles(&large) < 20.0, "{small} {middle} {large}");
     let is_exclusive = [&small, &middle, &large].map(|set| !set["longest_job_cycles"].is_null());
     assert_eq!(is_exclusive, [false, false, true]);
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/performance.md");
@@ -207,14 +207,14 @@ fn jobs_of_middle_size_go_side_by_side() {
 #[test]
 fn a_sequence_of_exclusive_jobs_costs_little_more_than_the_insertions() {
     let scratch = Scratch::new();
-    let run = scratch.run("bench uniform --batch 20 -n 4000 --backend clock --json").ok();
+    let run = scratch.run("bench uniform --batch 20 -n 8192 --backend clock --json").ok();
     let bench: Value = serde_json::from_str(&run.stdout).expect("an object");
     assert_eq!((&bench["config"], bench["contexts"].as_u64()), (&Value::from("full"), Some(16)));
     let set = &bench["sets"][0];
     let number = |key: &str| set[key].as_f64().unwrap_or_else(|| panic!("{key}: {set}"));
     assert_eq!(number("cycles_per_job"), number("cycles") / 20.0);
     assert!(number("cycles_per_job") <= number("longest_job_cycles"), "{set}");
-    assert!(number("longest_job_cycles") <= 90_000.0, "{set}");
+    assert!(number("longest_job_cycles") <= 150_000.0, "{set}");
     // The documents have a comma after the thousands.
     let shown = |key: &str| {
         let cycles = number(key).round() as u64;
@@ -230,10 +230,10 @@ fn a_sequence_of_exclusive_jobs_costs_little_more_than_the_insertions() {
     let (whole, engine) = (number("cycles_per_point"), number("engine_cycles_per_point"));
     // The read-out alone takes two clocks a point.
     assert!(whole - engine > 2.0 && whole - engine <= 2.5, "{set}");
-    let table = scratch.run("bench uniform --batch 2 -n 4000 --backend clock").ok();
+    let table = scratch.run("bench uniform --batch 2 -n 8192 --backend clock").ok();
     let row = &rows(&table, 2)[0];
     let value = |column: usize| row[column].parse::<f64>().unwrap_or_else(|_| panic!("column {column}: {row:?}"));
-    assert!(value(3) > value(4) + 2.0 && value(5) <= value(6) && value(6) <= 90_000.0, "{row:?}");
+    assert!(value(3) > value(4) + 2.0 && value(5) <= value(6) && value(6) <= 150_000.0, "{row:?}");
 }
 
 #[test]
