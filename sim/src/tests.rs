@@ -169,10 +169,11 @@ fn a_full_disk_ends_a_waveform_with_an_error() {
 fn every_named_configuration_says_who_it_is() {
     for config in NAMED {
         let mut device = SimDevice::new(config).unwrap();
-        // After a reset a core clears its memories, one triangle in each clock.
+        // After a reset a core clears its memories, one triangle in each clock. The queue of an engine of a chip takes
+        // the word before that.
         device.send(&[command_word(Opcode::Hello)], 100_000).unwrap();
         let mut answer = [0; 2 + IDENTITY_WORDS];
-        device.receive(&mut answer, 100).unwrap();
+        device.receive(&mut answer, 100_000).unwrap();
         let [header, length, identity @ ..] = answer;
         assert_eq!(header, answer_header(Opcode::Hello as u8, Status::Ok));
         assert_eq!(length as usize, IDENTITY_WORDS);

@@ -67,7 +67,7 @@ fn files_are_equal_and_the_report_says_cycles() {
     for set in ["kuzmin", "lattice", "box"] {
         scratch.run(&format!("generate {set} -n 1000 -o p.csv")).ok();
         for (options, config, contexts) in
-            [("", "small", 4), ("--contexts 3", "small", 3), ("--config large --contexts 17", "large", 17)]
+            [("", "small", 16), ("--contexts 3", "small", 3), ("--config large --contexts 17", "large", 17)]
         {
             let report = files(&scratch, options);
             assert_eq!((&report["backend"], &report["config"]), (&"clock".into(), &config.into()));
@@ -121,9 +121,9 @@ fn what_no_core_holds_ends_with_seven_and_contexts_it_lacks_with_two() {
     scratch
         .run("triangulate p.csv -o m.ele --backend clock --quantize fit --coord-bits 17")
         .fails(7, &["16 bits", "17"]);
-    let all = "tiny 2, small 4, full 16, large 24";
-    let run = scratch.run("triangulate p.csv -o m.ele --backend clock --contexts 5");
-    run.fails(2, &["5 contexts", "the 4 of the core small", all, "choose fewer or --config full"]);
+    let all = "tiny 2, small 16, full 16, large 24";
+    let run = scratch.run("triangulate p.csv -o m.ele --backend clock --contexts 17");
+    run.fails(2, &["17 contexts", "the 16 of the core small", all, "choose fewer or --config large"]);
     let run = scratch.run("triangulate p.csv -o m.ele --backend clock --contexts 25");
     run.fails(2, &["25 contexts", all, "choose fewer\n"]);
     assert_eq!(scratch.files(), ["p.csv"]);

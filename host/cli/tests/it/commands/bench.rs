@@ -168,7 +168,7 @@ fn a_batch_of_which_no_job_reaches_the_core_has_no_cycles() {
     let scratch = Scratch::new();
     let run = scratch.run("bench uniform --batch 2 -n 1 --backend clock").ok();
     let row: Vec<&str> = run.stdout.lines().last().expect("a row").split_whitespace().collect();
-    assert_eq!(row[3..], ["-"; 7], "{}", run.stdout);
+    assert_eq!(row[3..], ["-"; 8], "{}", run.stdout);
     let run = scratch.run("bench uniform --batch 2 -n 1 --backend clock --json").ok();
     let bench: Value = serde_json::from_str(&run.stdout).expect("an object");
     assert_eq!((&bench["sets"][0]["distinct"], bench["sets"][0].get("cycles")), (&Value::from(2), None));
