@@ -13,6 +13,7 @@ fn bad_parameters_are_refused_with_their_numbers() {
         (Config { ring: 65, ..SMALL }, "cannot hold 65 edges: choose a number from 3 to 64"),
         (Config { contexts: 0, ..SMALL }, "cannot have 0 contexts: choose a number from 1 to 24"),
         (Config { contexts: 25, ..SMALL }, "cannot have 25 contexts: choose a number from 1 to 24"),
+        (Config { engines: 3, ..SMALL }, "cannot have 3 engines: choose 1, 2 or 4"),
     ] {
         let error = export::core(config, false).unwrap_err().to_string();
         assert!(error.contains(sentence), "{error}");

@@ -4,8 +4,8 @@ use std::sync::mpsc::{channel, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
 use incircle_protocol::{
-    answer_opcode, answer_status, triangle_capacity, Command, Identity, Layout, RecordRange, Status, StreamRegister,
-    ANSWER_HEAD_WORDS, IDENTITY_WORDS, LATENCY_BUCKETS, STREAM_STATUS_BUSY,
+    answer_opcode, answer_status, answer_tag, triangle_capacity, Command, Identity, Layout, RecordRange, Status,
+    StreamRegister, ANSWER_HEAD_WORDS, IDENTITY_WORDS, LATENCY_BUCKETS, STREAM_STATUS_BUSY,
 };
 
 use super::address::CardAddress;
@@ -366,7 +366,18 @@ impl Transport for PcieTransport {
         payload: &mut Vec<u32>,
         deadline: Instant,
     ) -> Result<AnswerHead, TransportError> {
-        receive_next_in_pieces(words_of, payload, |words| self.fill(words, deadline))
+        let mut is_unknown = false;
+        let mut words_of_known = |head| {
+            let words = words_of(head);
+            is_unknown = words.is_none();
+            words
+        };
+        let came = receive_next_in_pieces(&mut words_of_known, payload, |words| self.fill(words, deadline))?;
+        // A card that was reset takes words of points for commands. It answers them with the tag 0, which no job has.
+        if is_unknown && answer_tag(came[0]) == 0 && Status::from_u8(answer_status(came[0])).is_some() {
+            return Err(self.fail(PcieFault::Forgotten));
+        }
+        Ok(came)
     }
 
     fn capabilities(&self) -> Capabilities {

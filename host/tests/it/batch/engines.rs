@@ -8,7 +8,7 @@ use crate::common::Random;
 use incircle::transports::{AnswerHead, Capabilities, ClockTransport};
 use incircle::{Config, Device, Error, ErrorKind, Mesh, Options, Point, Transport, TransportError};
 use incircle_model::{ChipModel, Defect};
-use incircle_protocol::{Command, DUAL, QUAD, SMALL};
+use incircle_protocol::{command_tag, Command, DUAL, QUAD, SMALL};
 
 /// Nine in ten jobs below 300 points, the others up to `most`, with points of all kinds.
 fn mixed(random: &mut Random, count: usize, most: u32) -> Vec<Vec<Point>> {
@@ -142,11 +142,13 @@ fn a_single_job_goes_on_from_a_stuck_engine() {
 fn a_chip_without_a_sound_engine_is_an_error() {
     let config = Config { points: 256, contexts: 4, ..DUAL };
     let mut random = Random(8);
-    let jobs: Vec<_> = (0..6).map(|_| random.points(200, 1 << 16)).collect();
+    // Three points are a first triangle, over which no engine gets stuck.
+    let jobs: Vec<_> = (0..6).map(|job| random.points(if job == 4 { 200 } else { 3 }, 1 << 16)).collect();
     let mut device = broken(config, &[0, 1]);
     let error = batch(&mut device, &jobs, &Options::default()).expect_err("stuck");
     assert_eq!(error.kind(), ErrorKind::Device, "{error}");
     assert!(error.to_string().contains("each of its 2 engines got stuck"), "{error}");
+    assert!(matches!(error, Error::InJob { job: 4, .. }), "{error}");
 }
 
 /// A transport that takes answers in their order only, one job at a time.
@@ -241,9 +243,41 @@ fn lies_about_engines_and_jobs_are_found() {
     }
 }
 
+/// A core of one engine, to which no command has a tag.
+struct Untagged(ClockTransport);
+
+impl Transport for Untagged {
+    fn name(&self) -> String {
+        "untagged".to_owned()
+    }
+
+    fn submit(&mut self, commands: &[Command<&[u32]>], deadline: Instant) -> Result<(), TransportError> {
+        for command in commands {
+            let mut words = Vec::new();
+            command.encode(&mut words);
+            assert_eq!(command_tag(words[0]), 0, "{:08x}", words[0]);
+        }
+        self.0.submit(commands, deadline)
+    }
+
+    fn receive(
+        &mut self,
+        head: AnswerHead,
+        payload: &mut [u32],
+        deadline: Instant,
+    ) -> Result<AnswerHead, TransportError> {
+        self.0.receive(head, payload, deadline)
+    }
+
+    fn capabilities(&self) -> Capabilities {
+        self.0.capabilities()
+    }
+}
+
 #[test]
-fn a_core_of_one_engine_has_no_tags() {
-    let mut device = Device::clock_model(SMALL).expect("a named configuration");
-    let session = device.session().expect("a session");
-    assert_eq!(session.identity().engines, 1);
+fn a_core_of_one_engine_gets_no_tags() {
+    let jobs = mixed(&mut Random(11), 60, SMALL.points);
+    let transport = ClockTransport::new(SMALL).expect("a named configuration");
+    let mut device = Device::from_transport(Box::new(Untagged(transport)));
+    assert!(batch(&mut device, &jobs, &Options::default()).expect("meshes") == alone(&jobs));
 }

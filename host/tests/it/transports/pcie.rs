@@ -7,8 +7,8 @@ use incircle::pcie::{PcieFault, PcieTransport};
 use incircle::transports::AnswerHead;
 use incircle::{Device, Error, ErrorKind, Mesh, Options, Point, Solution, Transport, TransportError};
 use incircle_protocol::{
-    answer_head, Command, Opcode, RecordRange, StreamRegister, IDENTITY_WORDS, INSERT_REPORT_WORDS, LATENCY_BUCKETS,
-    SMALL,
+    answer_head, Command, Config, Opcode, RecordRange, StreamRegister, DUAL, IDENTITY_WORDS, INSERT_REPORT_WORDS,
+    LATENCY_BUCKETS, SMALL,
 };
 use proptest::prelude::*;
 
@@ -113,6 +113,27 @@ fn a_reset_in_the_middle_of_the_points_costs_no_job() {
     // card then takes for commands.
     for beat in 5..120 {
         must_be_right(64, Mischief { reset_after: Some(8 * beat), ..Mischief::default() }, "a reset");
+    }
+}
+
+#[test]
+fn a_reset_of_a_card_of_two_engines_costs_no_job_of_a_batch() {
+    const CONFIG: Config = Config { points: 512, contexts: 4, ..DUAL };
+    let jobs: Vec<_> = (0..12).map(|job| points(100 + 20 * job, job + 3)).collect();
+    let between = (0..12).map(|number| Mischief { reset: Some(number), ..Mischief::default() });
+    let within = (5..600).step_by(17).map(|beat| Mischief { reset_after: Some(8 * beat), ..Mischief::default() });
+    for mischief in between.chain(within) {
+        let what = format!("{:?} {:?}", mischief.reset, mischief.reset_after);
+        let files = MemoryCard::new(CONFIG, 64, mischief).files();
+        let card =
+            PcieTransport::new("pcie:memory".to_owned(), files).unwrap_or_else(|error| panic!("{what}: {error}"));
+        let mut device = Device::from_transport(Box::new(card));
+        let options = Options::default().timeout(LIMIT);
+        let mut session = device.session_within(LIMIT).unwrap_or_else(|error| panic!("{what}: {error}"));
+        let solutions = session.triangulate_batch(&jobs, &options).unwrap_or_else(|error| panic!("{what}: {error}"));
+        for (solution, points) in solutions.iter().zip(&jobs) {
+            assert_is_right(&solution.mesh, points);
+        }
     }
 }
 
