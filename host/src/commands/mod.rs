@@ -8,8 +8,8 @@ mod awaited;
 use std::time::Instant;
 
 use incircle_protocol::{
-    answer_engine, answer_head, answer_opcode, answer_status, answer_tag, Command, Identity, Layout, Opcode, Status,
-    IDENTITY_WORDS,
+    answer_engine, answer_head, answer_opcode, answer_status, answer_tag, signed_header, Command, Identity, Layout,
+    Opcode, Status, IDENTITY_WORDS,
 };
 
 use crate::error::{DeviceFault, Error, TransportError};
@@ -18,6 +18,9 @@ use crate::transports::identity::check_identity;
 use crate::transports::{is_begun_as, AnswerHead, Capabilities, DeviceClocks, Transport};
 use awaited::Awaited;
 
+/// The version of the protocol from which on a `Clear` gives its job a tag.
+const FIRST_VERSION_WITH_TAGS: u32 = 2 << 16;
+
 /// The commands of the protocol over a [`Transport`].
 pub(crate) struct CommandChannel {
     transport: Box<dyn Transport>,
@@ -25,6 +28,8 @@ pub(crate) struct CommandChannel {
     layout: Layout,
     /// Number of engines of the device, valid after [`hello`](Self::hello).
     engines: u32,
+    /// Whether the device signs answers with the tag of their job, valid after [`hello`](Self::hello).
+    has_tags: bool,
     /// Answers of a device of several engines that are still to come.
     awaited: Awaited,
     is_out_of_step: bool,
@@ -42,7 +47,7 @@ pub(crate) enum Came {
 impl CommandChannel {
     pub(crate) fn new(transport: Box<dyn Transport>) -> Self {
         let layout = Layout { point_words: 1, record_words: 3 };
-        Self { transport, layout, engines: 1, awaited: Awaited::default(), is_out_of_step: false }
+        Self { transport, layout, engines: 1, has_tags: false, awaited: Awaited::default(), is_out_of_step: false }
     }
 
     pub(crate) fn name(&self) -> String {
@@ -77,6 +82,7 @@ impl CommandChannel {
         check_identity(&identity).map_err(|fault| self.distrust(Opcode::Hello, fault))?;
         self.layout = Layout::of(identity.coord_bits, identity.capacity);
         self.engines = identity.engines;
+        self.has_tags = identity.protocol_version >= FIRST_VERSION_WITH_TAGS;
         Ok(identity)
     }
 
@@ -85,9 +91,9 @@ impl CommandChannel {
         self.engines > 1 && self.capabilities().any_order
     }
 
-    /// The tag for the next job. On a device of one engine, whose answers come in order, it is always 0.
+    /// The tag for the next job, another one than that of the job before it. For a device without tags it is 0.
     pub(crate) fn new_tag(&mut self) -> u8 {
-        if self.engines > 1 {
+        if self.has_tags {
             self.awaited.new_tag()
         } else {
             0
@@ -188,7 +194,8 @@ impl CommandChannel {
         let opcode = command.opcode();
         let words = u32::try_from(command.payload_words(self.layout)).unwrap_or(u32::MAX);
         payload.resize(words as usize, 0);
-        let awaited = answer_head(opcode, words);
+        let [header, length] = answer_head(opcode, words);
+        let awaited = [signed_header(header, 0, tag.unwrap_or(0)), length];
         let came = self.transport.receive(awaited, payload, limit.deadline());
         let came = came.map_err(|source| self.failed(opcode, source, limit))?;
         let is_from_here =

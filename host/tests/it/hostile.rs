@@ -117,7 +117,7 @@ fn an_absurd_capacity_takes_no_memory() {
 fn wrong_headers_and_lengths() {
     let header = |change: fn(u32) -> u32| fault(word(Opcode::Clear, 0, change));
     assert!(matches!(header(|h| h ^ 1 << 24), DeviceFault::Header { opcode: 2, .. }));
-    assert!(matches!(header(|h| h | 1), DeviceFault::Header { .. }));
+    assert!(matches!(header(|h| h ^ 1), DeviceFault::Header { .. }));
     assert!(matches!(header(|h| h | 200 << 16), DeviceFault::Header { .. }));
     for length in [0, 1, 4, 6, u32::MAX] {
         let found = fault(word(Opcode::Insert, 1, move |_| length));

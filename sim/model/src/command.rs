@@ -82,6 +82,8 @@ pub struct CommandModel {
     awaited: Awaited,
     /// The tag of the last `Clear`, refused or not.
     tag: u8,
+    /// The number of the engine that answers.
+    engine: u8,
     /// First word of a point of two words, if a piece of the command stream ended between them.
     half_point: Option<u32>,
     answers: VecDeque<u32>,
@@ -116,6 +118,7 @@ impl CommandModel {
             mesh: Mesh::new(capacity, ring_capacity),
             awaited: Awaited::Command,
             tag: 0,
+            engine: 0,
             half_point: None,
             answers: VecDeque::new(),
             reading: (Range::Records, 0, 0),
@@ -130,6 +133,13 @@ impl CommandModel {
         self
     }
 
+    /// The same model as the engine of this number on a device that has `engines` of them.
+    #[must_use]
+    pub fn as_engine(mut self, number: u8, engines: u32) -> Self {
+        (self.engine, self.identity.engines) = (number, engines);
+        self
+    }
+
     /// The mesh in its current state.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
@@ -137,8 +147,12 @@ impl CommandModel {
 
     /// Whether a command has begun and its answer has not been handed out completely.
     pub fn is_busy(&self) -> bool {
-        let is_between = matches!(self.awaited, Awaited::Command);
-        !is_between || !self.answers.is_empty() || self.reading.1 != self.reading.2
+        !self.is_between_commands() || !self.answers.is_empty() || self.reading.1 != self.reading.2
+    }
+
+    /// Whether the next word begins a command.
+    pub fn is_between_commands(&self) -> bool {
+        matches!(self.awaited, Awaited::Command)
     }
 
     /// Takes a piece of the command stream, of any length.
@@ -280,7 +294,7 @@ impl CommandModel {
     }
 
     fn begin_answer(&mut self, opcode: u8, status: Status, length: u32) {
-        self.answers.extend([signed_header(answer_header(opcode, status), 0, self.tag), length]);
+        self.answers.extend([signed_header(answer_header(opcode, status), self.engine, self.tag), length]);
     }
 
     fn await_points(&mut self, left: u32) {

@@ -4,8 +4,8 @@ use std::sync::mpsc::{channel, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
 use incircle_protocol::{
-    answer_opcode, answer_status, answer_tag, triangle_capacity, Command, Identity, Layout, RecordRange, Status,
-    StreamRegister, ANSWER_HEAD_WORDS, IDENTITY_WORDS, LATENCY_BUCKETS, STREAM_STATUS_BUSY,
+    answer_engine, answer_opcode, answer_status, answer_tag, triangle_capacity, Command, Identity, Layout, RecordRange,
+    Status, StreamRegister, ANSWER_HEAD_WORDS, IDENTITY_WORDS, LATENCY_BUCKETS, STREAM_STATUS_BUSY,
 };
 
 use super::address::CardAddress;
@@ -279,15 +279,18 @@ fn fill(bytes: &mut [u8], words: &[u32]) {
     }
 }
 
-/// Whether an answer shows that the card was reset, so that it took the rest of a command for other commands.
+/// Whether an answer shows that the card was reset, so that it took the rest of a command for other commands, or left
+/// out whole jobs.
 ///
-/// An answer to another command shows that. So does `BadRange`: the host never asks for records beyond the number that
-/// the card reported, so the card must have lost them.
+/// An answer to another command shows that, and so does one with the tag of another job. So does `BadRange`: the host
+/// never asks for records beyond the number that the card reported, so the card must have lost them.
 fn is_out_of_step(awaited: AnswerHead, came: AnswerHead) -> bool {
     let ([awaited, _], [came, _]) = (awaited, came);
     match Status::from_u8(answer_status(came)) {
-        Some(status) if answer_opcode(came) == answer_opcode(awaited) => status == Status::BadRange,
-        Some(_) => came & 0xffff == 0,
+        Some(status) if answer_opcode(came) == answer_opcode(awaited) => {
+            status == Status::BadRange || answer_tag(awaited) != 0 && answer_tag(came) != answer_tag(awaited)
+        }
+        Some(_) => answer_engine(came) == 0,
         None => false,
     }
 }

@@ -8,7 +8,7 @@ use crate::common::Random;
 use incircle::transports::{AnswerHead, Capabilities, ClockTransport};
 use incircle::{Config, Device, Error, ErrorKind, Mesh, Options, Point, Transport, TransportError};
 use incircle_model::{ChipModel, Defect};
-use incircle_protocol::{command_tag, Command, DUAL, QUAD, SMALL};
+use incircle_protocol::{command_tag, Command, Opcode, DUAL, QUAD, SMALL};
 
 /// Nine in ten jobs below 300 points, the others up to `most`, with points of all kinds.
 fn mixed(random: &mut Random, count: usize, most: u32) -> Vec<Vec<Point>> {
@@ -243,19 +243,22 @@ fn lies_about_engines_and_jobs_are_found() {
     }
 }
 
-/// A core of one engine, to which no command has a tag.
-struct Untagged(ClockTransport);
+/// A core of one engine, with the tag of the last job.
+struct Tagged(ClockTransport, u8);
 
-impl Transport for Untagged {
+impl Transport for Tagged {
     fn name(&self) -> String {
-        "untagged".to_owned()
+        "tagged".to_owned()
     }
 
     fn submit(&mut self, commands: &[Command<&[u32]>], deadline: Instant) -> Result<(), TransportError> {
         for command in commands {
             let mut words = Vec::new();
             command.encode(&mut words);
-            assert_eq!(command_tag(words[0]), 0, "{:08x}", words[0]);
+            if command.opcode() == Opcode::Clear {
+                let last = std::mem::replace(&mut self.1, command_tag(words[0]));
+                assert!(self.1 != 0 && self.1 != last, "{last} before {:08x}", words[0]);
+            }
         }
         self.0.submit(commands, deadline)
     }
@@ -275,9 +278,9 @@ impl Transport for Untagged {
 }
 
 #[test]
-fn a_core_of_one_engine_gets_no_tags() {
-    let jobs = mixed(&mut Random(11), 60, SMALL.points);
+fn jobs_in_a_row_have_different_tags_on_one_engine_too() {
+    let jobs = mixed(&mut Random(11), 600, SMALL.points);
     let transport = ClockTransport::new(SMALL).expect("a named configuration");
-    let mut device = Device::from_transport(Box::new(Untagged(transport)));
+    let mut device = Device::from_transport(Box::new(Tagged(transport, 0)));
     assert!(batch(&mut device, &jobs, &Options::default()).expect("meshes") == alone(&jobs));
 }

@@ -7,7 +7,7 @@ use incircle::pcie::{PcieFault, PcieTransport};
 use incircle::transports::AnswerHead;
 use incircle::{Device, Error, ErrorKind, Mesh, Options, Point, Solution, Transport, TransportError};
 use incircle_protocol::{
-    answer_head, Command, Config, Opcode, RecordRange, StreamRegister, DUAL, IDENTITY_WORDS, INSERT_REPORT_WORDS,
+    answer_head, Command, Config, Opcode, RecordRange, StreamRegister, IDENTITY_WORDS, INSERT_REPORT_WORDS,
     LATENCY_BUCKETS, SMALL,
 };
 use proptest::prelude::*;
@@ -116,24 +116,35 @@ fn a_reset_in_the_middle_of_the_points_costs_no_job() {
     }
 }
 
-#[test]
-fn a_reset_of_a_card_of_two_engines_costs_no_job_of_a_batch() {
-    const CONFIG: Config = Config { points: 512, contexts: 4, ..DUAL };
-    let jobs: Vec<_> = (0..12).map(|job| points(100 + 20 * job, job + 3)).collect();
-    let between = (0..12).map(|number| Mischief { reset: Some(number), ..Mischief::default() });
+/// Resets a card of so many engines at many moments of a batch, whose meshes must all be right.
+fn reset_within_a_batch(engines: u32, jobs: &[Vec<Point>]) {
+    let config = Config { points: 512, contexts: 4, engines, ..SMALL };
+    let between = (0..24).map(|number| Mischief { reset: Some(number), ..Mischief::default() });
     let within = (5..600).step_by(17).map(|beat| Mischief { reset_after: Some(8 * beat), ..Mischief::default() });
     for mischief in between.chain(within) {
         let what = format!("{:?} {:?}", mischief.reset, mischief.reset_after);
-        let files = MemoryCard::new(CONFIG, 64, mischief).files();
+        let files = MemoryCard::new(config, 64, mischief).files();
         let card =
             PcieTransport::new("pcie:memory".to_owned(), files).unwrap_or_else(|error| panic!("{what}: {error}"));
         let mut device = Device::from_transport(Box::new(card));
         let options = Options::default().timeout(LIMIT);
         let mut session = device.session_within(LIMIT).unwrap_or_else(|error| panic!("{what}: {error}"));
-        let solutions = session.triangulate_batch(&jobs, &options).unwrap_or_else(|error| panic!("{what}: {error}"));
-        for (solution, points) in solutions.iter().zip(&jobs) {
+        assert_eq!(session.identity().engines, engines);
+        let solutions = session.triangulate_batch(jobs, &options).unwrap_or_else(|error| panic!("{what}: {error}"));
+        for (solution, points) in solutions.iter().zip(jobs) {
             assert_is_right(&solution.mesh, points);
         }
+    }
+}
+
+#[test]
+fn a_reset_within_a_batch_costs_no_job() {
+    let of_many_sizes: Vec<_> = (0..12).map(|job| points(100 + 20 * job, job + 3)).collect();
+    // The answers to a job that the reset has left out are as long as those to the job after it.
+    let of_one_size: Vec<_> = (0..12).map(|job| points(300, 2 * job + 3)).collect();
+    for engines in [1, 2] {
+        reset_within_a_batch(engines, &of_many_sizes);
+        reset_within_a_batch(engines, &of_one_size);
     }
 }
 

@@ -1,6 +1,6 @@
 //! The device behind the beats of the stream link: it takes and gives words, as many at a time as there are.
 
-use incircle_protocol::{Config, Identity, CORE_COORD_BITS};
+use incircle_protocol::{command_opcode, Config, Identity, Opcode, CORE_COORD_BITS, PADDING};
 
 use crate::serial::core_identity;
 use crate::{CommandModel, ModelError};
@@ -23,63 +23,91 @@ pub trait WordStream {
     fn identity(&self) -> Identity;
 }
 
-/// The model by commands as a word stream.
+/// Models by commands as a word stream: one for each engine of the device.
+///
+/// As on a chip, jobs go to the engines in turn. Since a command takes no time here, an engine is always free when a
+/// job comes, and answers come in the order of their commands.
 #[derive(Debug)]
 pub struct ModelCore {
-    model: CommandModel,
-    parameters: (u32, u32, u32),
-    contexts: u32,
+    engines: Vec<CommandModel>,
+    /// The engine of the present job.
+    current: usize,
+    /// The engine whose answers are handed out.
+    giving: usize,
+    coord_bits: u32,
+    config: Config,
 }
 
 impl ModelCore {
-    /// A device for `capacity` points of `coord_bits` bits, with boundary lists of `ring` entries.
+    /// A device of one engine and one context for `capacity` points of `coord_bits` bits, with boundary lists of `ring`
+    /// entries.
     ///
     /// # Errors
     /// The errors of [`CommandModel::new`].
     pub fn new(coord_bits: u32, capacity: u32, ring: u32) -> Result<Self, ModelError> {
-        let model = CommandModel::new(coord_bits, capacity, ring)?;
-        Ok(Self { model, parameters: (coord_bits, capacity, ring), contexts: 1 })
+        Self::with_sizes(coord_bits, Config { name: "", points: capacity, ring, contexts: 1, engines: 1 })
     }
 
-    /// The same device with this many contexts; see [`CommandModel::with_contexts`].
+    /// The same device with this many contexts in each engine; see [`CommandModel::with_contexts`].
     #[must_use]
-    pub fn with_contexts(mut self, contexts: u32) -> Self {
-        self.model = self.model.with_contexts(contexts);
-        self.contexts = contexts.clamp(1, 255);
-        self
+    pub fn with_contexts(self, contexts: u32) -> Self {
+        let engines = self.engines.into_iter().map(|engine| engine.with_contexts(contexts)).collect();
+        Self { engines, config: Config { contexts: contexts.clamp(1, 255), ..self.config }, ..self }
     }
 
-    /// A device with the parameters of a core, but with one context.
+    /// A device with the parameters of a core, but with one context in each engine.
     ///
     /// # Errors
     /// The errors of [`CommandModel::new`].
     pub fn of(config: Config) -> Result<Self, ModelError> {
-        Self::new(CORE_COORD_BITS, config.points, config.ring)
+        Self::with_sizes(CORE_COORD_BITS, Config { name: "", contexts: 1, ..config })
+    }
+
+    fn with_sizes(coord_bits: u32, config: Config) -> Result<Self, ModelError> {
+        let engine = |number| {
+            let model = CommandModel::new(coord_bits, config.points, config.ring)?.with_contexts(config.contexts);
+            Ok(model.as_engine(number, config.engines))
+        };
+        let engines = (0..config.engines.clamp(1, 255) as u8).map(engine).collect::<Result<_, _>>()?;
+        Ok(Self { engines, current: 0, giving: 0, coord_bits, config })
     }
 }
 
 impl WordStream for ModelCore {
     fn reset(&mut self) {
-        let (coord_bits, capacity, ring) = self.parameters;
-        if let Ok(fresh) = Self::new(coord_bits, capacity, ring) {
-            *self = fresh.with_contexts(self.contexts);
+        if let Ok(fresh) = Self::with_sizes(self.coord_bits, self.config) {
+            *self = fresh;
         }
     }
 
     fn send(&mut self, words: &[u32]) {
-        self.model.send(words);
+        for &word in words {
+            let begins = self.engines[self.current].is_between_commands();
+            if begins && word != PADDING && command_opcode(word) == Opcode::Clear as u8 {
+                self.current = (self.current + 1) % self.engines.len();
+            }
+            self.engines[self.current].send(&[word]);
+        }
     }
 
     fn receive(&mut self, words: &mut [u32]) -> usize {
-        self.model.receive(words)
+        let mut filled = 0;
+        // An engine hands out all its answers before the next one does, so that each answer is whole.
+        for _ in 0..self.engines.len() {
+            filled += self.engines[self.giving].receive(&mut words[filled..]);
+            if filled == words.len() {
+                break;
+            }
+            self.giving = (self.giving + 1) % self.engines.len();
+        }
+        filled
     }
 
     fn is_busy(&self) -> bool {
-        self.model.is_busy()
+        self.engines.iter().any(CommandModel::is_busy)
     }
 
     fn identity(&self) -> Identity {
-        let (coord_bits, points, ring) = self.parameters;
-        Identity { coord_bits, ..core_identity(Config { name: "", points, ring, contexts: self.contexts, engines: 1 }) }
+        Identity { coord_bits: self.coord_bits, ..core_identity(self.config) }
     }
 }

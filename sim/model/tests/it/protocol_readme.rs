@@ -220,7 +220,7 @@ fn the_prose_has_the_numbers_of_the_crate() {
         format!("counters, {COUNTER_WORDS} words"),
         format!("histogram of latencies, {LATENCY_BUCKETS} words"),
         format!("before the {}th are inserted by", FIRST_ROUND + 1),
-        format!("context `(j - {FIRST_ROUND}) mod C`"),
+        format!("context `(j - {FIRST_ROUND}) mod K`"),
         format!(
             "below {} clocks, bucket {last} for all from {} on",
             latency_of_bucket(1),

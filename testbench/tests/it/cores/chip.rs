@@ -109,7 +109,6 @@ fn run(pair: &mut Lockstep, jobs: &[Vec<u32>], config: Config, stalls: Stalls, s
 /// Runs rounds of jobs on a chip, and compares the answers to each job with those to the job alone.
 fn jobs_of_all_kinds(name: &str, config: Config, rounds: u64) {
     let mut used = BTreeMap::new();
-    let mut overtaken = 0;
     for round in 0..rounds {
         let mut random = SplitMix64::new(round);
         let mut pair = Lockstep::new(name, config, round as u32 + 1);
@@ -123,12 +122,11 @@ fn jobs_of_all_kinds(name: &str, config: Config, rounds: u64) {
             let engine = answer_engine(own[0][0]);
             assert!(own.iter().all(|answer| answer_engine(answer[0]) == engine), "one engine for a job");
             *used.entry(engine).or_insert(0) += 1;
-            overtaken += u32::from(tag > 0 && engine == answer_engine(answers[&(tag - 1)][0][0]));
         }
     }
     assert_eq!(used.len(), config.engines as usize, "{used:?}");
     assert!(used.values().all(|&jobs| jobs > 5 * rounds), "{used:?}");
-    println!("{name}: jobs of each engine {used:?}, {overtaken} behind another on the same engine");
+    println!("{name}: jobs of each engine {used:?}");
 }
 
 #[test]

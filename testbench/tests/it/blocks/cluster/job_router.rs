@@ -36,8 +36,11 @@ fn run(seed: u64, pace: u64) {
     let mut words = VecDeque::<(u32, usize)>::new();
     let mut inside = VecDeque::<(u32, usize)>::new();
     let mut engines = [Engine::default(); 4];
+    // The choice of an engine is made in the clock before its job goes there.
+    let mut stuck_before = [false; 4];
     let mut current = 0;
     let mut used = [0; 4];
+    let mut sent_to_stuck = 0;
     for clock in 0..60_000 {
         let reset = clock == 0 || random.below(2000) == 0;
         if words.is_empty() {
@@ -76,7 +79,9 @@ fn run(seed: u64, pace: u64) {
             if place == 0 && word >> 24 == 2 {
                 let it = engines[engine];
                 assert!(it.owed == 0, "{it:?}");
-                // An engine may say `Stuck` in the very clock in which it is chosen.
+                let all_are_stuck = stuck_before.iter().all(|&is_stuck| is_stuck);
+                assert!(!stuck_before[engine] || all_are_stuck, "engine {engine} of {stuck_before:?}");
+                sent_to_stuck += u32::from(all_are_stuck);
                 used[engine] += u32::from(engine != current);
                 current = engine;
             } else {
@@ -91,16 +96,17 @@ fn run(seed: u64, pace: u64) {
             inside.pop_front();
         }
         block.edge();
+        stuck_before = engines.map(|engine| engine.is_stuck);
         if valid && ready {
             inside.extend(words.pop_front());
         }
         if reset {
-            (current, engines) = (0, [Engine::default(); 4]);
+            (current, engines, stuck_before) = (0, [Engine::default(); 4], [false; 4]);
             words.clear();
             inside.clear();
         }
     }
-    assert!(used.iter().all(|&jobs| jobs > 50), "{used:?}");
+    assert!(used.iter().all(|&jobs| jobs > 50) && sent_to_stuck > 10, "{used:?} {sent_to_stuck}");
 }
 
 #[test]
