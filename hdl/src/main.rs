@@ -82,7 +82,7 @@ struct BoardArguments {
         conflicts_with_all = ["all", "table"]
     )]
     name: Option<Board>,
-    /// Make the bitstreams of all boards, each in a folder with the board's name.
+    /// Make the bitstreams of all boards, with each core that a report is kept of; each in a folder of its name.
     #[arg(long, conflicts_with = "table")]
     all: bool,
     /// Write the tables in the documents again from the reports of the boards.
@@ -95,7 +95,7 @@ struct BoardArguments {
     #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=99))]
     seeds: u32,
     /// Configuration of the core. Default: that of the board.
-    #[arg(long, value_parser = config)]
+    #[arg(long, value_parser = config, conflicts_with = "all")]
     config: Option<Config>,
     /// Clock to try: a number of MHz; `usual`, the board's usual clock; or `largest`, the largest clock that the board
     /// meets. Default: the usual clock, and lower ones while it is missed.
@@ -108,7 +108,7 @@ struct BoardArguments {
     #[arg(long, conflicts_with = "system")]
     system_yosys: bool,
     /// Keep the report in the folder of the board, and renew the tables.
-    #[arg(long, conflicts_with = "config")]
+    #[arg(long)]
     renew: bool,
 }
 
@@ -172,10 +172,23 @@ fn export(arguments: ExportArguments) -> Result<(), committed::WriteError> {
 fn boards(arguments: &BoardArguments) -> Vec<BoardError> {
     let mut errors = Vec::new();
     if let Some(out) = &arguments.out {
-        let boards = arguments.name.map_or(BOARDS.to_vec(), |board| vec![board]);
-        for board in boards {
-            let out = if arguments.all { out.join(board.name) } else { out.clone() };
-            errors.extend(one_board(arguments, board, &out).err());
+        match arguments.name {
+            Some(board) => {
+                let config = arguments.config.unwrap_or(board.cores[0].config);
+                errors.extend(one_board(arguments, board, config, out).err());
+            }
+            None => {
+                for board in BOARDS {
+                    for (place, core) in board.cores.iter().enumerate() {
+                        let folder = if place == 0 {
+                            board.name.to_owned()
+                        } else {
+                            format!("{}-{}", board.name, core.config.name)
+                        };
+                        errors.extend(one_board(arguments, board, core.config, &out.join(folder)).err());
+                    }
+                }
+            }
         }
     }
     if arguments.table || arguments.renew {
@@ -184,11 +197,15 @@ fn boards(arguments: &BoardArguments) -> Vec<BoardError> {
     errors
 }
 
-fn one_board(arguments: &BoardArguments, board: Board, out: &Path) -> Result<(), BoardError> {
-    let say = |what: &str| complain(&format!("{}: {what}", board.name));
+fn one_board(arguments: &BoardArguments, board: Board, config: Config, out: &Path) -> Result<(), BoardError> {
+    let say = |what: &str| complain(&format!("{} with {}: {what}", board.name, config.name));
+    let report_file = match board.report(config) {
+        None if arguments.renew => return Err(BoardError::NoReport { board: board.name, config: config.name }),
+        file => file.filter(|_| arguments.renew),
+    };
     let request = Request {
         board,
-        config: arguments.config.unwrap_or(board.config),
+        config,
         seeds: arguments.seeds,
         clock: arguments.clock.unwrap_or(Clock::UsualOrLess),
         out,
@@ -200,8 +217,8 @@ fn one_board(arguments: &BoardArguments, board: Board, out: &Path) -> Result<(),
         say: &say,
     };
     let built = board::build(&request);
-    if arguments.renew && matches!(built, Ok(_) | Err(BoardError::Timing { .. })) {
-        Report::read(&out.join("report.json"))?.write(&board.folder().join("report.json"))?;
+    if let Some(file) = report_file.filter(|_| matches!(built, Ok(_) | Err(BoardError::Timing { .. }))) {
+        Report::read(&out.join("report.json"))?.write(&file)?;
     }
     let report = built?;
     if let Some(bitstream) = report.bitstream {

@@ -72,6 +72,13 @@ pub enum BoardError {
         /// The largest clock that the board is tried at, in MHz.
         most_mhz: u32,
     },
+    /// No report is kept of this core on this board.
+    #[error("no report of {board} with {config} is kept: leave out --renew, or add the core to the list of the board")]
+    NoReport {
+        board: &'static str,
+        /// Name of the configuration.
+        config: &'static str,
+    },
     /// The board meets none of the clocks that were tried.
     #[error(
         "{board} does not meet {clock_mhz} MHz: the median of {} reaches {:.1} MHz; {} says more, and {}",

@@ -4,6 +4,7 @@
 //! tells what is within reach, so the next clock tried is the largest one of the board's list that the median meets.
 
 use super::error::BoardError;
+use super::kept::{hexadecimal, Kept, Key};
 use super::mapping::{mapping, placer, FLOORPLAN};
 use super::report::{dividers, Attempt, Bitstream, Cells, Parts, Report, Seed, Serial, Summary, Versions};
 use super::tools::{run_strictly, Origin, Tools};
@@ -50,6 +51,13 @@ pub struct Request<'a> {
     pub say: &'a dyn Fn(&str),
 }
 
+/// The tools, their versions, and what they made in earlier runs.
+struct Shop {
+    tools: Tools,
+    versions: Versions,
+    kept: Kept,
+}
+
 /// The result of placing a design for one clock with every seed.
 struct Placed {
     clock_mhz: u32,
@@ -80,6 +88,7 @@ pub fn build(request: &Request) -> Result<Report, BoardError> {
     let (work, _lock) = workshop::take(request.out)?;
     let tools = Tools::find(request.tools, request.say)?;
     let versions = tools.versions(&work)?;
+    let tools = Shop { tools, versions, kept: Kept::within(&work) };
     forget_earlier(request)?;
     let mut missed = Vec::new();
     let mut rest = clocks.as_slice();
@@ -96,6 +105,8 @@ pub fn build(request: &Request) -> Result<Report, BoardError> {
         let within_reach = lower.partition_point(|&clock| f64::from(clock) > median);
         rest = lower.get(within_reach..).unwrap_or_default();
         if placed.is_met() || rest.is_empty() {
+            let Shop { tools, versions, kept } = tools;
+            kept.drop_others()?;
             return finish(request, &tools, &work, describe(request, &placed, versions), missed, &placed);
         }
         missed.push(Attempt { clock_mhz: placed.clock_mhz, fmax_mhz: placed.summary() });
@@ -119,10 +130,10 @@ fn bitstream(board: Board) -> String {
 
 /// The clocks to try, the largest one first.
 fn clocks(request: &Request) -> Result<Vec<u32>, BoardError> {
-    let board = request.board;
+    let (board, core) = (request.board, request.board.core(request.config));
     match request.clock {
-        Clock::UsualOrLess => Ok(board.clocks(board.usual_mhz)),
-        Clock::Usual => Ok(vec![board.usual_mhz]),
+        Clock::UsualOrLess => Ok(board.clocks(core.usual_mhz)),
+        Clock::Usual => Ok(vec![core.usual_mhz]),
         Clock::Largest => Ok(board.clocks(board.most_mhz)),
         Clock::Exactly(clock_mhz) if board.clocks(board.most_mhz).contains(&clock_mhz) => Ok(vec![clock_mhz]),
         Clock::Exactly(clock_mhz) => Err(BoardError::Clock {
@@ -135,10 +146,12 @@ fn clocks(request: &Request) -> Result<Vec<u32>, BoardError> {
 }
 
 /// Synthesises the board for a clock, and places it with every seed.
-fn place(request: &Request, tools: &Tools, work: &Path, clock_mhz: u32) -> Result<Placed, BoardError> {
+fn place(request: &Request, shop: &Shop, work: &Path, clock_mhz: u32) -> Result<Placed, BoardError> {
     let board = request.board;
     (request.say)(&format!("synthesis of {} for {clock_mhz} MHz", board.title));
-    let (core, all) = synthesise(request, tools, work, clock_mhz)?;
+    let (core, all) = synthesise(request, shop, work, clock_mhz)?;
+    let design = Key::default().text(&shop.versions.nextpnr);
+    let design = design.file(&work.join("netlist.json"))?.file(&work.join("pins.lpf"))?;
     let mut seeds = Vec::new();
     let (mut placed, mut available) = Default::default();
     for seed in 1..=request.seeds {
@@ -148,10 +161,16 @@ fn place(request: &Request, tools: &Tools, work: &Path, clock_mhz: u32) -> Resul
         arguments.extend(["--json", "netlist.json", "--lpf", "pins.lpf", "--textcfg", &config, "--report", &report]);
         // A single seed may miss the clock: the median of all seeds decides.
         arguments.extend(["--seed", &seed_text, "--timing-allow-fail"]);
-        run_strictly(&tools.nextpnr, &arguments, work, &format!("place-{seed}.log"))?;
+        let key = arguments.iter().fold(design.clone(), |key, argument| key.text(argument));
+        let is_kept = shop.kept.step(key, work, &[&report, &config], || {
+            run_strictly(&shop.tools.nextpnr, &arguments, work, &format!("place-{seed}.log"))?;
+            // A placement that is no measurement is not kept.
+            readings::fmax(&work.join(&report), clock_mhz).and_then(|_| readings::cells(&work.join(&report))).map(drop)
+        })?;
         let report = work.join(report);
         let fmax_mhz = readings::fmax(&report, clock_mhz)?;
-        (request.say)(&format!("seed {seed} reaches {fmax_mhz:.1} MHz"));
+        let kept = if is_kept { ", as an earlier run found" } else { "" };
+        (request.say)(&format!("seed {seed} reaches {fmax_mhz:.1} MHz{kept}"));
         seeds.push(Seed { seed, fmax_mhz });
         (placed, available) = readings::cells(&report)?;
     }
@@ -165,7 +184,7 @@ fn place(request: &Request, tools: &Tools, work: &Path, clock_mhz: u32) -> Resul
 }
 
 /// Exports the device and maps the board's top module; returns the cells of the core and of the whole design.
-fn synthesise(request: &Request, tools: &Tools, work: &Path, clock_mhz: u32) -> Result<(Cells, Cells), BoardError> {
+fn synthesise(request: &Request, shop: &Shop, work: &Path, clock_mhz: u32) -> Result<(Cells, Cells), BoardError> {
     let board = request.board;
     let pll = board.pll(clock_mhz).ok_or_else(|| BoardError::form(work, "the PLL cannot make this clock"))?;
     let device = export::serial_top(request.config, board.link(clock_mhz), false)?;
@@ -192,12 +211,14 @@ fn synthesise(request: &Request, tools: &Tools, work: &Path, clock_mhz: u32) -> 
         script += &format!("; tee -a {counts} select -count t:{cell}");
         script += &format!("; tee -a {counts} select -count {CORE} t:{cell} %i");
     }
-    let counts = work.join(counts);
-    if counts.exists() {
-        std::fs::remove_file(&counts).map_err(BoardError::file(&counts))?;
-    }
-    run_strictly(&tools.yosys, &["-p", &script], work, "synthesis.log")?;
-    readings::counts(&counts)
+    let sources = ["device.v", "clock.v", "top.v", FLOORPLAN];
+    let key = Key::default().text(&shop.versions.yosys).text(&script);
+    let key = sources.iter().try_fold(key, |key, source| key.file(&work.join(source)))?;
+    shop.kept.step(key, work, &["netlist.json", counts], || {
+        run_strictly(&shop.tools.yosys, &["-p", &script], work, "synthesis.log")?;
+        readings::counts(&work.join(counts)).map(drop)
+    })?;
+    readings::counts(&work.join(counts))
 }
 
 /// Packs the fastest seed if the clock is met, and writes the report in either case.
@@ -255,6 +276,7 @@ fn describe(request: &Request, placed: &Placed, tools: Versions) -> Report {
         points: config.points,
         ring: config.ring,
         contexts: config.contexts,
+        engines: config.engines,
         cells,
         serial: Serial {
             bridge: board.bridge.into(),
@@ -279,6 +301,5 @@ fn pack(request: &Request, tools: &Tools, work: &Path, seed: u32) -> Result<Bits
     }
     let to = request.out.join(&file);
     replace(&to, &bytes).map_err(BoardError::file(&to))?;
-    let sha256 = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
-    Ok(Bitstream { file, bytes: bytes.len() as u64, sha256 })
+    Ok(Bitstream { file, bytes: bytes.len() as u64, sha256: hexadecimal(Sha256::digest(&bytes)) })
 }

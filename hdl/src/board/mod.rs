@@ -7,6 +7,7 @@
 mod date;
 mod error;
 mod flow;
+mod kept;
 mod mapping;
 mod pll;
 mod readings;
@@ -23,11 +24,20 @@ pub use report::{Attempt, Bitstream, Cells, Parts, Report, Seed, Serial, Summary
 pub use table::{documents, held_text, pages, renew_tables};
 pub use tools::Origin;
 
-use incircle_protocol::{Config, LinkConfig, FULL, SILENCE_MS, SMALL};
+use incircle_protocol::{Config, LinkConfig, DUAL, FULL, QUAD, SILENCE_MS, SMALL};
 use std::path::{Path, PathBuf};
 
 /// Difference between two clocks that are tried, in MHz.
 const CLOCK_STEP: u32 = 5;
+
+/// A core on a board.
+#[derive(Clone, Copy, Debug)]
+pub struct BoardCore {
+    /// Configuration of the core.
+    pub config: Config,
+    /// The clock in MHz that the command tries unless the user asks for another: the clock that the last report met.
+    pub usual_mhz: u32,
+}
 
 /// A board for which the command can make a bitstream.
 #[derive(Clone, Copy, Debug)]
@@ -46,12 +56,10 @@ pub struct Board {
     pub oscillator_hz: u32,
     /// The largest clock that a user may ask for, in MHz.
     pub most_mhz: u32,
-    /// The clock in MHz that the command tries unless the user asks for another: the clock that the last report met.
-    pub usual_mhz: u32,
     /// The smallest clock that the command tries, in MHz; if the board misses this clock, the command fails.
     pub least_mhz: u32,
-    /// Configuration of the core, unless the user asks for another.
-    pub config: Config,
+    /// The cores whose reports are kept. The first is the board's own, which it gets unless the user asks for another.
+    pub cores: &'static [BoardCore],
     /// Size of the link's receive FIFO in bytes.
     pub fifo_bytes: u32,
     /// The chip or probe at the other end of the serial line.
@@ -70,9 +78,8 @@ pub const BOARDS: [Board; 3] = [
         chip: ["--85k", "--speed", "6", "--package", "CABGA381"],
         oscillator_hz: 25 * MHZ,
         most_mhz: 150,
-        usual_mhz: 120,
         least_mhz: 50,
-        config: FULL,
+        cores: &[BoardCore { config: FULL, usual_mhz: 120 }, BoardCore { config: QUAD, usual_mhz: 120 }],
         fifo_bytes: 16384,
         bridge: "FT231X",
         bridge_rate: 3_000_000,
@@ -85,9 +92,8 @@ pub const BOARDS: [Board; 3] = [
         chip: ["--25k", "--speed", "6", "--package", "CABGA381"],
         oscillator_hz: 25 * MHZ,
         most_mhz: 150,
-        usual_mhz: 120,
         least_mhz: 50,
-        config: SMALL,
+        cores: &[BoardCore { config: SMALL, usual_mhz: 120 }],
         fifo_bytes: 4096,
         bridge: "DAPLink",
         bridge_rate: 115_200,
@@ -100,9 +106,8 @@ pub const BOARDS: [Board; 3] = [
         chip: ["--um5g-85k", "--speed", "8", "--package", "CABGA554"],
         oscillator_hz: 100 * MHZ,
         most_mhz: 180,
-        usual_mhz: 150,
         least_mhz: 50,
-        config: FULL,
+        cores: &[BoardCore { config: FULL, usual_mhz: 150 }, BoardCore { config: DUAL, usual_mhz: 150 }],
         fifo_bytes: 16384,
         bridge: "FT2232H",
         bridge_rate: 12_000_000,
@@ -113,6 +118,20 @@ impl Board {
     /// The board with this name, if there is one.
     pub fn named(name: &str) -> Option<Self> {
         BOARDS.into_iter().find(|board| board.name == name)
+    }
+
+    /// The core of the board with this configuration. A configuration without a report is tried at the clock of the
+    /// board's own core.
+    pub fn core(&self, config: Config) -> BoardCore {
+        let usual_mhz = self.cores.first().map_or(self.least_mhz, |core| core.usual_mhz);
+        self.cores.iter().find(|core| core.config == config).copied().unwrap_or(BoardCore { config, usual_mhz })
+    }
+
+    /// The file with the report on a core of this configuration; `None` if such reports are not kept.
+    pub fn report(&self, config: Config) -> Option<PathBuf> {
+        let place = self.cores.iter().position(|core| core.config == config)?;
+        let name = if place == 0 { "report.json".to_owned() } else { format!("report-{}.json", config.name) };
+        Some(self.folder().join(name))
     }
 
     /// The folder of the board.

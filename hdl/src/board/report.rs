@@ -29,12 +29,14 @@ pub struct Report {
     pub missed: Vec<Attempt>,
     /// Name of the core's configuration.
     pub configuration: String,
-    /// Number of points that the core holds.
+    /// Number of points that an engine holds.
     pub points: u32,
     /// Number of edges that a boundary list holds.
     pub ring: u32,
-    /// Number of contexts of the core.
+    /// Number of contexts of an engine.
     pub contexts: u32,
+    /// Number of engines of the core.
+    pub engines: u32,
     /// The cells of the parts of the design.
     pub cells: Parts,
     /// The serial line of the board.

@@ -2,9 +2,9 @@
 //! that nobody types a figure.
 
 use super::error::{seeds_in_words, BoardError};
-use super::pll::MHZ;
 use super::report::{Cells, Parts, Report, Summary};
-use super::{constraints, repository, Board, BOARDS};
+use super::{constraints, repository, Board, BoardCore, BOARDS};
+use incircle_protocol::Config;
 use std::path::PathBuf;
 
 /// The lines before and behind a table in a document.
@@ -25,11 +25,11 @@ pub fn documents() -> Vec<PathBuf> {
 /// # Errors
 /// If a document, a report or the table of cycles cannot be read or understood.
 pub fn pages() -> Result<Vec<(PathBuf, String)>, BoardError> {
-    let mut measured = Vec::new();
-    for board in BOARDS {
-        measured.push((board, measurement(&board)?));
-    }
-    let single = measured.iter().map(|(_, measurement)| details(measurement.as_ref()));
+    let rows = BOARDS.into_iter().flat_map(|board| board.cores.iter().map(move |&core| (board, core)));
+    let measured: Vec<Row> = rows
+        .map(|(board, core)| Ok(Row { board, core, measurement: measurement(&board, core.config)? }))
+        .collect::<Result<_, BoardError>>()?;
+    let single = BOARDS.iter().map(|board| details(measured.iter().filter(|row| row.board.name == board.name)));
     let tables = std::iter::once(overview(&measured)).chain(single);
     let fill = |(path, table): (PathBuf, String)| {
         let text = held_text(&path)?;
@@ -60,16 +60,27 @@ pub fn renew_tables() -> Result<(), BoardError> {
     Ok(())
 }
 
-/// The report of a board, and the cycles of one insertion on the board's core if the table of cycles has them.
+/// A core on a board, with its measurement if there is one.
+struct Row {
+    board: Board,
+    core: BoardCore,
+    measurement: Option<Measurement>,
+}
+
+/// The report of a core on a board, and what the table of cycles has on the core.
 struct Measurement {
     report: Report,
+    /// Cycles of one insertion, in a set that fills the memory.
     cycles: Option<f64>,
+    /// Cycles of the whole core a point, in batches of jobs of 200, 1,000, 2,000 and 4,000 points; `None` where a job
+    /// does not fit.
+    batches: Vec<Option<f64>>,
 }
 
 impl Measurement {
-    /// Number of insertions in a second.
-    fn points_per_second(&self) -> Option<f64> {
-        self.cycles.map(|cycles| f64::from(self.report.clock_mhz * MHZ) / cycles)
+    /// Millions of points in a second, at so many cycles a point.
+    fn millions(&self, cycles: f64) -> f64 {
+        f64::from(self.report.clock_mhz) / cycles
     }
 
     fn cycles(&self) -> String {
@@ -77,7 +88,21 @@ impl Measurement {
     }
 
     fn rate(&self) -> String {
-        self.points_per_second().map_or("-".into(), |rate| format!("{:.2} million", rate / f64::from(MHZ)))
+        self.cycles.map_or("-".into(), |cycles| format!("{:.2} million", self.millions(cycles)))
+    }
+
+    /// Millions of points in a second, in batches.
+    fn batch_rates(&self) -> String {
+        let rates = self.batches.iter().map(|cycles| match cycles {
+            Some(cycles) => format!("{:.1}", self.millions(*cycles)),
+            None => "-".into(),
+        });
+        rates.collect::<Vec<_>>().join(" / ")
+    }
+
+    /// The points and contexts of the core.
+    fn sizes(&self) -> String {
+        sizes(self.report.engines, self.report.points, self.report.contexts)
     }
 
     fn clock(&self) -> String {
@@ -86,29 +111,56 @@ impl Measurement {
     }
 }
 
-fn measurement(board: &Board) -> Result<Option<Measurement>, BoardError> {
-    let path = board.folder().join("report.json");
-    if !path.exists() {
-        return Ok(None);
+/// The points and contexts of a core, as in `2 x 4096 points, 16 contexts each`.
+pub(super) fn sizes(engines: u32, points: u32, contexts: u32) -> String {
+    match engines {
+        1 => format!("{points} points, {contexts} contexts"),
+        _ => format!("{engines} x {points} points, {contexts} contexts each"),
     }
-    let report = Report::read(&path)?;
-    let cycles = cycles(report.points, report.contexts)?;
-    Ok(Some(Measurement { report, cycles }))
 }
 
-/// Cycles of one insertion from the committed table, for a set of this many points and a core with this many contexts.
-fn cycles(points: u32, contexts: u32) -> Result<Option<f64>, BoardError> {
-    let path = repository().join("testbench").join("cycles.md");
-    let text = held_text(&path)?;
-    let Some((_, section)) = text.split_once(&format!("## {points} points\n")) else { return Ok(None) };
+fn measurement(board: &Board, config: Config) -> Result<Option<Measurement>, BoardError> {
+    let Some(path) = board.report(config).filter(|path| path.exists()) else {
+        return Ok(None);
+    };
+    let report = Report::read(&path)?;
+    let cycles = if report.engines == 1 { set_cycles(report.points, report.contexts)? } else { None };
+    let batches = batch_cycles(report.engines, report.points, report.contexts)?;
+    Ok(Some(Measurement { report, cycles, batches }))
+}
+
+/// The rows of a table of the committed page of cycles, each as its cells; the first row is the head. Empty if the page
+/// has no such heading.
+fn rows_of_cycles(heading: &str) -> Result<Vec<Vec<String>>, BoardError> {
+    let text = held_text(&cycles_page())?;
+    let section = text.split_once(&format!("## {heading}\n")).map_or("", |(_, section)| section);
     let rows = section.lines().take_while(|line| !line.starts_with("##")).filter(|line| line.starts_with('|'));
-    let cells = |row: &str| row.split('|').map(|cell| cell.trim().to_string()).collect::<Vec<_>>();
-    let rows: Vec<_> = rows.map(cells).collect();
+    let cells = |row: &str| row.trim_matches('|').split('|').map(|cell| cell.trim().to_string()).collect();
+    Ok(rows.map(cells).collect())
+}
+
+fn cycles_page() -> PathBuf {
+    repository().join("testbench").join("cycles.md")
+}
+
+/// Cycles of one insertion, for a set of this many points and a core with this many contexts.
+fn set_cycles(points: u32, contexts: u32) -> Result<Option<f64>, BoardError> {
+    let rows = rows_of_cycles(&format!("{points} points"))?;
     let column = rows.first().and_then(|head| head.iter().position(|cell| *cell == format!("K = {contexts}")));
-    let row = rows.iter().find(|row| row.get(1).is_some_and(|set| set == POINT_SET));
+    let row = rows.iter().find(|row| row.first().is_some_and(|set| set == POINT_SET));
     let (Some(column), Some(row)) = (column, row) else { return Ok(None) };
     let cycles = row.get(column).and_then(|cell| cell.parse().ok());
-    cycles.map(Some).ok_or_else(|| BoardError::form(path, format!("no number of cycles for {points} points")))
+    let missing = || BoardError::form(cycles_page(), format!("no number of cycles for {points} points"));
+    cycles.map(Some).ok_or_else(missing)
+}
+
+/// Cycles a point in batches on a core of these sizes, for each length of jobs; empty if the page does not have the
+/// core.
+pub(super) fn batch_cycles(engines: u32, points: u32, contexts: u32) -> Result<Vec<Option<f64>>, BoardError> {
+    let key = [engines, points, contexts].map(|number| number.to_string());
+    let rows = rows_of_cycles("Batches")?;
+    let row = rows.into_iter().find(|row| row.get(1..4).is_some_and(|sizes| sizes == key));
+    Ok(row.unwrap_or_default().iter().skip(4).map(|cell| cell.parse().ok()).collect())
 }
 
 fn three(Summary { min, median, max }: Summary) -> String {
@@ -116,22 +168,25 @@ fn three(Summary { min, median, max }: Summary) -> String {
 }
 
 /// The table of all boards. Its links start at `constraints/`.
-fn overview(measured: &[(Board, Option<Measurement>)]) -> String {
+fn overview(measured: &[Row]) -> String {
     let mut text = String::from(
-        "\n| board | points, contexts | LUT, core + link | FF | DSP | EBR | Fmax of the seeds, min / median / max \
-         | clock | cycles an insertion | insertions a second | serial |\n\
-         |---|---|---|---|---|---|---|---|---|---|---|\n",
+        "\n| board | core | LUT, core + link | FF | DSP | EBR | Fmax of the seeds, min / median / max \
+         | clock | cycles an insertion | insertions a second | million points a second in batches | serial |\n\
+         |---|---|---|---|---|---|---|---|---|---|---|---|\n",
     );
-    for (board, measurement) in measured {
+    for Row { board, core, measurement } in measured {
         let link = format!("[{}]({}/README.md), {}", board.title, board.name, board.device);
         let Some(measurement) = measurement else {
-            text += &format!("| {link} | not measured |{}\n", " |".repeat(9));
+            let Config { name, engines, points, contexts, .. } = core.config;
+            text +=
+                &format!("| {link} | {name}: {} | not placed |{}\n", sizes(engines, points, contexts), " |".repeat(9));
             continue;
         };
-        let Report { points, contexts, cells, fmax_mhz, serial, .. } = &measurement.report;
+        let Report { configuration, cells, fmax_mhz, serial, .. } = &measurement.report;
         let sum = |of: fn(&Cells) -> u64| format!("{} + {}", of(&cells.core), of(&cells.shell));
         text += &format!(
-            "| {link} | {points}, {contexts} | {} | {} | {} | {} | {} | {} | {} | {} | {} bit/s |\n",
+            "| {link} | {configuration}: {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} bit/s |\n",
+            measurement.sizes(),
             sum(|cells| cells.lut),
             sum(|cells| cells.ff),
             sum(|cells| cells.dsp),
@@ -140,18 +195,23 @@ fn overview(measured: &[(Board, Option<Measurement>)]) -> String {
             measurement.clock(),
             measurement.cycles(),
             measurement.rate(),
+            measurement.batch_rates(),
             serial.bits_per_second,
         );
     }
     let mut measurements: Vec<_> = measured
         .iter()
-        .filter_map(|(board, measurement)| {
-            let report = &measurement.as_ref()?.report;
+        .filter_map(|row| {
+            let report = &row.measurement.as_ref()?.report;
             let seeds = seeds_in_words(report.seeds.len());
-            Some(format!("{} {}, {seeds}, {}", board.title, report.date, tools(report)))
+            let Row { board, core, .. } = row;
+            Some(format!("{} with {} {}, {seeds}, {}", board.title, core.config.name, report.date, tools(report)))
         })
         .collect();
-    measurements.push(format!("cycles of {POINT_SET} points to the brim: testbench/cycles.md"));
+    measurements.push(format!(
+        "cycles of {POINT_SET} points to the brim, and of batches of jobs of 200 / 1,000 / 2,000 / 4,000 {POINT_SET} \
+         points with their read-out: testbench/cycles.md"
+    ));
     text += &format!("\nMeasured:\n- {}.\n", measurements.join(";\n- "));
     text
 }
@@ -161,12 +221,18 @@ fn tools(report: &Report) -> String {
     format!("yosys {}, nextpnr {}", tools.yosys, tools.nextpnr)
 }
 
-/// The table of one board.
-fn details(measurement: Option<&Measurement>) -> String {
-    let Some(measurement) = measurement else { return "\nNot measured.\n".into() };
-    let rows: String =
-        readings(measurement).into_iter().map(|(name, value)| format!("| {name} | {value} |\n")).collect();
-    format!("{}\n| | |\n|---|---|\n{rows}", resources(&measurement.report.cells))
+/// The tables of one board: first the board's own core, then the others, each under a heading.
+fn details<'r>(rows: impl Iterator<Item = &'r Row>) -> String {
+    let section = |(place, row): (usize, &Row)| {
+        let heading = if place == 0 { String::new() } else { format!("\n### With `{}`\n", row.core.config.name) };
+        let Some(measurement) = &row.measurement else {
+            return format!("{heading}\nNot placed.\n");
+        };
+        let readings: String =
+            readings(measurement).into_iter().map(|(name, value)| format!("| {name} | {value} |\n")).collect();
+        format!("{heading}{}\n| | |\n|---|---|\n{readings}", resources(&measurement.report.cells))
+    };
+    rows.enumerate().map(section).collect()
 }
 
 /// The rows that say how much of the device the core and the shell take.
@@ -187,17 +253,18 @@ fn resources(cells: &Parts) -> String {
 }
 
 /// The other figures of a board, each with its name.
-fn readings(measurement: &Measurement) -> [(&'static str, String); 9] {
+fn readings(measurement: &Measurement) -> [(&'static str, String); 10] {
     let report = &measurement.report;
     let seeds: Vec<_> = report.seeds.iter().map(|seed| format!("{:.1} (seed {})", seed.fmax_mhz, seed.seed)).collect();
     let bitstream = report.bitstream.as_ref();
     [
-        ("configuration", format!("{}: {} points, {} contexts", report.configuration, report.points, report.contexts)),
+        ("configuration", format!("{}: {}", report.configuration, measurement.sizes())),
         ("clock", measurement.clock()),
         ("Fmax, MHz", seeds.join(", ")),
         ("Fmax, min / median / max", three(report.fmax_mhz)),
         ("cycles an insertion", measurement.cycles()),
         ("insertions a second", measurement.rate()),
+        ("million points a second in batches of jobs of 200 / 1,000 / 2,000 / 4,000", measurement.batch_rates()),
         (
             "serial",
             format!(

@@ -1,6 +1,7 @@
 //! Provides the folder in which the tools work, emptied and locked.
 
 use super::error::BoardError;
+use super::kept;
 use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 
@@ -8,7 +9,7 @@ use std::path::{Path, PathBuf};
 /// and is not emptied.
 const MARK: &str = ".incircle-board";
 
-/// Empties and returns the folder `work`. The returned file is a lock: no other run can have the folder until
+/// Empties and returns the folder `work`; only the [kept](super::kept) files stay. The returned file is a lock: no other run can have the folder until
 /// the file is closed.
 ///
 /// # Errors
@@ -29,7 +30,7 @@ pub(super) fn take(out: &Path) -> Result<(PathBuf, File), BoardError> {
     for entry in std::fs::read_dir(&work).map_err(BoardError::file(&work))? {
         let entry = entry.map_err(BoardError::file(&work))?;
         let path = entry.path();
-        if path == mark {
+        if path == mark || path == work.join(kept::FOLDER) {
             continue;
         }
         let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());

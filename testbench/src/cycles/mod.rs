@@ -1,12 +1,15 @@
 //! Cycles of the core, counted on the model clock by clock: exact figures, and the same on every machine.
 //!
 //! [`measure`] runs one job as the host does: it removes duplicates, orders the points in rounds along the
-//! Hilbert curve, and deals them to the contexts. [`document`] puts many such jobs into the tables of `cycles.md`.
+//! Hilbert curve, and deals them to the contexts. [`batch`] runs many jobs through the host library. [`document`] puts
+//! the counts into the tables of `cycles.md`.
 
 mod airports;
+mod batches;
 mod table;
 
 pub use airports::thinned_airports;
+pub use batches::{batch, batches, CORES, JOBS};
 pub use table::{block, document, row, survey_counts, BLOCKS, COLUMNS, ROWS};
 
 use incircle::order::brio_hilbert_dealt;
@@ -33,9 +36,9 @@ pub enum MeasureError {
     /// The core cannot be built.
     #[error("{0}")]
     Config(#[from] ConfigError),
-    /// The points do not fit the grid.
+    /// The points do not fit the grid, or the host library cannot do a batch.
     #[error("{0}")]
-    Quantize(#[from] incircle::Error),
+    Host(#[from] incircle::Error),
     /// A line of the list of airports does not begin with two numbers.
     #[error("line {0} of the airports does not begin with two coordinates")]
     Airport(usize),
@@ -45,6 +48,9 @@ pub enum MeasureError {
     /// The job does not end.
     #[error("the job does not end: {0}")]
     Hang(String),
+    /// The back end does not count its clocks.
+    #[error("the back end does not count clocks")]
+    NoClocks,
     /// Fewer points are in the mesh than were sent.
     #[error("{inserted} of {sent} points are in the mesh")]
     Lost {

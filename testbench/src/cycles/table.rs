@@ -8,6 +8,7 @@ use incircle_protocol::Counter;
 use incircle_testkit::Distribution;
 
 use super::airports::thinned_airports;
+use super::batches::batches;
 use super::{measure, measure_points, Counters, MeasureError};
 
 /// The point sets. Each is a row of every table.
@@ -104,6 +105,7 @@ pub fn document() -> Result<String, MeasureError> {
     for n in BLOCKS {
         parts.push(block(n)?);
     }
+    parts.push(batches()?);
     parts.push(survey_counts()?);
     Ok(parts.join("\n"))
 }
@@ -143,7 +145,7 @@ Triangulation: Applications, Algorithms, and Implementations Over CPUs, GPUs, an
 ";
 
 /// Applies `work` to all items, on all processors, and returns the results in the order of the items.
-fn in_parallel<T: Sync, R: Send>(
+pub(super) fn in_parallel<T: Sync, R: Send>(
     items: &[T],
     work: impl Fn(&T) -> Result<R, MeasureError> + Sync,
 ) -> Result<Vec<R>, MeasureError> {

@@ -112,7 +112,7 @@ fn whatever_a_tool_does_wrong_ends_without_a_bitstream() {
         ("wrong-clock", "the clock is to be 120 MHz, and is 125 MHz"),
         ("packer-fails", "ecppack ends with exit status: 1"),
         ("packs-nothing", "it is empty"),
-        ("places-nothing", "ecppack ends with exit status: 1"),
+        ("places-nothing", "seed-1.config: No such file"),
         ("no-measurement", "which is no measurement"),
         ("more-than-there-is", "it does not say what is used"),
     ];
@@ -133,6 +133,29 @@ fn a_bitstream_of_an_earlier_run_does_not_outlive_a_failure() {
     make(&out, &["--seeds", "1"], "130.0");
     refusal(&build(&out, &["--seeds", "1"], "130.0", "packer-fails"));
     assert!(!out.join("report.json").exists() && !out.join("colorlight-i5.bit").exists());
+}
+
+#[test]
+fn a_run_that_was_stopped_goes_on_where_it_ended() {
+    let out = folder("resumed");
+    let placed = |clock: u32| std::fs::read_to_string(out.join("work").join(format!("{clock}-mhz")).join("placed.txt"));
+    refusal(&build(&out, &[], "121.0 122.0 123.0", "placer-fails-3"));
+    assert_eq!(placed(120).unwrap(), "clock 120, seed 1\nclock 120, seed 2\n");
+    let output = build(&out, &[], "0 0 119.0", "");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(said.contains("seed 2 reaches 122.0 MHz, as an earlier run found\n"), "{said}");
+    assert_eq!(placed(120).unwrap(), "clock 120, seed 3\n");
+    let first = report(&out);
+    assert_eq!(first.seeds.iter().map(|seed| seed.fmax_mhz).collect::<Vec<_>>(), [121.0, 122.0, 119.0]);
+    // With all steps kept no tool but the packer runs, and the result is the same.
+    make(&out, &[], "0 0 0");
+    assert!(placed(120).is_err());
+    assert_eq!(report(&out), first);
+    // Another clock is another design.
+    make(&out, &["--clock", "110"], "131.0 132.0 133.0");
+    assert_eq!(placed(110).unwrap().lines().count(), 3);
+    make(&out, &[], "141.0 142.0 143.0");
+    assert_eq!(placed(120).unwrap().lines().count(), 3, "only the last run is kept");
 }
 
 #[test]

@@ -2,6 +2,7 @@
 //! in the documents with the reports.
 
 use incircle_hdl::board::{held_text, pages, Board, Report, Summary, BOARDS};
+use incircle_protocol::Config;
 use std::collections::BTreeSet;
 
 fn file(board: &Board, name: &str) -> String {
@@ -64,7 +65,9 @@ fn the_oscillator_is_constrained_as_the_pll_is_computed() {
         let clocks = board.clocks(board.most_mhz);
         assert!(clocks.len() > 10 && clocks.is_sorted_by(|a, b| a > b), "{}: {clocks:?}", board.name);
         assert!(clocks.contains(&125), "{}: {clocks:?}", board.name);
-        assert_eq!(board.clocks(board.usual_mhz).first(), Some(&board.usual_mhz), "{}", board.name);
+        for core in board.cores {
+            assert_eq!(board.clocks(core.usual_mhz).first(), Some(&core.usual_mhz), "{}", board.name);
+        }
     }
 }
 
@@ -78,8 +81,8 @@ fn tables_are_what_the_reports_say() {
 
 #[test]
 fn reports_are_whole() {
-    for board in BOARDS {
-        let path = board.folder().join("report.json");
+    for (board, core) in BOARDS.into_iter().flat_map(|board| board.cores.iter().map(move |&core| (board, core))) {
+        let path = board.report(core.config).expect("a core of the board");
         if !path.exists() {
             continue;
         }
@@ -91,10 +94,12 @@ fn reports_are_whole() {
         assert_eq!(report.met, report.bitstream.is_some() && report.picked_seed.is_some());
         assert_eq!(
             (report.met, report.clock_mhz),
-            (true, board.usual_mhz),
+            (true, core.usual_mhz),
             "{}: the clock of the table is the usual one",
             board.name
         );
-        assert_eq!((report.points, report.contexts), (board.config.points, board.config.contexts), "{}", board.name);
+        let Config { name, points, contexts, engines, .. } = core.config;
+        assert_eq!(report.configuration, name);
+        assert_eq!((report.points, report.contexts, report.engines), (points, contexts, engines), "{}", board.name);
     }
 }
