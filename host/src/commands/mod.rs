@@ -28,9 +28,9 @@ pub(crate) struct CommandChannel {
     layout: Layout,
     /// Number of engines of the device, valid after [`hello`](Self::hello).
     engines: u32,
-    /// Whether the device signs answers with the tag of their job, valid after [`hello`](Self::hello).
+    /// Whether headers of answers repeat the tag of their job, valid after [`hello`](Self::hello).
     has_tags: bool,
-    /// Answers of a device of several engines that are still to come.
+    /// The tags that were given, and, on a device of several engines, the answers that are still to come.
     awaited: Awaited,
     is_out_of_step: bool,
 }
@@ -70,7 +70,7 @@ impl CommandChannel {
     /// Asks the device for its identity and refuses one that no sound device has.
     pub(crate) fn hello(&mut self, limit: Limit) -> Result<Identity, Error> {
         let mut words = Vec::new();
-        // The answer comes from any engine and has the tag of the last job, whichever that was.
+        // With one engine the answer is taken in order, and its tag, that of the last job, is not looked at.
         self.engines = 1;
         self.submit(0, &[Command::Hello], limit)?;
         self.check_step()?;
@@ -211,8 +211,16 @@ impl CommandChannel {
 
     /// Tries to bring the device back after this error. `true` means that it is as after its reset, so the job may be
     /// sent once more; `false` means that the error stands.
+    ///
+    /// A wrong answer may be the trace of a reset that cut an answer short, so that the words of the next one came in the
+    /// place of its rest.
     pub(crate) fn recover(&mut self, error: &Error, limit: Limit) -> Result<bool, Error> {
-        if !matches!(error, Error::Link { .. }) {
+        let may_be_reset = match error {
+            Error::Link { .. } => true,
+            Error::Device { fault, .. } => !matches!(fault, DeviceFault::AllStuck { .. }),
+            _ => false,
+        };
+        if !may_be_reset {
             return Ok(false);
         }
         let during = "the restart";

@@ -5,8 +5,8 @@ use std::collections::VecDeque;
 use incircle_model::serial::core_identity;
 use incircle_model::stream::{BusError, Given};
 use incircle_protocol::{
-    answer_header, Command, CommandReader, Config, Identity, InsertReport, Layout, Opcode, Status, StreamRegister,
-    STREAM_FIFO_BEATS, STREAM_STATUS_RUNS, STREAM_VERSION,
+    answer_header, signed_header, Command, CommandReader, Config, Identity, InsertReport, Layout, Opcode, Status,
+    StreamRegister, STREAM_FIFO_BEATS, STREAM_STATUS_RUNS, STREAM_VERSION,
 };
 
 use super::beats::Beats;
@@ -31,6 +31,8 @@ pub struct NullDevice {
     commands: CommandReader,
     /// Number of words of points that the current `Insert` still expects.
     left: Option<u64>,
+    /// Tag of the last `Clear`.
+    tag: u8,
     /// Number of points since the last `Clear`.
     points: u32,
     answers: VecDeque<Answer>,
@@ -46,6 +48,7 @@ impl NullDevice {
             beat: if beat_bits >= 128 { 16 } else { 8 },
             commands: CommandReader::default(),
             left: None,
+            tag: 0,
             points: 0,
             answers: VecDeque::new(),
         }
@@ -53,7 +56,7 @@ impl NullDevice {
 
     fn answer(&mut self, opcode: Opcode, payload: &[u32], zeros: usize) {
         let words = payload.len() + zeros;
-        let head: VecDeque<u32> = [answer_header(opcode as u8, Status::Ok), words as u32]
+        let head: VecDeque<u32> = [signed_header(answer_header(opcode as u8, Status::Ok), 0, self.tag), words as u32]
             .into_iter()
             .chain(payload.iter().copied())
             .collect();
@@ -65,8 +68,8 @@ impl NullDevice {
     fn begin(&mut self, command: Command<()>) {
         match command {
             Command::Hello => self.answer(Opcode::Hello, &self.identity.to_words(), 0),
-            Command::Clear { .. } => {
-                self.points = 0;
+            Command::Clear(clear) => {
+                (self.tag, self.points) = (clear.tag, 0);
                 self.answer(Opcode::Clear, &[], 0);
             }
             Command::Insert { count, .. } => {

@@ -279,11 +279,12 @@ fn fill(bytes: &mut [u8], words: &[u32]) {
     }
 }
 
-/// Whether an answer shows that the card was reset, so that it took the rest of a command for other commands, or left
-/// out whole jobs.
+/// Whether an answer shows that the card was reset. After a reset the card has lost whole jobs, or takes the rest of a
+/// command for new commands.
 ///
-/// An answer to another command shows that, and so does one with the tag of another job. So does `BadRange`: the host
-/// never asks for records beyond the number that the card reported, so the card must have lost them.
+/// The signs are an answer to another command from engine 0, which takes all words before the first `Clear`; the tag of
+/// another job; and `BadRange`: the host never asks for records beyond the number that the card reported, so the card
+/// must have lost them.
 fn is_out_of_step(awaited: AnswerHead, came: AnswerHead) -> bool {
     let ([awaited, _], [came, _]) = (awaited, came);
     match Status::from_u8(answer_status(came)) {
@@ -376,7 +377,8 @@ impl Transport for PcieTransport {
             words
         };
         let came = receive_next_in_pieces(&mut words_of_known, payload, |words| self.fill(words, deadline))?;
-        // A card that was reset takes words of points for commands. It answers them with the tag 0, which no job has.
+        // A card that was reset takes words of points for commands. It answers them with the tag 0, which no job has,
+        // unless one of the words looks like a `Clear`.
         if is_unknown && answer_tag(came[0]) == 0 && Status::from_u8(answer_status(came[0])).is_some() {
             return Err(self.fail(PcieFault::Forgotten));
         }
@@ -388,7 +390,8 @@ impl Transport for PcieTransport {
     }
 
     fn recover(&mut self, deadline: Instant) -> Result<bool, TransportError> {
-        if !self.fault.as_ref().is_some_and(PcieFault::is_passing) {
+        // Without a fault here the session found an answer wrong, as after a reset in the middle of an answer.
+        if self.fault.as_ref().is_some_and(|fault| !fault.is_passing()) {
             return Ok(false);
         }
         self.restart(deadline).map_err(|fault| self.fail(fault))?;

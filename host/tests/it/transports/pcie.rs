@@ -121,8 +121,11 @@ fn reset_within_a_batch(engines: u32, jobs: &[Vec<Point>]) {
     let config = Config { points: 512, contexts: 4, engines, ..SMALL };
     let between = (0..24).map(|number| Mischief { reset: Some(number), ..Mischief::default() });
     let within = (5..600).step_by(17).map(|beat| Mischief { reset_after: Some(8 * beat), ..Mischief::default() });
-    for mischief in between.chain(within) {
-        let what = format!("{:?} {:?}", mischief.reset, mischief.reset_after);
+    // Reads of 48 bytes at most, so that the reset cuts answers short.
+    let short =
+        (0..400).step_by(31).map(|number| Mischief { reset: Some(number), short: Some(48), ..Mischief::default() });
+    for mischief in between.chain(within).chain(short) {
+        let what = format!("{mischief:?}");
         let files = MemoryCard::new(config, 64, mischief).files();
         let card =
             PcieTransport::new("pcie:memory".to_owned(), files).unwrap_or_else(|error| panic!("{what}: {error}"));
@@ -142,10 +145,12 @@ fn a_reset_within_a_batch_costs_no_job() {
     let of_many_sizes: Vec<_> = (0..12).map(|job| points(100 + 20 * job, job + 3)).collect();
     // The answers to a job that the reset has left out are as long as those to the job after it.
     let of_one_size: Vec<_> = (0..12).map(|job| points(300, 2 * job + 3)).collect();
-    for engines in [1, 2] {
-        reset_within_a_batch(engines, &of_many_sizes);
-        reset_within_a_batch(engines, &of_one_size);
-    }
+    // Most of the time goes into waiting for cards that have forgotten everything.
+    std::thread::scope(|scope| {
+        for (engines, jobs) in [1, 2].into_iter().flat_map(|count| [(count, &of_many_sizes), (count, &of_one_size)]) {
+            scope.spawn(move || reset_within_a_batch(engines, jobs));
+        }
+    });
 }
 
 #[test]
@@ -204,7 +209,8 @@ fn an_answer_without_an_end_is_refused() {
     assert!(matches!(error.fault(), Some(PcieFault::Endless { announced: 2, .. })), "{error}");
     let error = transport.submit(&[Command::Hello], deadline).expect_err("the fault stays");
     assert!(error.to_string().contains("an answer of 2 words"), "{error}");
-    assert!(matches!(transport.recover(deadline), Ok(false)));
+    // A reset by another program has the same effect, so it is worth one more try.
+    assert!(matches!(transport.recover(deadline), Ok(true)));
 }
 
 #[test]

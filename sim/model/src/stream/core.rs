@@ -25,8 +25,9 @@ pub trait WordStream {
 
 /// Models by commands as a word stream: one for each engine of the device.
 ///
-/// As on a chip, jobs go to the engines in turn. Since a command takes no time here, an engine is always free when a
-/// job comes, and answers come in the order of their commands.
+/// Jobs go to the engines in turn, as on a chip, without a look at whether an engine still owes answers. Answers come in
+/// the order of their commands if the caller takes all of them before it sends the next job, as
+/// [`StreamModel`](super::StreamModel) does.
 #[derive(Debug)]
 pub struct ModelCore {
     engines: Vec<CommandModel>,
@@ -64,11 +65,12 @@ impl ModelCore {
     }
 
     fn with_sizes(coord_bits: u32, config: Config) -> Result<Self, ModelError> {
+        let config = Config { engines: config.engines.clamp(1, 255), ..config };
         let engine = |number| {
             let model = CommandModel::new(coord_bits, config.points, config.ring)?.with_contexts(config.contexts);
             Ok(model.as_engine(number, config.engines))
         };
-        let engines = (0..config.engines.clamp(1, 255) as u8).map(engine).collect::<Result<_, _>>()?;
+        let engines = (0..config.engines as u8).map(engine).collect::<Result<_, _>>()?;
         Ok(Self { engines, current: 0, giving: 0, coord_bits, config })
     }
 }
