@@ -10,7 +10,8 @@ const ONE_CONTEXT: Config = Config { contexts: 1, ..SMALL };
 const LONG_LIST: Config = Config { ring: 64, contexts: 8, ..SMALL };
 const TWELVE_CONTEXTS: Config = Config { contexts: 12, ..SMALL };
 
-const DUAL_TINY: Config = Config { engines: 2, ..TINY };
+/// A tiny chip of two engines.
+pub const DUAL_TINY: Config = Config { engines: 2, ..TINY };
 const QUAD_TINY: Config = Config { points: 16, engines: 4, ..TINY };
 const DUAL_OF_64: Config = Config { points: 64, ring: 9, engines: 2, ..TINY };
 

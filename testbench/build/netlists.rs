@@ -9,6 +9,8 @@ use incircle_hdl::export;
 use incircle_hdl::top::CORE_NAME;
 use incircle_protocol::{Config, SMALL};
 
+use super::cores::DUAL_TINY;
+
 /// Cells that synthesis maps to; each has a model.
 const CELLS: [&str; 8] = ["CCU2C", "DP16KD", "L6MUX21", "LUT4", "MULT18X18D", "PFUMX", "TRELLIS_DPR16X4", "TRELLIS_FF"];
 
@@ -22,7 +24,7 @@ fn passes() -> String {
 const OPEN_PINS: &str = "/* verilator lint_off PINMISSING */\n";
 
 /// Name and configuration of each core that is simulated as a netlist.
-const NETLISTS: [(&str, Config); 1] = [("netlist_small", SMALL)];
+const NETLISTS: [(&str, Config); 2] = [("netlist_small", SMALL), ("netlist_dual_tiny", DUAL_TINY)];
 
 /// Name and Verilog of every netlist; each has the probe.
 pub fn all() -> Vec<(&'static str, String)> {

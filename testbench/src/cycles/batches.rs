@@ -2,27 +2,17 @@
 
 use incircle::transports::ClockTransport;
 use incircle::{Device, Options, Point};
-use incircle_protocol::{Config, DUAL, FULL, LARGE, QUAD, SMALL};
+use incircle_hdl::board::sizes::SIZES;
+use incircle_protocol::Config;
 use incircle_testkit::{generate, Distribution};
 
-use super::table::in_parallel;
-use super::{MeasureError, BITS, RING, SEED};
-
-/// The cores. Each is a row of the table. The two without a name of their own lie between `small` and `full`.
-pub const CORES: [Config; 7] = [
-    SMALL,
-    Config { name: "", points: 2048, ring: RING, contexts: 16, engines: 1 },
-    Config { name: "", points: 4096, ring: RING, contexts: 16, engines: 1 },
-    FULL,
-    LARGE,
-    DUAL,
-    QUAD,
-];
+use super::parallel::in_parallel;
+use super::{MeasureError, BITS, SEED};
 
 /// The numbers of points of a job, each with the number of jobs. Each is a column of the table.
 pub const JOBS: [(u32, u64); 4] = [(200, 1000), (1000, 64), (2000, 32), (4000, 16)];
 
-/// Clocks of the core for each point of a batch of `jobs` uniform jobs of `n` points.
+/// Clocks of the core for each point of a batch of `jobs` uniform jobs of `n` points, both more than 0.
 ///
 /// # Errors
 /// No such core exists, or it cannot do the jobs.
@@ -48,7 +38,7 @@ pub fn batch(core: Config, n: u32, jobs: u64) -> Result<f64, MeasureError> {
 pub fn batches() -> Result<String, MeasureError> {
     let columns: String = JOBS.iter().map(|(n, jobs)| format!(" {jobs} x {n} |")).collect();
     let rule = "---:|".repeat(JOBS.len() + 3);
-    let places: Vec<_> = CORES.into_iter().flat_map(|core| JOBS.map(|(n, jobs)| (core, n, jobs))).collect();
+    let places: Vec<_> = SIZES.into_iter().flat_map(|core| JOBS.map(|(n, jobs)| (core, n, jobs))).collect();
     let cells = in_parallel(&places, |&(core, n, jobs)| {
         // A job larger than the memory of an engine is an error of the library, and has no figure.
         if n > core.points {
@@ -57,8 +47,9 @@ pub fn batches() -> Result<String, MeasureError> {
             Ok(format!(" {:.2} |", batch(core, n, jobs)?))
         }
     })?;
-    let rows = CORES.iter().zip(cells.chunks(JOBS.len())).map(|(core, cells)| {
+    let rows = SIZES.iter().zip(cells.chunks(JOBS.len())).map(|(core, cells)| {
         let Config { name, engines, points, contexts, .. } = core;
+        let name = if *name == "custom" { "" } else { name };
         format!("| {name} | {engines} | {points} | {contexts} |{}\n", cells.concat())
     });
     let rows: String = rows.collect();
@@ -69,9 +60,11 @@ pub fn batches() -> Result<String, MeasureError> {
 const BATCHES: &str = "\
 ## Batches
 
-Whole batches of uniform jobs through the host library: clocks of the whole core, from the first word to the last one of
-the read-out, divided by the distinct points. A column gives the number of jobs and the points of each. Points and
-contexts are those of one engine. A job that does not fit has no figure. `incircle bench` counts the same:
+A figure is the clocks of the core or chip for each distinct point of a batch of uniform jobs, done by the host library.
+The clocks run from the first word of a command to the last word of the read-out. \"64 x 1000\" is 64 jobs of 1,000
+points. Coordinates have 16 bits, and the seeds of the jobs are 1, 2 and so on. Points and contexts are those of one
+engine. A row without a name is a core of that size made by `export --points --contexts`. A dash says that a job does
+not fit the memory of an engine. `incircle bench` counts the named ones:
 
     incircle bench uniform -n 1000 --batch 64 --backend clock --config quad
 ";

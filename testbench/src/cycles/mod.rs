@@ -6,10 +6,11 @@
 
 mod airports;
 mod batches;
+mod parallel;
 mod table;
 
 pub use airports::thinned_airports;
-pub use batches::{batch, batches, CORES, JOBS};
+pub use batches::{batch, batches, JOBS};
 pub use table::{block, document, row, survey_counts, BLOCKS, COLUMNS, ROWS};
 
 use incircle::order::brio_hilbert_dealt;

@@ -1,14 +1,13 @@
 //! Writes the tables of `cycles.md`.
 
 use std::fmt::Write;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::Mutex;
 
 use incircle_protocol::Counter;
 use incircle_testkit::Distribution;
 
 use super::airports::thinned_airports;
 use super::batches::batches;
+use super::parallel::in_parallel;
 use super::{measure, measure_points, Counters, MeasureError};
 
 /// The point sets. Each is a row of every table.
@@ -111,15 +110,16 @@ pub fn document() -> Result<String, MeasureError> {
 }
 
 const INTRODUCTION: &str = "\
-# Cycles per insertion
+# Cycles of the core
 
-For engineers who want to know how fast the core inserts points, and how close that is to what its memories allow.
+For engineers who want to know how fast the core works, and how close that is to what its memories allow.
 
 All figures are counted on the model clock by clock, so they are exact and the same on every machine. One command renews
 this page, and the test `tests/it/cores/cycles.rs` counts everything again and compares:
 
     cargo run --release -p incircle-testbench --bin cycles
 
+In the tables of 1,024 to 16,384 points:
 - A row is a point set of `incircle generate`, with 16-bit coordinates and seed 1. Duplicates are removed first; the
   column \"distinct\" counts the points that remain. The points are sent in the order of the host.
 - K is the number of contexts. Each context has a boundary list of 32 edges, and the capacity of the core is the next
@@ -143,30 +143,3 @@ Y. S. Elshakhs, K. M. Deliparaschos, T. Charalambous, G. Oliva, A. Zolotas: \"A 
 Triangulation: Applications, Algorithms, and Implementations Over CPUs, GPUs, and FPGAs\", IEEE Access 12, 2024, pages
 12562 to 12585, <https://doi.org/10.1109/ACCESS.2024.3354709>.
 ";
-
-/// Applies `work` to all items, on all processors, and returns the results in the order of the items.
-pub(super) fn in_parallel<T: Sync, R: Send>(
-    items: &[T],
-    work: impl Fn(&T) -> Result<R, MeasureError> + Sync,
-) -> Result<Vec<R>, MeasureError> {
-    let at = AtomicUsize::new(0);
-    let done = Mutex::new(Vec::with_capacity(items.len()));
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    std::thread::scope(|scope| {
-        for _ in 0..threads {
-            scope.spawn(|| loop {
-                let place = at.fetch_add(1, Ordering::Relaxed);
-                let Some(item) = items.get(place) else {
-                    return;
-                };
-                let result = work(item);
-                if let Ok(mut done) = done.lock() {
-                    done.push((place, result));
-                }
-            });
-        }
-    });
-    let mut results = done.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-    results.sort_by_key(|(place, _)| *place);
-    results.into_iter().map(|(_, result)| result).collect()
-}

@@ -139,6 +139,12 @@ fn four_engines_do_jobs_of_all_kinds() {
     jobs_of_all_kinds("core_quad_tiny", QUAD, 27);
 }
 
+/// The netlist that synthesis makes for an ECP5, cell by cell.
+#[test]
+fn the_netlist_of_two_engines_does_jobs_of_all_kinds() {
+    jobs_of_all_kinds("netlist_dual_tiny", DUAL, 6);
+}
+
 /// Any words whatever, with resets at any clock: the chip and its model agree.
 fn words_out_of_place(name: &str, config: Config) {
     let mut random = SplitMix64::new(77);

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use incircle::serial::{greet, Address};
 use incircle::{Device, Error, ErrorKind, Mesh, Options, Point};
-use incircle_protocol::SMALL;
+use incircle_protocol::{DUAL, SMALL};
 use incircle_testbench::link::{is_one_mesh, random_points, Detail, Served};
 
 /// Factor by which the board runs slower than real time, for the board and for the driver.
@@ -70,6 +70,25 @@ fn a_job_through_the_pins_and_the_next_one() {
     let figures = board.stop().unwrap();
     assert!(figures.slow_down.is_some() && figures.faults == 0, "{figures:?}");
     println!("{figures:?}");
+}
+
+/// A serial line carries one job at a time, so the engines of a chip work in turns.
+#[test]
+fn a_batch_on_a_chip_of_two_engines() {
+    for faults in ["", "ber=1e-4,drop-frame=0.05"] {
+        let mut board = Served::new(Detail::Bytes, DUAL, faults, BYTES_SLOW).unwrap();
+        let mut device = Device::open(&board.address(RATE)).unwrap();
+        let mut session = device.session_within(LIMIT).unwrap();
+        assert_eq!((session.identity().engines, session.identity().capacity), (2, DUAL.points));
+        let jobs: Vec<_> = (0..6).map(|job| random_points(30 * job as usize, job)).collect();
+        let solutions = session.triangulate_batch(&jobs, &Options::default().timeout(LIMIT)).unwrap();
+        for (solution, points) in solutions.iter().zip(&jobs) {
+            assert!(is_one_mesh(&solution.mesh, &incircle::triangulate(points).unwrap()), "{} points", points.len());
+        }
+        drop(device);
+        let figures = board.stop().unwrap();
+        assert_eq!(figures.faults > 0, !faults.is_empty(), "{figures:?}");
+    }
 }
 
 /// Runs the command, which must succeed.
