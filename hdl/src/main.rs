@@ -1,6 +1,8 @@
-//! The command of the hardware side: exports the core to Verilog, and makes bitstreams for boards.
+//! The command of the hardware side: exports the core to Verilog, makes bitstreams for boards, and counts the cells of
+//! cores in many families of FPGAs.
 
 use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
+use incircle_hdl::board::sizes::{self, size_name, Family, Sizes, SizesRequest, FAMILIES, SIZES};
 use incircle_hdl::board::{self, Board, BoardError, Clock, Origin, Report, Request, BOARDS};
 use incircle_hdl::committed::{self, Top};
 use incircle_protocol::{Config, LinkConfig, BEAT_BITS, FULL, NAMED, SILENCE_MS};
@@ -8,7 +10,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Export the incircle core to Verilog, and make bitstreams for boards.
+/// Export the incircle core to Verilog, make bitstreams for boards, and count cells in families of FPGAs.
 #[derive(Parser)]
 #[command(name = "incircle-hdl", version, after_help = "Example:\n  incircle-hdl export --config full -o core.v")]
 struct Arguments {
@@ -28,6 +30,11 @@ enum Command {
     /// The median of the seeds must meet the clock. The exit code is 0 only if there is a bitstream
     /// that meets its clock.
     Board(Box<BoardArguments>),
+    /// Count the cells of cores of many sizes in many families of FPGAs.
+    ///
+    /// Each core is synthesised alone, and those that no board lists are placed on the ULX3S-85F with one seed if they
+    /// fit. The figures go to sizes.json. A run that was stopped goes on where it ended.
+    Sizes(SizesArguments),
 }
 
 #[derive(Args)]
@@ -82,7 +89,8 @@ struct BoardArguments {
         conflicts_with_all = ["all", "table"]
     )]
     name: Option<Board>,
-    /// Make the bitstreams of all boards, with each core that a report is kept of; each in a folder of its name.
+    /// Make a bitstream for every row of the table of boards. The folders are called BOARD for the board's first core,
+    /// and BOARD-CONFIGURATION for the others.
     #[arg(long, conflicts_with = "table")]
     all: bool,
     /// Write the tables in the documents again from the reports of the boards.
@@ -94,10 +102,10 @@ struct BoardArguments {
     /// Number of seeds for the placer; their median must meet the clock.
     #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=99))]
     seeds: u32,
-    /// Configuration of the core. Default: that of the board.
+    /// Configuration of the core. Default: the first core in the table of the board.
     #[arg(long, value_parser = config, conflicts_with = "all")]
     config: Option<Config>,
-    /// Clock to try: a number of MHz; `usual`, the board's usual clock; or `largest`, the largest clock that the board
+    /// Clock to try: a number of MHz; `usual`, the usual clock of the core on the board; or `largest`, the largest clock that the board
     /// meets. Default: the usual clock, and lower ones while it is missed.
     #[arg(long, value_name = "MHZ", value_parser = clock)]
     clock: Option<Clock>,
@@ -110,6 +118,35 @@ struct BoardArguments {
     /// Keep the report in the folder of the board, and renew the tables.
     #[arg(long)]
     renew: bool,
+}
+
+#[derive(Args)]
+#[command(after_help = "Example:\n  incircle-hdl sizes --out build/sizes --family nexus --cells")]
+struct SizesArguments {
+    /// Folder for sizes.json and the output of the tools.
+    #[arg(short, long, required_unless_present = "table")]
+    out: Option<PathBuf>,
+    /// Core to measure, several with commas, such as `small` or `2048-points`. Default: all.
+    #[arg(long, value_delimiter = ',', value_parser = size)]
+    size: Vec<Config>,
+    /// Family to synthesise for, several with commas. Default: all.
+    #[arg(long, value_delimiter = ',', value_parser = family)]
+    family: Vec<&'static Family>,
+    /// Only count cells, and place nothing.
+    #[arg(long)]
+    cells: bool,
+    /// Use yosys, nextpnr-ecp5 and ecppack from PATH instead of the pinned ones.
+    #[arg(long)]
+    system: bool,
+    /// Use yosys from PATH, with the pinned nextpnr-ecp5 and ecppack.
+    #[arg(long, conflicts_with = "system")]
+    system_yosys: bool,
+    /// Take the figures over into hdl/sizes.json, and renew docs/sizes.md.
+    #[arg(long)]
+    renew: bool,
+    /// Write docs/sizes.md again from hdl/sizes.json.
+    #[arg(long, conflicts_with_all = ["out", "size", "family", "cells", "system", "system_yosys", "renew"])]
+    table: bool,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -125,6 +162,17 @@ enum TopName {
 fn config(name: &str) -> Result<Config, String> {
     let names = NAMED.map(|config| config.name).join(", ");
     Config::named(name).ok_or_else(|| format!("there is no configuration of this name: choose one of {names}"))
+}
+
+fn family(name: &str) -> Result<&'static Family, String> {
+    let names: Vec<_> = FAMILIES.iter().map(|family| family.name).collect();
+    Family::named(name).ok_or_else(|| format!("there is no family of this name: choose one of {}", names.join(", ")))
+}
+
+fn size(name: &str) -> Result<Config, String> {
+    let names = SIZES.map(size_name).join(", ");
+    let found = SIZES.into_iter().find(|&size| size_name(size) == name);
+    found.ok_or_else(|| format!("there is no size of this name: choose one of {names}"))
 }
 
 fn beat_bits(number: &str) -> Result<u32, String> {
@@ -174,7 +222,8 @@ fn boards(arguments: &BoardArguments) -> Vec<BoardError> {
     if let Some(out) = &arguments.out {
         match arguments.name {
             Some(board) => {
-                let config = arguments.config.unwrap_or(board.cores[0].config);
+                let own = board.cores.first().map(|core| core.config);
+                let config = arguments.config.or(own).unwrap_or(FULL);
                 errors.extend(one_board(arguments, board, config, out).err());
             }
             None => {
@@ -193,6 +242,7 @@ fn boards(arguments: &BoardArguments) -> Vec<BoardError> {
     }
     if arguments.table || arguments.renew {
         errors.extend(board::renew_tables().err());
+        errors.extend(sizes::renew_page().err());
     }
     errors
 }
@@ -209,11 +259,7 @@ fn one_board(arguments: &BoardArguments, board: Board, config: Config, out: &Pat
         seeds: arguments.seeds,
         clock: arguments.clock.unwrap_or(Clock::UsualOrLess),
         out,
-        tools: match (arguments.system, arguments.system_yosys) {
-            (true, _) => Origin::System,
-            (_, true) => Origin::SystemYosys,
-            _ => Origin::Pinned,
-        },
+        tools: origin(arguments.system, arguments.system_yosys),
         say: &say,
     };
     let built = board::build(&request);
@@ -226,6 +272,37 @@ fn one_board(arguments: &BoardArguments, board: Board, config: Config, out: &Pat
         print(&line).map_err(BoardError::Print)?;
     }
     Ok(())
+}
+
+/// The source of the tools that these options name.
+fn origin(system: bool, system_yosys: bool) -> Origin {
+    match (system, system_yosys) {
+        (true, _) => Origin::System,
+        (_, true) => Origin::SystemYosys,
+        _ => Origin::Pinned,
+    }
+}
+
+/// Counts the cells of all sizes in the families that the user asked for; without a folder only renews the page.
+fn measure_sizes(arguments: SizesArguments) -> Result<(), BoardError> {
+    let Some(out) = &arguments.out else {
+        return sizes::renew_page();
+    };
+    // What is named twice is measured once, in the order of the lists.
+    let (sizes, families) = (&arguments.size, &arguments.family);
+    let sizes = SIZES.into_iter().filter(|size| sizes.is_empty() || sizes.contains(size)).collect();
+    let is_named = |family: &&Family| families.is_empty() || families.iter().any(|named| named.name == family.name);
+    let families = FAMILIES.iter().filter(is_named).collect();
+    let tools = origin(arguments.system, arguments.system_yosys);
+    let places = !arguments.cells;
+    let measured = sizes::measure(&SizesRequest { sizes, families, places, out, tools, say: &complain })?;
+    if arguments.renew {
+        let figures = sizes::figures();
+        let earlier = if figures.exists() { Sizes::read(&figures)? } else { Sizes::default() };
+        earlier.renewed_by(measured).write(&figures)?;
+        sizes::renew_page()?;
+    }
+    print(&out.join("sizes.json").display().to_string()).map_err(BoardError::Print)
 }
 
 /// Prints a line on standard output; a reader that closes the pipe early is no error.
@@ -253,16 +330,19 @@ fn main() -> ExitCode {
                 ExitCode::FAILURE
             }
         },
-        Command::Board(arguments) => {
-            let errors = boards(&arguments);
-            for error in &errors {
-                complain(&format!("incircle-hdl: {error}"));
-            }
-            match errors.first() {
-                None => ExitCode::SUCCESS,
-                Some(BoardError::Install(_)) => NO_TOOLS.into(),
-                Some(_) => ExitCode::FAILURE,
-            }
-        }
+        Command::Board(arguments) => exit_code(&boards(&arguments)),
+        Command::Sizes(arguments) => exit_code(&measure_sizes(arguments).err().into_iter().collect::<Vec<_>>()),
+    }
+}
+
+/// Tells the user the errors, and gives the exit code that the first of them calls for.
+fn exit_code(errors: &[BoardError]) -> ExitCode {
+    for error in errors {
+        complain(&format!("incircle-hdl: {error}"));
+    }
+    match errors.first() {
+        None => ExitCode::SUCCESS,
+        Some(BoardError::Install(_)) => NO_TOOLS.into(),
+        Some(_) => ExitCode::FAILURE,
     }
 }

@@ -1,6 +1,6 @@
 //! Makes a bitstream and its report: export, synthesis, place and route with several seeds, packing.
 //!
-//! The clock is the board's usual one if the median of the seeds meets it. If the median misses a clock, the median
+//! The clock is the usual one of the core on the board if the median of the seeds meets it. If the median misses a clock, the median
 //! tells what is within reach, so the next clock tried is the largest one of the board's list that the median meets.
 
 use super::error::BoardError;
@@ -24,9 +24,9 @@ const REPORT: &str = "report.json";
 /// The choice of the clocks to try.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Clock {
-    /// The board's usual clock, and lower ones while it is missed.
+    /// The usual clock of the core on the board, and lower ones while it is missed.
     UsualOrLess,
-    /// The board's usual clock, and no other.
+    /// The usual clock of the core on the board, and no other.
     Usual,
     /// The largest clock that a user may ask of the board, and lower ones while it is missed.
     Largest,
@@ -52,10 +52,10 @@ pub struct Request<'a> {
 }
 
 /// The tools, their versions, and what they made in earlier runs.
-struct Shop {
-    tools: Tools,
-    versions: Versions,
-    kept: Kept,
+pub(super) struct Toolbox {
+    pub tools: Tools,
+    pub versions: Versions,
+    pub kept: Kept,
 }
 
 /// The result of placing a design for one clock with every seed.
@@ -88,7 +88,7 @@ pub fn build(request: &Request) -> Result<Report, BoardError> {
     let (work, _lock) = workshop::take(request.out)?;
     let tools = Tools::find(request.tools, request.say)?;
     let versions = tools.versions(&work)?;
-    let tools = Shop { tools, versions, kept: Kept::within(&work) };
+    let toolbox = Toolbox { tools, versions, kept: Kept::within(&work) };
     forget_earlier(request)?;
     let mut missed = Vec::new();
     let mut rest = clocks.as_slice();
@@ -100,14 +100,15 @@ pub fn build(request: &Request) -> Result<Report, BoardError> {
         // Each clock has its own folder, so that no file of another clock stands in for one that is missing.
         let work = work.join(format!("{clock_mhz}-mhz"));
         std::fs::create_dir(&work).map_err(BoardError::file(&work))?;
-        let placed = place(request, &tools, &work, *clock_mhz)?;
+        let placed = place(request, &toolbox, &work, *clock_mhz)?;
         let median = placed.summary().median;
         let within_reach = lower.partition_point(|&clock| f64::from(clock) > median);
         rest = lower.get(within_reach..).unwrap_or_default();
         if placed.is_met() || rest.is_empty() {
-            let Shop { tools, versions, kept } = tools;
+            let Toolbox { tools, versions, kept } = toolbox;
+            let finished = finish(request, &tools, &work, describe(request, &placed, versions), missed, &placed);
             kept.drop_others()?;
-            return finish(request, &tools, &work, describe(request, &placed, versions), missed, &placed);
+            return finished;
         }
         missed.push(Attempt { clock_mhz: placed.clock_mhz, fmax_mhz: placed.summary() });
     }
@@ -146,11 +147,11 @@ fn clocks(request: &Request) -> Result<Vec<u32>, BoardError> {
 }
 
 /// Synthesises the board for a clock, and places it with every seed.
-fn place(request: &Request, shop: &Shop, work: &Path, clock_mhz: u32) -> Result<Placed, BoardError> {
+fn place(request: &Request, toolbox: &Toolbox, work: &Path, clock_mhz: u32) -> Result<Placed, BoardError> {
     let board = request.board;
     (request.say)(&format!("synthesis of {} for {clock_mhz} MHz", board.title));
-    let (core, all) = synthesise(request, shop, work, clock_mhz)?;
-    let design = Key::default().text(&shop.versions.nextpnr);
+    let (core, all) = synthesise(request, toolbox, work, clock_mhz)?;
+    let design = Key::default().text(&toolbox.versions.nextpnr);
     let design = design.file(&work.join("netlist.json"))?.file(&work.join("pins.lpf"))?;
     let mut seeds = Vec::new();
     let (mut placed, mut available) = Default::default();
@@ -162,17 +163,17 @@ fn place(request: &Request, shop: &Shop, work: &Path, clock_mhz: u32) -> Result<
         // A single seed may miss the clock: the median of all seeds decides.
         arguments.extend(["--seed", &seed_text, "--timing-allow-fail"]);
         let key = arguments.iter().fold(design.clone(), |key, argument| key.text(argument));
-        let is_kept = shop.kept.step(key, work, &[&report, &config], || {
-            run_strictly(&shop.tools.nextpnr, &arguments, work, &format!("place-{seed}.log"))?;
-            // A placement that is no measurement is not kept.
-            readings::fmax(&work.join(&report), clock_mhz).and_then(|_| readings::cells(&work.join(&report))).map(drop)
+        let measured = work.join(&report);
+        // A report without a clock or cells is no measurement, and is not kept.
+        let check = || readings::fmax(&measured, clock_mhz).and_then(|_| readings::cells(&measured)).map(drop);
+        let is_kept = toolbox.kept.step(key, work, &[&report, &config], check, || {
+            run_strictly(&toolbox.tools.nextpnr, &arguments, work, &format!("place-{seed}.log"))
         })?;
-        let report = work.join(report);
-        let fmax_mhz = readings::fmax(&report, clock_mhz)?;
+        let fmax_mhz = readings::fmax(&measured, clock_mhz)?;
         let kept = if is_kept { ", as an earlier run found" } else { "" };
         (request.say)(&format!("seed {seed} reaches {fmax_mhz:.1} MHz{kept}"));
         seeds.push(Seed { seed, fmax_mhz });
-        (placed, available) = readings::cells(&report)?;
+        (placed, available) = readings::cells(&measured)?;
     }
     let shell = Cells {
         lut: all.lut.saturating_sub(core.lut),
@@ -184,7 +185,7 @@ fn place(request: &Request, shop: &Shop, work: &Path, clock_mhz: u32) -> Result<
 }
 
 /// Exports the device and maps the board's top module; returns the cells of the core and of the whole design.
-fn synthesise(request: &Request, shop: &Shop, work: &Path, clock_mhz: u32) -> Result<(Cells, Cells), BoardError> {
+fn synthesise(request: &Request, toolbox: &Toolbox, work: &Path, clock_mhz: u32) -> Result<(Cells, Cells), BoardError> {
     let board = request.board;
     let pll = board.pll(clock_mhz).ok_or_else(|| BoardError::form(work, "the PLL cannot make this clock"))?;
     let device = export::serial_top(request.config, board.link(clock_mhz), false)?;
@@ -212,13 +213,18 @@ fn synthesise(request: &Request, shop: &Shop, work: &Path, clock_mhz: u32) -> Re
         script += &format!("; tee -a {counts} select -count {CORE} t:{cell} %i");
     }
     let sources = ["device.v", "clock.v", "top.v", FLOORPLAN];
-    let key = Key::default().text(&shop.versions.yosys).text(&script);
+    let key = Key::default().text(&toolbox.versions.yosys).text(&script);
     let key = sources.iter().try_fold(key, |key, source| key.file(&work.join(source)))?;
-    shop.kept.step(key, work, &["netlist.json", counts], || {
-        run_strictly(&shop.tools.yosys, &["-p", &script], work, "synthesis.log")?;
-        readings::counts(&work.join(counts)).map(drop)
+    let counted = work.join(counts);
+    let check = || readings::counts(&counted).map(drop);
+    toolbox.kept.step(key, work, &["netlist.json", counts], check, || {
+        // The script appends to the counts.
+        if counted.exists() {
+            std::fs::remove_file(&counted).map_err(BoardError::file(&counted))?;
+        }
+        run_strictly(&toolbox.tools.yosys, &["-p", &script], work, "synthesis.log")
     })?;
-    readings::counts(&work.join(counts))
+    readings::counts(&counted)
 }
 
 /// Packs the fastest seed if the clock is met, and writes the report in either case.

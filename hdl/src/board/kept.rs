@@ -1,4 +1,4 @@
-//! Keeps what the tools made, so that a run that was stopped goes on where it ended.
+//! Keeps the files of finished steps, so that a new run after a stopped one need not repeat them.
 //!
 //! Synthesis and each seed of a large board take many minutes. The files that such a step made are kept under a digest
 //! of all that the step depends on: version and arguments of the tool, and the contents of the files it reads. A later
@@ -39,7 +39,7 @@ impl Key {
     }
 }
 
-/// The digits of a digest.
+/// A digest as hexadecimal text.
 pub(super) fn hexadecimal(digest: impl AsRef<[u8]>) -> String {
     digest.as_ref().iter().map(|byte| format!("{byte:02x}")).collect()
 }
@@ -47,37 +47,44 @@ pub(super) fn hexadecimal(digest: impl AsRef<[u8]>) -> String {
 /// The kept files of a run and of the runs before it.
 pub(super) struct Kept {
     folder: PathBuf,
-    /// Names of the steps of this run.
+    /// The folders, named by digest, of the steps of this run.
     used: RefCell<BTreeSet<String>>,
 }
 
 impl Kept {
-    /// The files that are kept in this folder of the tools.
+    /// The kept files of a run whose tools work in the folder `work`.
     pub fn within(work: &Path) -> Self {
         Self { folder: work.join(FOLDER), used: RefCell::default() }
     }
 
-    /// Does a step that makes `files` in the folder `work`, or copies the files there if an earlier run kept them. The
-    /// result is whether they were kept.
+    /// Does a step that makes `files` in the folder `work`, or copies the files there if an earlier run kept them.
+    /// Returns `true` if the step was left out because of that.
+    ///
+    /// `check` must find the files sound. If it does not, kept files are forgotten and the step is done, and new ones
+    /// are not kept.
     ///
     /// # Errors
-    /// The errors of the step, and any file that cannot be copied.
+    /// The errors of the step and of the check, and any file that cannot be copied.
     pub fn step(
         &self,
         key: Key,
         work: &Path,
         files: &[&str],
+        check: impl Fn() -> Result<(), BoardError>,
         step: impl FnOnce() -> Result<(), BoardError>,
     ) -> Result<bool, BoardError> {
         let name = key.name();
         let folder = self.folder.join(&name);
         self.used.borrow_mut().insert(name.clone());
         if folder.exists() {
-            copy(files, &folder, work)?;
-            return Ok(true);
+            if copy(files, &folder, work).and_then(|()| check()).is_ok() {
+                return Ok(true);
+            }
+            std::fs::remove_dir_all(&folder).map_err(BoardError::file(&folder))?;
         }
         step()?;
-        // A run that is stopped while it copies leaves a folder of another name, which no run takes for a whole one.
+        check()?;
+        // An interrupted copy leaves a folder with the ending `.part`, which no run uses.
         let part = self.folder.join(format!("{name}.part"));
         std::fs::create_dir_all(&part).map_err(BoardError::file(&part))?;
         copy(files, work, &part)?;
@@ -85,7 +92,7 @@ impl Kept {
         Ok(false)
     }
 
-    /// Removes what this run did not use.
+    /// Removes the kept files of every step that this run did not need.
     ///
     /// # Errors
     /// If a folder cannot be read or removed.
@@ -93,7 +100,8 @@ impl Kept {
         let used = self.used.into_inner();
         for entry in std::fs::read_dir(&self.folder).map_err(BoardError::file(&self.folder))? {
             let entry = entry.map_err(BoardError::file(&self.folder))?;
-            if !used.contains(&*entry.file_name().to_string_lossy()) {
+            let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
+            if is_folder && !used.contains(&*entry.file_name().to_string_lossy()) {
                 std::fs::remove_dir_all(entry.path()).map_err(BoardError::file(entry.path()))?;
             }
         }

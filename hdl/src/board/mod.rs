@@ -1,8 +1,10 @@
 //! Boards: makes a bitstream that meets its clock from the source, and the tables of the measurements.
 //!
-//! A board is a folder under `constraints/` with its pins (`pins.lpf`), a thin top module (`top.v`), a README and the
-//! report of the last measurement (`report.json`). [`BOARDS`] holds what the command must know besides. [`build`] makes
-//! a bitstream, and [`renew_tables`] writes the tables of the documents from the reports.
+//! A board is a folder under `constraints/` with its pins (`pins.lpf`), a thin top module (`top.v`), a README and a
+//! report for each core that was measured: `report.json` for the board's first core, `report-quad.json` and the like
+//! for others. [`BOARDS`] holds what the command must know besides. [`build`] makes
+//! a bitstream, and [`renew_tables`] writes the tables of the documents from the reports. [`sizes`] compares cores of
+//! many sizes in many families of FPGAs, with the same tools.
 
 mod date;
 mod error;
@@ -12,6 +14,7 @@ mod mapping;
 mod pll;
 mod readings;
 mod report;
+pub mod sizes;
 mod table;
 mod tools;
 mod workshop;
@@ -35,7 +38,7 @@ const CLOCK_STEP: u32 = 5;
 pub struct BoardCore {
     /// Configuration of the core.
     pub config: Config,
-    /// The clock in MHz that the command tries unless the user asks for another: the clock that the last report met.
+    /// The clock in MHz that the command tries first: the clock that the last report met, or an aim if there is no report.
     pub usual_mhz: u32,
 }
 
@@ -58,7 +61,8 @@ pub struct Board {
     pub most_mhz: u32,
     /// The smallest clock that the command tries, in MHz; if the board misses this clock, the command fails.
     pub least_mhz: u32,
-    /// The cores whose reports are kept. The first is the board's own, which it gets unless the user asks for another.
+    /// The cores to measure on this board: each has a row in the tables and a report. The command takes the first unless
+    /// the user names another.
     pub cores: &'static [BoardCore],
     /// Size of the link's receive FIFO in bytes.
     pub fifo_bytes: u32,
@@ -120,8 +124,8 @@ impl Board {
         BOARDS.into_iter().find(|board| board.name == name)
     }
 
-    /// The core of the board with this configuration. A configuration without a report is tried at the clock of the
-    /// board's own core.
+    /// The core of the board with this configuration. A configuration that is not in `cores` is tried at the clock of
+    /// the first core.
     pub fn core(&self, config: Config) -> BoardCore {
         let usual_mhz = self.cores.first().map_or(self.least_mhz, |core| core.usual_mhz);
         self.cores.iter().find(|core| core.config == config).copied().unwrap_or(BoardCore { config, usual_mhz })

@@ -70,9 +70,9 @@ struct Row {
 /// The report of a core on a board, and what the table of cycles has on the core.
 struct Measurement {
     report: Report,
-    /// Cycles of one insertion, in a set that fills the memory.
+    /// Cycles of one insertion, in a set that fills the memory; `None` for a chip, which divides no set among its engines.
     cycles: Option<f64>,
-    /// Cycles of the whole core a point, in batches of jobs of 200, 1,000, 2,000 and 4,000 points; `None` where a job
+    /// Cycles of the whole chip per point, in batches of jobs of 200, 1,000, 2,000 and 4,000 points; `None` where a job
     /// does not fit.
     batches: Vec<Option<f64>>,
 }
@@ -129,7 +129,7 @@ fn measurement(board: &Board, config: Config) -> Result<Option<Measurement>, Boa
     Ok(Some(Measurement { report, cycles, batches }))
 }
 
-/// The rows of a table of the committed page of cycles, each as its cells; the first row is the head. Empty if the page
+/// The rows under a heading of `testbench/cycles.md`, each as its columns; the first row is the head. Empty if the page
 /// has no such heading.
 fn rows_of_cycles(heading: &str) -> Result<Vec<Vec<String>>, BoardError> {
     let text = held_text(&cycles_page())?;
@@ -154,8 +154,8 @@ fn set_cycles(points: u32, contexts: u32) -> Result<Option<f64>, BoardError> {
     cycles.map(Some).ok_or_else(missing)
 }
 
-/// Cycles a point in batches on a core of these sizes, for each length of jobs; empty if the page does not have the
-/// core.
+/// Cycles per point in batches on a core of these sizes, for jobs of 200, 1,000, 2,000 and 4,000 points; empty if the
+/// page does not have the core.
 pub(super) fn batch_cycles(engines: u32, points: u32, contexts: u32) -> Result<Vec<Option<f64>>, BoardError> {
     let key = [engines, points, contexts].map(|number| number.to_string());
     let rows = rows_of_cycles("Batches")?;
@@ -171,34 +171,10 @@ fn three(Summary { min, median, max }: Summary) -> String {
 fn overview(measured: &[Row]) -> String {
     let mut text = String::from(
         "\n| board | core | LUT, core + link | FF | DSP | EBR | Fmax of the seeds, min / median / max \
-         | clock | cycles an insertion | insertions a second | million points a second in batches | serial |\n\
+         | clock | cycles an insertion | insertions a second | million points a second of the core alone, in batches | serial |\n\
          |---|---|---|---|---|---|---|---|---|---|---|---|\n",
     );
-    for Row { board, core, measurement } in measured {
-        let link = format!("[{}]({}/README.md), {}", board.title, board.name, board.device);
-        let Some(measurement) = measurement else {
-            let Config { name, engines, points, contexts, .. } = core.config;
-            text +=
-                &format!("| {link} | {name}: {} | not placed |{}\n", sizes(engines, points, contexts), " |".repeat(9));
-            continue;
-        };
-        let Report { configuration, cells, fmax_mhz, serial, .. } = &measurement.report;
-        let sum = |of: fn(&Cells) -> u64| format!("{} + {}", of(&cells.core), of(&cells.shell));
-        text += &format!(
-            "| {link} | {configuration}: {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} bit/s |\n",
-            measurement.sizes(),
-            sum(|cells| cells.lut),
-            sum(|cells| cells.ff),
-            sum(|cells| cells.dsp),
-            sum(|cells| cells.ebr),
-            three(*fmax_mhz),
-            measurement.clock(),
-            measurement.cycles(),
-            measurement.rate(),
-            measurement.batch_rates(),
-            serial.bits_per_second,
-        );
-    }
+    measured.iter().for_each(|row| text += &overview_row(row));
     let mut measurements: Vec<_> = measured
         .iter()
         .filter_map(|row| {
@@ -208,12 +184,34 @@ fn overview(measured: &[Row]) -> String {
             Some(format!("{} with {} {}, {seeds}, {}", board.title, core.config.name, report.date, tools(report)))
         })
         .collect();
-    measurements.push(format!(
-        "cycles of {POINT_SET} points to the brim, and of batches of jobs of 200 / 1,000 / 2,000 / 4,000 {POINT_SET} \
-         points with their read-out: testbench/cycles.md"
-    ));
+    measurements.push(format!("cycles of {POINT_SET} points: testbench/cycles.md"));
     text += &format!("\nMeasured:\n- {}.\n", measurements.join(";\n- "));
     text
+}
+
+/// The row of a core on a board in the table of all boards.
+fn overview_row(Row { board, core, measurement }: &Row) -> String {
+    let link = format!("[{}]({}/README.md), {}", board.title, board.name, board.device);
+    let Some(measurement) = measurement else {
+        let Config { name, engines, points, contexts, .. } = core.config;
+        return format!("| {link} | {name}: {} | not placed |{}\n", sizes(engines, points, contexts), " |".repeat(9));
+    };
+    let Report { configuration, cells, fmax_mhz, serial, .. } = &measurement.report;
+    let sum = |of: fn(&Cells) -> u64| format!("{} + {}", of(&cells.core), of(&cells.shell));
+    format!(
+        "| {link} | {configuration}: {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} bit/s |\n",
+        measurement.sizes(),
+        sum(|cells| cells.lut),
+        sum(|cells| cells.ff),
+        sum(|cells| cells.dsp),
+        sum(|cells| cells.ebr),
+        three(*fmax_mhz),
+        measurement.clock(),
+        measurement.cycles(),
+        measurement.rate(),
+        measurement.batch_rates(),
+        serial.bits_per_second,
+    )
 }
 
 fn tools(report: &Report) -> String {
@@ -264,7 +262,10 @@ fn readings(measurement: &Measurement) -> [(&'static str, String); 10] {
         ("Fmax, min / median / max", three(report.fmax_mhz)),
         ("cycles an insertion", measurement.cycles()),
         ("insertions a second", measurement.rate()),
-        ("million points a second in batches of jobs of 200 / 1,000 / 2,000 / 4,000", measurement.batch_rates()),
+        (
+            "million points a second of the core alone, in batches of jobs of 200 / 1,000 / 2,000 / 4,000",
+            measurement.batch_rates(),
+        ),
         (
             "serial",
             format!(

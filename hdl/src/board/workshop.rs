@@ -1,4 +1,4 @@
-//! Provides the folder in which the tools work, emptied and locked.
+//! Provides the folder in which the tools work, locked, and emptied except for the kept files.
 
 use super::error::BoardError;
 use super::kept;
@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 /// and is not emptied.
 const MARK: &str = ".incircle-board";
 
-/// Empties and returns the folder `work`; only the [kept](super::kept) files stay. The returned file is a lock: no other run can have the folder until
-/// the file is closed.
+/// Empties and returns the folder `work`; only the [kept](super::kept) files stay. The returned file is a lock: no
+/// other run can have the folder until the file is closed.
 ///
 /// # Errors
 /// If a folder of this name exists that the command did not make, another run works in it, or it cannot be made.

@@ -7,6 +7,7 @@ mod committed;
 mod board {
     mod flow;
     mod pages;
+    mod sizes;
 }
 
 mod export {
