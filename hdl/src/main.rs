@@ -32,8 +32,9 @@ enum Command {
     Board(Box<BoardArguments>),
     /// Count the cells of cores of many sizes in many families of FPGAs.
     ///
-    /// Each core is synthesised alone, and those that no board lists are placed on the ULX3S-85F with one seed if they
-    /// fit. The figures go to sizes.json. A run that was stopped goes on where it ended.
+    /// Each core is synthesised alone. If the ECP5 is among the families, cores that no board lists are placed on the
+    /// ULX3S-85F with one seed if they fit. The figures go to sizes.json, beside those that are there. If a run is
+    /// stopped, run the same command again: finished steps are not done again.
     Sizes(SizesArguments),
 }
 
@@ -51,13 +52,13 @@ struct ExportArguments {
     #[arg(long, requires = "contexts")]
     points: Option<u32>,
     /// Number of contexts of a core of your own size, that is, of insertions in progress at a time.
-    #[arg(long, requires = "points")]
+    #[arg(long, requires = "points", conflicts_with = "config")]
     contexts: Option<u32>,
     /// Number of boundary edges that a context of a core of your own size keeps in its list.
-    #[arg(long, default_value_t = FULL.ring, requires = "points")]
+    #[arg(long, default_value_t = FULL.ring, requires = "points", conflicts_with = "config")]
     ring: u32,
     /// Number of engines of a chip of your own size, each a core with a memory of its own: 1, 2 or 4.
-    #[arg(long, default_value_t = 1, requires = "points")]
+    #[arg(long, default_value_t = 1, requires = "points", conflicts_with = "config")]
     engines: u32,
     /// File to write; `-` is standard output. Needs --config or --points.
     #[arg(short, long, requires = "core_size")]
@@ -69,13 +70,13 @@ struct ExportArguments {
     #[arg(long, value_enum, default_value = "core", requires = "core_size")]
     top: TopName,
     /// Clock of the serial link, in Hz.
-    #[arg(long, default_value_t = 125_000_000)]
+    #[arg(long, default_value_t = 125_000_000, requires = "core_size")]
     clock_hz: u32,
     /// Size of the serial link's receive FIFO in bytes, a power of two.
-    #[arg(long, default_value_t = 4_096)]
+    #[arg(long, default_value_t = 4_096, requires = "core_size")]
     fifo_bytes: u32,
     /// Width of a beat of the stream link in bits: 64 or 128.
-    #[arg(long, default_value_t = 64, value_parser = beat_bits)]
+    #[arg(long, default_value_t = 64, value_parser = beat_bits, requires = "core_size")]
     width: u32,
 }
 
@@ -294,7 +295,7 @@ fn measure_sizes(arguments: SizesArguments) -> Result<(), BoardError> {
     let is_named = |family: &&Family| families.is_empty() || families.iter().any(|named| named.name == family.name);
     let families = FAMILIES.iter().filter(is_named).collect();
     let tools = origin(arguments.system, arguments.system_yosys);
-    let places = !arguments.cells;
+    let places = !arguments.cells && is_named(&&FAMILIES[0]);
     let measured = sizes::measure(&SizesRequest { sizes, families, places, out, tools, say: &complain })?;
     if arguments.renew {
         let figures = sizes::figures();

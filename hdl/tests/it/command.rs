@@ -42,12 +42,22 @@ fn sizes_that_cannot_be_built_leave_a_sentence_and_no_file() {
         ("--points 64 --contexts 3 --engines 3", 1, "a chip cannot have 3 engines: choose 1, 2 or 4"),
         ("--points 64 --contexts 3 --ring 65", 1, "a boundary list cannot hold 65 edges"),
         ("--points 64", 2, "--contexts"),
-        ("--config full --engines 2", 2, "--points"),
+        ("--config full --engines 2", 2, "--config"),
+        ("--config full --contexts 2 --engines 4", 2, "--config"),
     ] {
         let (output, file) = export(arguments, "refused.v");
         let told = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(code), "{arguments}: {told}");
         assert!(told.contains(sentence), "{arguments}: {told}");
         assert!(!file.exists(), "{arguments}");
+    }
+}
+
+#[test]
+fn options_of_a_link_need_a_core() {
+    for option in ["--width", "--clock-hz", "--fifo-bytes"] {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_incircle-hdl"));
+        let output = command.args(["export", option, "128"]).output().expect("the command starts");
+        assert_eq!(output.status.code(), Some(2), "{option}: {output:?}");
     }
 }

@@ -29,17 +29,18 @@ pub struct SizesRequest<'a> {
     pub say: &'a dyn Fn(&str),
 }
 
-/// Measures the sizes, and writes `sizes.json` into the folder of the request. Steps that an earlier run in this folder
-/// has finished are not done again.
+/// Measures the sizes, and writes the figures of each into `sizes.json` in the folder of the request, beside those that
+/// are there. Steps that an earlier run in this folder has finished are not done again.
 ///
 /// # Errors
-/// If a tool fails, or maps to a cell of no known kind.
+/// If a tool fails or maps to a cell of no known kind, or the file holds something else.
 pub fn measure(request: &SizesRequest) -> Result<Sizes, BoardError> {
     let (work, _lock) = workshop::take(request.out)?;
     let tools = Tools::find(request.tools, request.say)?;
     let versions = tools.versions(&work)?;
     let toolbox = Toolbox { tools, versions, kept: Kept::within(&work) };
-    let mut sizes = Vec::new();
+    let file = request.out.join("sizes.json");
+    let mut all = if file.exists() { Sizes::read(&file)? } else { Sizes::default() };
     for &config in &request.sizes {
         let mut cells = BTreeMap::new();
         for family in &request.families {
@@ -47,11 +48,12 @@ pub fn measure(request: &SizesRequest) -> Result<Sizes, BoardError> {
         }
         let placed = if request.places { place(request, config)? } else { None };
         let Config { engines, points, contexts, .. } = config;
-        sizes.push(Size { configuration: config.name.to_owned(), engines, points, contexts, cells, placed });
+        let size = Size { configuration: config.name.to_owned(), engines, points, contexts, cells, placed };
+        let newer = Sizes { yosys: toolbox.versions.yosys.clone(), date: date::today(), sizes: vec![size] };
+        all = all.renewed_by(newer);
+        all.write(&file)?;
     }
-    let sizes = Sizes { yosys: toolbox.versions.yosys, date: date::today(), sizes };
-    sizes.write(&request.out.join("sizes.json"))?;
-    Ok(sizes)
+    Ok(all)
 }
 
 /// Maps a core to a family.

@@ -25,7 +25,7 @@ pub fn page() -> Result<String, BoardError> {
     for family in &FAMILIES {
         tables += &table(family, &measured)?;
     }
-    tables += &format!("\nMeasured {} with yosys {}.\n", measured.date, measured.yosys);
+    tables += &format!("\nThe last measurement was on {}, with yosys {}.\n", measured.date, measured.yosys);
     let path = page_path();
     let text = held_text(&path)?;
     let parts = text.split_once(BEGIN).and_then(|(before, rest)| Some((before, rest.split_once(END)?.1)));
