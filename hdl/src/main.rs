@@ -106,19 +106,36 @@ struct BoardArguments {
     /// Configuration of the core. Default: the first core in the table of the board.
     #[arg(long, value_parser = config, conflicts_with = "all")]
     config: Option<Config>,
-    /// Clock to try: a number of MHz; `usual`, the usual clock of the core on the board; or `largest`, the largest clock that the board
-    /// meets. Default: the usual clock, and lower ones while it is missed.
+    /// Clock to try: a number of MHz; `usual`, the usual clock of the core on the board; or `largest`, the largest
+    /// clock that the board meets. Default: the usual clock, and lower ones while it is missed.
     #[arg(long, value_name = "MHZ", value_parser = clock)]
     clock: Option<Clock>,
+    #[command(flatten)]
+    tools: ToolArguments,
+    /// Keep the report in the folder of the board, and renew the tables.
+    #[arg(long)]
+    renew: bool,
+}
+
+#[derive(Args)]
+struct ToolArguments {
     /// Use yosys, nextpnr-ecp5 and ecppack from PATH instead of the pinned ones.
     #[arg(long)]
     system: bool,
     /// Use yosys from PATH, with the pinned nextpnr-ecp5 and ecppack.
     #[arg(long, conflicts_with = "system")]
     system_yosys: bool,
-    /// Keep the report in the folder of the board, and renew the tables.
-    #[arg(long)]
-    renew: bool,
+}
+
+impl ToolArguments {
+    /// The source of the tools that these options name.
+    fn origin(&self) -> Origin {
+        match (self.system, self.system_yosys) {
+            (true, _) => Origin::System,
+            (_, true) => Origin::SystemYosys,
+            _ => Origin::Pinned,
+        }
+    }
 }
 
 #[derive(Args)]
@@ -136,12 +153,8 @@ struct SizesArguments {
     /// Only count cells, and place nothing.
     #[arg(long)]
     cells: bool,
-    /// Use yosys, nextpnr-ecp5 and ecppack from PATH instead of the pinned ones.
-    #[arg(long)]
-    system: bool,
-    /// Use yosys from PATH, with the pinned nextpnr-ecp5 and ecppack.
-    #[arg(long, conflicts_with = "system")]
-    system_yosys: bool,
+    #[command(flatten)]
+    tools: ToolArguments,
     /// Take the figures over into hdl/sizes.json, and renew docs/sizes.md.
     #[arg(long)]
     renew: bool,
@@ -260,7 +273,7 @@ fn one_board(arguments: &BoardArguments, board: Board, config: Config, out: &Pat
         seeds: arguments.seeds,
         clock: arguments.clock.unwrap_or(Clock::UsualOrLess),
         out,
-        tools: origin(arguments.system, arguments.system_yosys),
+        tools: arguments.tools.origin(),
         say: &say,
     };
     let built = board::build(&request);
@@ -275,15 +288,6 @@ fn one_board(arguments: &BoardArguments, board: Board, config: Config, out: &Pat
     Ok(())
 }
 
-/// The source of the tools that these options name.
-fn origin(system: bool, system_yosys: bool) -> Origin {
-    match (system, system_yosys) {
-        (true, _) => Origin::System,
-        (_, true) => Origin::SystemYosys,
-        _ => Origin::Pinned,
-    }
-}
-
 /// Counts the cells of all sizes in the families that the user asked for; without a folder only renews the page.
 fn measure_sizes(arguments: SizesArguments) -> Result<(), BoardError> {
     let Some(out) = &arguments.out else {
@@ -294,7 +298,7 @@ fn measure_sizes(arguments: SizesArguments) -> Result<(), BoardError> {
     let sizes = SIZES.into_iter().filter(|size| sizes.is_empty() || sizes.contains(size)).collect();
     let is_named = |family: &&Family| families.is_empty() || families.iter().any(|named| named.name == family.name);
     let families = FAMILIES.iter().filter(is_named).collect();
-    let tools = origin(arguments.system, arguments.system_yosys);
+    let tools = arguments.tools.origin();
     let places = !arguments.cells && is_named(&&FAMILIES[0]);
     let measured = sizes::measure(&SizesRequest { sizes, families, places, out, tools, say: &complain })?;
     if arguments.renew {

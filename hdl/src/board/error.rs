@@ -73,7 +73,10 @@ pub enum BoardError {
         most_mhz: u32,
     },
     /// No report is kept of this core on this board.
-    #[error("no report of {board} with {config} is kept: leave out --renew, or add the core to `cores` of the board in hdl/src/board/mod.rs")]
+    #[error(
+        "no report of {board} with {config} is kept: leave out --renew, or add the core to `cores` of the board in \
+         hdl/src/board/mod.rs"
+    )]
     NoReport {
         board: &'static str,
         /// Name of the configuration.

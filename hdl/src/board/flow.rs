@@ -1,7 +1,8 @@
 //! Makes a bitstream and its report: export, synthesis, place and route with several seeds, packing.
 //!
-//! The clock is the usual one of the core on the board if the median of the seeds meets it. If the median misses a clock, the median
-//! tells what is within reach, so the next clock tried is the largest one of the board's list that the median meets.
+//! The clock is the usual one of the core on the board if the median of the seeds meets it. If the median misses a
+//! clock, the median tells what is within reach, so the next clock tried is the largest one of the board's list that
+//! the median meets.
 
 use super::error::BoardError;
 use super::kept::{hexadecimal, Kept, Key};

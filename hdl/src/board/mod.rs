@@ -9,6 +9,7 @@
 mod date;
 mod error;
 mod flow;
+mod json;
 mod kept;
 mod mapping;
 mod pll;
@@ -38,7 +39,8 @@ const CLOCK_STEP: u32 = 5;
 pub struct BoardCore {
     /// Configuration of the core.
     pub config: Config,
-    /// The clock in MHz that the command tries first: the clock that the last report met, or an aim if there is no report.
+    /// The clock in MHz that the command tries first: the clock that the last report met, or an aim if there is no
+    /// report.
     pub usual_mhz: u32,
 }
 
@@ -61,8 +63,8 @@ pub struct Board {
     pub most_mhz: u32,
     /// The smallest clock that the command tries, in MHz; if the board misses this clock, the command fails.
     pub least_mhz: u32,
-    /// The cores to measure on this board: each has a row in the tables and a report. The command takes the first unless
-    /// the user names another.
+    /// The cores to measure on this board: each has a row in the tables and a report. The command takes the first
+    /// unless the user names another.
     pub cores: &'static [BoardCore],
     /// Size of the link's receive FIFO in bytes.
     pub fifo_bytes: u32,

@@ -1,6 +1,7 @@
 //! Reads the figures in the reports of the tools.
 
 use super::error::BoardError;
+use super::json;
 use super::report::Cells;
 use serde_json::Value;
 use std::path::Path;
@@ -44,14 +45,9 @@ fn counts_of(text: &str) -> Result<(Cells, Cells), String> {
     Ok((core, all))
 }
 
-fn json(path: &Path) -> Result<Value, BoardError> {
-    let text = std::fs::read_to_string(path).map_err(BoardError::file(path))?;
-    serde_json::from_str(&text).map_err(|error| BoardError::form(path, error))
-}
-
 /// The highest frequency of the board's one clock, in MHz.
 pub(super) fn fmax(path: &Path, clock_mhz: u32) -> Result<f64, BoardError> {
-    fmax_of(&json(path)?, clock_mhz).map_err(|reason| BoardError::form(path, reason))
+    fmax_of(&json::read(path)?, clock_mhz).map_err(|reason| BoardError::form(path, reason))
 }
 
 /// The highest frequency in a report, whose constraint must be `clock_mhz`: nextpnr derives the constraint from the
@@ -77,7 +73,7 @@ fn fmax_of(report: &Value, clock_mhz: u32) -> Result<f64, String> {
 
 /// Cells used after placement, and cells that the device has.
 pub(super) fn cells(path: &Path) -> Result<(Cells, Cells), BoardError> {
-    cells_of(&json(path)?).ok_or_else(|| BoardError::form(path, "it does not say what is used"))
+    cells_of(&json::read(path)?).ok_or_else(|| BoardError::form(path, "it does not say what is used"))
 }
 
 fn cells_of(report: &Value) -> Option<(Cells, Cells)> {

@@ -1,8 +1,8 @@
 //! The report of a board after place and route, as JSON.
 
 use super::error::BoardError;
+use super::json;
 use super::pll::Pll;
-use crate::files::replace;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -154,8 +154,7 @@ impl Report {
     /// # Errors
     /// If the file cannot be read or understood.
     pub fn read(path: &Path) -> Result<Self, BoardError> {
-        let text = std::fs::read_to_string(path).map_err(BoardError::file(path))?;
-        serde_json::from_str(&text).map_err(|error| BoardError::form(path, error))
+        json::read(path)
     }
 
     /// Writes the report to a file.
@@ -163,8 +162,7 @@ impl Report {
     /// # Errors
     /// If the file cannot be written.
     pub fn write(&self, path: &Path) -> Result<(), BoardError> {
-        let text = serde_json::to_string_pretty(self).map_err(|error| BoardError::form(path, error))?;
-        replace(path, (text + "\n").as_bytes()).map_err(BoardError::file(path))
+        json::write(path, self)
     }
 }
 

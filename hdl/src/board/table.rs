@@ -7,8 +7,9 @@ use super::{constraints, repository, Board, BoardCore, BOARDS};
 use incircle_protocol::Config;
 use std::path::PathBuf;
 
-/// The lines before and behind a table in a document.
+/// The line before a table of boards in a document.
 const BEGIN: &str = "<!-- made by `cargo run --release -p incircle-hdl -- board --table` -->\n";
+/// The line behind a table that this command makes.
 const END: &str = "<!-- end -->\n";
 
 /// The row of the table of cycles that the tables quote.
@@ -32,13 +33,21 @@ pub fn pages() -> Result<Vec<(PathBuf, String)>, BoardError> {
     let single = BOARDS.iter().map(|board| details(measured.iter().filter(|row| row.board.name == board.name)));
     let tables = std::iter::once(overview(&measured)).chain(single);
     let fill = |(path, table): (PathBuf, String)| {
-        let text = held_text(&path)?;
-        let parts = text.split_once(BEGIN).and_then(|(before, rest)| Some((before, rest.split_once(END)?.1)));
-        let (before, after) =
-            parts.ok_or_else(|| BoardError::form(&path, format!("it has no {BEGIN:?} and {END:?}")))?;
-        Ok((path, format!("{before}{BEGIN}{table}{END}{after}")))
+        let text = with_table(&path, BEGIN, &table)?;
+        Ok((path, text))
     };
     documents().into_iter().zip(tables).map(fill).collect()
+}
+
+/// The text of a document with this table behind the line `begin`, up to [`END`].
+///
+/// # Errors
+/// If the document cannot be read, or lacks one of the lines.
+pub(super) fn with_table(path: &PathBuf, begin: &str, table: &str) -> Result<String, BoardError> {
+    let text = held_text(path)?;
+    let parts = text.split_once(begin).and_then(|(before, rest)| Some((before, rest.split_once(END)?.1)));
+    let (before, after) = parts.ok_or_else(|| BoardError::form(path, format!("it has no {begin:?} and {END:?}")))?;
+    Ok(format!("{before}{begin}{table}{END}{after}"))
 }
 
 /// The present text of a document.
@@ -70,7 +79,8 @@ struct Row {
 /// The report of a core on a board, and what the table of cycles has on the core.
 struct Measurement {
     report: Report,
-    /// Cycles of one insertion, in a set that fills the memory; `None` for a chip, which divides no set among its engines.
+    /// Cycles of one insertion, in a set that fills the memory; `None` for a chip, which divides no set among its
+    /// engines.
     cycles: Option<f64>,
     /// Cycles of the whole chip per point, in batches of jobs of 200, 1,000, 2,000 and 4,000 points; `None` where a job
     /// does not fit.
@@ -171,7 +181,8 @@ fn three(Summary { min, median, max }: Summary) -> String {
 fn overview(measured: &[Row]) -> String {
     let mut text = String::from(
         "\n| board | core | LUT, core + link | FF | DSP | EBR | Fmax of the seeds, min / median / max \
-         | clock | cycles an insertion | insertions a second | million points a second of the core alone, in batches | serial |\n\
+         | clock | cycles an insertion | insertions a second \
+         | million points a second of the core alone, in batches | serial |\n\
          |---|---|---|---|---|---|---|---|---|---|---|---|\n",
     );
     measured.iter().for_each(|row| text += &overview_row(row));

@@ -212,8 +212,8 @@ impl CommandChannel {
     /// Tries to bring the device back after this error. `true` means that it is as after its reset, so the job may be
     /// sent once more; `false` means that the error stands.
     ///
-    /// A wrong answer may be the trace of a reset that cut an answer short, so that the words of the next one came in the
-    /// place of its rest.
+    /// A wrong answer may be the trace of a reset that cut an answer short, so that the words of the next one came in
+    /// the place of its rest.
     pub(crate) fn recover(&mut self, error: &Error, limit: Limit) -> Result<bool, Error> {
         let may_be_reset = match error {
             Error::Link { .. } => true,

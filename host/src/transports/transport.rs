@@ -37,8 +37,8 @@ pub trait Transport {
     /// `head` is the beginning of that answer if the device did what it was asked for, and `payload` has the length
     /// that `head` announces. If the answer begins with `head`, apart from the low half of the header, which names the
     /// engine and the job, `payload` is filled; if not, `payload` is left as it is. The result is the actual beginning.
-    /// [`receive_in_pieces`] does all that for a stream of words. The low byte of its header is the tag of the job, or 0
-    /// if the tag is not known.
+    /// [`receive_in_pieces`] does all that for a stream of words. The low byte of the header in `head` is the tag of
+    /// the job, or 0 if the tag is not known.
     ///
     /// # Errors
     /// [`TransportError::Timeout`] if the deadline passes, or whatever went wrong. A transport whose device others may

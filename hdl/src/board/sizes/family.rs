@@ -45,8 +45,8 @@ pub struct Family {
     /// The passes of yosys that map to the family; TOP stands for the top module. Empty for the ECP5, for which the
     /// boards have a script.
     pass: &'static str,
-    /// Prefix of a name of cells, kind of the cells, and the number that one such cell counts for. The first prefix that
-    /// fits decides.
+    /// Prefix of a name of cells, kind of the cells, and the number that one such cell counts for. The first prefix
+    /// that fits decides.
     cells: &'static [(&'static str, Kind, u64)],
 }
 

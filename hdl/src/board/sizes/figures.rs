@@ -1,8 +1,7 @@
 //! The figures of all sizes, as they are kept in `hdl/sizes.json`.
 
-use super::super::{repository, BoardError};
+use super::super::{json, repository, BoardError};
 use super::family::FamilyCells;
-use crate::files::replace;
 use incircle_protocol::{Config, DUAL, FULL, LARGE, QUAD, SMALL};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -52,24 +51,28 @@ pub struct Placed {
     pub fmax_mhz: f64,
 }
 
+impl Size {
+    /// The core of these figures; `None` if it is none of [`SIZES`].
+    pub fn config(&self) -> Option<Config> {
+        let own = (self.engines, self.points, self.contexts);
+        SIZES.into_iter().find(|config| (config.engines, config.points, config.contexts) == own)
+    }
+}
+
 impl Sizes {
     /// The figures with those of another measurement in the place of older ones, in the order of [`SIZES`].
     #[must_use]
     pub fn renewed_by(mut self, newer: Self) -> Self {
         for mut size in newer.sizes {
-            let is_it =
-                |old: &Size| (old.engines, old.points, old.contexts) == (size.engines, size.points, size.contexts);
-            if let Some(place) = self.sizes.iter().position(is_it) {
+            let config = size.config();
+            if let Some(place) = self.sizes.iter().position(|old| old.config() == config) {
                 let old = self.sizes.swap_remove(place);
                 size.placed = size.placed.or(old.placed);
                 size.cells = old.cells.into_iter().chain(size.cells).collect();
             }
             self.sizes.push(size);
         }
-        let order = |size: &Size| {
-            SIZES.iter().position(|config| (config.engines, config.points) == (size.engines, size.points))
-        };
-        self.sizes.sort_by_key(order);
+        self.sizes.sort_by_key(|size| SIZES.iter().position(|config| Some(*config) == size.config()));
         Self { yosys: newer.yosys, date: newer.date, sizes: self.sizes }
     }
 
@@ -78,8 +81,7 @@ impl Sizes {
     /// # Errors
     /// If the file cannot be read or understood.
     pub fn read(path: &Path) -> Result<Self, BoardError> {
-        let text = std::fs::read_to_string(path).map_err(BoardError::file(path))?;
-        serde_json::from_str(&text).map_err(|error| BoardError::form(path, error))
+        json::read(path)
     }
 
     /// Writes the figures to a file.
@@ -87,8 +89,7 @@ impl Sizes {
     /// # Errors
     /// If the file cannot be written.
     pub fn write(&self, path: &Path) -> Result<(), BoardError> {
-        let text = serde_json::to_string_pretty(self).map_err(|error| BoardError::form(path, error))?;
-        replace(path, (text + "\n").as_bytes()).map_err(BoardError::file(path))
+        json::write(path, self)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Runs the tools for cores of many sizes.
 
 use super::super::flow::Toolbox;
+use super::super::json;
 use super::super::kept::{Kept, Key};
 use super::super::tools::{run, Tools};
 use super::super::{build, date, workshop, BoardError, Clock, Origin, Report, Request, BOARDS};
@@ -85,8 +86,7 @@ fn synthesise(
 }
 
 fn counts(path: &Path, family: &Family) -> Result<FamilyCells, BoardError> {
-    let text = std::fs::read_to_string(path).map_err(BoardError::file(path))?;
-    let counts: Value = serde_json::from_str(&text).map_err(|error| BoardError::form(path, error))?;
+    let counts: Value = json::read(path)?;
     let by_type = counts.pointer("/design/num_cells_by_type").and_then(Value::as_object);
     let by_type = by_type.ok_or_else(|| BoardError::form(path, "it does not count cells by type"))?;
     family.cells(by_type).map_err(|reason| BoardError::form(path, reason))

@@ -1,14 +1,12 @@
 //! Makes the tables of `docs/sizes.md`.
 
-use super::super::table::{batch_cycles, sizes};
-use super::super::{held_text, repository, BoardError, Report, BOARDS};
+use super::super::table::{batch_cycles, sizes, with_table};
+use super::super::{repository, BoardError, Report, BOARDS};
 use super::family::{Family, FamilyCells, FAMILIES};
-use super::figures::{figures, Size, Sizes, SIZES};
-use incircle_protocol::Config;
+use super::figures::{figures, Size, Sizes};
 use std::path::PathBuf;
 
 const BEGIN: &str = "<!-- made by `cargo run --release -p incircle-hdl -- sizes --table` -->\n";
-const END: &str = "<!-- end -->\n";
 
 /// The document with the tables.
 pub fn page_path() -> PathBuf {
@@ -26,11 +24,7 @@ pub fn page() -> Result<String, BoardError> {
         tables += &table(family, &measured)?;
     }
     tables += &format!("\nThe last measurement was on {}, with yosys {}.\n", measured.date, measured.yosys);
-    let path = page_path();
-    let text = held_text(&path)?;
-    let parts = text.split_once(BEGIN).and_then(|(before, rest)| Some((before, rest.split_once(END)?.1)));
-    let (before, after) = parts.ok_or_else(|| BoardError::form(&path, format!("it has no {BEGIN:?} and {END:?}")))?;
-    Ok(format!("{before}{BEGIN}{tables}{END}{after}"))
+    with_table(&page_path(), BEGIN, &tables)
 }
 
 /// Writes the document again.
@@ -91,10 +85,7 @@ fn clocks(size: &Size) -> Result<String, BoardError> {
 
 /// The clock of the first board that meets its clock with this core, and the name of the board.
 fn of_board(size: &Size) -> Result<Option<(f64, String)>, BoardError> {
-    let is_it = |config: &&Config| {
-        (config.engines, config.points, config.contexts) == (size.engines, size.points, size.contexts)
-    };
-    let Some(&config) = SIZES.iter().find(is_it) else { return Ok(None) };
+    let Some(config) = size.config() else { return Ok(None) };
     for board in BOARDS {
         if let Some(path) = board.report(config).filter(|path| path.exists()) {
             let report = Report::read(&path)?;

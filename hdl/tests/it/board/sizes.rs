@@ -1,7 +1,7 @@
 //! Checks that the page of sizes says what the figures say.
 
 use incircle_hdl::board::held_text;
-use incircle_hdl::board::sizes::{figures, page, page_path, Size, Sizes, FAMILIES, SIZES};
+use incircle_hdl::board::sizes::{figures, page, page_path, Size, Sizes, FAMILIES};
 
 #[test]
 fn the_page_is_what_the_figures_say() {
@@ -14,10 +14,7 @@ fn the_figures_are_those_of_cores() {
     let measured = Sizes::read(&figures()).unwrap();
     assert!(!measured.sizes.is_empty());
     for size in &measured.sizes {
-        let is_it = |config: &&incircle_protocol::Config| {
-            (config.engines, config.points, config.contexts) == (size.engines, size.points, size.contexts)
-        };
-        let config = SIZES.iter().find(is_it).expect("one of the sizes");
+        let config = size.config().expect("one of the sizes");
         assert_eq!(size.configuration, config.name);
         for (name, cells) in &size.cells {
             assert!(FAMILIES.iter().any(|family| family.name == name), "{name}");

@@ -156,8 +156,8 @@ fn longest_of(solutions: &[Solution]) -> Option<u64> {
     clocks?.into_iter().max()
 }
 
-/// Clocks of all insertions; `None` if they are not counted for each job, or if several engines insert at a time, so that
-/// the sum is no part of the clocks of the chip.
+/// Clocks of all insertions; `None` if they are not counted for each job, or if several engines insert at a time, so
+/// that the sum is no part of the clocks of the chip.
 fn engine_of(solutions: &[Solution]) -> Option<u64> {
     if solutions.iter().any(|solution| solution.report.engines > 1) {
         return None;

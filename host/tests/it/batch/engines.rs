@@ -151,8 +151,18 @@ fn a_chip_without_a_sound_engine_is_an_error() {
     assert!(matches!(error, Error::InJob { job: 4, .. }), "{error}");
 }
 
-/// A transport that takes answers in their order only, one job at a time.
-struct InOrder(ClockTransport);
+/// A transport that takes answers in their order only, one job at a time, and checks that each job has another tag than
+/// the one before it.
+struct InOrder {
+    transport: ClockTransport,
+    last_tag: u8,
+}
+
+impl InOrder {
+    fn new(config: Config) -> Self {
+        Self { transport: ClockTransport::new(config).expect("a named configuration"), last_tag: 0 }
+    }
+}
 
 impl Transport for InOrder {
     fn name(&self) -> String {
@@ -160,7 +170,12 @@ impl Transport for InOrder {
     }
 
     fn submit(&mut self, commands: &[Command<&[u32]>], deadline: Instant) -> Result<(), TransportError> {
-        self.0.submit(commands, deadline)
+        for command in commands.iter().filter(|command| command.opcode() == Opcode::Clear) {
+            let (head, _) = command.head();
+            let last = std::mem::replace(&mut self.last_tag, command_tag(head[0]));
+            assert!(self.last_tag != 0 && self.last_tag != last, "{last} before {:08x}", head[0]);
+        }
+        self.transport.submit(commands, deadline)
     }
 
     fn receive(
@@ -169,11 +184,11 @@ impl Transport for InOrder {
         payload: &mut [u32],
         deadline: Instant,
     ) -> Result<AnswerHead, TransportError> {
-        self.0.receive(head, payload, deadline)
+        self.transport.receive(head, payload, deadline)
     }
 
     fn capabilities(&self) -> Capabilities {
-        Capabilities { any_order: false, ..self.0.capabilities() }
+        Capabilities { any_order: false, ..self.transport.capabilities() }
     }
 }
 
@@ -181,8 +196,7 @@ impl Transport for InOrder {
 fn a_transport_that_knows_nothing_of_engines_does_one_job_at_a_time() {
     let mut random = Random(9);
     let jobs = mixed(&mut random, 60, 1024);
-    let transport = ClockTransport::new(QUAD).expect("a named configuration");
-    let mut device = Device::from_transport(Box::new(InOrder(transport)));
+    let mut device = Device::from_transport(Box::new(InOrder::new(QUAD)));
     assert!(batch(&mut device, &jobs, &Options::default()).expect("meshes") == alone(&jobs));
 }
 
@@ -243,44 +257,9 @@ fn lies_about_engines_and_jobs_are_found() {
     }
 }
 
-/// A core of one engine, with the tag of the last job.
-struct Tagged(ClockTransport, u8);
-
-impl Transport for Tagged {
-    fn name(&self) -> String {
-        "tagged".to_owned()
-    }
-
-    fn submit(&mut self, commands: &[Command<&[u32]>], deadline: Instant) -> Result<(), TransportError> {
-        for command in commands {
-            let mut words = Vec::new();
-            command.encode(&mut words);
-            if command.opcode() == Opcode::Clear {
-                let last = std::mem::replace(&mut self.1, command_tag(words[0]));
-                assert!(self.1 != 0 && self.1 != last, "{last} before {:08x}", words[0]);
-            }
-        }
-        self.0.submit(commands, deadline)
-    }
-
-    fn receive(
-        &mut self,
-        head: AnswerHead,
-        payload: &mut [u32],
-        deadline: Instant,
-    ) -> Result<AnswerHead, TransportError> {
-        self.0.receive(head, payload, deadline)
-    }
-
-    fn capabilities(&self) -> Capabilities {
-        self.0.capabilities()
-    }
-}
-
 #[test]
 fn jobs_in_a_row_have_different_tags_on_one_engine_too() {
     let jobs = mixed(&mut Random(11), 600, SMALL.points);
-    let transport = ClockTransport::new(SMALL).expect("a named configuration");
-    let mut device = Device::from_transport(Box::new(Tagged(transport, 0)));
+    let mut device = Device::from_transport(Box::new(InOrder::new(SMALL)));
     assert!(batch(&mut device, &jobs, &Options::default()).expect("meshes") == alone(&jobs));
 }
