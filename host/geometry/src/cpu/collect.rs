@@ -16,6 +16,7 @@ use bytemuck::Zeroable;
 use super::buckets::{bucket_ends, items_of, runs, Bucketed, CHUNK, MOST_BUCKETS_BITS};
 use super::edges::{is_used, Half, Halves};
 use super::parallel::in_parallel;
+use crate::pages;
 
 /// Marks, in the `end` of a half-edge, that the outside lies to the left of the half-edge.
 const GAP: u32 = <[Half] as Halves>::GAP;
@@ -39,7 +40,8 @@ pub(super) fn hull<H: Halves + ?Sized>(halves: &mut H, ids: &[u32], start: u32, 
         halves.set_end(previous, halves.half(previous).end | H::GAP);
         hull.push(ids[(end & !H::GAP) as usize]);
         e = halves.half(e ^ 1).next;
-        if e == start {
+        // A hull has each vertex once, unless the half-edges come from outside and are wrong.
+        if e == start || hull.len() > ids.len() {
             break;
         }
     }
@@ -57,11 +59,27 @@ pub(super) fn hull_of(halves: &mut [Half], ids: &[u32], start: u32) -> Vec<u32> 
 /// All `count` triangles of the mesh of `points` input points, smallest id first in each, sorted. The memory of the
 /// half-edges is reused for the result.
 pub(super) fn triangles(halves: Vec<Half>, ids: &[u32], points: usize, count: usize, threads: usize) -> Vec<[u32; 3]> {
+    let found = triangles_with(halves, ids, &[], points, count, threads);
+    // Euler's formula says how many there are, so they are never missing.
+    debug_assert!(found.is_some());
+    found.unwrap_or_default()
+}
+
+/// All `count` triangles of a mesh of which these `finals` are known already, in lists of any lengths; see
+/// [`triangles`]. Returns `None` if the edges and the lists give another number of triangles.
+pub(super) fn triangles_with(
+    halves: Vec<Half>,
+    ids: &[u32],
+    finals: &[Vec<[u32; 3]>],
+    points: usize,
+    count: usize,
+    threads: usize,
+) -> Option<Vec<[u32; 3]>> {
     let buckets = Buckets::of(points, threads);
     if buckets.fit_a_word() {
-        buckets.sorted::<Packed>(halves, ids, count, threads)
+        buckets.sorted::<Packed>(halves, ids, finals, count, threads)
     } else {
-        buckets.sorted::<[u32; 3]>(halves, ids, count, threads)
+        buckets.sorted::<[u32; 3]>(halves, ids, finals, count, threads)
     }
 }
 
@@ -180,16 +198,26 @@ impl Buckets {
         (1 << self.bits) - 1
     }
 
-    fn sorted<T: Triangle>(self, halves: Vec<Half>, ids: &[u32], count: usize, threads: usize) -> Vec<[u32; 3]> {
+    fn sorted<T: Triangle>(
+        self,
+        halves: Vec<Half>,
+        ids: &[u32],
+        finals: &[Vec<[u32; 3]>],
+        count: usize,
+        threads: usize,
+    ) -> Option<Vec<[u32; 3]>> {
         let own = (halves.len() / 2).div_ceil(threads).max(1) * 2;
-        let found: Vec<Bucketed<T>> =
+        let mut found: Vec<Bucketed<T>> =
             in_parallel(halves.chunks(own), |own| self.find(&halves, own, ids, count / threads));
-        // The triangles take the memory of the half-edges, whose pages the system has provided already.
-        let mut triangles: Vec<[u32; 3]> = bytemuck::cast_vec(halves);
-        triangles.truncate(count);
+        found.extend(in_parallel(finals.chunks(finals.len().div_ceil(threads).max(1)), |own| self.distribute(own)));
         let ends = bucket_ends(&found, self.count);
-        // Euler's formula says how many there are.
-        debug_assert_eq!(ends.last(), Some(&count));
+        if ends.last() != Some(&count) {
+            return None;
+        }
+        // The triangles take the memory of the half-edges, whose pages the system has provided already.
+        let mut triangles: Vec<[u32; 3]> =
+            if halves.len() < count { pages::zeros(count) } else { bytemuck::cast_vec(halves) };
+        triangles.truncate(count);
         let mut rest = triangles.as_mut_slice();
         let tasks = runs(&ends, threads).into_iter().map(|run| {
             let own = rest.split_off_mut(..items_of(&run, &ends).len()).unwrap_or_default();
@@ -197,7 +225,16 @@ impl Buckets {
         });
         in_parallel(tasks, |(own, run)| self.sort(&found, own, run));
         triangles.shrink_to_fit();
-        triangles
+        Some(triangles)
+    }
+
+    /// Distributes triangles that are known already.
+    fn distribute<T: Triangle>(self, lists: &[Vec<[u32; 3]>]) -> Bucketed<T> {
+        let mut bucketed = Bucketed::new(self.count, lists.iter().map(Vec::len).sum());
+        for &triangle in lists.iter().flatten() {
+            bucketed.put((triangle[0] >> self.bits) as usize, T::of(triangle, self));
+        }
+        bucketed
     }
 
     /// Distributes the triangles that the edges in a range of the half-edges name, about `expected` of them.
@@ -302,7 +339,6 @@ mod tests {
     use super::super::view::{Integers, Narrow};
     use super::*;
     use crate::order::mix;
-    use crate::pages;
     use crate::point::Point;
     use proptest::prelude::*;
 
@@ -315,11 +351,11 @@ mod tests {
             segments::triangulate::<Integers<Narrow>>(&sites, &sites, &mut halves, 1, &mut |_| true).expect("points");
         let hull = hull_of(&mut halves, &ids, whole.leftmost());
         let (buckets, count) = (Buckets::of(points.len(), 1), 2 * ids.len() - 2 - hull.len());
-        let words = buckets.sorted::<Packed>(halves.clone(), &ids, count, 1);
+        let words = buckets.sorted::<Packed>(halves.clone(), &ids, &[], count, 1).expect("all triangles");
         assert_eq!(words.len(), count);
         assert!(words.is_sorted());
         for threads in [1, 3] {
-            assert!(words == buckets.sorted::<[u32; 3]>(halves.clone(), &ids, count, threads));
+            assert!(Some(&words) == buckets.sorted::<[u32; 3]>(halves.clone(), &ids, &[], count, threads).as_ref());
         }
     }
 

@@ -50,6 +50,12 @@ pub(super) trait Halves {
 
     /// Writes the `end` of a half-edge.
     fn set_end(&mut self, e: u32, end: u32);
+
+    /// Whether a merge may take one more step. It always may, unless the half-edges come from outside and may be wrong.
+    #[inline(always)]
+    fn may_go_on(&self) -> bool {
+        true
+    }
 }
 
 impl Halves for [Half] {

@@ -94,7 +94,7 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
         let mut ldi = self.previous(facing);
         let (mut a, mut b) = (self.from(ldi), self.from(rdi));
         let turn = |a, b, c| K::turn(Ends { a, b, bounds }, c);
-        loop {
+        while self.halves.may_go_on() {
             if turn(a, self.to(ldi), b).is_gt() {
                 ldi = self.previous(ldi ^ 1);
                 a = self.from(ldi);
@@ -142,7 +142,7 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
             let from_one = self.advance::<true>(&mut one, ends);
             let from_other = self.advance::<false>(&mut other, ends);
             let (one_is_valid, other_is_valid) = (K::is_left(ends, from_one), K::is_left(ends, from_other));
-            if !(one_is_valid | other_is_valid) {
+            if !((one_is_valid | other_is_valid) & self.halves.may_go_on()) {
                 return base;
             }
             let pair = self.take();
@@ -181,7 +181,7 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
         let mut seen = K::see(ends, candidate.site);
         loop {
             let behind = K::see(ends, candidate.behind);
-            if !K::is_left_and_inside(ends, seen, behind) {
+            if !(K::is_left_and_inside(ends, seen, behind) && self.halves.may_go_on()) {
                 return seen;
             }
             self.remove(candidate.edge);

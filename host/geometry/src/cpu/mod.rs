@@ -43,6 +43,7 @@ mod merge;
 #[cfg(test)]
 mod oracle;
 mod parallel;
+mod parts;
 #[cfg(test)]
 mod published;
 #[cfg(feature = "std")]
@@ -56,5 +57,6 @@ mod tests;
 mod triangulator;
 mod view;
 
+pub use parts::{Parts, SolvedPart, Unsound};
 pub use small::Triangulator;
 pub use triangulator::{connect, threads_for, triangulate, Connectivity, Error, Progress, Stage, Watch};

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::conquer::{level_after, Waiting};
-use super::edges::{Edges, Half, Halves, HALVES};
+use super::edges::{Edges, Halves, HALVES};
 use super::kernel::Kernel;
 use super::merge::Part;
 
@@ -32,8 +32,8 @@ pub(super) fn divide<K: Kernel>(
 }
 
 /// Joins all subtrees, given in order with their parts. Returns `None` if there are none, or if a part is missing.
-pub(super) fn join<K: Kernel>(
-    edges: &mut Edges<'_, K, [Half]>,
+pub(super) fn join<K: Kernel, H: Halves + ?Sized>(
+    edges: &mut Edges<'_, K, H>,
     places: &[K::Place],
     subtrees: &[Range<usize>],
     parts: &[Option<Own>],

@@ -1,0 +1,125 @@
+//! A part that has been triangulated, divided into final triangles and the half-edges of its border.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::super::triangulator::is_collinear;
+use super::super::view::{Integers, Site, Widest};
+use super::rings::Rings;
+use super::{Parts, Unsound};
+use crate::point::Point;
+use crate::tiles::{reach, Reach};
+
+/// A vertex that is not at the border.
+const INSIDE: u32 = u32::MAX;
+
+/// The mesh of one part, ready to be joined; see [`Parts::solved`].
+///
+/// It has the final triangles as they are, and half-edges for the other ones.
+#[derive(Debug)]
+pub struct SolvedPart {
+    pub(super) part: usize,
+    /// The vertices of the border, along the curve: corners of triangles that are not final, and the hull.
+    pub(super) sites: Vec<Site>,
+    /// The input index of each vertex of the border.
+    pub(super) ids: Vec<u32>,
+    pub(super) rings: Rings,
+    /// The final triangles by input index, smallest index first.
+    pub(super) finals: Vec<[u32; 3]>,
+    unknown: usize,
+}
+
+impl SolvedPart {
+    /// The number of vertices at the border, which take part in the join.
+    pub fn border(&self) -> usize {
+        self.sites.len()
+    }
+
+    /// The number of triangles that need no join.
+    pub fn finals(&self) -> usize {
+        self.finals.len()
+    }
+
+    /// The number of triangles that may be final or not, because the test gave up: see [`Reach::Unknown`]. They are
+    /// joined as those that are not final.
+    pub fn unknown(&self) -> usize {
+        self.unknown
+    }
+}
+
+impl Parts {
+    /// Takes the mesh of a part: the triangles and the hull of [`Parts::points`], by the indices of these points, as in
+    /// [`Mesh`](crate::Mesh). Several threads may call this at once, each for other parts.
+    ///
+    /// O(n) for a part of n points: a test for each triangle, and half-edges for about `12 sqrt(n)` vertices.
+    ///
+    /// # Errors
+    /// The mesh cannot be that of the part. This finds only what would be in the way of the join: who must not trust
+    /// the source of the mesh calls [`Mesh::verify`](crate::Mesh::verify) before.
+    pub fn solved(&self, part: usize, triangles: &[[u32; 3]], hull: &[u32]) -> Result<SolvedPart, Unsound> {
+        let range = self.range(part).ok_or(Unsound)?;
+        let (sites, ids) = (&self.sites[range.clone()], &self.ids[range.clone()]);
+        let named = || triangles.iter().flatten().chain(hull);
+        if hull.is_empty() || named().any(|&v| v as usize >= sites.len()) {
+            return Err(Unsound);
+        }
+        let point = |v: u32| Point::new(sites[v as usize].x(), sites[v as usize].y());
+        let region = self.region(&range);
+        let (mut finals, mut open, mut unknown) = (Vec::with_capacity(triangles.len()), Vec::new(), 0);
+        for &corners in triangles {
+            match reach(&region, corners.map(point)) {
+                Reach::Within => finals.push(smallest_first(corners.map(|v| ids[v as usize]))),
+                found => {
+                    open.push(corners);
+                    unknown += usize::from(found == Reach::Unknown);
+                }
+            }
+        }
+        if triangles.is_empty() && (hull.len() != sites.len() || !is_collinear::<Integers<Widest>>(sites)) {
+            return Err(Unsound);
+        }
+        let border = Border::of(&open, hull, sites.len());
+        let own = border.vertices.iter().map(|&v| v as usize);
+        let (border_sites, border_ids): (Vec<Site>, Vec<u32>) = own.map(|v| (sites[v], ids[v])).unzip();
+        open.iter_mut().flatten().for_each(|v| *v = border.numbers[*v as usize]);
+        let hull: Vec<u32> = hull.iter().map(|&v| border.numbers[v as usize]).collect();
+        let rings = if triangles.is_empty() {
+            Rings::of_line(&border_sites, &hull)
+        } else {
+            Rings::of(&border_sites, &open, &hull)?
+        };
+        Ok(SolvedPart { part, sites: border_sites, ids: border_ids, rings, finals, unknown })
+    }
+}
+
+/// The vertices at the border of a part.
+struct Border {
+    /// The vertices, along the curve.
+    vertices: Vec<u32>,
+    /// For each vertex of the part, its place in `vertices`, or [`INSIDE`].
+    numbers: Vec<u32>,
+}
+
+impl Border {
+    fn of(open: &[[u32; 3]], hull: &[u32], count: usize) -> Self {
+        let mut numbers = vec![INSIDE; count];
+        open.iter().flatten().chain(hull).for_each(|&v| numbers[v as usize] = 0);
+        let mut vertices = Vec::with_capacity(open.len());
+        for (number, v) in numbers.iter_mut().zip(0..).filter(|(number, _)| **number != INSIDE) {
+            *number = vertices.len() as u32;
+            vertices.push(v);
+        }
+        Self { vertices, numbers }
+    }
+}
+
+/// The corners of a triangle, turned until the smallest stands first.
+fn smallest_first([a, b, c]: [u32; 3]) -> [u32; 3] {
+    if a < b && a < c {
+        [a, b, c]
+    } else if b < c {
+        [b, c, a]
+    } else {
+        [c, a, b]
+    }
+}
