@@ -165,7 +165,7 @@ fn stage_of(stage: cpu::Stage) -> Stage {
 }
 
 /// The error of a job for an error of the CPU triangulator.
-fn error_of(error: cpu::Error) -> Error {
+pub(super) fn error_of(error: cpu::Error) -> Error {
     match error {
         cpu::Error::TooManyPoints { points } => Error::TooManyPoints { points, max: MAX_POINTS },
         cpu::Error::Cancelled(cpu::Progress { stage, done, total, .. }) => {

@@ -41,7 +41,7 @@ impl DeviceBackend {
         tell(terms.options, Stage::Order, 0, points.len())?;
         let ordered = Ordered { job: 0, prepared: prepare(points, terms.options.order, contexts) };
         carrier.watch.ended(Stage::Order);
-        let ordered = carrier.answer_here(ordered, contexts, &mut done).map_err(|failed| failed.error)?;
+        let ordered = carrier.answer_here(ordered, contexts, &mut done);
         let load = |ordered| Load::step_by_step(Group::alone(ordered, contexts), terms.options, capabilities, layout);
         let mut load = ordered.map(load);
         carrier.carry(&mut done, |_, _| Ok(load.take())).map_err(|failed| failed.error)?;

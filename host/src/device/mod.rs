@@ -13,6 +13,7 @@ mod address;
 mod backend;
 mod cpu_backend;
 mod device_backend;
+mod in_parts;
 mod open;
 mod session;
 

@@ -33,8 +33,8 @@ use incircle_geometry::{PlanePoint, Point, MAX_POINTS};
 /// # Ok::<(), incircle::Error>(())
 /// ```
 pub struct Session<'d> {
-    backend: &'d mut dyn Backend,
-    identity: Identity,
+    pub(super) backend: &'d mut dyn Backend,
+    pub(super) identity: Identity,
 }
 
 impl<'d> Session<'d> {
@@ -61,14 +61,18 @@ impl<'d> Session<'d> {
     /// [`Mesh::duplicates`](crate::Mesh::duplicates). With fewer than three distinct points, or with all points on one
     /// line, there are no triangles, and the host answers alone.
     ///
+    /// More distinct points than the device holds are cut into parts, which the device does as a batch. The host joins
+    /// the meshes of the parts, and [`Report::parts`](crate::Report::parts) says how many there were. Progress then
+    /// counts the points of all parts, and has no [`Stage::Read`].
+    ///
     /// Cost: O(n log n) on the device on average, O(n) on the host. At a million points of 16 bits the peak of memory
     /// is below 200 bytes per point, with the mesh and the CPU triangulator or the software model, but without the
     /// points of the caller.
     ///
     /// # Errors
     /// - [`Error::NotFinite`], [`Error::CoordinateOutOfRange`], [`Error::LatticeTooWide`], [`Error::NoLattice`],
-    ///   [`Error::TooManyPoints`], [`Error::Capacity`] and [`Error::Contexts`] for input and options that the device
-    ///   cannot take; [`Error::Cancelled`] if the listener says so. The session can be used again.
+    ///   [`Error::TooManyPoints`] and [`Error::Contexts`] for input and options that the device cannot take;
+    ///   [`Error::Cancelled`] if the listener says so. The session can be used again.
     /// - [`Error::Link`] and [`Error::Device`] for a link that fails and an answer that no sound device gives;
     ///   [`Error::Timeout`] if the deadline passes while the device works. The session is then out of step and refuses
     ///   further work: open the device again.
@@ -95,7 +99,7 @@ impl<'d> Session<'d> {
             // The job of a device owns its grid points. `on_lattice` has refused all that is not on the device's grid.
             Numbers::Grid(grid) if !self.backend.takes_all_numbers() => {
                 let grid = grid.into_owned();
-                self.backend.triangulate(grid, terms)?.with_points(points)
+                self.triangulate_grid(grid, terms)?.with_points(points)
             }
             numbers => {
                 let answer = self.backend.triangulate_numbers(&numbers, terms)?;
@@ -180,17 +184,23 @@ impl<'d> Session<'d> {
         Ok(solutions.into_iter().flatten().collect())
     }
 
-    /// Triangulates jobs of grid points, which count among `total` points; `job` gives the number of
-    /// each among all jobs.
-    fn triangulate_grids(
+    /// Triangulates jobs of grid points, which count among `total` points; `job` gives the number of each among all
+    /// jobs. Jobs that the device cannot hold are done one by one, in parts, after all others.
+    pub(super) fn triangulate_grids(
         &mut self,
-        grids: Vec<Vec<Point>>,
+        mut grids: Vec<Vec<Point>>,
         job: impl Fn(usize) -> usize,
         terms: Terms<'_>,
         total: usize,
     ) -> Result<Vec<Solution>, Error> {
         let own_total: usize = grids.iter().map(Vec::len).sum();
-        let Together { mut solutions, left } = self.backend.triangulate_together(grids, terms)?;
+        let mut too_large = Vec::new();
+        for (grid, points) in grids.iter_mut().enumerate().filter(|(_, points)| !self.holds(points)) {
+            // The batch gets an empty job in the place of this one.
+            too_large.push(JobLeft { job: grid, points: std::mem::take(points), contexts: terms.contexts });
+        }
+        let Together { mut solutions, mut left } = self.backend.triangulate_together(grids, terms)?;
+        left.extend(too_large);
         let mut passed = own_total - left.iter().map(|left| left.points.len()).sum::<usize>();
         for JobLeft { job: grid, points, contexts } in left {
             let part = PartListener::new(terms.options, passed, total);

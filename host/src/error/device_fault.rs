@@ -173,6 +173,12 @@ pub enum DeviceFault {
         /// Input index of the point where the hull breaks.
         point: u32,
     },
+    /// The meshes of the parts of a set do not fit together.
+    #[error(
+        "its meshes of the parts of a set do not fit together, so one of them is not the Delaunay triangulation of its \
+         points"
+    )]
+    Unsound,
     /// The areas of the triangles do not sum to the area of the hull.
     #[error("its triangles cover {triangles} half grid squares, but its hull covers {hull}")]
     Area {

@@ -18,7 +18,7 @@ pub enum ErrorKind {
     Device,
     /// The device did not answer in time.
     Timeout,
-    /// The device cannot hold so many points, or no job may have so many.
+    /// No job may have so many points.
     Capacity,
     /// The progress listener ended the job.
     Cancelled,

@@ -140,19 +140,6 @@ pub enum Error {
         /// Most points of a job.
         max: usize,
     },
-    /// More distinct points than the device holds.
-    #[error(
-        "{distinct} distinct points are more than the {capacity} that {device} holds: \
-         use a larger device or the back end \"cpu\""
-    )]
-    Capacity {
-        /// Distinct points of the job.
-        distinct: usize,
-        /// Number of points that the device holds.
-        capacity: u32,
-        /// Name of the device.
-        device: String,
-    },
     /// No contexts, or more than the device has.
     #[error("{device} cannot work with {asked} contexts: choose {}, or leave the choice out", from_one_to(*contexts))]
     Contexts {
@@ -269,7 +256,7 @@ impl Error {
             Self::Scale { .. } | Self::CoordBits(_) | Self::Contexts { .. } | Self::Model(_) => ErrorKind::BadChoice,
             Self::Address { .. } | Self::Open { .. } => ErrorKind::DeviceNotFound,
             Self::Link { source: TransportError::Other { kind, .. }, .. } => *kind,
-            Self::TooManyPoints { .. } | Self::Capacity { .. } => ErrorKind::Capacity,
+            Self::TooManyPoints { .. } => ErrorKind::Capacity,
             Self::Link { .. } | Self::OutOfStep { .. } => ErrorKind::Link,
             Self::Timeout { .. } => ErrorKind::Timeout,
             Self::Device { .. } => ErrorKind::Device,

@@ -145,26 +145,16 @@ impl Carrier<'_> {
         }
     }
 
-    /// Answers a job that needs no device, and gives back one that does. Fails if the device cannot hold the job.
-    /// `contexts` is the number of contexts that would work on it, for the report.
-    pub(crate) fn answer_here(
-        &self,
-        ordered: Ordered,
-        contexts: u32,
-        done: &mut Done,
-    ) -> Result<Option<Ordered>, JobError> {
-        let (distinct, capacity) = (ordered.vertices(), self.identity.capacity);
-        if distinct > capacity as usize {
-            let error = Error::Capacity { distinct, capacity, device: self.channel.name() };
-            return Err(JobError { job: Some(ordered.job), error });
-        }
+    /// Answers a job that needs no device, and gives back one that does. `contexts` is the number of contexts that would
+    /// work on it, for the report.
+    pub(crate) fn answer_here(&self, ordered: Ordered, contexts: u32, done: &mut Done) -> Option<Ordered> {
         if !ordered.prepared.collinear {
-            return Ok(Some(ordered));
+            return Some(ordered);
         }
         let Ordered { job, prepared } = ordered;
         let (hull, duplicates) = (prepared.order, prepared.duplicates);
         done.answers[job] = Some(Answer { triangles: Vec::new(), hull, duplicates, report: self.report(contexts) });
-        Ok(None)
+        None
     }
 
     /// A report with what is known of a job before it is done.

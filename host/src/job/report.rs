@@ -51,8 +51,9 @@ pub struct Report {
     /// that was sent ahead.
     pub latencies: Option<Latencies>,
     /// Clocks of the device for an exclusive job that was sent ahead: from the last word of the previous job, or the
-    /// beginning of the batch, to the last triangle of this job. `None` for all other jobs, on a device of several
-    /// engines, and where the transport does not know the clocks.
+    /// beginning of the batch, to the last triangle of this job. For a set in parts, the clocks from the first part to
+    /// the last. `None` for all other jobs, for an exclusive job on a device of several engines, and where the transport
+    /// does not know the clocks.
     pub clocks: Option<u64>,
     /// The lattice of the points; `None` if they have none, and the CPU triangulator worked on their
     /// doubles or long integers.
@@ -63,6 +64,8 @@ pub struct Report {
     pub capacity: u32,
     /// Contexts that worked, or threads of the CPU triangulator.
     pub contexts: u32,
+    /// Parts into which the set was cut, because the device cannot hold it; 0 if it was not cut.
+    pub parts: usize,
     /// Engines of the device, which do one job each; 0 for the CPU triangulator.
     pub engines: u32,
     /// Engines that got stuck over this job before another engine did it. They get no more jobs until the device is

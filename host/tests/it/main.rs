@@ -4,6 +4,7 @@ mod common;
 
 mod cpu;
 mod hostile;
+mod in_parts;
 mod numbers;
 mod oracle;
 mod quantize;

@@ -129,7 +129,7 @@ impl<'b> Batch<'b> {
             let points = &jobs[job];
             seen += points.len();
             let ordered = Ordered { job, prepared: prepare(points, options.order, 1) };
-            match self.carrier.answer_here(ordered, 1, &mut self.done)? {
+            match self.carrier.answer_here(ordered, 1, &mut self.done) {
                 Some(ordered) => shared.push(ordered),
                 None => self.done.passed += points.len(),
             }
@@ -151,9 +151,8 @@ fn next_load(
             return Ok(Some(Load::at_once(group, None)));
         }
         let time = group.only_job().map(|job| exclusive_time(carrier, job));
-        let here = group.jobs.drain(..).map(|ordered| carrier.answer_here(ordered, 1, done));
-        let jobs = here.collect::<Result<Vec<_>, _>>();
-        group.jobs = jobs?.into_iter().flatten().collect();
+        let jobs = std::mem::take(&mut group.jobs);
+        group.jobs = jobs.into_iter().filter_map(|ordered| carrier.answer_here(ordered, 1, done)).collect();
         if !group.jobs.is_empty() {
             return Ok(Some(Load::at_once(group, time)));
         }

@@ -5,12 +5,10 @@ use std::ops::ControlFlow;
 use std::time::Duration;
 
 use crate::common::batches::{alone, bare, batch, check_cancelled};
-use crate::common::card::{MemoryCard, Mischief};
+use crate::common::card::{card, watched_card, Mischief};
 use crate::common::mock::Mock;
 use crate::common::Random;
-use incircle::pcie::PcieTransport;
 use incircle::{Device, Error, ErrorKind, Options, Order, Point, Progress, Stage};
-use incircle_model::stream::ModelCore;
 use incircle_protocol::{Config, FULL, SMALL};
 
 /// Jobs that are exclusive on a device for 512 points and 5 contexts, with small jobs, jobs on a
@@ -26,17 +24,6 @@ fn mixed(random: &mut Random, count: usize) -> Vec<Vec<Point>> {
         }
     };
     (0..count).map(job).collect()
-}
-
-fn card(beat_bits: u32, mischief: Mischief) -> Device {
-    watched_card(beat_bits, mischief).0
-}
-
-fn watched_card(beat_bits: u32, mischief: Mischief) -> (Device, MemoryCard) {
-    let core = ModelCore::of(Config { points: 512, ..SMALL }).expect("possible").with_contexts(5);
-    let card = MemoryCard::of(core, beat_bits, mischief);
-    let transport = PcieTransport::new("pcie:memory".to_owned(), card.files()).expect("a sound card");
-    (Device::from_transport(Box::new(transport)), card)
 }
 
 #[test]
@@ -81,7 +68,7 @@ fn exclusive_jobs_of_wide_points_and_jobs_too_large_to_be_sent_ahead() {
 }
 
 #[test]
-fn an_exclusive_job_beyond_the_capacity_ends_the_batch_in_step() {
+fn an_exclusive_job_beyond_the_capacity_goes_in_parts() {
     let mut random = Random(73);
     let mut jobs = mixed(&mut random, 8);
     let right = alone(&jobs);
@@ -96,12 +83,9 @@ fn an_exclusive_job_beyond_the_capacity_ends_the_batch_in_step() {
             let mut jobs = jobs.clone();
             jobs.insert(place, random.points(600, 1 << 16));
             let mut session = device.session().expect("a session");
-            let error = session.triangulate_batch(&jobs, &Options::default()).expect_err("too large");
-            assert!(
-                matches!(&error, Error::InJob { job, source } if *job == place
-                && matches!(**source, Error::Capacity { capacity: 512, .. })),
-                "{error}"
-            );
+            let solutions = session.triangulate_batch(&jobs, &Options::default()).expect("meshes");
+            assert!(solutions[place].report.parts > 1);
+            assert!(solutions.into_iter().map(bare).eq(alone(&jobs)));
             jobs.remove(place);
             let meshes = session.triangulate_batch(&jobs[..8], &Options::default()).expect("in step");
             assert!(meshes.into_iter().map(bare).eq(right.iter().cloned()));

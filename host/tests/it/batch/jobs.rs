@@ -59,9 +59,8 @@ fn jobs_too_large_for_a_share_go_one_by_one() {
     let mut device = Device::clock_model(SMALL).expect("possible");
     assert!(batch(&mut device, &jobs, &Options::default()).expect("meshes") == alone(&jobs));
     jobs.push(random.points(1100, 1 << 16));
-    let error = batch(&mut device, &jobs, &Options::default()).expect_err("too large");
-    assert_eq!(error.kind(), ErrorKind::Capacity);
-    assert!(error.to_string().starts_with("job 14 of the batch: "), "{error}");
+    // This job does not fit the device at all, so it is done in parts.
+    assert!(batch(&mut device, &jobs, &Options::default()).expect("meshes") == alone(&jobs));
 }
 
 #[test]

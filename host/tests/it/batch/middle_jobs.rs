@@ -4,7 +4,7 @@
 use crate::common::batches::{alone, bare, batch};
 use crate::common::mock::Mock;
 use crate::common::Random;
-use incircle::{Device, Error, Options, Point, Solution};
+use incircle::{Device, Options, Point, Solution};
 use incircle_protocol::{Config, FULL, SMALL};
 use proptest::prelude::*;
 
@@ -65,7 +65,7 @@ fn the_capacity_may_be_reached_exactly() {
 }
 
 #[test]
-fn one_job_too_large_ends_the_batch_in_step() {
+fn a_job_too_large_for_the_device_goes_in_parts() {
     let mut random = Random(82);
     let jobs = jobs_of(&mut random, &[170, 90, 171, 130, 260, 100, 170]);
     let right = alone(&jobs);
@@ -75,15 +75,11 @@ fn one_job_too_large_ends_the_batch_in_step() {
         for place in 0..=jobs.len() {
             let mut jobs = jobs.clone();
             jobs.insert(place, distinct(&mut random, CAPACITY + 1));
-            let error = session.triangulate_batch(&jobs, &Options::default()).expect_err("too large");
-            assert!(
-                matches!(&error, Error::InJob { job, source } if *job == place
-                && matches!(**source, Error::Capacity { distinct: 513, capacity: 512, .. })),
-                "{error}"
-            );
-            jobs.remove(place);
-            let meshes = session.triangulate_batch(&jobs, &Options::default()).expect("in step");
-            assert!(meshes.into_iter().map(bare).eq(right.iter().cloned()));
+            let solutions = session.triangulate_batch(&jobs, &Options::default()).expect("meshes");
+            assert!(solutions.iter().enumerate().all(|(job, solution)| (solution.report.parts > 1) == (job == place)));
+            let mut meshes: Vec<_> = solutions.into_iter().map(bare).collect();
+            assert_eq!(meshes.remove(place), alone(&jobs[place..=place])[0]);
+            assert_eq!(meshes, right);
         }
     }
 }

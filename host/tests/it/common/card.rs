@@ -4,14 +4,29 @@ use std::io::{self, Read, Write};
 use std::sync::{Arc, Condvar, Mutex};
 use std::time::{Duration, Instant};
 
+use incircle::pcie::PcieTransport;
 use incircle::transports::parts::{CardFiles, RegisterFile};
+use incircle::Device;
 use incircle_model::stream::{ModelCore, StreamModel};
-use incircle_protocol::{Config, StreamRegister};
+use incircle_protocol::{Config, StreamRegister, SMALL};
 
 /// Time after which the driver aborts a transfer. With XDMA it is 10 seconds.
 const ENGINE: Duration = Duration::from_millis(400);
 /// Error that the driver then returns.
 const ERESTARTSYS: i32 = 512;
+
+/// A device for 512 points with five contexts, behind a card with these faults.
+pub fn card(beat_bits: u32, mischief: Mischief) -> Device {
+    watched_card(beat_bits, mischief).0
+}
+
+/// The device of [`card`], and its card.
+pub fn watched_card(beat_bits: u32, mischief: Mischief) -> (Device, MemoryCard) {
+    let core = ModelCore::of(Config { points: 512, ..SMALL }).expect("possible").with_contexts(5);
+    let card = MemoryCard::of(core, beat_bits, mischief);
+    let transport = PcieTransport::new("pcie:memory".to_owned(), card.files()).expect("a sound card");
+    (Device::from_transport(Box::new(transport)), card)
+}
 
 /// Faults that a test puts into the card. Reads and writes are numbered from 0.
 #[derive(Clone, Copy, Debug, Default)]

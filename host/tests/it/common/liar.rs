@@ -17,6 +17,8 @@ pub struct Liar {
     answer: Vec<u32>,
     pub silent_for: Duration,
     packs: bool,
+    /// Change of the words of points on their way to the model.
+    moving: fn(u32) -> u32,
 }
 
 impl Liar {
@@ -27,7 +29,14 @@ impl Liar {
             answer: Vec::new(),
             silent_for: Duration::ZERO,
             packs: true,
+            moving: |word| word,
         }
+    }
+
+    /// The same device, whose model gets other points than the host sends: each has the y of its word four times as
+    /// large. Every mesh is then a sound triangulation of the host's points, but seldom that of Delaunay.
+    pub fn stretching(self) -> Self {
+        Self { moving: |word| word & 0xffff | word >> 16 << 18, ..self }
     }
 
     /// The same device over a transport that reads whole records, with their neighbours.
@@ -58,7 +67,13 @@ impl Transport for Liar {
     fn submit(&mut self, commands: &[Command<&[u32]>], _: Instant) -> Result<(), TransportError> {
         for command in commands {
             let mut words = Vec::new();
-            command.encode(&mut words);
+            match command {
+                Command::Insert { count, points } => {
+                    let moved: Vec<u32> = points.iter().map(|&word| (self.moving)(word)).collect();
+                    Command::Insert { count: *count, points: &moved[..] }.encode(&mut words);
+                }
+                command => command.encode(&mut words),
+            }
             self.model.send(&words);
             let mut answer = vec![0; 2];
             // If a lie made the host send too few points, the model waits for more and does not answer.

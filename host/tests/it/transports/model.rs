@@ -107,18 +107,20 @@ fn half_edges_and_neighbours_agree() {
 }
 
 #[test]
-fn capacity_is_exact() {
+fn more_points_than_the_capacity_go_in_parts() {
     let points = Random(7).points(65, 1 << 16);
     let mut device = Device::open("model?capacity=64").expect("the model");
     let mut session = device.session().expect("a session");
-    assert!(session.triangulate(&points[..64]).is_ok());
-    let error = session.triangulate(&points).expect_err("one too many");
-    assert_eq!(error.kind(), ErrorKind::Capacity);
-    assert!(matches!(error, Error::Capacity { distinct: 65, capacity: 64, .. }), "{error}");
+    let fits = session.triangulate(&points[..64]).expect("as many as it holds");
+    assert_eq!(fits.report.parts, 0);
+    let solution = session.triangulate(&points).expect("one more than it holds");
+    assert_right(&solution);
+    assert!(solution.report.parts > 1);
     let mut doubled = points[..64].to_vec();
     doubled.extend(&points[..64]);
     let mesh = session.triangulate(&doubled).expect("duplicates take no room");
     assert_right(&mesh);
+    assert_eq!(mesh.report.parts, 0);
 }
 
 #[test]

@@ -8,6 +8,7 @@ use super::super::collect;
 use super::super::conquer::Waiting;
 use super::super::edges::{is_used, Edges, Half, Halves, HALVES};
 use super::super::merge::Part;
+use super::super::parallel::in_parallel;
 use super::super::subtrees::{join, Own};
 use super::super::triangulator::{threads_for, Connectivity};
 use super::super::view::{Integers, Narrow, Site, Wide, Widest, Width, NARROW_BITS, WIDE_BITS};
@@ -75,7 +76,29 @@ impl Borders {
     }
 }
 
+/// The triangles and the hull of a part; see [`Parts::solved`].
+type PartMesh = (Vec<[u32; 3]>, Vec<u32>);
+
 impl Parts {
+    /// Joins the meshes of all parts, in the order of the parts: the triangles and the hull of each. See
+    /// [`Parts::solved`] and [`Parts::join`], which this function calls on up to `threads` threads.
+    ///
+    /// # Errors
+    /// The errors of both functions.
+    pub fn join_meshes(self, meshes: Vec<PartMesh>, threads: NonZeroUsize) -> Result<Connectivity, Unsound> {
+        let share = meshes.len().div_ceil(threads.get()).max(1);
+        let mut meshes = meshes.into_iter().enumerate();
+        let shares = core::iter::from_fn(|| Some(meshes.by_ref().take(share).collect::<Vec<_>>()));
+        let shares: Vec<_> = shares.take_while(|share| !share.is_empty()).collect();
+        let solve = |own: Vec<(usize, PartMesh)>| -> Result<Vec<SolvedPart>, Unsound> {
+            // A mesh is dropped as soon as it is taken, to save memory.
+            own.into_iter().map(|(part, (triangles, hull))| self.solved(part, &triangles, &hull)).collect()
+        };
+        let solved = in_parallel(shares.into_iter(), solve);
+        let solved: Vec<Vec<SolvedPart>> = solved.into_iter().collect::<Result<_, _>>()?;
+        self.join(solved.into_iter().flatten().collect(), threads)
+    }
+
     /// Joins the meshes of all parts, given in any order, into the canonical mesh of the whole set, on up to `threads`
     /// threads.
     ///

@@ -1,0 +1,127 @@
+//! Sets that are larger than the device: cut into parts, which the device does as a batch, and joined on the host.
+
+use std::cell::Cell;
+use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+use incircle_geometry::cpu::{Connectivity, Parts, Unsound};
+use incircle_geometry::Point;
+
+use super::backend::Terms;
+use super::cpu_backend::error_of;
+use super::session::Session;
+use crate::error::{DeviceFault, Error};
+use crate::job::watch::{tell, Stopwatch};
+use crate::job::{Answer, Options, Progress, Report, Solution, Stage};
+
+/// Noun for the work under way, in errors.
+const DURING: &str = "the triangulation in parts";
+
+impl Session<'_> {
+    /// Triangulates grid points, in parts if they are more than the device holds.
+    pub(super) fn triangulate_grid(&mut self, points: Vec<Point>, terms: Terms<'_>) -> Result<Solution, Error> {
+        if self.holds(&points) {
+            return self.backend.triangulate(points, terms);
+        }
+        let mut watch = Stopwatch::start();
+        tell(terms.options, Stage::Order, 0, points.len())?;
+        let parts = Parts::divide(&points, self.identity.capacity as usize, host_threads()).map_err(error_of)?;
+        // Duplicates take no room.
+        if parts.count() < 2 {
+            drop(parts);
+            return self.backend.triangulate(points, terms);
+        }
+        watch.ended(Stage::Order);
+        let report = Report {
+            backend: self.backend.name(),
+            order: terms.options.order.name(),
+            coord_bits: self.identity.coord_bits,
+            capacity: self.identity.capacity,
+            contexts: terms.contexts,
+            engines: self.identity.engines,
+            ..Report::default()
+        };
+        let clocks = self.clocks();
+        let (connectivity, report) = match parts.collinear() {
+            Some(line) => (line, report),
+            None => {
+                let report = Report { parts: parts.count(), ..report };
+                self.solve_parts(parts, report, terms, &mut watch)?
+            }
+        };
+        let Connectivity { triangles, hull, duplicates } = connectivity;
+        let clocks = self.clocks().zip(clocks).map(|(now, before)| now - before).filter(|_| report.parts > 0);
+        let report = Report { clocks, stages: watch.stages, ..report };
+        Ok(Answer { triangles, hull, duplicates, report }.with(points))
+    }
+
+    /// Whether the back end takes these points as one job, however many are duplicates.
+    pub(super) fn holds(&self, points: &[Point]) -> bool {
+        points.len() <= self.identity.capacity as usize || self.backend.takes_all_numbers()
+    }
+
+    /// Lets the device triangulate all parts, and joins their meshes.
+    fn solve_parts(
+        &mut self,
+        parts: Parts,
+        report: Report,
+        terms: Terms<'_>,
+        watch: &mut Stopwatch,
+    ) -> Result<(Connectivity, Report), Error> {
+        let distinct = parts.distinct();
+        let grids = (0..parts.count()).map(|part| parts.points(part)).collect();
+        let solutions = self.batch_of_parts(grids, terms, distinct)?;
+        watch.ended(Stage::Insert);
+        tell(terms.options, Stage::Assemble, 0, distinct)?;
+        let mut stuck_engines: Vec<u32> =
+            solutions.iter().flat_map(|solution| solution.report.stuck_engines.iter().copied()).collect();
+        stuck_engines.sort_unstable();
+        stuck_engines.dedup();
+        let meshes = solutions.into_iter().map(|solution| (solution.mesh.triangles, solution.mesh.hull)).collect();
+        let joined = parts.join_meshes(meshes, host_threads()).map_err(|Unsound| Error::Device {
+            device: self.backend.name(),
+            during: DURING,
+            fault: DeviceFault::Unsound,
+        })?;
+        watch.ended(Stage::Assemble);
+        Ok((joined, Report { stuck_engines, ..report }))
+    }
+
+    /// Triangulates the parts of a set as a batch, whose jobs share the time limit of the set.
+    fn batch_of_parts(
+        &mut self,
+        grids: Vec<Vec<Point>>,
+        terms: Terms<'_>,
+        distinct: usize,
+    ) -> Result<Vec<Solution>, Error> {
+        let device = self.backend.name();
+        let check = || terms.limit.check(&device, DURING);
+        let is_late = Cell::new(false);
+        let listener = |progress: Progress| {
+            is_late.set(check().is_err());
+            match terms.options.progress {
+                _ if is_late.get() => ControlFlow::Break(()),
+                Some(listener) => listener(progress),
+                None => ControlFlow::Continue(()),
+            }
+        };
+        let time_left = terms.limit.deadline().saturating_duration_since(Instant::now());
+        let options = Options { progress: Some(&listener), timeout: Some(time_left), ..*terms.options };
+        let solutions = self.triangulate_grids(grids, |part| part, Terms { options: &options, ..terms }, distinct);
+        match solutions {
+            Err(Error::Cancelled { .. }) if is_late.get() => {
+                check()?;
+                solutions
+            }
+            // The caller knows of no jobs.
+            Err(Error::InJob { source, .. }) => Err(*source),
+            solutions => solutions,
+        }
+    }
+}
+
+/// The processors of the host.
+fn host_threads() -> NonZeroUsize {
+    std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
+}
