@@ -121,7 +121,7 @@ mod limit;
 pub mod quantize;
 pub mod transports;
 
-pub use device::{Device, DeviceAddress, Session};
+pub use device::{Device, DeviceAddress, Fleet, Session};
 pub use error::{DeviceFault, Error, ErrorKind, Shown, TransportError};
 pub use incircle_geometry::cpu::{Error as TriangulatorError, Triangulator};
 pub use incircle_geometry::lattice::{Lattice, Step};
@@ -129,7 +129,7 @@ pub use incircle_geometry::verify::{self, verify, VerifyError, VerifySummary};
 pub use incircle_geometry::{double, orient2d, predicate, Duplicate, Mesh, Order, PlanePoint, Point};
 pub use incircle_geometry::{UnknownOrder, EMPTY, MAX_POINTS};
 pub use incircle_protocol::{Config, Identity};
-pub use job::{Counters, Latencies, Options, Progress, ProgressListener, Report, Solution, Stage};
+pub use job::{Counters, Latencies, Options, Progress, ProgressListener, Report, Share, Solution, Stage};
 pub use quantize::{quantize, Quantization, Quantize};
 pub use transports::{pcie, serial, Transport};
 

@@ -96,8 +96,8 @@ impl Backend {
     }
 }
 
-/// The configurations that the command chooses by itself. A chip of several engines must be asked for: it is meant for
-/// batches, and holds fewer points than a core of the same size.
+/// The configurations that the command chooses by itself, smallest first. A chip of several engines must be asked for:
+/// it is meant for batches and parts, and an engine holds fewer points than a core of the same size.
 fn usual() -> impl Iterator<Item = Config> {
     NAMED.into_iter().filter(|config| config.engines == 1)
 }
@@ -201,7 +201,7 @@ fn once<T>(in_address: Option<T>, argument: Option<T>, name: &str) -> Result<Opt
 /// Opens the back end for jobs of up to `room` points, or, without that number, as large as possible.
 ///
 /// For a model all points count, for a core distinct ones. A core in simulation has the chosen configuration, or else
-/// the smallest one that holds the points. The waveform of the back end `sim` goes to the file `trace`. Greeting a
+/// the smallest one that holds the points, or else the largest. The waveform of the back end `sim` goes to the file `trace`. Greeting a
 /// board takes no longer than `timeout`.
 pub fn open_with_room(
     choice: &Choice,
@@ -276,8 +276,8 @@ fn open_sim(config: Config, trace: Option<&Path>) -> Result<Device, Failure> {
     crate::sim_backend::open(config, trace)
 }
 
-/// The configuration for a job of `distinct` points, or the reason why there is none. Without a job the result is the
-/// chosen configuration, or else the largest.
+/// The configuration for a job of `distinct` points: the chosen one, or else the smallest that holds the points, or else
+/// the largest, which does the job in parts. Fails if no core has coordinates of so many bits.
 fn config_for(choice: &Choice, distinct: Option<usize>) -> Result<Config, Failure> {
     let coord_bits = choice.coord_bits;
     if coord_bits > CORE_COORD_BITS {
@@ -289,30 +289,8 @@ fn config_for(choice: &Choice, distinct: Option<usize>) -> Result<Config, Failur
             ),
         ));
     }
-    let Some(distinct) = distinct else {
-        return Ok(choice.config.unwrap_or(LARGE));
-    };
-    let holds = |config: &Config| config.points as usize >= distinct;
-    let smallest = usual().find(holds);
-    let config = choice.config.or(smallest);
-    config.filter(holds).ok_or_else(|| {
-        let all: Vec<_> = usual().map(|config| format!("{} {}", config.name, config.points)).collect();
-        let all = all.join(", ");
-        let asked = match choice.config {
-            None => "any core".to_owned(),
-            Some(config) if config.engines > 1 => format!("the {} of an engine of {}", config.points, config.name),
-            Some(config) => config.name.to_owned(),
-        };
-        let holds = if choice.config.is_some_and(|config| config.engines > 1) { "" } else { " holds" };
-        let advice = match smallest {
-            Some(config) => format!("--config {} or --backend model", config.name),
-            None => "--backend model".to_owned(),
-        };
-        Failure::new(
-            Exit::Capacity,
-            format!("{distinct} distinct points are more than {asked}{holds} ({all}): use {advice}"),
-        )
-    })
+    let holds = |config: &Config| distinct.is_some_and(|distinct| config.points as usize >= distinct);
+    Ok(choice.config.or(usual().find(holds)).unwrap_or(LARGE))
 }
 
 /// The number of distinct points in a list.

@@ -7,7 +7,7 @@ use serde_json::{json, Value};
 use crate::arguments::BenchArguments;
 use crate::failure::counted;
 use crate::fit::Fit;
-use crate::report::{add_cycles, counters_json, latencies_json};
+use crate::report::{add_cycles, counters_json, latencies_json, parts_line};
 
 /// The measurement of one set.
 pub struct Measured {
@@ -114,10 +114,8 @@ impl Bench<'_> {
         } else {
             line(&set, model_cells(measured), MODEL_COLUMNS)
         };
-        match &measured.fit {
-            Some(fit) => format!("{row}\n{:SET_WIDTH$}{fit}", ""),
-            None => row,
-        }
+        let below = parts_line(&measured.report).into_iter().chain(measured.fit.as_ref().map(ToString::to_string));
+        below.fold(row, |row, line| format!("{row}\n{:SET_WIDTH$}{line}", ""))
     }
 
     fn core_cells(&self, report: &Report) -> [String; 16] {
@@ -185,6 +183,7 @@ impl Bench<'_> {
             "distinct": report.distinct,
             "triangles": report.triangles,
             "hull": report.hull,
+            "parts": report.parts,
             "seconds": {
                 "order": stage(Stage::Order),
                 "insert": stage(Stage::Insert),

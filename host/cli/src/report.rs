@@ -56,6 +56,7 @@ impl<'a> RunReport<'a> {
             "coord_bits": job.coord_bits,
             "capacity": job.capacity,
             "contexts": job.contexts,
+            "parts": job.parts,
             "engines": job.engines,
             "stuck_engines": job.stuck_engines,
             "seconds": self.seconds(),
@@ -91,6 +92,7 @@ impl<'a> RunReport<'a> {
         for engine in &job.stuck_engines {
             lines.push(format!("engine {engine} of the device is stuck: another engine did its job"));
         }
+        lines.extend(parts_line(job));
         if verbose {
             let stages = self.stages.iter().map(|(name, duration)| format!("{name} {:.6} s", duration.as_secs_f64()));
             lines.push(stages.collect::<Vec<_>>().join(", "));
@@ -139,7 +141,8 @@ fn latency_line(latencies: &Latencies) -> String {
     format!("  cycles of an insertion: least {min}, half up to {median}, 99 % up to {p99}, most {max}")
 }
 
-/// Adds the cycle counts of a job on a core, which are zero if the host answered without the device.
+/// Adds the cycle counts of a job on a core. They are zero if the host answered without the device, and for a set in
+/// parts, which has clocks instead.
 pub fn add_cycles(object: &mut Value, job: &Report) {
     let counters = job.counters.unwrap_or_default();
     let cycles = counters.insert_cycles;
@@ -147,6 +150,18 @@ pub fn add_cycles(object: &mut Value, job: &Report) {
     object["wait_cycles"] = counters.wait_cycles.into();
     object["read_cycles"] = counters.read_cycles.into();
     object["cycles_per_insertion"] = job.cycles_per_insertion().into();
+    object["clocks"] = job.clocks.into();
+    object["clocks_per_point"] = job.clocks_per_point().into();
+}
+
+/// The line about the parts of a set that the device could not hold; `None` if the set was not cut.
+pub fn parts_line(job: &Report) -> Option<String> {
+    let parts = (job.parts > 0)
+        .then(|| format!("{} of up to {}", counted(job.parts, "part"), counted(job.capacity as usize, "point")))?;
+    let clocks = job
+        .clocks_per_point()
+        .map_or(String::new(), |clocks| format!(", {clocks:.2} clocks a point with the read-out"));
+    Some(parts + &clocks)
 }
 
 /// The quantisation as a JSON object.

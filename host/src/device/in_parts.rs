@@ -122,6 +122,6 @@ impl Session<'_> {
 }
 
 /// The processors of the host.
-fn host_threads() -> NonZeroUsize {
+pub(super) fn host_threads() -> NonZeroUsize {
     std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
 }

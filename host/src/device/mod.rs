@@ -6,6 +6,8 @@
 //! DeviceAddress             └─────── DeviceBackend   commands to a device, over one of [`crate::transports`]
 //! ```
 //!
+//! A [`Fleet`](fleet::Fleet) has a session on each of several devices, for the parts of one set.
+//!
 //! A [`Session`](session::Session) checks points and options and sets the time limit. Everything else about a job is up
 //! to the back end.
 
@@ -13,10 +15,12 @@ mod address;
 mod backend;
 mod cpu_backend;
 mod device_backend;
+mod fleet;
 mod in_parts;
 mod open;
 mod session;
 
 pub use address::DeviceAddress;
+pub use fleet::Fleet;
 pub use open::Device;
 pub use session::Session;

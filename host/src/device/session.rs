@@ -242,29 +242,56 @@ impl<'d> Session<'d> {
         Ok(())
     }
 
-    /// Checks the points of a job and lays them onto their lattice. The numbers are those of the grid, unless there is
-    /// no lattice and the back end can do without.
+    /// Checks the points of a job and lays them onto their lattice; see [`lay`].
     fn on_lattice<'p, P: PlanePoint>(
         &self,
         points: &'p [P],
         terms: Terms<'_>,
     ) -> Result<(Numbers<'p>, Option<Lattice>), Error> {
         self.check_job(points.len(), terms.contexts)?;
-        let numbers = P::numbers(points);
-        if let Numbers::Doubles(doubles) = &numbers {
-            check_finite(doubles)?;
+        let (coord_bits, takes_all) = (self.identity.coord_bits, self.backend.takes_all_numbers());
+        lay(points, Asked { coord_bits, takes_all, device: &self.backend.name() })
+    }
+
+    /// The name of the device in reports and errors.
+    pub(super) fn name(&self) -> String {
+        self.backend.name()
+    }
+
+    /// The factor by which the device is slower than real hardware.
+    pub(super) fn slow(&self) -> u32 {
+        self.backend.slow()
+    }
+}
+
+/// What a device asks of points.
+pub(super) struct Asked<'a> {
+    pub(super) coord_bits: u32,
+    /// Whether points need not lie on a lattice.
+    pub(super) takes_all: bool,
+    /// The name of the device.
+    pub(super) device: &'a str,
+}
+
+/// Lays points onto their lattice. The numbers are those of the grid, unless there is no lattice and the device can do
+/// without.
+pub(super) fn lay<'p, P: PlanePoint>(
+    points: &'p [P],
+    Asked { coord_bits, takes_all, device }: Asked<'_>,
+) -> Result<(Numbers<'p>, Option<Lattice>), Error> {
+    let numbers = P::numbers(points);
+    if let Numbers::Doubles(doubles) = &numbers {
+        check_finite(doubles)?;
+    }
+    let device = || device.to_owned();
+    let (numbers, lattice) = numbers.on_lattice();
+    match (&numbers, lattice) {
+        (Numbers::Grid(grid), Some(lattice)) if lattice.bits > coord_bits => {
+            let outside = first_outside(grid, lattice, coord_bits);
+            Err(outside.unwrap_or_else(|| Error::LatticeTooWide { lattice, coord_bits, device: device() }))
         }
-        let coord_bits = self.identity.coord_bits;
-        let device = || self.backend.name();
-        let (numbers, lattice) = numbers.on_lattice();
-        match (&numbers, lattice) {
-            (Numbers::Grid(grid), Some(lattice)) if lattice.bits > coord_bits => {
-                let outside = first_outside(grid, lattice, coord_bits);
-                Err(outside.unwrap_or_else(|| Error::LatticeTooWide { lattice, coord_bits, device: device() }))
-            }
-            (_, None) if !self.backend.takes_all_numbers() => Err(Error::NoLattice { coord_bits, device: device() }),
-            _ => Ok((numbers, lattice)),
-        }
+        (_, None) if !takes_all => Err(Error::NoLattice { coord_bits, device: device() }),
+        _ => Ok((numbers, lattice)),
     }
 }
 
@@ -284,7 +311,7 @@ fn in_job(job: usize) -> impl Fn(Error) -> Error {
 }
 
 /// Copies the points of the caller.
-fn own<P: PlanePoint>(points: &[P]) -> Vec<P> {
+pub(super) fn own<P: PlanePoint>(points: &[P]) -> Vec<P> {
     let mut own = pages::with_room(points.len());
     own.extend_from_slice(points);
     own

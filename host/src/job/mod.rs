@@ -28,4 +28,4 @@ pub(crate) use answer::Answer;
 pub use answer::Solution;
 pub use counters::{Counters, Latencies};
 pub use options::{Options, Progress, ProgressListener, Stage};
-pub use report::Report;
+pub use report::{Report, Share};

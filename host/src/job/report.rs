@@ -71,6 +71,23 @@ pub struct Report {
     /// Engines that got stuck over this job before another engine did it. They get no more jobs until the device is
     /// reset.
     pub stuck_engines: Vec<u32>,
+    /// What each device of a [`Fleet`](crate::Fleet) did, in the order of the fleet; empty for a single device.
+    pub shares: Vec<Share>,
+}
+
+/// What one device of a [`Fleet`](crate::Fleet) did for a set.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Share {
+    /// Name of the device.
+    pub device: String,
+    /// Parts of the set that the device did.
+    pub parts: usize,
+    /// Distinct points of these parts.
+    pub points: usize,
+    /// The error for which the device was left out; `None` if the device was there to the end. Parts that it had not
+    /// finished were done by others.
+    pub left_out: Option<String>,
 }
 
 impl Report {
@@ -87,6 +104,12 @@ impl Report {
     pub fn cycles_per_insertion(&self) -> Option<f64> {
         let cycles = self.counters?.insert_cycles;
         (cycles > 0 && self.distinct > 0).then(|| cycles as f64 / self.distinct as f64)
+    }
+
+    /// Clock cycles of the device per distinct point, with the read-out, where [`clocks`](Self::clocks) are known: for a
+    /// set in parts, and for an exclusive job of a batch.
+    pub fn clocks_per_point(&self) -> Option<f64> {
+        self.clocks.filter(|_| self.distinct > 0).map(|clocks| clocks as f64 / self.distinct as f64)
     }
 
     /// Time of all stages together.

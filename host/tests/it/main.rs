@@ -3,6 +3,7 @@
 mod common;
 
 mod cpu;
+mod fleet;
 mod hostile;
 mod in_parts;
 mod numbers;

@@ -110,14 +110,25 @@ fn the_smallest_core_that_holds_the_points_is_taken() {
 }
 
 #[test]
-fn what_no_core_holds_ends_with_seven_and_contexts_it_lacks_with_two() {
+fn what_no_core_holds_is_done_in_parts() {
     let scratch = Scratch::new();
-    scratch.run("generate parabola -n 16385 -o p.csv").ok();
-    let all = "tiny 8, small 1024, full 8192, large 16384";
-    scratch.run("triangulate p.csv -o m.ele --backend clock").fails(7, &["16385", all, "use --backend model"]);
+    for (n, choice, config) in [(17_000, "", "large"), (300, "--config tiny", "tiny"), (9_000, "--config quad", "quad")]
+    {
+        scratch.run(&format!("generate uniform -n {n} -o p.csv")).ok();
+        let report = files(&scratch, choice);
+        assert_eq!(report["config"], config);
+        assert!(report["parts"].as_u64() > Some(1) && report["clocks_per_point"].as_f64() > Some(2.0), "{report}");
+        let run = scratch.run(&format!("triangulate p.csv -o m.ele --backend clock {choice}")).ok();
+        assert!(run.stderr.contains(" parts of up to ") && run.stderr.contains("clocks a point"), "{run:?}");
+    }
+    let run = scratch.run("bench uniform -n 9000 --backend clock --config quad").ok();
+    assert!(run.stdout.contains(" parts of up to 2048 points, "), "{run:?}");
+}
+
+#[test]
+fn bits_that_no_core_has_end_with_seven_and_contexts_it_lacks_with_two() {
+    let scratch = Scratch::new();
     scratch.run("generate parabola -n 9 -o p.csv").ok();
-    let run = scratch.run("triangulate p.csv -o m.ele --backend clock --config tiny");
-    run.fails(7, &["9 distinct points", "tiny", all, "use --config small or --backend model"]);
     scratch
         .run("triangulate p.csv -o m.ele --backend clock --quantize fit --coord-bits 17")
         .fails(7, &["16 bits", "17"]);

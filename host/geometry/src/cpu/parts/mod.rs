@@ -127,6 +127,11 @@ impl Parts {
         })
     }
 
+    /// The number of distinct points of a part; 0 if there is no such part.
+    pub fn points_of(&self, part: usize) -> usize {
+        self.range(part).map_or(0, |range| range.len())
+    }
+
     /// The mesh of the whole set if all points lie on one line, so that no part need be triangulated.
     pub fn collinear(&self) -> Option<Connectivity> {
         if !self.is_collinear {

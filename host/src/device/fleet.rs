@@ -1,0 +1,232 @@
+//! Several devices that share the work on one set.
+
+mod hall;
+mod worker;
+
+use std::sync::OnceLock;
+use std::thread::Builder;
+use std::time::Instant;
+
+use incircle_geometry::cpu::{Connectivity, Parts, Unsound};
+use incircle_geometry::lattice::{Lattice, Numbers};
+use incircle_geometry::{Order, PlanePoint, Point};
+
+use self::hall::{Greeted, Hall};
+use super::address::DeviceAddress;
+use super::cpu_backend::error_of;
+use super::in_parts::host_threads;
+use super::open::Device;
+use super::session::{lay, own, Asked};
+use crate::error::{DeviceFault, Error};
+use crate::job::watch::{tell, Stopwatch};
+use crate::job::{Answer, Options, Report, Solution, Stage};
+use crate::limit::Limit;
+
+/// Fewest points of a part, if the set has more. Smaller parts cost the host more than they bring.
+const LEAST_PART: usize = 1024;
+/// Most points of a part. Many parts keep all devices busy to the end.
+const MOST_PART: usize = 16_384;
+/// Noun for the work under way, in errors.
+const DURING: &str = "the triangulation in parts";
+
+/// Several devices that share the work on one set.
+///
+/// Reach for a fleet when you have more than one board or card, or a board and a processor that would be idle. The set
+/// is cut into parts, each part goes to whichever device is free, and the host joins the meshes of the parts. The mesh
+/// is the one that any of the devices gives alone.
+///
+/// A device that cannot be opened, fails or gets stuck is left out. Other devices do its parts again, and
+/// [`Report::shares`] tells what each device did. Only if no device is left does the set end with an error, that of the
+/// device that was left out last.
+///
+/// Each call of [`triangulate`](Self::triangulate) opens the devices anew, each on a thread of its own.
+///
+/// ```
+/// use incircle::{Fleet, Options, Point};
+///
+/// let points: Vec<Point> = (0..5000).map(|k| Point::new(k * k % 8191, k * 7 % 8209)).collect();
+/// let fleet = Fleet::open(&["clock?config=quad", "cpu?threads=1"])?;
+/// let solution = fleet.triangulate(&points, &Options::default())?;
+/// assert_eq!(solution.mesh, incircle::triangulate(&points)?);
+/// assert_eq!(solution.report.shares.iter().map(|share| share.parts).sum::<usize>(), solution.report.parts);
+/// # Ok::<(), incircle::Error>(())
+/// ```
+#[derive(Default)]
+pub struct Fleet {
+    members: Vec<Member>,
+}
+
+/// A device of a fleet that is not open yet.
+struct Member {
+    /// The name of the device until it is open.
+    name: String,
+    open: Box<dyn Fn() -> Result<Device, Error> + Send + Sync>,
+}
+
+impl Fleet {
+    /// A fleet of the devices at these addresses; [`DeviceAddress`] lists all forms.
+    ///
+    /// # Errors
+    /// [`Error::Address`] for text that is not an address.
+    pub fn open(addresses: &[impl AsRef<str>]) -> Result<Self, Error> {
+        let addresses: Result<Vec<DeviceAddress>, _> = addresses.iter().map(|text| text.as_ref().parse()).collect();
+        let with = |fleet: Self, address: DeviceAddress| fleet.with(address.to_string(), move || Device::at(&address));
+        Ok(addresses?.into_iter().fold(Self::default(), with))
+    }
+
+    /// Adds a device, which this function opens on a thread of its own. The name stands in reports if the device cannot
+    /// be opened.
+    #[must_use]
+    pub fn with(mut self, name: String, open: impl Fn() -> Result<Device, Error> + Send + Sync + 'static) -> Self {
+        self.members.push(Member { name, open: Box::new(open) });
+        self
+    }
+
+    /// Triangulates one set of points with all devices of the fleet.
+    ///
+    /// [`Options::contexts`] bounds the contexts of every device. The points must lie on a [`Lattice`] that fits the
+    /// coordinates of every device.
+    ///
+    /// Cost: the work of the devices, side by side. The host cuts and joins on all processors, in O(n) time on even sets.
+    ///
+    /// # Errors
+    /// The errors of [`Session::triangulate_with`](crate::Session::triangulate_with). An empty fleet is
+    /// [`Error::Address`].
+    pub fn triangulate<P: PlanePoint>(
+        &self,
+        points: &(impl AsRef<[P]> + ?Sized),
+        options: &Options<'_>,
+    ) -> Result<Solution<P>, Error> {
+        let points = points.as_ref();
+        let hall = Hall::new(self.members.iter().map(|member| member.name.clone()).collect());
+        let parts = OnceLock::new();
+        let mut watch = Stopwatch::start();
+        let found = std::thread::scope(|scope| {
+            for (place, member) in self.members.iter().enumerate() {
+                let (hall, parts) = (&hall, &parts);
+                let choices = Choices::of(options);
+                let work = move || worker::work(place, &*member.open, hall, parts, choices);
+                if let Err(error) = Builder::new().spawn_scoped(scope, work) {
+                    let source = Box::new(error);
+                    hall.leave_out(place, Error::Open { device: member.name.clone(), source }, &[]);
+                }
+            }
+            let found = lead(points, &hall, &parts, options, &mut watch);
+            hall.close();
+            found
+        });
+        let (lattice, report) = found?;
+        let parts = parts.into_inner().ok_or_else(|| no_device(&hall))?;
+        let report = Report { shares: hall.shares(), parts: parts.count(), lattice, ..report };
+        let joined = join(parts, &hall, &report)?;
+        watch.ended(Stage::Assemble);
+        let Connectivity { triangles, hull, duplicates } = joined;
+        let report = Report { stages: watch.stages, ..report };
+        Ok(Answer { triangles, hull, duplicates, report }.with(own(points)))
+    }
+}
+
+/// The choices of the caller that concern each device.
+#[derive(Clone, Copy)]
+struct Choices {
+    order: Order,
+    contexts: Option<u32>,
+    insert_chunk: usize,
+}
+
+impl Choices {
+    fn of(&Options { order, contexts, insert_chunk, .. }: &Options<'_>) -> Self {
+        Self { order, contexts, insert_chunk }
+    }
+}
+
+/// Leads the work: waits for the devices, cuts the set, and listens until all parts are done.
+fn lead<P: PlanePoint>(
+    points: &[P],
+    hall: &Hall,
+    parts: &OnceLock<Parts>,
+    options: &Options<'_>,
+    watch: &mut Stopwatch,
+) -> Result<(Option<Lattice>, Report), Error> {
+    let greeted = hall.wait_for_greetings();
+    let names: Vec<&str> = greeted.iter().map(|device| device.name.as_str()).collect();
+    let backend = names.join(" + ");
+    let Some(coord_bits) = greeted.iter().map(|device| device.identity.coord_bits).min() else {
+        return Err(no_device(hall));
+    };
+    let slow = greeted.iter().map(|device| device.slow).max().unwrap_or(1);
+    let default = || Options::default_timeout(points.len()).saturating_mul(slow);
+    let limit = Limit::of(options.timeout.unwrap_or_else(default));
+    tell(options, Stage::Order, 0, points.len())?;
+    let (numbers, lattice) = lay(points, Asked { coord_bits, takes_all: false, device: &backend })?;
+    let grid: &[Point] = match &numbers {
+        Numbers::Grid(grid) => grid,
+        // `lay` has refused everything else.
+        _ => &[],
+    };
+    let cut = Parts::divide(grid, part_size(&greeted, grid.len()), host_threads()).map_err(error_of)?;
+    drop(numbers);
+    watch.ended(Stage::Order);
+    let (distinct, needed) = (cut.distinct(), cut.collinear().is_none());
+    let cut = parts.get_or_init(|| cut);
+    if needed {
+        hall.begin(cut.count(), limit);
+        listen(hall, distinct, limit, &backend, options)?;
+    }
+    watch.ended(Stage::Insert);
+    tell(options, Stage::Assemble, 0, distinct)?;
+    let report = Report {
+        order: options.order.name(),
+        coord_bits,
+        capacity: greeted.iter().map(|device| device.identity.capacity).min().unwrap_or(0),
+        contexts: greeted.iter().map(|device| device.identity.contexts).sum(),
+        engines: greeted.iter().map(|device| device.identity.engines).sum(),
+        backend,
+        ..Report::default()
+    };
+    Ok((lattice, report))
+}
+
+/// The most points of a part: what the smallest device holds, but so many parts that no device waits long at the end.
+fn part_size(greeted: &[Greeted], points: usize) -> usize {
+    let smallest = greeted.iter().map(|device| device.identity.capacity as usize).min().unwrap_or(0);
+    let even = points / (8 * greeted.len().max(1));
+    even.clamp(LEAST_PART, MOST_PART).min(smallest.max(LEAST_PART))
+}
+
+/// Tells the listener of progress until all parts are done, no device is left, or the time is over.
+fn listen(hall: &Hall, total: usize, limit: Limit, backend: &str, options: &Options<'_>) -> Result<(), Error> {
+    loop {
+        let seen = hall.look();
+        tell(options, Stage::Insert, seen.points.min(total), total)?;
+        if seen.is_over {
+            return Ok(());
+        }
+        if seen.devices == 0 {
+            return Err(no_device(hall));
+        }
+        limit.check(backend, DURING)?;
+    }
+}
+
+/// Joins the parts, all of which are done.
+fn join(parts: Parts, hall: &Hall, report: &Report) -> Result<Connectivity, Error> {
+    parts.join(hall.take_solved(), host_threads()).map_err(|Unsound| Error::Device {
+        device: report.backend.clone(),
+        during: DURING,
+        fault: DeviceFault::Unsound,
+    })
+}
+
+/// The error of the device that was left out last.
+fn no_device(hall: &Hall) -> Error {
+    hall.take_failure().unwrap_or_else(|| Error::Address {
+        address: String::new(),
+        reason: "a fleet needs at least one device".to_owned(),
+    })
+}
+
+/// The time until a limit.
+fn time_left(limit: Limit) -> std::time::Duration {
+    limit.deadline().saturating_duration_since(Instant::now())
+}

@@ -1,0 +1,191 @@
+//! The place where the devices of a fleet meet: the parts that wait, the meshes that are done, and who is there.
+
+use std::collections::VecDeque;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use incircle_geometry::cpu::SolvedPart;
+use incircle_protocol::Identity;
+
+use crate::error::Error;
+use crate::job::Share;
+use crate::limit::Limit;
+
+/// Time between two looks at the work, at most.
+const LOOK: Duration = Duration::from_millis(50);
+/// Most parts that a device takes at a time.
+const MOST_TAKEN: usize = 64;
+
+/// A device that has said what it is.
+#[derive(Clone)]
+pub(super) struct Greeted {
+    pub(super) name: String,
+    pub(super) identity: Identity,
+    /// The factor by which the device is slower than real hardware.
+    pub(super) slow: u32,
+}
+
+/// What the leader sees of the work.
+pub(super) struct Seen {
+    /// Points of the parts that are done.
+    pub(super) points: usize,
+    /// Devices that are at work.
+    pub(super) devices: usize,
+    pub(super) is_over: bool,
+}
+
+struct State {
+    /// For each device: nothing until it has greeted or failed.
+    greetings: Vec<Option<Greeted>>,
+    /// Devices that have neither greeted nor been left out.
+    silent: usize,
+    /// Devices that have greeted and have not been left out.
+    at_work: usize,
+    shares: Vec<Share>,
+    /// Parts that wait for a device.
+    waiting: VecDeque<usize>,
+    /// Parts that devices are working on.
+    under_way: usize,
+    solved: Vec<SolvedPart>,
+    /// The time limit of the set; nothing before the parts are there.
+    limit: Option<Limit>,
+    points: usize,
+    /// The error of the device that was left out last.
+    failure: Option<Error>,
+}
+
+pub(super) struct Hall {
+    state: Mutex<State>,
+    changed: Condvar,
+    is_closed: AtomicBool,
+}
+
+impl Hall {
+    pub(super) fn new(names: Vec<String>) -> Self {
+        let shares: Vec<Share> = names.into_iter().map(|device| Share { device, ..Share::default() }).collect();
+        let state = State {
+            greetings: shares.iter().map(|_| None).collect(),
+            silent: shares.len(),
+            at_work: 0,
+            shares,
+            waiting: VecDeque::new(),
+            under_way: 0,
+            solved: Vec::new(),
+            limit: None,
+            points: 0,
+            failure: None,
+        };
+        Self { state: Mutex::new(state), changed: Condvar::new(), is_closed: AtomicBool::new(false) }
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Waits for a change, but not for long.
+    fn wait<'s>(&self, state: MutexGuard<'s, State>) -> MutexGuard<'s, State> {
+        self.changed.wait_timeout(state, LOOK).unwrap_or_else(PoisonError::into_inner).0
+    }
+
+    /// Tells all devices to end.
+    pub(super) fn close(&self) {
+        self.is_closed.store(true, Ordering::Relaxed);
+        self.changed.notify_all();
+    }
+
+    pub(super) fn is_closed(&self) -> bool {
+        self.is_closed.load(Ordering::Relaxed)
+    }
+
+    /// Takes the greeting of a device.
+    pub(super) fn greet(&self, place: usize, greeted: Greeted) {
+        let mut state = self.state();
+        state.shares[place].device.clone_from(&greeted.name);
+        state.greetings[place] = Some(greeted);
+        state.silent -= 1;
+        state.at_work += 1;
+        self.changed.notify_all();
+    }
+
+    /// Leaves a device out, for this error. Its parts wait for other devices.
+    pub(super) fn leave_out(&self, place: usize, error: Error, parts: &[usize]) {
+        let mut state = self.state();
+        match state.greetings[place].take() {
+            Some(_) => state.at_work -= 1,
+            None => state.silent -= 1,
+        }
+        state.shares[place].left_out = Some(error.to_string());
+        state.failure = Some(error);
+        state.under_way -= parts.len();
+        state.waiting.extend(parts);
+        self.changed.notify_all();
+    }
+
+    /// Waits until every device has greeted or been left out. Returns those that are there.
+    pub(super) fn wait_for_greetings(&self) -> Vec<Greeted> {
+        let mut state = self.state();
+        while state.silent > 0 {
+            state = self.wait(state);
+        }
+        state.greetings.iter().flatten().cloned().collect()
+    }
+
+    /// Puts all parts out.
+    pub(super) fn begin(&self, parts: usize, limit: Limit) {
+        let mut state = self.state();
+        state.waiting.extend(0..parts);
+        state.limit = Some(limit);
+        self.changed.notify_all();
+    }
+
+    /// The next parts for a device, and the time limit of the set; nothing if the work is over. Waits while other
+    /// devices have parts that might come back.
+    pub(super) fn next(&self) -> Option<(Vec<usize>, Limit)> {
+        let mut state = self.state();
+        loop {
+            if self.is_closed() {
+                return None;
+            }
+            if let (Some(limit), false) = (state.limit, state.waiting.is_empty()) {
+                // The fewer parts are left, the fewer a device takes, so that all end at about the same time.
+                let most = (state.waiting.len() / (2 * state.at_work.max(1))).clamp(1, MOST_TAKEN);
+                let taken: Vec<usize> = state.waiting.drain(..most).collect();
+                state.under_way += taken.len();
+                return Some((taken, limit));
+            }
+            state = self.wait(state);
+        }
+    }
+
+    /// Takes parts that a device has done, with the number of their points.
+    pub(super) fn done(&self, place: usize, solved: Vec<SolvedPart>, points: usize) {
+        let mut state = self.state();
+        state.under_way -= solved.len();
+        state.shares[place].parts += solved.len();
+        state.shares[place].points += points;
+        state.points += points;
+        state.solved.extend(solved);
+        self.changed.notify_all();
+    }
+
+    /// Waits for a change and says how far the work is.
+    pub(super) fn look(&self) -> Seen {
+        let state = self.state();
+        let is_over = |state: &State| state.waiting.is_empty() && state.under_way == 0;
+        let state = if is_over(&state) { state } else { self.wait(state) };
+        Seen { points: state.points, devices: state.at_work, is_over: is_over(&state) }
+    }
+
+    pub(super) fn shares(&self) -> Vec<Share> {
+        self.state().shares.clone()
+    }
+
+    pub(super) fn take_solved(&self) -> Vec<SolvedPart> {
+        std::mem::take(&mut self.state().solved)
+    }
+
+    pub(super) fn take_failure(&self) -> Option<Error> {
+        self.state().failure.take()
+    }
+}
