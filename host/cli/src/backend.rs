@@ -116,7 +116,7 @@ pub struct Choice {
 }
 
 impl Choice {
-    /// The back end of the arguments, or else the one at the address `default`. Coordinates have the bits of
+    /// The back end of the arguments, of which there is at most one, or else the one at the address `default`. Coordinates have the bits of
     /// `--coord-bits` or of the address, or else [`CORE_COORD_BITS`]. An address and an argument may not
     /// choose the same thing.
     pub fn of(arguments: &BackendArguments, coord_bits: Option<u32>, default: &str) -> Result<Self, Failure> {
@@ -256,7 +256,7 @@ fn open_model(coord_bits: u32, capacity: Option<u32>, points: usize) -> Result<D
 
 /// Refuses the back end `sim` in a build without the core. The check comes before all checks of configurations, whose
 /// advice would not help in such a build.
-fn check_sim() -> Result<(), Failure> {
+pub fn check_sim() -> Result<(), Failure> {
     if cfg!(feature = "sim") {
         return Ok(());
     }

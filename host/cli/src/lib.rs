@@ -10,6 +10,7 @@ mod bench_report;
 mod commands;
 mod failure;
 mod fit;
+mod fleet;
 pub mod formats;
 mod help;
 mod input;

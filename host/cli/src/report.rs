@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use incircle::{Counters, Latencies, Quantization, Report};
+use incircle::{Counters, Latencies, Quantization, Report, Share};
 use serde_json::{json, Map, Value};
 
 use crate::backend::Backend;
@@ -13,8 +13,8 @@ use crate::lattice::Laid;
 pub struct RunReport<'a> {
     /// The library's report of the job.
     pub job: &'a Report,
-    /// Name of the back end and of its configuration.
-    pub backend: (&'static str, Option<&'static str>),
+    /// Name of the back end and of its configuration. Several back ends have their names joined by " + ".
+    pub backend: (&'a str, Option<&'static str>),
     /// Whether the back end counts cycles.
     pub has_clock: bool,
     /// The points with their lattice.
@@ -36,6 +36,11 @@ impl<'a> RunReport<'a> {
             left_out: None,
             stages: Vec::new(),
         }
+    }
+
+    /// Makes the report of a job that several back ends shared, with the list of stages still empty.
+    pub fn of_several(job: &'a Report, laid: &'a Laid<'a>) -> Self {
+        Self { job, backend: (&job.backend, None), has_clock: false, laid, left_out: None, stages: Vec::new() }
     }
 
     /// The JSON object that `--json` prints. Cycles are part of the object if the back end has a clock.
@@ -67,6 +72,9 @@ impl<'a> RunReport<'a> {
         if self.has_clock {
             add_cycles(&mut object, job);
         }
+        if !job.shares.is_empty() {
+            object["shares"] = job.shares.iter().map(share_json).collect();
+        }
         object
     }
 
@@ -93,6 +101,7 @@ impl<'a> RunReport<'a> {
             lines.push(format!("engine {engine} of the device is stuck: another engine did its job"));
         }
         lines.extend(parts_line(job));
+        lines.extend(job.shares.iter().map(share_line));
         if verbose {
             let stages = self.stages.iter().map(|(name, duration)| format!("{name} {:.6} s", duration.as_secs_f64()));
             lines.push(stages.collect::<Vec<_>>().join(", "));
@@ -118,6 +127,20 @@ impl<'a> RunReport<'a> {
             total.as_secs_f64()
         )
     }
+}
+
+/// What one of several back ends did, as a line.
+fn share_line(share: &Share) -> String {
+    let did = format!("{}: {}, {}", share.device, counted(share.parts, "part"), counted(share.points, "point"));
+    match &share.left_out {
+        Some(why) => format!("{did}; left out: {why}"),
+        None => did,
+    }
+}
+
+/// What one of several back ends did, as a JSON object.
+fn share_json(share: &Share) -> Value {
+    json!({ "backend": share.device, "parts": share.parts, "points": share.points, "left_out": share.left_out })
 }
 
 /// The counters of the software model. The others are 0 on a back end without a clock.

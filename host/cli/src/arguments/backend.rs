@@ -25,8 +25,10 @@ pub struct BackendArguments {
     ///
     /// Default: 'triangulate' takes 'cpu', or 'model' if --order or --contexts is given.
     /// All other commands take 'model'.
+    ///
+    /// 'triangulate' takes several, each with a --backend of its own: they share the work on the set.
     #[arg(long, value_parser = backend_parser(), verbatim_doc_comment)]
-    pub backend: Option<DeviceAddress>,
+    pub backend: Vec<DeviceAddress>,
     /// Threads of the back end 'cpu' (default: one per processor)
     ///
     /// A small set takes fewer: one thread, and one more for every full 16,384 points.
@@ -40,10 +42,16 @@ pub struct BackendArguments {
 }
 
 impl BackendArguments {
-    /// The back end of the arguments, or else the one at the address `default`.
+    /// The back end of the arguments, or else the one at the address `default`. Refuses several.
     pub fn or(&self, default: &str) -> Result<DeviceAddress, Failure> {
-        let default = || default.parse().map_err(|error| failure_of(&error));
-        self.backend.clone().map_or_else(default, Ok)
+        match &self.backend[..] {
+            [] => default.parse().map_err(|error| failure_of(&error)),
+            [only] => Ok(only.clone()),
+            several => Err(Failure::usage(format!(
+                "{} back ends are given, but this command takes one: leave out all but one --backend",
+                several.len()
+            ))),
+        }
     }
 }
 

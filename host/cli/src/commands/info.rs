@@ -2,15 +2,15 @@
 
 use incircle::DeviceAddress;
 
-use crate::arguments::{BackendArguments, InfoArguments};
+use crate::arguments::InfoArguments;
 use crate::backend::{self, Board, Choice};
 use crate::failure::{counted, failure_of, Failure};
 use crate::output;
 
 /// Runs the subcommand: opens the back end, greets it and prints its identity.
 pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
-    let port = arguments.port.clone().map(DeviceAddress::Serial);
-    let asked = BackendArguments { backend: port.or(arguments.backend.backend.clone()), ..arguments.backend.clone() };
+    let mut asked = arguments.backend.clone();
+    asked.backend.extend(arguments.port.clone().map(DeviceAddress::Serial));
     let mut backend = backend::open_with_room(&Choice::of(&asked, None, "model")?, None, None, None)?;
     let card = backend.card.map_or(String::new(), |registers| registers.to_string());
     let board = backend.board.map_or(String::new(), about_board);

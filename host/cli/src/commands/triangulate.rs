@@ -3,11 +3,12 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use incircle::{DeviceAddress, Options, PlanePoint, Report, Session};
+use incircle::{DeviceAddress, Fleet, Options, PlanePoint, Report, Session, Solution};
 
 use crate::arguments::TriangulateArguments;
 use crate::backend::{self, Backend, Choice};
 use crate::failure::{counted, failure_of, Failure};
+use crate::fleet::Several;
 use crate::formats::{MeshFormat, MeshView};
 use crate::lattice::{self, Laid, Numbers};
 use crate::output::{self, Output, Written};
@@ -20,29 +21,40 @@ use crate::{interrupt, path, source};
 pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
     let format = format_of(arguments)?;
     let output = prepare_mesh(arguments)?;
-    let default = if arguments.job.wants_insertion() { "model" } else { "cpu" };
-    let choice = Choice::for_points(&arguments.backend, &arguments.grid, default)?;
-    let trace = prepare_trace(arguments, &choice, &output)?;
+    let chosen = Chosen::of(arguments)?;
+    let trace = prepare_trace(arguments, &chosen, &output)?;
     let mut watch = Watch::start();
     let table = source::read_points(&arguments.points, &arguments.read, arguments.quiet)?;
     watch.ended("load");
     interrupt::check()?;
     let in_file = |failure: Failure| failure.in_file(path::name(&arguments.points));
     format.check_points(&table).map_err(in_file)?;
-    let how = arguments.grid.quantize.map(|how| (how, choice.coord_bits));
+    let how = arguments.grid.quantize.map(|how| (how, chosen.coord_bits()));
     let laid = lattice::lay(&table, how).map_err(in_file)?;
-    choice.check_lattice(&laid).map_err(in_file)?;
+    chosen.check_lattice(&laid).map_err(in_file)?;
     watch.ended("quantise");
     let trace = trace.map(Output::reserve).transpose()?;
-    let room = choice.room_for(&laid.numbers);
     let trace_part = trace.as_ref().and_then(Written::part);
-    let mut backend = backend::open_with_room(&choice, Some(room), trace_part, arguments.job.timeout)?;
-    backend.check_job(&arguments.job)?;
-    tell_if_long(&backend, laid.numbers.len(), arguments);
-    watch.ended("open");
-    let (mesh, about) = triangulate(&mut backend, &laid, arguments).map_err(in_file)?;
+    let (mesh, about, backend) = match chosen {
+        Chosen::One(choice) => {
+            let room = choice.room_for(&laid.numbers);
+            let mut backend = backend::open_with_room(&choice, Some(room), trace_part, arguments.job.timeout)?;
+            backend.check_job(&arguments.job)?;
+            tell_if_long(&backend, laid.numbers.len(), arguments);
+            watch.ended("open");
+            let (mesh, about) = triangulate(&mut backend, &laid, arguments).map_err(in_file)?;
+            (mesh, about, Some(backend))
+        }
+        Chosen::Several(several) => {
+            let (mesh, about) = triangulate_together(&several.fleet(&laid), &laid, arguments).map_err(in_file)?;
+            (mesh, about, None)
+        }
+    };
     watch.stages.extend(&about.stages);
-    let mut report = RunReport::new(&about, &backend, &laid);
+    let mut report = match &backend {
+        Some(backend) => RunReport::new(&about, backend, &laid),
+        None => RunReport::of_several(&about, &laid),
+    };
     report.left_out = table.left_out();
     // Dropping the back end ends a simulation, which completes its waveform.
     drop(backend);
@@ -51,6 +63,36 @@ pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
     watch.ended("write");
     report.stages = watch.stages;
     output::finish(trace.into_iter().chain([written]), || tell(&report, arguments))
+}
+
+/// The back ends that do the work.
+enum Chosen {
+    One(Choice),
+    Several(Several),
+}
+
+impl Chosen {
+    fn of(arguments: &TriangulateArguments) -> Result<Self, Failure> {
+        if let Some(several) = Several::of(arguments)? {
+            return Ok(Self::Several(several));
+        }
+        let default = if arguments.job.wants_insertion() { "model" } else { "cpu" };
+        Choice::for_points(&arguments.backend, &arguments.grid, default).map(Self::One)
+    }
+
+    fn coord_bits(&self) -> u32 {
+        match self {
+            Self::One(choice) => choice.coord_bits,
+            Self::Several(several) => several.coord_bits(),
+        }
+    }
+
+    fn check_lattice(&self, laid: &Laid<'_>) -> Result<(), Failure> {
+        match self {
+            Self::One(choice) => choice.check_lattice(laid),
+            Self::Several(several) => several.check_lattice(laid),
+        }
+    }
 }
 
 /// The output for the mesh, checked before the work.
@@ -65,11 +107,11 @@ fn prepare_mesh(arguments: &TriangulateArguments) -> Result<Output, Failure> {
 }
 
 /// The output for the waveform of `--trace`, checked before the work.
-fn prepare_trace(arguments: &TriangulateArguments, choice: &Choice, mesh: &Output) -> Result<Option<Output>, Failure> {
+fn prepare_trace(arguments: &TriangulateArguments, chosen: &Chosen, mesh: &Output) -> Result<Option<Output>, Failure> {
     let Some(file) = &arguments.trace else {
         return Ok(None);
     };
-    if !matches!(choice.address, DeviceAddress::Sim { .. }) {
+    if !matches!(chosen, Chosen::One(Choice { address: DeviceAddress::Sim { .. }, .. })) {
         return Err(Failure::usage("--trace records the simulated core: it needs --backend sim"));
     }
     let trace = Output::prepare(file, Some(&arguments.points))?;
@@ -165,9 +207,31 @@ fn connect<P: PlanePoint>(
     points: &[P],
     options: &Options<'_>,
 ) -> Result<(Connections, Report), Failure> {
-    let solution = session.triangulate_with(points, options).map_err(|error| failure_of(&error))?;
+    session.triangulate_with(points, options).map(without_points).map_err(|error| failure_of(&error))
+}
+
+/// Triangulates points with several back ends.
+fn triangulate_together(
+    fleet: &Fleet,
+    laid: &Laid<'_>,
+    arguments: &TriangulateArguments,
+) -> Result<(Connections, Report), Failure> {
+    let meter = Meter::new(arguments.quiet);
+    let listener = |progress| meter.hear(progress);
+    let options = arguments.job.options(&listener);
+    let solution = interrupt::working(|| match &laid.numbers {
+        Numbers::Grid(points) => fleet.triangulate(points, &options).map(without_points),
+        Numbers::Whole(points) => fleet.triangulate(points, &options).map(without_points),
+        Numbers::Doubles(points) => fleet.triangulate(points, &options).map(without_points),
+    });
+    interrupt::check()?;
+    solution.map_err(|error| failure_of(&error))
+}
+
+/// A solution without its points.
+fn without_points<P>(solution: Solution<P>) -> (Connections, Report) {
     let duplicates = solution.mesh.duplicates.iter().map(|duplicate| [duplicate.index, duplicate.of]).collect();
-    Ok((Connections { triangles: solution.mesh.triangles, hull: solution.mesh.hull, duplicates }, solution.report))
+    (Connections { triangles: solution.mesh.triangles, hull: solution.mesh.hull, duplicates }, solution.report)
 }
 
 /// A stopwatch for the stages of the command.

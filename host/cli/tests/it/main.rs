@@ -7,6 +7,7 @@ mod output;
 
 mod backend {
     mod clock;
+    mod fleet;
     mod pcie;
     mod serial;
     #[cfg(feature = "sim")]

@@ -254,7 +254,7 @@ fn chips_of_several_engines_are_named_and_used() {
         assert_eq!(batch["engines"], engines);
         assert_eq!(batch["sets"][0]["stuck_engines"], serde_json::json!([]));
         scratch.run(&format!("generate parabola -n {} -o many.csv", points + 1)).ok();
-        let run = scratch.run(&format!("triangulate many.csv -o m.ele --backend clock --config {config}"));
-        run.fails(7, &[&(points + 1).to_string(), &format!("the {points} of an engine of {config}")]);
+        let run = scratch.run(&format!("triangulate many.csv -o m.ele --backend clock --config {config}")).ok();
+        assert!(run.stderr.contains(&format!("2 parts of up to {points} points")), "{run:?}");
     }
 }
