@@ -52,6 +52,7 @@ mod plane_point;
 mod point;
 pub mod predicate;
 pub mod sort;
+pub mod tiles;
 pub mod verify;
 
 pub use mesh::{Mesh, EMPTY};
