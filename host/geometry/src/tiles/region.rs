@@ -41,6 +41,42 @@ impl<C: Copy + PartialOrd> Region<C> {
         is_from(self.west, x) & is_below(self.east, x) & is_from(self.south, y) & is_below(self.north, y)
     }
 
+    /// Whether no place of the other region lies beyond this one.
+    pub fn covers(&self, other: &Self) -> bool {
+        let is_from = |low: Option<C>, value: Option<C>| low.is_none() || low <= value;
+        let is_to = |high: Option<C>, value: Option<C>| high.is_none() || value.is_some() && value <= high;
+        is_from(self.west, other.west)
+            && is_to(self.east, other.east)
+            && is_from(self.south, other.south)
+            && is_to(self.north, other.north)
+    }
+
+    /// Whether two regions may have a place in common: they are not on two sides of a vertical or horizontal line.
+    pub fn overlaps(&self, other: &Self) -> bool {
+        let is_past = |end: Option<C>, start: Option<C>| end.is_some() && start.is_some() && end <= start;
+        !(is_past(self.east, other.west)
+            || is_past(other.east, self.west)
+            || is_past(self.north, other.south)
+            || is_past(other.north, self.south))
+    }
+
+    /// The parts of the region west and east of the vertical line `x = at`. A place on the line is in the east.
+    ///
+    /// ```
+    /// use incircle_geometry::tiles::Region;
+    ///
+    /// let [west, east] = Region::WHOLE.split_at_x(5);
+    /// assert_eq!((west.east, east.west), (Some(5), Some(5)));
+    /// ```
+    pub fn split_at_x(&self, at: C) -> [Self; 2] {
+        [Self { east: Some(at), ..*self }, Self { west: Some(at), ..*self }]
+    }
+
+    /// The parts of the region south and north of the horizontal line `y = at`. A place on the line is in the north.
+    pub fn split_at_y(&self, at: C) -> [Self; 2] {
+        [Self { north: Some(at), ..*self }, Self { south: Some(at), ..*self }]
+    }
+
     /// The rectangle that two regions form together. `None` if they have no whole side in common.
     pub fn union(&self, other: &Self) -> Option<Self> {
         let meet = |end: Option<C>, start: Option<C>| end.is_some() && end == start;
@@ -133,6 +169,20 @@ mod tests {
         for other in strangers {
             assert_eq!(middle.union(&other), None, "{other:?}");
         }
+    }
+
+    #[test]
+    fn regions_cover_their_parts_and_overlap_no_neighbour() {
+        let middle = cell([2, 5], [0, 3]);
+        for halves in [middle.split_at_x(3), middle.split_at_y(1), Region::WHOLE.split_at_x(0)] {
+            let whole = Region::union_of(&halves).unwrap();
+            for half in halves {
+                assert!(whole.covers(&half) && !half.covers(&whole) && whole.overlaps(&half));
+            }
+            assert!(!halves[0].overlaps(&halves[1]) && !halves[1].overlaps(&halves[0]));
+        }
+        assert!(middle.covers(&middle) && Region::WHOLE.covers(&middle) && !middle.covers(&Region::WHOLE));
+        assert!(middle.overlaps(&cell([4, 9], [2, 9])) && !middle.overlaps(&cell([5, 9], [0, 3])));
     }
 
     #[test]
