@@ -83,7 +83,7 @@ impl<P: TilePoint, I: Copy + Ord> Union<P, I> {
             while open.next_if(|before| *before < triangle).is_some() {}
             open.next_if_eq(&triangle).is_some()
         });
-        settle(&self.points, &self.ids, &mesh.hull, self.region, counts)
+        settle(&self.points, &self.ids, mesh, self.region, counts)
     }
 }
 

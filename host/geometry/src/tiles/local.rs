@@ -78,14 +78,14 @@ pub fn local<P: TilePoint, I: Copy + Ord>(
     if let Some(place) = mesh.points.iter().position(|point| !region.contains(point.place())) {
         return Err(Error::Beyond { place });
     }
-    settle(&mesh.points, ids, &mesh.hull, region, mesh.triangles.iter().copied())
+    settle(&mesh.points, ids, mesh, region, mesh.triangles.iter().copied())
 }
 
-/// Divides triangles into final and open ones, and makes the border of the open ones and the hull.
+/// Divides triangles of a mesh into final and open ones, and makes the border of the open ones and the hull.
 pub(super) fn settle<P: TilePoint, I: Copy + Ord>(
     points: &[P],
     ids: &[I],
-    hull: &[u32],
+    mesh: &Mesh<P>,
     region: Region<P::Side>,
     triangles: impl Iterator<Item = [u32; 3]>,
 ) -> Result<Tile<P, I>, Error> {
@@ -93,7 +93,7 @@ pub(super) fn settle<P: TilePoint, I: Copy + Ord>(
         return Err(Error::Ids { points: points.len(), ids: ids.len() });
     }
     let no_point = |place: u32| Error::NoSuchPoint { place, points: points.len() };
-    if let Some(&place) = hull.iter().find(|&&place| place as usize >= points.len()) {
+    if let Some(&place) = mesh.hull.iter().find(|&&place| place as usize >= points.len()) {
         return Err(no_point(place));
     }
     let sides = P::sides(&region);
@@ -111,12 +111,12 @@ pub(super) fn settle<P: TilePoint, I: Copy + Ord>(
             }
         }
     }
-    let border = border(points, ids, hull, region, open);
-    let mut hull: Vec<I> = hull.iter().map(|&place| ids[place as usize]).collect();
-    let has_triangles = !(finals.is_empty() && border.open.is_empty());
-    let least = hull.iter().enumerate().min_by_key(|&(_, id)| *id).map_or(0, |(place, _)| place);
-    // The hull of a mesh without triangles is a list from end to end, which has no other beginning.
-    if has_triangles {
+    let border = border(points, ids, &mesh.hull, region, open);
+    let mut hull: Vec<I> = mesh.hull.iter().map(|&place| ids[place as usize]).collect();
+    // The hull of a mesh without triangles is a list from end to end, which has no other beginning. A mesh may have
+    // triangles of which none is left here: those of a union may all lie within the final triangles of its children.
+    if !mesh.is_collinear() {
+        let least = hull.iter().enumerate().min_by_key(|&(_, id)| *id).map_or(0, |(place, _)| place);
         hull.rotate_left(least);
     }
     Ok(Tile { finals, border, hull, unknown })

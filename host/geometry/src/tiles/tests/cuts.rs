@@ -14,7 +14,7 @@ const SETS: u64 = 10_000;
 
 fn check(points: &[Point], expected: &Mesh, division: &Division<i64>) {
     let (found, unknown) = Found::mesh(points, division);
-    assert_eq!(found, *expected, "{division:?}");
+    assert!(found == *expected, "{division:?}: {found:?} instead of {expected:?}");
     assert_eq!(unknown, 0, "the answer of grid points is always known");
 }
 
@@ -118,4 +118,20 @@ fn regions_without_points_change_nothing() {
         check(&points, &expected, &Division::Areas(vec![(Region::WHOLE, Division::Tile)]));
     }
     assert_eq!(Found::<Point>::mesh(&[], &Division::Areas(Vec::new())).0, mesh_of::<Point>(&[]));
+}
+
+/// All triangles of the set are final in one tile, so none is left at the join; the hull of the whole set must begin
+/// with its lowest index nevertheless.
+#[test]
+fn the_hull_is_canonical_where_no_triangle_is_left_for_a_join() {
+    let points = [(1, 3), (0, 5), (1, 2)].map(Point::from);
+    let [south, north] = Region::WHOLE.split_at_y(200);
+    let division = Division::Areas(vec![
+        (south, Division::Areas(south.split_at_x(1).map(|region| (region, Division::Tile)).to_vec())),
+        (north, Division::Tile),
+    ]);
+    for order in [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1]] {
+        let points = order.map(|place: usize| points[place]);
+        check(&points, &mesh_of(&points), &division);
+    }
 }
