@@ -3,6 +3,8 @@
 use alloc::vec::Vec;
 use core::num::NonZeroUsize;
 
+use bytemuck::Zeroable;
+
 use super::error::Error;
 use super::join::Union;
 use super::local::{local, Border, Tile};
@@ -11,6 +13,7 @@ use crate::cpu::{self, Triangulator};
 use crate::mesh::Mesh;
 use crate::order::z_curve::position;
 use crate::point::{Duplicate, Point, MAX_POINTS};
+use crate::sort::{sort_by_key, Entry, Keyed, Wide};
 
 /// Computes the canonical Delaunay triangulation of a set by tiles of at most `most` distinct points.
 ///
@@ -35,17 +38,13 @@ pub fn triangulate(points: Vec<Point>, most: NonZeroUsize) -> Result<Mesh, Error
     if points.len() > MAX_POINTS {
         return Err(cpu::Error::TooManyPoints { points: points.len() }.into());
     }
-    let mut curve: Vec<(u64, u32)> = points.iter().map(|point| position(point.x, point.y)).zip(0..).collect();
-    curve.sort_unstable();
-    let positions: Vec<u64> = curve.iter().map(|&(position, _)| position).collect();
-    let tree = Tree::of_positions(&positions, most);
-    drop(positions);
+    let (tree, curve) = cut(&points, most);
     let mut work = Work::default();
     for step in tree.steps() {
         match step {
             Step::Tile { region, points: range } => {
                 // In ascending order, so that each place goes by its lowest index.
-                let mut ids: Vec<u32> = curve[range.clone()].iter().map(|&(_, id)| id).collect();
+                let mut ids = curve[range.clone()].to_vec();
                 ids.sort_unstable();
                 let own: Vec<Point> = ids.iter().map(|&id| points[id as usize]).collect();
                 work.triangulate(&own)?;
@@ -67,9 +66,29 @@ pub fn triangulate(points: Vec<Point>, most: NonZeroUsize) -> Result<Mesh, Error
         }
     }
     let Work { mut triangles, mut duplicates, hull, .. } = work;
-    triangles.sort_unstable();
+    sort_by_key(&mut triangles);
     duplicates.sort_unstable();
+    let triangles = triangles.into_iter().map(|Triangle(corners)| corners).collect();
     Ok(Mesh { points, triangles, hull, duplicates })
+}
+
+/// The tree of a set, and the indices of its points along the curve.
+fn cut(points: &[Point], most: NonZeroUsize) -> (Tree, Vec<u32>) {
+    let mut entries: Vec<Wide> =
+        points.iter().zip(0..).map(|(point, id)| Wide::new(position(point.x, point.y), id)).collect();
+    sort_by_key(&mut entries);
+    let positions: Vec<u64> = entries.iter().map(Keyed::key).collect();
+    (Tree::of_positions(&positions, most), entries.iter().map(Entry::value).collect())
+}
+
+/// A final triangle. Its first two corners are the key: each directed edge has one triangle on its left.
+#[derive(Clone, Copy, Zeroable)]
+struct Triangle([u32; 3]);
+
+impl Keyed for Triangle {
+    fn key(&self) -> u64 {
+        u64::from(self.0[0]) << u32::BITS | u64::from(self.0[1])
+    }
 }
 
 /// What is there after some of the steps, and memory for the next one.
@@ -79,7 +98,7 @@ struct Work {
     /// The triangulation of one tile or one union.
     mesh: Mesh,
     borders: Vec<Border<Point, u32>>,
-    triangles: Vec<[u32; 3]>,
+    triangles: Vec<Triangle>,
     duplicates: Vec<Duplicate>,
     /// The hull after the last step.
     hull: Vec<u32>,
@@ -91,7 +110,7 @@ impl Work {
     }
 
     fn keep(&mut self, tile: Tile<Point, u32>) {
-        self.triangles.extend(tile.finals);
+        self.triangles.extend(tile.finals.into_iter().map(Triangle));
         self.borders.push(tile.border);
         self.hull = tile.hull;
     }
