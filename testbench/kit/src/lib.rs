@@ -5,6 +5,7 @@
 //! - [`generate`]: point sets by name, those of `incircle generate`.
 //! - [`delaunay`]: the canonical Delaunay triangulation by its definition, slow and plain.
 //! - [`delaunay_of_doubles`]: the same of points of doubles, in integers of any size.
+//! - [`disc_is_between`]: whether the circumscribed disc of a triangle lies between lines, in the same integers.
 //! - [`words`] and [`Batch`]: point sets as a device takes them, with [`Random32`], whose seeds tests know.
 //! - [`canonical`]: the check of a mesh from a device, and its form without ids.
 //! - [`exchange_steps`]: the exchange that the page of the serial protocol shows.
@@ -26,7 +27,9 @@ pub use batch::Batch;
 pub use canonical::{canonical, Canonical, StoredRecord};
 pub use exchange::exchange_steps;
 pub use oracle::{conflicts, delaunay, orient2d};
-pub use oracle_of_doubles::{delaunay_of_doubles, hull_of_doubles, incircle_of_doubles, orient2d_of_doubles};
+pub use oracle_of_doubles::{
+    delaunay_of_doubles, disc_is_between, hull_of_doubles, incircle_of_doubles, orient2d_of_doubles,
+};
 pub use random::SplitMix64;
 pub use random32::Random32;
 pub use sets::{generate, Distribution, GenerateError, UnknownName, BITS};

@@ -52,6 +52,37 @@ pub fn incircle_of_doubles(a: [f64; 2], b: [f64; 2], c: [f64; 2], d: [f64; 2]) -
     lifted(&exact(a), &exact(b), &exact(c), &exact(d)).cmp(&zero())
 }
 
+/// Whether the closed circumscribed disc of a triangle touches none of four lines and lies between them all: `x = west`,
+/// `x = east`, `y = south`, `y = north`, in this order. A line that is `None` is infinitely far away. Three points on a
+/// line have no disc, so the answer is no.
+pub fn disc_is_between([a, b, c]: [[f64; 2]; 3], lines: [Option<f64>; 4]) -> bool {
+    let [a, b, c] = [a, b, c].map(exact);
+    let (b, c) = if cross(&a, &b, &c) < zero() { (c, b) } else { (b, c) };
+    // Centre and radius, in fractions with this denominator.
+    let denominator: BigInt = cross(&a, &b, &c) * 2;
+    if denominator == zero() {
+        return false;
+    }
+    let norm = |point: &Exact| &point[0] * &point[0] + &point[1] * &point[1];
+    let center_of = |axis: usize| {
+        let gap = |one: &Exact, other: &Exact| match axis {
+            0 => &one[1] - &other[1],
+            _ => &other[0] - &one[0],
+        };
+        norm(&a) * gap(&b, &c) + norm(&b) * gap(&c, &a) + norm(&c) * gap(&a, &b)
+    };
+    let center = [center_of(0), center_of(1)];
+    let radius: Exact = [0, 1].map(|axis| &center[axis] - &a[axis] * &denominator);
+    let is_clear = |(place, line): (usize, &Option<f64>)| {
+        let Some(line) = *line else { return true };
+        let [line, _] = exact([line, 0.0]);
+        let beyond = line * &denominator - &center[place / 2];
+        let room = if place % 2 == 0 { -beyond } else { beyond };
+        room > zero() && &room * &room > norm(&radius)
+    };
+    lines.iter().enumerate().all(is_clear)
+}
+
 /// Whether `d` conflicts with the counter-clockwise triangle, ties decided by lowering the smallest of the four.
 fn conflicts(a: &Exact, b: &Exact, c: &Exact, d: &Exact) -> bool {
     match lifted(a, b, c, d).cmp(&zero()) {

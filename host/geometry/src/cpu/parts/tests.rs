@@ -120,7 +120,6 @@ fn nearly_all_triangles_of_large_parts_are_final() {
     let border: usize = solved.iter().map(SolvedPart::border).sum();
     let finals: usize = solved.iter().map(SolvedPart::finals).sum();
     assert!(border * 10 < points.len() && finals * 10 > 17 * points.len(), "{border} {finals}");
-    assert_eq!(solved.iter().map(SolvedPart::unknown).sum::<usize>(), 0);
 }
 
 /// Changes a mesh in one of many ways.
