@@ -12,6 +12,7 @@ use super::backend::Terms;
 use super::cpu_backend::error_of;
 use super::session::Session;
 use crate::error::{DeviceFault, Error};
+use crate::job::batch::part_size;
 use crate::job::watch::{tell, Stopwatch};
 use crate::job::{Answer, Options, Progress, Report, Solution, Stage};
 
@@ -26,9 +27,10 @@ impl Session<'_> {
         }
         let mut watch = Stopwatch::start();
         tell(terms.options, Stage::Order, 0, points.len())?;
-        let parts = Parts::divide(&points, self.identity.capacity as usize, host_threads()).map_err(error_of)?;
+        let most = part_size(&self.identity, terms.contexts, points.len());
+        let parts = Parts::divide(&points, most, host_threads()).map_err(error_of)?;
         // Duplicates take no room.
-        if parts.count() < 2 {
+        if parts.distinct() <= self.identity.capacity as usize {
             drop(parts);
             return self.backend.triangulate(points, terms);
         }

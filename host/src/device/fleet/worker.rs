@@ -61,7 +61,7 @@ fn solve(
         error => error,
     })?;
     let solve = |(&part, solution): (&usize, crate::job::Solution)| {
-        parts.solved(part, &solution.mesh.triangles, &solution.mesh.hull)
+        parts.solved(part, solution.mesh.triangles, &solution.mesh.hull)
     };
     let solved: Result<Vec<SolvedPart>, Unsound> = taken.iter().zip(solutions).map(solve).collect();
     solved.map_err(|Unsound| Error::Device { device: session.name(), during: DURING, fault: DeviceFault::Unsound })

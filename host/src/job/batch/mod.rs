@@ -20,6 +20,7 @@ use super::prepare::prepare;
 use super::watch::tell;
 use incircle_geometry::Order;
 use incircle_geometry::Point;
+use incircle_protocol::Identity;
 use plan::{Part, Plan};
 
 /// Most points of a job that is done beside others: in a group, whose records are read with one command, or in one of
@@ -31,6 +32,16 @@ const MAX_EXCLUSIVE_POINTS: usize = 65_536;
 const FIRST_VERSION_WITH_TEAMS: u32 = 2 << 16;
 /// Jobs between two calls of the listener; for each thread, where threads share the jobs.
 pub(crate) const JOBS_PER_LOOK: usize = 64;
+
+/// The most points of a part of a set of `points` points, which the device cannot hold.
+pub(crate) fn part_size(identity: &Identity, contexts: u32, points: usize) -> usize {
+    let has_teams = identity.protocol_version >= FIRST_VERSION_WITH_TEAMS;
+    let share = points.div_ceil(identity.engines.max(1) as usize);
+    let size = Plan::new(contexts, identity.capacity, has_teams).part_size(share);
+    // If the engines have one or two parts each, the parts have some room, because cuts do not halve a set exactly.
+    let room = if share < identity.capacity as usize { size / 8 } else { 0 };
+    (size + room).min(identity.capacity as usize)
+}
 
 /// A batch on a device.
 pub(crate) struct Batch<'b> {

@@ -125,6 +125,29 @@ impl Plan {
         })
     }
 
+    /// The most points of a part of a set of which an engine does `share` points at a time or in all, up to its
+    /// capacity.
+    ///
+    /// Large parts cost the host little, because few of their points lie at a seam. So a part is as large as the share,
+    /// unless halves of that size save more than a tenth of the clocks: two jobs side by side have room for more
+    /// insertions at once. Quarters save less than they cost the host.
+    pub(super) fn part_size(&self, share: usize) -> usize {
+        let share = share.min(self.capacity);
+        let half = share.div_ceil(2);
+        let clocks = self.two_jobs(half).min(2 * self.exclusive(half).0);
+        if half >= LEAST_PART && 10 * clocks < 9 * self.exclusive(share).0 {
+            half
+        } else {
+            share
+        }
+    }
+
+    /// Lowest cost of a group of two jobs of this many points.
+    fn two_jobs(&self, points: usize) -> u64 {
+        let teams = (1..=self.most_of_team).filter(|&contexts| self.most_jobs(contexts) >= 2);
+        teams.map(|contexts| self.group_with(&[points; 2], contexts)).min().unwrap_or(u64::MAX)
+    }
+
     /// Largest number of jobs with a team of this many contexts each.
     fn most_jobs(&self, contexts: u32) -> usize {
         self.rounds.len() / contexts as usize
@@ -219,6 +242,9 @@ impl Plan {
         points as u64 * round / u64::from(contexts) + contention(points, contexts) + FIRST_TRIANGLE + COMMANDS
     }
 }
+
+/// Fewest points of a part of a set. More than half the points of smaller parts lie at seams.
+const LEAST_PART: usize = 256;
 
 /// Smallest number of jobs of a group with teams of this size. One job with several contexts is an exclusive job.
 fn least_jobs(contexts: u32) -> usize {

@@ -92,7 +92,7 @@ impl Parts {
         let shares: Vec<_> = shares.take_while(|share| !share.is_empty()).collect();
         let solve = |own: Vec<(usize, PartMesh)>| -> Result<Vec<SolvedPart>, Unsound> {
             // A mesh is dropped as soon as it is taken, to save memory.
-            own.into_iter().map(|(part, (triangles, hull))| self.solved(part, &triangles, &hull)).collect()
+            own.into_iter().map(|(part, (triangles, hull))| self.solved(part, triangles, &hull)).collect()
         };
         let solved = in_parallel(shares.into_iter(), solve);
         let solved: Vec<Vec<SolvedPart>> = solved.into_iter().collect::<Result<_, _>>()?;

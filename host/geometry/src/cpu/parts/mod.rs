@@ -68,7 +68,7 @@ pub struct Unsound;
 /// let mut solved = Vec::new();
 /// for part in 0..parts.count() {
 ///     let mesh = triangulate(parts.points(part), one, &mut |_| ControlFlow::Continue(()))?;
-///     solved.push(parts.solved(part, &mesh.triangles, &mesh.hull)?);
+///     solved.push(parts.solved(part, mesh.triangles, &mesh.hull)?);
 /// }
 /// let joined = parts.join(solved, one)?;
 /// let whole = triangulate(points, one, &mut |_| ControlFlow::Continue(()))?;

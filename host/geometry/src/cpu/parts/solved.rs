@@ -42,44 +42,46 @@ impl SolvedPart {
 
 impl Parts {
     /// Takes the mesh of a part: the triangles and the hull of [`Parts::points`], by the indices of these points, as in
-    /// [`Mesh`](crate::Mesh). Several threads may call this at once, each for other parts.
+    /// [`Mesh`](crate::Mesh). The triangles may stand in any order. Several threads may call this at once, each for other
+    /// parts.
     ///
     /// O(n) for a part of n points: a test for each triangle, and half-edges for about `12 sqrt(n)` vertices.
     ///
     /// # Errors
     /// The mesh cannot be that of the part. This finds only what would be in the way of the join: who must not trust
     /// the source of the mesh calls [`Mesh::verify`](crate::Mesh::verify) before.
-    pub fn solved(&self, part: usize, triangles: &[[u32; 3]], hull: &[u32]) -> Result<SolvedPart, Unsound> {
+    pub fn solved(&self, part: usize, mut triangles: Vec<[u32; 3]>, hull: &[u32]) -> Result<SolvedPart, Unsound> {
         let range = self.range(part).ok_or(Unsound)?;
         let (sites, ids) = (&self.sites[range.clone()], &self.ids[range.clone()]);
-        let named = || triangles.iter().flatten().chain(hull);
-        if hull.is_empty() || named().any(|&v| v as usize >= sites.len()) {
+        let largest = |list: &[u32]| list.iter().fold(0, |largest, &v| largest.max(v)) as usize;
+        if hull.is_empty() || largest(hull).max(largest(triangles.as_flattened())) >= sites.len() {
+            return Err(Unsound);
+        }
+        let is_line = triangles.is_empty();
+        if is_line && (hull.len() != sites.len() || !is_collinear::<Integers<Widest>>(sites)) {
             return Err(Unsound);
         }
         let point = |v: u32| Point::new(sites[v as usize].x(), sites[v as usize].y());
         let sides = Point::sides(&self.region(&range));
-        let (mut finals, mut open) = (Vec::with_capacity(triangles.len()), Vec::new());
-        for &corners in triangles {
-            if Point::reach(&sides, corners.map(point)) == Reach::Within {
-                finals.push(smallest_first(corners.map(|v| ids[v as usize])));
+        let mut open = Vec::new();
+        // The final triangles stay in their list, whose memory the processor has in its cache.
+        triangles.retain_mut(|corners| {
+            let is_final = Point::reach(&sides, corners.map(point)) == Reach::Within;
+            if is_final {
+                *corners = smallest_first(corners.map(|v| ids[v as usize]));
             } else {
-                open.push(corners);
+                open.push(*corners);
             }
-        }
-        if triangles.is_empty() && (hull.len() != sites.len() || !is_collinear::<Integers<Widest>>(sites)) {
-            return Err(Unsound);
-        }
+            is_final
+        });
         let border = Border::of(&open, hull, sites.len());
         let own = border.vertices.iter().map(|&v| v as usize);
         let (border_sites, border_ids): (Vec<Site>, Vec<u32>) = own.map(|v| (sites[v], ids[v])).unzip();
         open.iter_mut().flatten().for_each(|v| *v = border.numbers[*v as usize]);
         let hull: Vec<u32> = hull.iter().map(|&v| border.numbers[v as usize]).collect();
-        let rings = if triangles.is_empty() {
-            Rings::of_line(&border_sites, &hull)
-        } else {
-            Rings::of(&border_sites, &open, &hull)?
-        };
-        Ok(SolvedPart { part, sites: border_sites, ids: border_ids, rings, finals })
+        let rings =
+            if is_line { Rings::of_line(&border_sites, &hull) } else { Rings::of(&border_sites, &open, &hull)? };
+        Ok(SolvedPart { part, sites: border_sites, ids: border_ids, rings, finals: triangles })
     }
 }
 

@@ -24,7 +24,7 @@ fn random(k: u64, limit: usize) -> usize {
 fn solved(parts: &Parts) -> Vec<SolvedPart> {
     let solve = |part| {
         let mesh = mesh_of(parts.points(part));
-        parts.solved(part, &mesh.triangles, &mesh.hull).expect("a sound mesh")
+        parts.solved(part, mesh.triangles, &mesh.hull).expect("a sound mesh")
     };
     (0..parts.count()).map(solve).collect()
 }
@@ -159,7 +159,7 @@ fn wrong_meshes_of_parts_end_in_errors_or_wrong_meshes() {
             for change in 0..if part == wrong { 1 + random(case, 3) as u64 } else { 0 } {
                 mutate(3 * case + change, &mut triangles, &mut hull, parts.points(part).len());
             }
-            parts.solved(part, &triangles, &hull)
+            parts.solved(part, triangles, &hull)
         };
         let solved: Result<Vec<SolvedPart>, Unsound> = (0..parts.count()).map(solve).collect();
         match solved.and_then(|solved| parts.join(solved, ONE)) {
@@ -180,7 +180,7 @@ fn missing_and_doubled_parts_are_refused() {
     let mut doubled = solved(&parts());
     doubled.extend(solved(&parts()).pop());
     assert_eq!(parts().join(doubled, ONE), Err(Unsound));
-    assert!(parts().solved(99, &[], &[0]).is_err());
-    assert!(parts().solved(0, &[[0, 1, 99]], &[0]).is_err());
-    assert!(parts().solved(0, &[], &[]).is_err());
+    assert!(parts().solved(99, vec![], &[0]).is_err());
+    assert!(parts().solved(0, vec![[0, 1, 99]], &[0]).is_err());
+    assert!(parts().solved(0, vec![], &[]).is_err());
 }

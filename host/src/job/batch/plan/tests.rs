@@ -244,3 +244,15 @@ proptest! {
         prop_assert_eq!(super::tests::sent(&Group::sharing(ordered, 1), &sets), sent);
     }
 }
+
+#[test]
+fn parts_are_halves_only_where_that_saves_clocks() {
+    let size = |contexts, capacity| Plan::new(contexts, capacity, true).part_size(usize::MAX);
+    // Cores of the named configurations `full`, `dual`, `quad` and `small`, and the software model.
+    assert_eq!([size(16, 8192), size(16, 4096), size(16, 2048), size(16, 1024)], [8192, 4096, 1024, 512]);
+    assert_eq!(size(1, 1 << 20), 1 << 20);
+    assert_eq!([size(2, 8), size(1, 4)], [8, 4]);
+    assert_eq!(Plan::new(16, 2048, false).part_size(usize::MAX), 2048);
+    // A set of 4,000 points on the four engines of `quad`.
+    assert_eq!(Plan::new(16, 2048, true).part_size(1000), 500);
+}
