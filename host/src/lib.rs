@@ -92,6 +92,7 @@
 //! | a time limit, a progress bar, a cancel button | [`Options`] with [`Session::triangulate_with`] |
 //! | small sets one after the other, such as points that move | [`Triangulator`], which keeps its memory |
 //! | many small sets at once | [`Session::triangulate_batch`]: a device works on them side by side |
+//! | several devices for one set | [`Fleet`], which leaves out a device that dies |
 //! | a `Vec` of points that you can hand over | [`Session::triangulate_owned`], which does not copy it |
 //! | a mesh from elsewhere, to check | [`verify()`] |
 //! | a simulator or a link of your own | [`Transport`] with [`Device::from_transport`] |
@@ -101,8 +102,8 @@
 //! The CPU triangulator takes O(n) time on even sets and O(n w) at worst, with coordinates of `w` bits. At a million
 //! points of 16 bits it takes at most 200 bytes a point beyond the points themselves. The CPU triangulator takes whole
 //! numbers of up to 64 bits and all finite doubles; a device has its own number of bits, 16 for the standard cores, and
-//! takes points whose [`Lattice`] fits them. A job may have up to [`MAX_POINTS`] points; a device holds as many
-//! distinct ones as its [`Identity`] says. There are no constrained edges, no Voronoi cells, no search for the triangle
+//! takes points whose [`Lattice`] fits them. A job may have up to [`MAX_POINTS`] points. A device holds as many
+//! distinct ones as its [`Identity`] says, and does larger sets in parts. There are no constrained edges, no Voronoi cells, no search for the triangle
 //! that holds a place, and no insertion into or deletion from a finished mesh.
 //!
 //! No set of points and no faulty device makes a call panic: every failure is an [`Error`], whose [`ErrorKind`] says
