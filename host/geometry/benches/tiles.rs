@@ -72,8 +72,8 @@ fn seconds<T>(runs: usize, mut run: impl FnMut() -> T) -> f64 {
     (0..runs).map(|_| timed(&mut run)).fold(f64::INFINITY, f64::min)
 }
 
-/// The least seconds of two calls that take turns, and the median of the ratios within a turn, which other work disturbs
-/// less.
+/// The least seconds of two calls that take turns, and the median of the ratios within a turn, which other work
+/// disturbs less.
 fn by_turns<T, U>(runs: usize, mut one: impl FnMut() -> T, mut other: impl FnMut() -> U) -> [f64; 3] {
     let (mut least, mut ratios) = ([f64::INFINITY; 2], Vec::new());
     for _ in 0..runs {

@@ -52,9 +52,9 @@ pub fn incircle_of_doubles(a: [f64; 2], b: [f64; 2], c: [f64; 2], d: [f64; 2]) -
     lifted(&exact(a), &exact(b), &exact(c), &exact(d)).cmp(&zero())
 }
 
-/// Whether the closed circumscribed disc of a triangle touches none of four lines and lies between them all: `x = west`,
-/// `x = east`, `y = south`, `y = north`, in this order. A line that is `None` is infinitely far away. Three points on a
-/// line have no disc, so the answer is no.
+/// Whether the closed circumscribed disc of a triangle touches none of four lines and lies between them all: `x =
+/// west`, `x = east`, `y = south`, `y = north`, in this order. A line that is `None` is infinitely far away. Three
+/// points on a line have no disc, so the answer is no.
 pub fn disc_is_between([a, b, c]: [[f64; 2]; 3], lines: [Option<f64>; 4]) -> bool {
     let [a, b, c] = [a, b, c].map(exact);
     let (b, c) = if cross(&a, &b, &c) < zero() { (c, b) } else { (b, c) };
