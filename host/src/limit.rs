@@ -34,6 +34,11 @@ impl Limit {
         self.deadline
     }
 
+    /// The time from now to the deadline.
+    pub(crate) fn time_left(self) -> Duration {
+        self.deadline.saturating_duration_since(Instant::now())
+    }
+
     /// The whole time that the job was given, for messages.
     pub(crate) fn timeout(self) -> Duration {
         self.timeout

@@ -162,6 +162,21 @@ impl Choice {
         }
     }
 
+    /// Refuses more bits than a core has, if the back end is a core in simulation.
+    pub fn check_bits(&self) -> Result<(), Failure> {
+        if !self.is_core() || self.coord_bits <= CORE_COORD_BITS {
+            return Ok(());
+        }
+        Err(Failure::new(
+            Exit::Capacity,
+            format!(
+                "the core has coordinates of {CORE_COORD_BITS} bits, not {}: \
+                 give --coord-bits {CORE_COORD_BITS} or --backend model",
+                self.coord_bits
+            ),
+        ))
+    }
+
     /// The number of points that the back end must hold for a job. For a core only distinct points count, because a
     /// core is small.
     pub fn room_for(&self, numbers: &Numbers<'_>) -> usize {
@@ -279,16 +294,7 @@ fn open_sim(config: Config, trace: Option<&Path>) -> Result<Device, Failure> {
 /// The configuration for a job of `distinct` points: the chosen one, or else the smallest that holds the points, or else
 /// the largest, which does the job in parts. Fails if no core has coordinates of so many bits.
 fn config_for(choice: &Choice, distinct: Option<usize>) -> Result<Config, Failure> {
-    let coord_bits = choice.coord_bits;
-    if coord_bits > CORE_COORD_BITS {
-        return Err(Failure::new(
-            Exit::Capacity,
-            format!(
-                "the core has coordinates of {CORE_COORD_BITS} bits, not {coord_bits}: \
-                 give --coord-bits {CORE_COORD_BITS} or --backend model"
-            ),
-        ));
-    }
+    choice.check_bits()?;
     let holds = |config: &Config| distinct.is_some_and(|distinct| config.points as usize >= distinct);
     Ok(choice.config.or(usual().find(holds)).unwrap_or(LARGE))
 }

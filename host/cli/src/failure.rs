@@ -20,7 +20,7 @@ pub enum Exit {
     Link = 5,
     /// The device reported an error or was silent for too long.
     Device = 6,
-    /// The device cannot hold the job.
+    /// No core has so many bits, no set may have so many points, or the memory cannot hold them.
     Capacity = 7,
     /// The user interrupted the run.
     Interrupted = 130,

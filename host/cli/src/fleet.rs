@@ -2,11 +2,11 @@
 
 use std::time::Duration;
 
-use incircle::{DeviceAddress, Error, Fleet};
+use incircle::{DeviceAddress, Error, ErrorKind, Fleet, TransportError};
 
 use crate::arguments::{BackendArguments, TriangulateArguments};
 use crate::backend::{check_sim, open_with_room, Choice};
-use crate::failure::Failure;
+use crate::failure::{Exit, Failure};
 use crate::lattice::Laid;
 
 /// The back ends of a run: the choice of each.
@@ -29,12 +29,14 @@ impl Several {
                  addresses, as in cpu?threads=1 or clock?config=quad",
             ));
         }
-        let choose = |address: &DeviceAddress| {
+        let choose = |address: &DeviceAddress| -> Result<Choice, Failure> {
             if matches!(address, DeviceAddress::Sim { .. }) {
                 check_sim()?;
             }
             let one = BackendArguments { backend: vec![address.clone()], threads: None, config: None };
-            Choice::for_points(&one, &arguments.grid, "cpu")
+            let choice = Choice::for_points(&one, &arguments.grid, "cpu")?;
+            choice.check_bits()?;
+            Ok(choice)
         };
         let choices = backend.iter().map(choose).collect::<Result<Vec<_>, _>>()?;
         Ok(Some(Self { choices, timeout: arguments.job.timeout }))
@@ -57,8 +59,25 @@ impl Several {
             let (name, room) = (choice.address.to_string(), choice.room_for(&laid.numbers));
             fleet.with(name.clone(), move || match open_with_room(&choice, Some(room), None, timeout) {
                 Ok(backend) => Ok(backend.device),
-                Err(failure) => Err(Error::Open { device: name.clone(), source: failure.message.into() }),
+                Err(failure) => Err(error_of(&name, failure)),
             })
         })
     }
+}
+
+/// The error of the library for a back end that cannot be opened, with the exit code of the failure.
+fn error_of(name: &str, failure: Failure) -> Error {
+    let kind = match failure.exit {
+        Exit::Link => ErrorKind::Link,
+        Exit::Device => ErrorKind::Device,
+        Exit::Capacity => ErrorKind::Capacity,
+        Exit::Usage => ErrorKind::BadChoice,
+        _ => ErrorKind::DeviceNotFound,
+    };
+    let begin = format!("{name} cannot be opened: ");
+    let message = failure.message.strip_prefix(&begin).unwrap_or(&failure.message);
+    if kind == ErrorKind::DeviceNotFound {
+        return Error::Open { device: name.to_owned(), source: message.into() };
+    }
+    Error::Link { device: name.to_owned(), during: "the opening", source: TransportError::other(kind, message) }
 }

@@ -177,14 +177,15 @@ pub fn add_cycles(object: &mut Value, job: &Report) {
     object["clocks_per_point"] = job.clocks_per_point().into();
 }
 
-/// The line about the parts of a set that the device could not hold; `None` if the set was not cut.
+/// The line about the parts of a set; `None` if the set was not cut. With several back ends their lines say the rest.
 pub fn parts_line(job: &Report) -> Option<String> {
-    let parts = (job.parts > 0)
-        .then(|| format!("{} of up to {}", counted(job.parts, "part"), counted(job.capacity as usize, "point")))?;
-    let clocks = job
-        .clocks_per_point()
-        .map_or(String::new(), |clocks| format!(", {clocks:.2} clocks a point with the read-out"));
-    Some(parts + &clocks)
+    let parts = (job.parts > 0).then(|| counted(job.parts, "part"))?;
+    if !job.shares.is_empty() {
+        return Some(parts);
+    }
+    let capacity = counted(job.capacity as usize, "point");
+    let clocks = job.clocks_per_point().map(|clocks| format!(", {clocks:.2} clocks a point with the read-out"));
+    Some(format!("{parts}, on a device of {capacity}{}", clocks.unwrap_or_default()))
 }
 
 /// The quantisation as a JSON object.

@@ -50,6 +50,8 @@ pub(crate) struct Terms<'t> {
     /// Contexts that may work on the job.
     pub(crate) contexts: u32,
     pub(crate) limit: Limit,
+    /// Whether every job of a batch must end within this limit. If not, exclusive jobs have times of their own.
+    pub(crate) shares_limit: bool,
     pub(crate) options: &'t Options<'t>,
 }
 

@@ -28,8 +28,8 @@ impl DeviceBackend {
     }
 
     fn carrier<'c>(&'c mut self, jobs: &'c [Vec<Point>], terms: &Terms<'c>) -> Carrier<'c> {
-        let &Terms { identity, limit, options, .. } = terms;
-        Carrier { identity, channel: &mut self.channel, options, limit, watch: Stopwatch::start(), jobs }
+        let &Terms { identity, limit, shares_limit, options, .. } = terms;
+        Carrier { identity, channel: &mut self.channel, options, limit, shares_limit, watch: Stopwatch::start(), jobs }
     }
 
     /// Does a single job, which has the whole memory, step by step.

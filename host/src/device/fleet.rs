@@ -3,20 +3,21 @@
 mod hall;
 mod worker;
 
+use std::panic::{catch_unwind, resume_unwind, AssertUnwindSafe};
 use std::sync::OnceLock;
 use std::thread::Builder;
-use std::time::Instant;
 
 use incircle_geometry::cpu::{Connectivity, Parts, Unsound};
-use incircle_geometry::lattice::{Lattice, Numbers};
-use incircle_geometry::{Order, PlanePoint, Point};
+use incircle_geometry::lattice::Numbers;
+use incircle_geometry::{Order, PlanePoint};
 
 use self::hall::{Greeted, Hall};
 use super::address::DeviceAddress;
 use super::cpu_backend::error_of;
 use super::in_parts::host_threads;
+use super::lay::{lay, Asked};
 use super::open::Device;
-use super::session::{lay, own, Asked};
+use super::session::own;
 use crate::error::{DeviceFault, Error};
 use crate::job::watch::{tell, Stopwatch};
 use crate::job::{Answer, Options, Report, Solution, Stage};
@@ -35,9 +36,10 @@ const DURING: &str = "the triangulation in parts";
 /// is cut into parts, each part goes to whichever device is free, and the host joins the meshes of the parts. The mesh
 /// is the one that any of the devices gives alone.
 ///
-/// A device that cannot be opened, fails or gets stuck is left out. Other devices do its parts again, and
-/// [`Report::shares`] tells what each device did. Only if no device is left does the set end with an error, that of the
-/// device that was left out last.
+/// A device that cannot be opened, fails, or does not answer within [`Options::default_timeout`] of its parts is left
+/// out. Other devices do its parts again, and [`Report::shares`] tells what each device did. The set ends with an error
+/// if no device is left (that of the device left out last), if the points do not fit the devices, if the time is over,
+/// if the listener cancels, or if the meshes do not fit together.
 ///
 /// Each call of [`triangulate`](Self::triangulate) opens the devices anew, each on a thread of its own.
 ///
@@ -64,7 +66,7 @@ struct Member {
 }
 
 impl Fleet {
-    /// A fleet of the devices at these addresses; [`DeviceAddress`] lists all forms.
+    /// A fleet of the devices at these addresses; [`DeviceAddress`] lists all forms. Nothing is opened yet.
     ///
     /// # Errors
     /// [`Error::Address`] for text that is not an address.
@@ -74,8 +76,8 @@ impl Fleet {
         Ok(addresses?.into_iter().fold(Self::default(), with))
     }
 
-    /// Adds a device, which this function opens on a thread of its own. The name stands in reports if the device cannot
-    /// be opened.
+    /// Adds a device. `open` opens it, on a thread of the device's own, in each call of
+    /// [`triangulate`](Self::triangulate). The name stands in reports if the device cannot be opened.
     #[must_use]
     pub fn with(mut self, name: String, open: impl Fn() -> Result<Device, Error> + Send + Sync + 'static) -> Self {
         self.members.push(Member { name, open: Box::new(open) });
@@ -84,10 +86,13 @@ impl Fleet {
 
     /// Triangulates one set of points with all devices of the fleet.
     ///
-    /// [`Options::contexts`] bounds the contexts of every device. The points must lie on a [`Lattice`] that fits the
-    /// coordinates of every device.
+    /// [`Options::contexts`] bounds the contexts of every device. The points must lie on a [`Lattice`](crate::Lattice) that fits the
+    /// coordinates of every device: one device with few bits makes the fleet refuse the set. The time limit begins when
+    /// all devices are open or left out.
     ///
-    /// Cost: the work of the devices, side by side. The host cuts and joins on all processors, in O(n) time on even sets.
+    /// Cost: the work of the devices, side by side. The host cuts and joins on up to all processors, in O(n) time on
+    /// even sets. A device may give sound triangles that are not those of Delaunay; not all of them are found out, so
+    /// call [`Mesh::verify`](crate::Mesh::verify) if you do not trust a device.
     ///
     /// # Errors
     /// The errors of [`Session::triangulate_with`](crate::Session::triangulate_with). An empty fleet is
@@ -103,26 +108,36 @@ impl Fleet {
         let mut watch = Stopwatch::start();
         let found = std::thread::scope(|scope| {
             for (place, member) in self.members.iter().enumerate() {
-                let (hall, parts) = (&hall, &parts);
-                let choices = Choices::of(options);
-                let work = move || worker::work(place, &*member.open, hall, parts, choices);
+                let (hall, parts, choices) = (&hall, &parts, Choices::of(options));
+                let work = move || member.work(place, hall, parts, choices);
                 if let Err(error) = Builder::new().spawn_scoped(scope, work) {
-                    let source = Box::new(error);
-                    hall.leave_out(place, Error::Open { device: member.name.clone(), source }, &[]);
+                    hall.leave_out(place, Error::Open { device: member.name.clone(), source: Box::new(error) });
                 }
             }
             let found = lead(points, &hall, &parts, options, &mut watch);
             hall.close();
             found
         });
-        let (lattice, report) = found?;
+        let report = found?;
         let parts = parts.into_inner().ok_or_else(|| no_device(&hall))?;
-        let report = Report { shares: hall.shares(), parts: parts.count(), lattice, ..report };
+        let report = Report { shares: hall.shares(), ..report };
         let joined = join(parts, &hall, &report)?;
         watch.ended(Stage::Assemble);
         let Connectivity { triangles, hull, duplicates } = joined;
         let report = Report { stages: watch.stages, ..report };
         Ok(Answer { triangles, hull, duplicates, report }.with(own(points)))
+    }
+}
+
+impl Member {
+    /// Does parts with this device. If the caller's code panics, the device is left out before the panic goes on, so
+    /// that nobody waits for it.
+    fn work(&self, place: usize, hall: &Hall, parts: &OnceLock<Parts>, choices: Choices) {
+        let work = || worker::work(place, &*self.open, hall, parts, choices);
+        if let Err(panic) = catch_unwind(AssertUnwindSafe(work)) {
+            hall.leave_out(place, Error::OutOfStep { device: self.name.clone() });
+            resume_unwind(panic);
+        }
     }
 }
 
@@ -147,47 +162,55 @@ fn lead<P: PlanePoint>(
     parts: &OnceLock<Parts>,
     options: &Options<'_>,
     watch: &mut Stopwatch,
-) -> Result<(Option<Lattice>, Report), Error> {
-    let greeted = hall.wait_for_greetings();
-    let names: Vec<&str> = greeted.iter().map(|device| device.name.as_str()).collect();
-    let backend = names.join(" + ");
-    let Some(coord_bits) = greeted.iter().map(|device| device.identity.coord_bits).min() else {
-        return Err(no_device(hall));
+) -> Result<Report, Error> {
+    let greeted = loop {
+        tell(options, Stage::Order, 0, points.len())?;
+        if let Some(greeted) = hall.greetings() {
+            break greeted;
+        }
     };
+    let mut report = report_of(&greeted, options).ok_or_else(|| no_device(hall))?;
     let slow = greeted.iter().map(|device| device.slow).max().unwrap_or(1);
     let default = || Options::default_timeout(points.len()).saturating_mul(slow);
     let limit = Limit::of(options.timeout.unwrap_or_else(default));
-    tell(options, Stage::Order, 0, points.len())?;
-    let (numbers, lattice) = lay(points, Asked { coord_bits, takes_all: false, device: &backend })?;
-    let grid: &[Point] = match &numbers {
-        Numbers::Grid(grid) => grid,
-        // `lay` has refused everything else.
-        _ => &[],
+    *watch = Stopwatch::start();
+    let asked = Asked { coord_bits: report.coord_bits, takes_all: false, device: &report.backend };
+    let (numbers, lattice) = lay(points, asked)?;
+    let Numbers::Grid(grid) = &numbers else {
+        return Err(Error::NoLattice { coord_bits: report.coord_bits, device: report.backend });
     };
     let cut = Parts::divide(grid, part_size(&greeted, grid.len()), host_threads()).map_err(error_of)?;
     drop(numbers);
     watch.ended(Stage::Order);
-    let (distinct, needed) = (cut.distinct(), cut.collinear().is_none());
-    let cut = parts.get_or_init(|| cut);
-    if needed {
-        hall.begin(cut.count(), limit);
-        listen(hall, distinct, limit, &backend, options)?;
+    let distinct = cut.distinct();
+    // Points on one line need no device.
+    report.parts = if cut.collinear().is_some() { 0 } else { cut.count() };
+    parts.get_or_init(|| cut);
+    if report.parts > 0 {
+        hall.begin(report.parts, limit);
+        listen(hall, distinct, limit, &report.backend, options)?;
     }
     watch.ended(Stage::Insert);
     tell(options, Stage::Assemble, 0, distinct)?;
-    let report = Report {
-        order: options.order.name(),
-        coord_bits,
-        capacity: greeted.iter().map(|device| device.identity.capacity).min().unwrap_or(0),
-        contexts: greeted.iter().map(|device| device.identity.contexts).sum(),
-        engines: greeted.iter().map(|device| device.identity.engines).sum(),
-        backend,
-        ..Report::default()
-    };
-    Ok((lattice, report))
+    Ok(Report { lattice, ..report })
 }
 
-/// The most points of a part: what the smallest device holds, but so many parts that no device waits long at the end.
+/// What is known of a job before it is done; `None` if there is no device.
+fn report_of(greeted: &[Greeted], options: &Options<'_>) -> Option<Report> {
+    let names: Vec<&str> = greeted.iter().map(|device| device.name.as_str()).collect();
+    let identities = || greeted.iter().map(|device| device.identity);
+    Some(Report {
+        order: options.order.name(),
+        coord_bits: identities().map(|identity| identity.coord_bits).min()?,
+        capacity: identities().map(|identity| identity.capacity).min()?,
+        contexts: identities().map(|identity| identity.contexts).sum(),
+        engines: identities().map(|identity| identity.engines).sum(),
+        backend: names.join(" + "),
+        ..Report::default()
+    })
+}
+
+/// The most points of a part: what the smallest device holds, but small enough that each device gets about eight parts.
 fn part_size(greeted: &[Greeted], points: usize) -> usize {
     let smallest = greeted.iter().map(|device| device.identity.capacity as usize).min().unwrap_or(0);
     let even = points / (8 * greeted.len().max(1));
@@ -224,9 +247,4 @@ fn no_device(hall: &Hall) -> Error {
         address: String::new(),
         reason: "a fleet needs at least one device".to_owned(),
     })
-}
-
-/// The time until a limit.
-fn time_left(limit: Limit) -> std::time::Duration {
-    limit.deadline().saturating_duration_since(Instant::now())
 }

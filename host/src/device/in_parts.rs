@@ -3,7 +3,6 @@
 use std::cell::Cell;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
-use std::time::Instant;
 
 use incircle_geometry::cpu::{Connectivity, Parts, Unsound};
 use incircle_geometry::Point;
@@ -29,7 +28,7 @@ impl Session<'_> {
         tell(terms.options, Stage::Order, 0, points.len())?;
         let most = part_size(&self.identity, terms.contexts, points.len());
         let parts = Parts::divide(&points, most, host_threads()).map_err(error_of)?;
-        // Duplicates take no room.
+        // Duplicates take no room on the device, so the set may fit after all.
         if parts.distinct() <= self.identity.capacity as usize {
             drop(parts);
             return self.backend.triangulate(points, terms);
@@ -53,7 +52,8 @@ impl Session<'_> {
             }
         };
         let Connectivity { triangles, hull, duplicates } = connectivity;
-        let clocks = self.clocks().zip(clocks).map(|(now, before)| now - before).filter(|_| report.parts > 0);
+        let clocks = self.clocks().zip(clocks).and_then(|(now, before)| now.checked_sub(before));
+        let clocks = clocks.filter(|_| report.parts > 0);
         let report = Report { clocks, stages: watch.stages, ..report };
         Ok(Answer { triangles, hull, duplicates, report }.with(points))
     }
@@ -90,12 +90,24 @@ impl Session<'_> {
         Ok((joined, Report { stuck_engines, ..report }))
     }
 
-    /// Triangulates the parts of a set as a batch, whose jobs share the time limit of the set.
-    fn batch_of_parts(
+    /// Triangulates parts of a set as a batch, within the time limit of the options.
+    pub(super) fn solve_parts_together(
+        &mut self,
+        grids: Vec<Vec<Point>>,
+        options: &Options<'_>,
+    ) -> Result<Vec<Solution>, Error> {
+        let total = grids.iter().map(Vec::len).sum();
+        let terms = self.terms(total, options);
+        self.check_job(0, terms.contexts)?;
+        self.batch_of_parts(grids, terms, total)
+    }
+
+    /// Triangulates parts of a set as a batch. All must be done within the limit of `terms`.
+    pub(super) fn batch_of_parts(
         &mut self,
         grids: Vec<Vec<Point>>,
         terms: Terms<'_>,
-        distinct: usize,
+        total: usize,
     ) -> Result<Vec<Solution>, Error> {
         let device = self.backend.name();
         let check = || terms.limit.check(&device, DURING);
@@ -108,9 +120,9 @@ impl Session<'_> {
                 None => ControlFlow::Continue(()),
             }
         };
-        let time_left = terms.limit.deadline().saturating_duration_since(Instant::now());
-        let options = Options { progress: Some(&listener), timeout: Some(time_left), ..*terms.options };
-        let solutions = self.triangulate_grids(grids, |part| part, Terms { options: &options, ..terms }, distinct);
+        let options = Options { progress: Some(&listener), ..*terms.options };
+        let terms = Terms { options: &options, shares_limit: true, ..terms };
+        let solutions = self.triangulate_grids(grids, |part| part, terms, total);
         match solutions {
             Err(Error::Cancelled { .. }) if is_late.get() => {
                 check()?;

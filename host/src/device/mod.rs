@@ -17,6 +17,7 @@ mod cpu_backend;
 mod device_backend;
 mod fleet;
 mod in_parts;
+mod lay;
 mod open;
 mod session;
 

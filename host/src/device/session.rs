@@ -1,13 +1,15 @@
 //! Sessions: exclusive use of a device that has been greeted.
 
+use std::ops::ControlFlow;
+
 use incircle_protocol::Identity;
 
 use super::backend::{Backend, JobLeft, Terms, Together};
+use super::lay::{lay, Asked};
 use crate::error::Error;
 use crate::job::watch::{tell, PartListener};
-use crate::job::{Options, Solution, Stage};
+use crate::job::{Options, Progress, Solution, Stage};
 use crate::limit::Limit;
-use crate::quantize::check_finite;
 use incircle_geometry::lattice::{Lattice, Numbers};
 use incircle_geometry::pages;
 use incircle_geometry::{PlanePoint, Point, MAX_POINTS};
@@ -125,6 +127,7 @@ impl<'d> Session<'d> {
     ///   had the whole memory.
     /// - **Time.** [`Options::timeout`] is one limit for all jobs that share the memory, and one for each of the
     ///   others. While a job is sent ahead, its time is added to that of the job before it.
+    /// - **Large jobs**, which the device cannot hold, are done in parts, one by one, after all others.
     /// - **Progress** counts the points of all jobs, duplicates included, and never goes back: first [`Stage::Order`]
     ///   for the jobs that share the memory, then [`Stage::Insert`]. If the listener cancels, the answers to what was
     ///   sent are still received, so the session stays in step.
@@ -185,7 +188,8 @@ impl<'d> Session<'d> {
     }
 
     /// Triangulates jobs of grid points, which count among `total` points; `job` gives the number of each among all
-    /// jobs. Jobs that the device cannot hold are done one by one, in parts, after all others.
+    /// jobs. Jobs that the device cannot hold are done one by one, in parts, after all others. The listener hears of
+    /// `total` points throughout.
     pub(super) fn triangulate_grids(
         &mut self,
         mut grids: Vec<Vec<Point>>,
@@ -199,14 +203,22 @@ impl<'d> Session<'d> {
             // The batch gets an empty job in the place of this one.
             too_large.push(JobLeft { job: grid, points: std::mem::take(points), contexts: terms.contexts });
         }
-        let Together { mut solutions, mut left } = self.backend.triangulate_together(grids, terms)?;
+        let hear_of_all = |progress: Progress| match (terms.options.progress, progress.stage) {
+            (None, _) => ControlFlow::Continue(()),
+            (Some(listener), Stage::Insert) => listener(Progress { total, ..progress }),
+            (Some(listener), _) => listener(progress),
+        };
+        let options = Options { progress: Some(&hear_of_all), ..*terms.options };
+        let together = Terms { options: &options, ..terms };
+        let Together { mut solutions, mut left } = self.backend.triangulate_together(grids, together)?;
         left.extend(too_large);
         let mut passed = own_total - left.iter().map(|left| left.points.len()).sum::<usize>();
         for JobLeft { job: grid, points, contexts } in left {
             let part = PartListener::new(terms.options, passed, total);
             let listener = |progress| part.hear(progress);
             passed += points.len();
-            let options = Options { progress: Some(&listener), contexts: Some(contexts), ..*terms.options };
+            let timeout = if terms.shares_limit { Some(terms.limit.time_left()) } else { terms.options.timeout };
+            let options = Options { progress: Some(&listener), contexts: Some(contexts), timeout, ..*terms.options };
             solutions[grid] = Some(self.triangulate_owned(points, &options).map_err(in_job(job(grid)))?);
         }
         Ok(solutions.into_iter().flatten().collect())
@@ -220,18 +232,19 @@ impl<'d> Session<'d> {
     }
 
     /// The terms for a job of `points` points whose time begins now.
-    fn terms<'t>(&self, points: usize, options: &'t Options<'t>) -> Terms<'t> {
+    pub(super) fn terms<'t>(&self, points: usize, options: &'t Options<'t>) -> Terms<'t> {
         let default = || Options::default_timeout(points).saturating_mul(self.backend.slow());
         Terms {
             identity: self.identity,
             contexts: options.contexts.unwrap_or(self.identity.contexts),
             limit: Limit::of(options.timeout.unwrap_or_else(default)),
+            shares_limit: false,
             options,
         }
     }
 
     /// Refuses more contexts than the device has, and more points than a job may have.
-    fn check_job(&self, points: usize, asked: u32) -> Result<(), Error> {
+    pub(super) fn check_job(&self, points: usize, asked: u32) -> Result<(), Error> {
         let contexts = self.identity.contexts;
         if !(1..=contexts).contains(&asked) {
             return Err(Error::Contexts { asked, contexts, device: self.backend.name() });
@@ -242,7 +255,7 @@ impl<'d> Session<'d> {
         Ok(())
     }
 
-    /// Checks the points of a job and lays them onto their lattice; see [`lay`].
+    /// Checks the number of points and of contexts, then lays the points onto their lattice.
     fn on_lattice<'p, P: PlanePoint>(
         &self,
         points: &'p [P],
@@ -262,47 +275,6 @@ impl<'d> Session<'d> {
     pub(super) fn slow(&self) -> u32 {
         self.backend.slow()
     }
-}
-
-/// What a device asks of points.
-pub(super) struct Asked<'a> {
-    pub(super) coord_bits: u32,
-    /// Whether points need not lie on a lattice.
-    pub(super) takes_all: bool,
-    /// The name of the device.
-    pub(super) device: &'a str,
-}
-
-/// Lays points onto their lattice. The numbers are those of the grid, unless there is no lattice and the device can do
-/// without.
-pub(super) fn lay<'p, P: PlanePoint>(
-    points: &'p [P],
-    Asked { coord_bits, takes_all, device }: Asked<'_>,
-) -> Result<(Numbers<'p>, Option<Lattice>), Error> {
-    let numbers = P::numbers(points);
-    if let Numbers::Doubles(doubles) = &numbers {
-        check_finite(doubles)?;
-    }
-    let device = || device.to_owned();
-    let (numbers, lattice) = numbers.on_lattice();
-    match (&numbers, lattice) {
-        (Numbers::Grid(grid), Some(lattice)) if lattice.bits > coord_bits => {
-            let outside = first_outside(grid, lattice, coord_bits);
-            Err(outside.unwrap_or_else(|| Error::LatticeTooWide { lattice, coord_bits, device: device() }))
-        }
-        (_, None) if !takes_all => Err(Error::NoLattice { coord_bits, device: device() }),
-        _ => Ok((numbers, lattice)),
-    }
-}
-
-/// The error of the first grid point outside a device's grid; `None` if the points were laid onto the grid here, where
-/// they have other coordinates than the caller knows.
-fn first_outside(grid: &[Point], lattice: Lattice, coord_bits: u32) -> Option<Error> {
-    if lattice != Lattice::of_grid(grid) {
-        return None;
-    }
-    let index = grid.iter().position(|point| (point.x | point.y) >> coord_bits != 0)?;
-    Some(Error::CoordinateOutOfRange { index, x: grid[index].x, y: grid[index].y, coord_bits })
 }
 
 /// Puts an error into its job of a batch.

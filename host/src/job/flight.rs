@@ -94,6 +94,8 @@ pub(crate) struct Carrier<'c> {
     pub(crate) options: &'c Options<'c>,
     /// Limit for all loads that have no time of their own.
     pub(crate) limit: Limit,
+    /// Whether no load has a time of its own.
+    pub(crate) shares_limit: bool,
     /// Stopwatch for the stages of a job that goes step by step.
     pub(crate) watch: Stopwatch,
     pub(crate) jobs: &'c [Vec<Point>],

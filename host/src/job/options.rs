@@ -11,11 +11,11 @@ use incircle_geometry::Order;
 pub enum Stage {
     /// The host removes duplicates and puts the points in order.
     Order,
-    /// The device inserts points.
+    /// The device inserts points. For a set in parts, this stage includes reading.
     Insert,
     /// The host reads the records of the finished mesh from the device.
     Read,
-    /// The host sorts the triangles into the canonical list.
+    /// The host sorts the triangles into the canonical list. For a set in parts, it joins the parts before.
     Assemble,
 }
 

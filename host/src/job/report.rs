@@ -51,8 +51,8 @@ pub struct Report {
     /// that was sent ahead.
     pub latencies: Option<Latencies>,
     /// Clocks of the device for an exclusive job that was sent ahead: from the last word of the previous job, or the
-    /// beginning of the batch, to the last triangle of this job. For a set in parts, the clocks from the first part to
-    /// the last. `None` for all other jobs, for an exclusive job on a device of several engines, and where the transport
+    /// beginning of the batch, to the last triangle of this job. For a set in parts on one device, the clocks from the
+    /// first word of the first part to the last triangle of the last. `None` for all other jobs, for an exclusive job on a device of several engines, and where the transport
     /// does not know the clocks.
     pub clocks: Option<u64>,
     /// The lattice of the points; `None` if they have none, and the CPU triangulator worked on their
@@ -64,7 +64,8 @@ pub struct Report {
     pub capacity: u32,
     /// Contexts that worked, or threads of the CPU triangulator.
     pub contexts: u32,
-    /// Parts into which the set was cut, because the device cannot hold it; 0 if it was not cut.
+    /// Parts into which the set was cut, because the device cannot hold it or several devices share it; 0 if the device
+    /// did it at once or the host answered alone. A small set of a fleet is one part.
     pub parts: usize,
     /// Engines of the device, which do one job each; 0 for the CPU triangulator.
     pub engines: u32,

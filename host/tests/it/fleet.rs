@@ -2,7 +2,8 @@
 
 use std::cell::Cell;
 use std::ops::ControlFlow;
-use std::time::Duration;
+use std::panic::AssertUnwindSafe;
+use std::time::{Duration, Instant};
 
 use crate::common::card::{card, Mischief};
 use crate::common::liar::Liar;
@@ -53,6 +54,11 @@ fn small_sets_and_lines_are_right() {
             let points = random.points(count, side);
             let solution = fleet.triangulate(&points, &Options::default()).expect("a mesh");
             assert_eq!(solution.mesh, by_cpu(&points).mesh, "{count} {side}");
+            if solution.report.parts > 0 {
+                check_shares(&solution.report);
+            } else {
+                assert!(solution.report.collinear && solution.report.shares.iter().all(|share| share.points == 0));
+            }
         }
     }
     let line: Vec<Point> = (0..5000).map(|k| Point::new(k * 7, k * 3)).collect();
@@ -130,4 +136,23 @@ fn a_fleet_can_be_cancelled_and_runs_out_of_time() {
     let error =
         slow.triangulate(&points, &Options::default().timeout(Duration::from_millis(30))).expect_err("too late");
     assert_eq!(error.kind(), ErrorKind::Timeout, "{error}");
+}
+
+/// A device whose answers stop does not keep the others waiting for ever, and neither does code that panics.
+#[test]
+fn silence_and_panics_end() {
+    let points = points();
+    let silent = || Ok(card(64, Mischief { silent: Some(3), ..Mischief::default() }));
+    let fleet = Fleet::default().with("silent".to_owned(), silent).with("cpu".to_owned(), || Ok(Device::cpu(None)));
+    let since = Instant::now();
+    let result = fleet.triangulate(&points, &Options::default().timeout(Duration::from_millis(500)));
+    if let Err(error) = result.map(|_| ()) {
+        assert_eq!(error.kind(), ErrorKind::Timeout, "{error}");
+    }
+    assert!(since.elapsed() < Duration::from_secs(10), "{:?}", since.elapsed());
+    let fleet = Fleet::default()
+        .with("broken".to_owned(), || panic!("the caller's code panics"))
+        .with("cpu".to_owned(), || Ok(Device::cpu(None)));
+    let caught = std::panic::catch_unwind(AssertUnwindSafe(|| fleet.triangulate(&points, &Options::default()).is_ok()));
+    assert!(caught.is_err(), "the panic reaches the caller");
 }

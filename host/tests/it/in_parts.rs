@@ -3,7 +3,7 @@
 
 use std::cell::{Cell, RefCell};
 use std::ops::ControlFlow;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crate::common::card::{card, Mischief};
 use crate::common::liar::Liar;
@@ -149,6 +149,21 @@ fn a_passed_deadline_is_a_timeout() {
         let mut session = device.session().expect("a session");
         let result = session.triangulate_with(&points, &Options::default().timeout(timeout));
         assert_eq!(result.map(|_| ()).expect_err("too late").kind(), ErrorKind::Timeout);
+    }
+}
+
+/// A card that falls silent in the middle of a set is found out at the end of the set's time, not of each part's.
+#[test]
+fn silence_ends_with_the_time_of_the_set() {
+    let points = Random(10).points(20_000, 1 << 16);
+    for silent in [2, 9, 30] {
+        let mut device = card(64, Mischief { silent: Some(silent), ..Mischief::default() });
+        let mut session = device.session().expect("a session");
+        let since = Instant::now();
+        let options = Options::default().timeout(Duration::from_secs(1));
+        let error = session.triangulate_with(&points, &options).map(|_| ()).expect_err("silence");
+        assert!(matches!(error.kind(), ErrorKind::Timeout | ErrorKind::Link), "{error}");
+        assert!(since.elapsed() < Duration::from_secs(4), "{:?}", since.elapsed());
     }
 }
 

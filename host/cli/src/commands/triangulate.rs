@@ -35,21 +35,7 @@ pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
     watch.ended("quantise");
     let trace = trace.map(Output::reserve).transpose()?;
     let trace_part = trace.as_ref().and_then(Written::part);
-    let (mesh, about, backend) = match chosen {
-        Chosen::One(choice) => {
-            let room = choice.room_for(&laid.numbers);
-            let mut backend = backend::open_with_room(&choice, Some(room), trace_part, arguments.job.timeout)?;
-            backend.check_job(&arguments.job)?;
-            tell_if_long(&backend, laid.numbers.len(), arguments);
-            watch.ended("open");
-            let (mesh, about) = triangulate(&mut backend, &laid, arguments).map_err(in_file)?;
-            (mesh, about, Some(backend))
-        }
-        Chosen::Several(several) => {
-            let (mesh, about) = triangulate_together(&several.fleet(&laid), &laid, arguments).map_err(in_file)?;
-            (mesh, about, None)
-        }
-    };
+    let (mesh, about, backend) = solve(chosen, &laid, trace_part, arguments, &mut watch)?;
     watch.stages.extend(&about.stages);
     let mut report = match &backend {
         Some(backend) => RunReport::new(&about, backend, &laid),
@@ -63,6 +49,32 @@ pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
     watch.ended("write");
     report.stages = watch.stages;
     output::finish(trace.into_iter().chain([written]), || tell(&report, arguments))
+}
+
+/// Opens the back ends and lets them triangulate the points. A single back end stays open.
+fn solve(
+    chosen: Chosen,
+    laid: &Laid<'_>,
+    trace: Option<&Path>,
+    arguments: &TriangulateArguments,
+    watch: &mut Watch,
+) -> Result<(Connections, Report, Option<Backend>), Failure> {
+    let in_file = |failure: Failure| failure.in_file(path::name(&arguments.points));
+    match chosen {
+        Chosen::One(choice) => {
+            let room = choice.room_for(&laid.numbers);
+            let mut backend = backend::open_with_room(&choice, Some(room), trace, arguments.job.timeout)?;
+            backend.check_job(&arguments.job)?;
+            tell_if_long(&backend, laid.numbers.len(), arguments);
+            watch.ended("open");
+            let (mesh, about) = triangulate(&mut backend, laid, arguments).map_err(in_file)?;
+            Ok((mesh, about, Some(backend)))
+        }
+        Chosen::Several(several) => {
+            let (mesh, about) = triangulate_together(&several.fleet(laid), laid, arguments).map_err(in_file)?;
+            Ok((mesh, about, None))
+        }
+    }
 }
 
 /// The back ends that do the work.

@@ -204,7 +204,7 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
     #[inline(always)]
     pub(super) fn take(&mut self) -> u32 {
         let pair = self.unused;
-        self.unused = self.next(pair).wrapping_add(pair + 2) & H::MASK;
+        self.unused = self.next(pair).wrapping_add(pair.wrapping_add(2)) & H::MASK;
         pair
     }
 
@@ -222,7 +222,7 @@ impl<K: Kernel, H: Halves + ?Sized> Edges<'_, K, H> {
     /// Returns a pair to the unused ones.
     #[inline(always)]
     pub(super) fn give(&mut self, pair: u32) {
-        self.halves.set_next(pair, self.unused.wrapping_sub(pair + 2));
+        self.halves.set_next(pair, self.unused.wrapping_sub(pair.wrapping_add(2)));
         self.halves.set_end(pair, 0);
         self.halves.set_end(pair ^ 1, 0);
         self.unused = pair;

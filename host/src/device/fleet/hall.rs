@@ -17,7 +17,7 @@ const LOOK: Duration = Duration::from_millis(50);
 /// Most parts that a device takes at a time.
 const MOST_TAKEN: usize = 64;
 
-/// A device that has said what it is.
+/// A device that is open and has given its identity.
 #[derive(Clone)]
 pub(super) struct Greeted {
     pub(super) name: String,
@@ -45,8 +45,8 @@ struct State {
     shares: Vec<Share>,
     /// Parts that wait for a device.
     waiting: VecDeque<usize>,
-    /// Parts that devices are working on.
-    under_way: usize,
+    /// For each device, the parts that it is working on.
+    taken: Vec<Vec<usize>>,
     solved: Vec<SolvedPart>,
     /// The time limit of the set; nothing before the parts are there.
     limit: Option<Limit>,
@@ -66,11 +66,11 @@ impl Hall {
         let shares: Vec<Share> = names.into_iter().map(|device| Share { device, ..Share::default() }).collect();
         let state = State {
             greetings: shares.iter().map(|_| None).collect(),
+            taken: shares.iter().map(|_| Vec::new()).collect(),
             silent: shares.len(),
             at_work: 0,
             shares,
             waiting: VecDeque::new(),
-            under_way: 0,
             solved: Vec::new(),
             limit: None,
             points: 0,
@@ -83,7 +83,7 @@ impl Hall {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Waits for a change, but not for long.
+    /// Waits for a change, at most [`LOOK`].
     fn wait<'s>(&self, state: MutexGuard<'s, State>) -> MutexGuard<'s, State> {
         self.changed.wait_timeout(state, LOOK).unwrap_or_else(PoisonError::into_inner).0
     }
@@ -109,7 +109,7 @@ impl Hall {
     }
 
     /// Leaves a device out, for this error. Its parts wait for other devices.
-    pub(super) fn leave_out(&self, place: usize, error: Error, parts: &[usize]) {
+    pub(super) fn leave_out(&self, place: usize, error: Error) {
         let mut state = self.state();
         match state.greetings[place].take() {
             Some(_) => state.at_work -= 1,
@@ -117,21 +117,22 @@ impl Hall {
         }
         state.shares[place].left_out = Some(error.to_string());
         state.failure = Some(error);
-        state.under_way -= parts.len();
+        let parts = std::mem::take(&mut state.taken[place]);
         state.waiting.extend(parts);
         self.changed.notify_all();
     }
 
-    /// Waits until every device has greeted or been left out. Returns those that are there.
-    pub(super) fn wait_for_greetings(&self) -> Vec<Greeted> {
+    /// The devices that have greeted, once every device has greeted or been left out. Waits for a change before it says
+    /// that this is not yet so.
+    pub(super) fn greetings(&self) -> Option<Vec<Greeted>> {
         let mut state = self.state();
-        while state.silent > 0 {
+        if state.silent > 0 {
             state = self.wait(state);
         }
-        state.greetings.iter().flatten().cloned().collect()
+        (state.silent == 0).then(|| state.greetings.iter().flatten().cloned().collect())
     }
 
-    /// Puts all parts out.
+    /// Makes all parts available to the devices.
     pub(super) fn begin(&self, parts: usize, limit: Limit) {
         let mut state = self.state();
         state.waiting.extend(0..parts);
@@ -141,7 +142,7 @@ impl Hall {
 
     /// The next parts for a device, and the time limit of the set; nothing if the work is over. Waits while other
     /// devices have parts that might come back.
-    pub(super) fn next(&self) -> Option<(Vec<usize>, Limit)> {
+    pub(super) fn next(&self, place: usize) -> Option<(Vec<usize>, Limit)> {
         let mut state = self.state();
         loop {
             if self.is_closed() {
@@ -151,7 +152,7 @@ impl Hall {
                 // The fewer parts are left, the fewer a device takes, so that all end at about the same time.
                 let most = (state.waiting.len() / (2 * state.at_work.max(1))).clamp(1, MOST_TAKEN);
                 let taken: Vec<usize> = state.waiting.drain(..most).collect();
-                state.under_way += taken.len();
+                state.taken[place].clone_from(&taken);
                 return Some((taken, limit));
             }
             state = self.wait(state);
@@ -161,7 +162,7 @@ impl Hall {
     /// Takes parts that a device has done, with the number of their points.
     pub(super) fn done(&self, place: usize, solved: Vec<SolvedPart>, points: usize) {
         let mut state = self.state();
-        state.under_way -= solved.len();
+        state.taken[place].clear();
         state.shares[place].parts += solved.len();
         state.shares[place].points += points;
         state.points += points;
@@ -172,7 +173,7 @@ impl Hall {
     /// Waits for a change and says how far the work is.
     pub(super) fn look(&self) -> Seen {
         let state = self.state();
-        let is_over = |state: &State| state.waiting.is_empty() && state.under_way == 0;
+        let is_over = |state: &State| state.waiting.is_empty() && state.taken.iter().all(Vec::is_empty);
         let state = if is_over(&state) { state } else { self.wait(state) };
         Seen { points: state.points, devices: state.at_work, is_over: is_over(&state) }
     }

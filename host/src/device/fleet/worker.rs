@@ -7,10 +7,10 @@ use incircle_geometry::cpu::{Parts, SolvedPart, Unsound};
 use incircle_geometry::Point;
 
 use super::hall::{Greeted, Hall};
-use super::{time_left, Choices, DURING};
+use super::{Choices, DURING};
 use crate::device::{Device, Session};
 use crate::error::{DeviceFault, Error};
-use crate::job::{Options, Progress};
+use crate::job::{Options, Progress, Solution};
 
 /// Opens the device at this place of the fleet, and does parts until there are none.
 pub(super) fn work(
@@ -18,36 +18,40 @@ pub(super) fn work(
     open: &dyn Fn() -> Result<Device, Error>,
     hall: &Hall,
     parts: &OnceLock<Parts>,
-    Choices { order, contexts, insert_chunk }: Choices,
+    choices: Choices,
 ) {
-    let mut device = match open() {
-        Ok(device) => device,
-        Err(error) => return hall.leave_out(place, error, &[]),
-    };
-    let mut session = match device.session() {
-        Ok(session) => session,
-        Err(error) => return hall.leave_out(place, error, &[]),
-    };
-    let (identity, name) = (*session.identity(), session.name());
-    hall.greet(place, Greeted { name, identity, slow: session.slow() });
-    let listener = |_: Progress| if hall.is_closed() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-    // More contexts than this device has are no error: another device of the fleet may have them.
-    let contexts = contexts.map(|contexts| contexts.min(identity.contexts));
-    let choices = Options { order, contexts, insert_chunk, progress: Some(&listener), timeout: None };
-    while let Some((taken, limit)) = hall.next() {
-        let options = Options { timeout: Some(time_left(limit)), ..choices };
-        let solved = parts.get().map_or_else(|| Ok(Vec::new()), |parts| solve(&mut session, &taken, parts, &options));
-        match solved {
-            Ok(solved) => {
-                let points = |&part: &usize| parts.get().map_or(0, |parts| parts.points_of(part));
-                hall.done(place, solved, taken.iter().map(points).sum());
-            }
-            Err(error) => return hall.leave_out(place, error, &taken),
-        }
+    let result = open().and_then(|mut device| work_on(&mut device.session()?, place, hall, parts, choices));
+    if let Err(error) = result {
+        hall.leave_out(place, error);
     }
 }
 
-/// Triangulates parts as a batch.
+/// Does parts until there are none, or until the device fails.
+fn work_on(
+    session: &mut Session<'_>,
+    place: usize,
+    hall: &Hall,
+    parts: &OnceLock<Parts>,
+    Choices { order, contexts, insert_chunk }: Choices,
+) -> Result<(), Error> {
+    let (identity, name, slow) = (*session.identity(), session.name(), session.slow());
+    hall.greet(place, Greeted { name, identity, slow });
+    let listener = |_: Progress| if hall.is_closed() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+    // More contexts than this device has are no error: another device of the fleet may have them.
+    let contexts = contexts.map(|contexts| contexts.min(identity.contexts));
+    let options = Options { order, contexts, insert_chunk, progress: Some(&listener), timeout: None };
+    while let Some((taken, limit)) = hall.next(place) {
+        let Some(parts) = parts.get() else { continue };
+        let points = taken.iter().map(|&part| parts.points_of(part)).sum();
+        // A device that falls silent must not use up the time that the others need to do its parts.
+        let patience = Options::default_timeout(points).saturating_mul(slow).min(limit.time_left());
+        let solved = solve(session, &taken, parts, &Options { timeout: Some(patience), ..options })?;
+        hall.done(place, solved, points);
+    }
+    Ok(())
+}
+
+/// Triangulates parts as a batch, within the time limit of `options`.
 fn solve(
     session: &mut Session<'_>,
     taken: &[usize],
@@ -55,14 +59,9 @@ fn solve(
     options: &Options<'_>,
 ) -> Result<Vec<SolvedPart>, Error> {
     let grids: Vec<Vec<Point>> = taken.iter().map(|&part| parts.points(part)).collect();
-    let solutions = session.triangulate_batch(&grids, options).map_err(|error| match error {
-        // The caller knows of no jobs.
-        Error::InJob { source, .. } => *source,
-        error => error,
-    })?;
-    let solve = |(&part, solution): (&usize, crate::job::Solution)| {
-        parts.solved(part, solution.mesh.triangles, &solution.mesh.hull)
-    };
+    let solutions = session.solve_parts_together(grids, options)?;
+    let solve =
+        |(&part, solution): (&usize, Solution)| parts.solved(part, solution.mesh.triangles, &solution.mesh.hull);
     let solved: Result<Vec<SolvedPart>, Unsound> = taken.iter().zip(solutions).map(solve).collect();
     solved.map_err(|Unsound| Error::Device { device: session.name(), during: DURING, fault: DeviceFault::Unsound })
 }

@@ -161,7 +161,8 @@ fn next_load(
         if group.is_shared {
             return Ok(Some(Load::at_once(group, None)));
         }
-        let time = group.only_job().map(|job| exclusive_time(carrier, job));
+        let own = group.only_job().filter(|_| !carrier.shares_limit);
+        let time = own.map(|job| exclusive_time(carrier, job));
         let jobs = std::mem::take(&mut group.jobs);
         group.jobs = jobs.into_iter().filter_map(|ordered| carrier.answer_here(ordered, 1, done)).collect();
         if !group.jobs.is_empty() {

@@ -243,7 +243,7 @@ impl Plan {
     }
 }
 
-/// Fewest points of a part of a set. More than half the points of smaller parts lie at seams.
+/// Fewest points of a part of a set. About a third of the points of a part of this size lie at seams.
 const LEAST_PART: usize = 256;
 
 /// Smallest number of jobs of a group with teams of this size. One job with several contexts is an exclusive job.

@@ -47,5 +47,7 @@ fn choices_for_one_of_several_are_refused() {
     }
     scratch.write("wide.csv", "0,0\n70000,1\n3,70000\n");
     scratch.run("triangulate wide.csv -o m.ele --backend cpu --backend clock").fails(3, &["16 bits"]);
+    let run = scratch.run("triangulate p.csv -o m.ele --backend cpu --backend clock --quantize fit --coord-bits 17");
+    run.fails(7, &["16 bits", "17"]);
     assert_eq!(scratch.files(), ["p.csv", "wide.csv"]);
 }

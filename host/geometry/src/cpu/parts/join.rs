@@ -78,7 +78,15 @@ impl Borders {
         }
         let mut hull = Vec::new();
         collect::hull(&mut guarded, ids, whole.leftmost(), &mut hull);
-        Ok(hull)
+        self.is_closed().then_some(hull).ok_or(Unsound)
+    }
+
+    /// Whether all used half-edges lead to half-edges of the list, as those of sound parts do.
+    fn is_closed(&self) -> bool {
+        let end = self.halves.len() as u32;
+        let is_closed =
+            |pair: &[Half; 2]| !is_used([pair[0].end, pair[1].end]) || pair.iter().all(|half| half.next < end);
+        self.halves.as_chunks::<2>().0.iter().all(is_closed)
     }
 
     /// Runs of parts that are subtrees, so that each thread can join some by itself.
@@ -167,13 +175,16 @@ impl Parts {
     /// threads.
     ///
     /// # Errors
-    /// A part is missing or twice there, or the meshes do not fit together.
+    /// A part is missing, twice there or from another set, or the meshes do not fit together.
     pub fn join(self, mut solved: Vec<SolvedPart>, threads: NonZeroUsize) -> Result<Connectivity, Unsound> {
         if let Some(collinear) = self.collinear() {
             return Ok(collinear);
         }
         solved.sort_unstable_by_key(|solved| solved.part);
         if solved.len() != self.count() || solved.iter().enumerate().any(|(place, solved)| solved.part != place) {
+            return Err(Unsound);
+        }
+        if !solved.iter().all(|solved| self.has(solved)) {
             return Err(Unsound);
         }
         let threads = threads_for(self.points, threads).get();
@@ -191,5 +202,15 @@ impl Parts {
         let Borders { halves, ids, .. } = borders;
         let triangles = collect::triangles_with(halves, &ids, &finals, self.points, count, threads).ok_or(Unsound)?;
         Ok(Connectivity { triangles, hull, duplicates: self.duplicates })
+    }
+
+    /// Whether a solved part is one of this set: its border is some of the part's points, in their order.
+    fn has(&self, solved: &SolvedPart) -> bool {
+        self.range(solved.part).is_some_and(|range| {
+            let mut own = self.sites[range.clone()].iter().zip(&self.ids[range]);
+            let is_index = |&id: &u32| (id as usize) < self.points;
+            solved.sites.iter().zip(&solved.ids).all(|vertex| own.any(|own| own == vertex))
+                && solved.finals.as_flattened().iter().all(is_index)
+        })
     }
 }

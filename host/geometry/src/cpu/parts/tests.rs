@@ -171,7 +171,7 @@ fn wrong_meshes_of_parts_end_in_errors_or_wrong_meshes() {
 }
 
 #[test]
-fn missing_and_doubled_parts_are_refused() {
+fn missing_doubled_and_foreign_parts_are_refused() {
     let points: Vec<Point> = (0..100).map(|k| tied(0, k, 50)).collect();
     let parts = || Parts::divide(&points, 20, ONE).expect("few points");
     let mut missing = solved(&parts());
@@ -180,7 +180,57 @@ fn missing_and_doubled_parts_are_refused() {
     let mut doubled = solved(&parts());
     doubled.extend(solved(&parts()).pop());
     assert_eq!(parts().join(doubled, ONE), Err(Unsound));
+    let others: Vec<Point> = (0..100).map(|k| tied(0, k + 1000, 50)).collect();
+    let foreign = solved(&Parts::divide(&others, 20, ONE).expect("few points"));
+    assert_eq!(parts().join(foreign, ONE), Err(Unsound));
     assert!(parts().solved(99, vec![], &[0]).is_err());
     assert!(parts().solved(0, vec![[0, 1, 99]], &[0]).is_err());
     assert!(parts().solved(0, vec![], &[]).is_err());
+}
+
+/// The hull of a part on a line that names vertices twice, or in a wrong order.
+#[test]
+fn lines_out_of_order_are_refused() {
+    let line: Vec<Point> = (0..24).map(|k| Point::new(k, 0)).chain([Point::new(0, 9)]).collect();
+    let parts = Parts::divide(&line, 12, ONE).expect("few points");
+    let part = (0..parts.count()).find(|&part| mesh_of(parts.points(part)).is_collinear()).expect("a part on the line");
+    let count = parts.points_of(part) as u32;
+    let sound: Vec<u32> = mesh_of(parts.points(part)).hull;
+    assert!(parts.solved(part, vec![], &sound).is_ok());
+    let again: Vec<u32> = (0..count).map(|k| sound[k as usize % 2]).collect();
+    let backwards: Vec<u32> = sound.iter().rev().copied().collect();
+    for wrong in [again, backwards] {
+        assert!(parts.solved(part, vec![], &wrong).is_err());
+    }
+}
+
+/// Triangles that are no plane graph, with as many edges as a part has room for.
+#[test]
+fn graphs_that_are_not_plane_end_in_errors() {
+    for seed in 0..3000u64 {
+        let points: Vec<Point> = (0..30).map(|k| tied([0, 2, 5][random(seed, 3)], seed * 100 + k, 9)).collect();
+        let parts = Parts::divide(&points, 7, ONE).expect("few points");
+        let solve = |part: usize| {
+            let (count, mesh) = (parts.points_of(part), mesh_of(parts.points(part)));
+            if part != random(seed + 5, parts.count()) {
+                return parts.solved(part, mesh.triangles, &mesh.hull);
+            }
+            // Random triangles, each side at most once in each direction.
+            let mut sides = std::collections::BTreeSet::new();
+            let mut triangles = Vec::new();
+            for k in 0..60 {
+                let corner = |c: u64| random(seed * 1000 + 3 * k + c, count) as u32;
+                let [a, b, c] = [corner(0), corner(1), corner(2)];
+                let own = [(a, b), (b, c), (c, a)];
+                if a != b && b != c && c != a && own.iter().all(|side| !sides.contains(side)) {
+                    sides.extend(own);
+                    triangles.push([a, b, c]);
+                }
+            }
+            let hull: Vec<u32> = (0..count as u32).take(2 + random(seed, 3)).collect();
+            parts.solved(part, triangles, &hull)
+        };
+        let solved: Result<Vec<SolvedPart>, Unsound> = (0..parts.count()).map(solve).collect();
+        let _ = solved.and_then(|solved| parts.join(solved, ONE));
+    }
 }
