@@ -1,5 +1,5 @@
-//! Measures tiles of evenly spread points: the time that tiles add to a triangulation, and the share of points that joins
-//! see again.
+//! Measures tiles of evenly spread points: the time that tiles add to a triangulation, and the share of points that
+//! joins see again.
 //!
 //! ```text
 //! cargo bench -p incircle-geometry --bench tiles                      # a million points of 31 bits, medians of 9 runs
@@ -13,9 +13,8 @@
 //! - `local`: the time of `tiles::local`, in ns a triangle, on the meshes of all tiles.
 //! - `tiles`, `at once`: `tiles::triangulate` and `cpu::triangulate` on one thread, in ns a point.
 //!
-//! The second table has the time of `tiles::reach` alone, in ns a triangle, for triangles in memory one after another:
-//! those of all tiles of 8,192 points, and triangles of a lattice whose discs touch a side, for which the filter cannot
-//! tell.
+//! Then follows the time of `tiles::reach` alone, in ns a triangle, for triangles in memory one after another: those of
+//! all tiles of 8,192 points, and two kinds whose discs touch a side, for which the filter cannot tell.
 
 use std::hint::black_box;
 use std::num::NonZeroUsize;
@@ -130,15 +129,15 @@ fn questions(points: &[Point]) -> Questions {
     meshes.iter().map(|(mesh, _, region)| (*region, corners(mesh))).collect()
 }
 
-/// Halves of squares of a lattice, whose discs touch the east side of the region.
-fn touching() -> Questions {
-    let east = 1 << 20;
-    let square = |k: u32| {
-        // The circle of a 14 x 48 rectangle has the radius 25, so it ends 18 steps east of the rectangle.
-        let (x, y) = (east - 14 - 18, 48 * k);
-        [(x, y), (x + 14, y), (x, y + 48)].map(Point::from)
+/// Halves of rectangles of 14 by 48 steps, whose discs touch the east side of the region.
+fn touching(step: u32) -> Questions {
+    let east = (1 << 31) - 1;
+    let half = |k: u32| {
+        // The circle has a radius of 25 steps, so it ends 18 steps east of the rectangle.
+        let (x, y) = (east - (14 + 18) * step, (k % 64) * step);
+        [(x, y), (x + 14 * step, y), (x, y + 48 * step)].map(Point::from)
     };
-    vec![(Region { east: Some(east.into()), ..Region::WHOLE }, (0..100_000).map(square).collect())]
+    vec![(Region { east: Some(east.into()), ..Region::WHOLE }, (0..100_000).map(half).collect())]
 }
 
 fn ask(questions: &Questions, runs: usize) -> f64 {
@@ -163,7 +162,8 @@ fn run() -> Result<(), Box<dyn std::error::Error>> {
         println!("{}", measure(&points, limit, runs, &expected)?);
     }
     println!("\nns a triangle of reach: {:.1}", ask(&questions(&points), runs));
-    println!("the same where the disc touches a side: {:.1}", ask(&touching(), runs));
+    println!("the same where the disc touches a side: {:.1}", ask(&touching(1), runs));
+    println!("the same for products of more than 128 bits: {:.1}", ask(&touching(1 << 24), runs));
     Ok(())
 }
 

@@ -14,8 +14,8 @@ use crate::point::MAX_POINTS;
 
 /// The points of several borders, ready to be triangulated.
 ///
-/// [`join`] does this step and the next on the CPU triangulator. Call both yourself to triangulate elsewhere, such as on
-/// a device or on another machine:
+/// [`join`] does this step and the next on the CPU triangulator. Call both yourself to triangulate elsewhere, such as
+/// on a device or on another machine:
 /// 1. [`Union::of`] puts the borders together.
 /// 2. Triangulate [`Union::points`].
 /// 3. [`Union::settle`] takes that mesh and finds the final triangles.

@@ -44,8 +44,8 @@ pub struct Border<P: TilePoint, I> {
 
 /// Finds out which triangles of a tile are final, given the triangulation of the points of the tile alone.
 ///
-/// `mesh` is the canonical mesh of the points in `region`, from any back end, and `ids` has an id for each point. If the
-/// ids ascend, each place of the final mesh has the lowest id of its duplicates. A triangle is final if its closed
+/// `mesh` is the canonical mesh of the points in `region`, from any back end, and `ids` has an id for each point. If
+/// the ids ascend, each place of the final mesh has the lowest id of its duplicates. A triangle is final if its closed
 /// circumscribed disc lies strictly within the region. The border has the corners of all other triangles and the hull,
 /// and so all distinct points if there is no triangle.
 ///

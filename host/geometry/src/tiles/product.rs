@@ -3,8 +3,8 @@
 /// Bits of a half of a factor.
 const HALF: u32 = u128::BITS / 2;
 
-/// Whether `one * other > square²`, for all integers. Products have 256 bits; those of factors that fit 64 bits take one
-/// multiplication each.
+/// Whether `one * other > square²`, for all integers. Products have 256 bits; those of factors that fit 64 bits take
+/// one multiplication each.
 pub(super) fn exceeds_square(one: i128, other: i128, square: i128) -> bool {
     if let (Ok(one), Ok(other), Ok(square)) = (i64::try_from(one), i64::try_from(other), i64::try_from(square)) {
         return i128::from(one) * i128::from(other) > i128::from(square) * i128::from(square);

@@ -12,11 +12,11 @@
 //! The other sides follow by turning the plane. Grid points beyond the west side have an x of at most `west - 1`, so
 //! the line there is `x = west - 1`; doubles beyond that side may be arbitrarily near the line `x = west`.
 //!
-//! **Widths.** Grid points have coordinates of 32 bits. Differences are below 2^32 in magnitude, and distances to a line
-//! at most 2^32 + 1. So `D` is at most 2^65, and `K` below 2^98. `|U|` is the product of the three sides of the
-//! triangle, each below 2^32.5, so it is below 2^97.5. All this fits `i128`, and both products are compared in 256 bits
-//! (`product`). Where `K` and `U` fit 64 bits, as they do for coordinates of up to 19 bits, one multiplication gives
-//! each product.
+//! **Widths.** For coordinates and sides of `w` bits, differences and distances are at most `2^w` in magnitude. So `D`
+//! is below `2^(2w + 1)`, and `K` below `2^(3w + 1)`. `|U|` is the product of the three sides of the triangle, each
+//! below `sqrt(2) 2^w`, so it is below `2^(3w + 1.5)`, and `K - 2 Ux` below `2^(3w + 3)`. Grid points have `w = 32`,
+//! and all these fit `i128`. Both products are compared in 256 bits (`product`). Up to `w = 20` all factors fit 64
+//! bits, and one multiplication gives each product.
 //!
 //! **The filter** answers nearly all questions in doubles. Let `u = 2^-53`. Differences are exact for grid points, and
 //! have one rounding, of `u`, for doubles. The letters stand for computed values:
@@ -30,8 +30,8 @@
 //!   `(room least)²` has a relative error of at most `7 u + O(u²)`. With that of `Q` the sum is below `32 u`. Nearly
 //!   all triangles end here, after about 30 operations.
 //! - *Second test*, for each side. `U` is made of two products of `7 u + O(u²)` relative error, rounding of the
-//!   difference included. `K = 2 d cross` errs by at most `(6 u + O(u²)) 2 d (|p| + |q|)`. The distance `K - U` adds one
-//!   rounding. The filter takes `16 u` of the sum of all magnitudes as the error, then compares the square of the
+//!   difference included. `K = 2 d cross` errs by at most `(6 u + O(u²)) 2 d (|p| + |q|)`. The distance `K - U` adds
+//!   one rounding. The filter takes `16 u` of the sum of all magnitudes as the error, then compares the square of the
 //!   distance with `Q` as above.
 //!
 //! **Underflow and overflow.** For doubles, the filter answers only if all squared sides are within 2^-300 and 2^300.
@@ -84,9 +84,8 @@ pub trait TilePoint: PlanePoint {
 /// The corners may turn either way. For [`Point`]s the answer is exact. For doubles, [`Reach::Within`] is always true,
 /// and the other two answers only say that it was not proved.
 ///
-/// Costs about 5 ns for most triangles, and up to 100 ns for a disc that touches a side; [`TilePoint::sides`] saves the
-/// preparation of the region for each triangle. Source: the [module](crate::tiles) has the theorem, and the head of the
-/// file the derivation of the test and the bounds of its filter.
+/// Costs about 5 ns for most triangles, and 20 to 40 ns for a disc that touches a side. [`TilePoint::sides`] prepares a
+/// region once for many triangles. The head of this file derives the test and the bounds of its filter.
 ///
 /// ```
 /// use incircle_geometry::tiles::{reach, Reach, Region};

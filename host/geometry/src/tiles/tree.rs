@@ -82,8 +82,8 @@ impl Tree {
         Builder::build(positions.len(), u64::BITS, most.get(), &before)
     }
 
-    /// The tree for a histogram: the numbers of points in cells of equal size along the Z-curve, whose number is a power
-    /// of two (further cells count as empty). Only a tile of one cell may have more than `most` points.
+    /// The tree for a histogram: the numbers of points in cells of equal size along the Z-curve, whose number is a
+    /// power of two (further cells count as empty). Only a tile of one cell may have more than `most` points.
     ///
     /// Cell `k` of `2^b` has the points whose [positions](crate::order::z_curve::position) begin with the `b` bits of
     /// `k`.

@@ -219,3 +219,57 @@ fn values_that_are_no_numbers_are_unknown() {
     assert_eq!(reach(&Region { east: Some(f64::INFINITY), ..Region::WHOLE }, corners), Reach::Within);
     assert_eq!(reach(&Region { west: Some(-f64::MAX), east: Some(f64::MAX), ..Region::WHOLE }, corners), Reach::Within);
 }
+
+/// A triangle of doubles of about the size `2^exponent`. Half of all are thin, with an angle of down to 2^-30. A third
+/// has the first corner where the disc ends in the west, so that the first test of the filter decides.
+fn double_triangle(random: &mut SplitMix64, exponent: i32) -> [[f64; 2]; 3] {
+    let size = 2f64.powi(exponent);
+    let thin = if random.once_in(2) { 1.0 } else { 2f64.powi(-(random.below(30) as i32)) };
+    let first = if random.once_in(3) { std::f64::consts::PI } else { std::f64::consts::TAU * random.unit() };
+    let second = std::f64::consts::TAU * random.unit();
+    let mut angles = [first, second, second + thin * (random.unit() - 0.5)];
+    angles.rotate_left(random.below(2) as usize);
+    let center = [(); 2].map(|()| size * random.unit());
+    let radius = size * (0.5 + random.unit());
+    angles.map(|angle| [center[0] + radius * angle.cos(), center[1] + radius * angle.sin()])
+}
+
+/// The next double in the direction of `step`, that many times.
+fn moved(value: f64, steps: i32) -> f64 {
+    let next = if steps < 0 { f64::next_down } else { f64::next_up };
+    (0..steps.abs()).fold(value, |value, _| next(value))
+}
+
+#[test]
+fn the_answer_of_doubles_is_right_beside_the_line_that_the_disc_touches() {
+    let mut random = SplitMix64::new(74);
+    let mut counts = [0; 3];
+    for exponent in [-178, -177, -149, -100, -20, 0, 1, 40, 149, 170] {
+        for _ in 0..40 {
+            let corners = double_triangle(&mut random, exponent);
+            let east = |line: f64| [None, Some(line), None, None];
+            let (mut low, mut high) = (-2f64.powi(exponent + 3), 2f64.powi(exponent + 40));
+            if !disc_is_between(corners, east(high)) {
+                continue;
+            }
+            while moved(low, 1) < high {
+                let middle = low + 0.5 * (high - low);
+                let middle = if middle > low && middle < high { middle } else { moved(low, 1) };
+                if disc_is_between(corners, east(middle)) {
+                    high = middle;
+                } else {
+                    low = middle;
+                }
+            }
+            // `low` is the last line that the disc touches or crosses.
+            for steps in (-20..=20).chain([-1000, -100, 100, 1000]) {
+                let line = moved(low, steps);
+                let found = reach(&Region { east: Some(line), ..Region::WHOLE }, corners);
+                let wrong = if steps <= 0 { Reach::Within } else { Reach::Beyond };
+                assert_ne!(found, wrong, "{steps} steps from the line {low} {corners:?}");
+                counts[found as usize] += 1;
+            }
+        }
+    }
+    assert!(counts.iter().all(|&count| count > 300), "{counts:?}");
+}

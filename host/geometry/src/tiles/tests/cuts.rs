@@ -135,3 +135,31 @@ fn the_hull_is_canonical_where_no_triangle_is_left_for_a_join() {
         check(&points, &mesh_of(&points), &division);
     }
 }
+
+/// Ids may be of any type and in any order: here they count backwards from a number that 32 bits do not hold.
+#[test]
+fn triangles_and_hull_name_points_by_the_ids_of_the_caller() {
+    for seed in 0..500 {
+        let mut points = tie_rich(seed);
+        points.sort_unstable();
+        points.dedup();
+        let name = |place: usize| (1 << 40) + (points.len() - 1 - place) as u64;
+        let (mut triangles, mut borders) = (Vec::new(), Vec::new());
+        for region in Region::WHOLE.split_at_x(5) {
+            let own: Vec<usize> = (0..points.len()).filter(|&k| region.contains(points[k].place())).collect();
+            let ids: Vec<u64> = own.iter().map(|&place| name(place)).collect();
+            let mesh = mesh_of(&own.iter().map(|&place| points[place]).collect::<Vec<_>>());
+            let tile = local(&mesh, &ids, region).unwrap();
+            triangles.extend(tile.finals);
+            borders.push(tile.border);
+        }
+        let last = join(Region::WHOLE, borders).unwrap();
+        triangles.extend(last.finals);
+        triangles.sort_unstable();
+        let backwards: Vec<Point> = points.iter().rev().copied().collect();
+        let expected = mesh_of(&backwards);
+        let named = |place: u32| (1 << 40) + u64::from(place);
+        assert_eq!(triangles, expected.triangles.iter().map(|t| t.map(named)).collect::<Vec<_>>());
+        assert_eq!(last.hull, expected.hull.iter().map(|&place| named(place)).collect::<Vec<_>>());
+    }
+}
