@@ -52,9 +52,9 @@ pub fn incircle_of_doubles(a: [f64; 2], b: [f64; 2], c: [f64; 2], d: [f64; 2]) -
     lifted(&exact(a), &exact(b), &exact(c), &exact(d)).cmp(&zero())
 }
 
-/// Whether the closed circumscribed disc of a triangle touches none of four lines and lies between them all: `x = west`,
-/// `x = east`, `y = south`, `y = north`, in this order. A line that is `None` is infinitely far away. Three points on a
-/// line have no disc, so the answer is no.
+/// Whether the closed circumscribed disc of a triangle touches none of four lines and lies between them all: `x =
+/// west`, `x = east`, `y = south`, `y = north`, in this order. A line that is `None` is infinitely far away. Three
+/// points on a line have no disc, so the answer is no.
 pub fn disc_is_between([a, b, c]: [[f64; 2]; 3], lines: [Option<f64>; 4]) -> bool {
     let [a, b, c] = [a, b, c].map(exact);
     let (b, c) = if cross(&a, &b, &c) < zero() { (c, b) } else { (b, c) };
@@ -204,5 +204,28 @@ mod tests {
         let third = [0.1, 0.1f64.next_up()];
         assert_eq!(orient2d_of_doubles([0.0, 0.0], [0.3, 0.3], third), Ordering::Greater);
         assert_eq!(incircle_of_doubles([0.0, 0.0], [1e300, 0.0], [1e300, 1e300], [0.0, 1e300]), Ordering::Equal);
+    }
+
+    #[test]
+    fn a_disc_must_not_touch_a_line() {
+        // The circle has the centre (1, 1) and the radius 1.
+        let corners = [[0.0, 1.0], [1.0, 0.0], [1.6, 1.8]];
+        let disc_ends = |corners, line: usize, at: f64| {
+            let mut lines = [None; 4];
+            lines[line] = Some(at);
+            disc_is_between(corners, lines)
+        };
+        let exact = [[0.0, 1.0], [1.0, 0.0], [1.0, 2.0]];
+        for turned in [exact, [exact[0], exact[2], exact[1]]] {
+            for (line, touched, clear) in
+                [(0, 0.0, -5e-324), (1, 2.0, 2f64.next_up()), (2, 0.0, -5e-324), (3, 2.0, 2f64.next_up())]
+            {
+                assert!(!disc_ends(turned, line, touched) && disc_ends(turned, line, clear), "{line}");
+            }
+            assert!(!disc_ends(turned, 1, -9.0) && !disc_ends(turned, 0, 9.0));
+        }
+        // 1.6 and 1.8 are rounded, and the third corner with them.
+        assert!(disc_ends(corners, 1, 2.0 + 1e-12) && !disc_ends(corners, 1, 2.0 - 1e-12));
+        assert!(!disc_is_between([[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]], [None; 4]));
     }
 }

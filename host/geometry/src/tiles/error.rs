@@ -34,6 +34,12 @@ pub enum Error {
         /// Place of the child in the list.
         child: usize,
     },
+    /// The open triangles of a border are not in canonical order.
+    #[error("open triangle {place} of a border is not in canonical order: leave the list as it was given")]
+    NotCanonical {
+        /// Place of the triangle in the list.
+        place: usize,
+    },
     /// The regions of two children overlap.
     #[error("the regions of children {one} and {other} overlap: a place belongs to one region alone")]
     Overlap {

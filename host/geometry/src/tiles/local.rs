@@ -44,12 +44,12 @@ pub struct Border<P: TilePoint, I> {
 
 /// Finds out which triangles of a tile are final, given the triangulation of the points of the tile alone.
 ///
-/// `mesh` is the canonical mesh of the points in `region`, from any back end, and `ids` has an id for each point. If
-/// the ids ascend, each place of the final mesh has the lowest id of its duplicates. A triangle is final if its closed
+/// `mesh` is the canonical mesh of the points in `region`, from any back end, and `ids` has an id for each point. Give
+/// duplicates in ascending order of their ids, so that the lowest one stands for all. A triangle is final if its closed
 /// circumscribed disc lies strictly within the region. The border has the corners of all other triangles and the hull,
 /// and so all distinct points if there is no triangle.
 ///
-/// O(n), about 10 ns a triangle.
+/// O(n), 7 to 15 ns a triangle.
 ///
 /// ```
 /// use core::num::NonZeroUsize;
@@ -112,6 +112,12 @@ pub(super) fn settle<P: TilePoint, I: Copy + Ord>(
         }
     }
     let border = border(points, ids, &mesh.hull, region, open);
+    let hull = named_hull(mesh, ids);
+    Ok(Tile { finals, border, hull, unknown })
+}
+
+/// The hull of a mesh by ids, in canonical form. All its places must have ids.
+fn named_hull<P, I: Copy + Ord>(mesh: &Mesh<P>, ids: &[I]) -> Vec<I> {
     let mut hull: Vec<I> = mesh.hull.iter().map(|&place| ids[place as usize]).collect();
     // The hull of a mesh without triangles is a list from end to end, which has no other beginning. A mesh may have
     // triangles of which none is left here: those of a union may all lie within the final triangles of its children.
@@ -119,7 +125,7 @@ pub(super) fn settle<P: TilePoint, I: Copy + Ord>(
         let least = hull.iter().enumerate().min_by_key(|&(_, id)| *id).map_or(0, |(place, _)| place);
         hull.rotate_left(least);
     }
-    Ok(Tile { finals, border, hull, unknown })
+    hull
 }
 
 /// The border of open triangles and a hull, whose places are in `points`. The points keep their sequence, so that

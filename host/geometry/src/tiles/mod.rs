@@ -7,7 +7,7 @@
 //!
 //! | step | function | in | out |
 //! |---|---|---|---|
-//! | cut the plane | [`Tree::of_positions`], [`Tree::of_histogram`] | positions along the Z-curve | tiles, order of joins |
+//! | cut the plane | [`Tree::of_positions`] | positions along the Z-curve | tiles, and the order of joins |
 //! | triangulate a tile | any back end | the points of one region | their mesh |
 //! | find what is final | [`local`] | that mesh, and the region | final triangles, the border |
 //! | join neighbours | [`join`], or [`Union`] with any back end | borders | final triangles, one border |

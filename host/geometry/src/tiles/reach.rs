@@ -36,8 +36,8 @@
 //!
 //! **Underflow and overflow.** For doubles, the filter answers only if all squared sides are within 2^-300 and 2^300.
 //! Then `Q` is at least 2^-900, and `sqrt(Q)` at least 2^-450. Underflow adds at most 2^-1070 to any value, which is
-//! nothing beside the room of more than `8 u` that the bounds above leave in `Q`. Infinities and what is not a number
-//! make comparisons false, which means that the filter cannot tell.
+//! nothing beside the room of more than `8 u` that the bounds above leave in `Q`. Coordinates that differ by less than
+//! 2^150 are below 2^204, so no distance overflows. Infinities and what is not a number make comparisons false.
 
 use super::product::exceeds_square;
 use super::region::Region;
@@ -81,8 +81,8 @@ pub trait TilePoint: PlanePoint {
 
 /// Tells where the closed circumscribed disc of a triangle lies: strictly within a region, or not.
 ///
-/// The corners may turn either way. For [`Point`]s the answer is exact. For doubles, [`Reach::Within`] is always true,
-/// and the other two answers only say that it was not proved.
+/// The corners may turn either way. For [`Point`]s the answer is exact, and a side that no point of 32 bits is beyond
+/// counts as infinitely far away. For doubles, [`Reach::Within`] is always true, and other answers prove nothing.
 ///
 /// Costs about 5 ns for most triangles, and 20 to 40 ns for a disc that touches a side. [`TilePoint::sides`] prepares a
 /// region once for many triangles. The head of this file derives the test and the bounds of its filter.
@@ -201,10 +201,10 @@ impl Sides {
         self.near_a_side(Rounded { a, b, c, cross, magnitude, squares, product }, is_in_range & (least > 0.0))
     }
 
-    /// The least distance of a place to a side; the largest double stands for more than that.
+    /// The least distance of a place to a side; infinite if there is none.
     #[inline(always)]
     fn room(&self, place: [f64; 2]) -> f64 {
-        let mut room = f64::MAX;
+        let mut room = f64::INFINITY;
         for (value, (low, high)) in place.into_iter().zip(self.low.into_iter().zip(self.high)) {
             for distance in [value - low, high - value] {
                 room = if distance < room { distance } else { room };

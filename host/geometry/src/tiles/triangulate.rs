@@ -43,12 +43,7 @@ pub fn triangulate(points: Vec<Point>, most: NonZeroUsize) -> Result<Mesh, Error
     let mut work = Work::default();
     for step in tree.steps() {
         match step {
-            Step::Tile { region, points: range } => {
-                // In ascending order, so that each place goes by its lowest index.
-                let mut ids = curve[range.clone()].to_vec();
-                ids.sort_unstable();
-                work.tile(*region, &points, &ids)?;
-            }
+            Step::Tile { region, points: range } => work.tile(*region, &points, &curve[range.clone()])?,
             Step::Join { region, children } => work.join(*region, *children)?,
         }
     }
@@ -59,7 +54,8 @@ pub fn triangulate(points: Vec<Point>, most: NonZeroUsize) -> Result<Mesh, Error
     Ok(Mesh { points, triangles, hull, duplicates })
 }
 
-/// The tree of a set, and the indices of its points along the curve.
+/// The tree of a set, and the indices of its points along the curve. The sort is stable, so duplicates come in the order
+/// of their indices, and the first of them stands for all.
 fn cut(points: &[Point], most: NonZeroUsize) -> (Tree, Vec<u32>) {
     let mut entries: Vec<Wide> =
         points.iter().zip(0..).map(|(point, id)| Wide::new(position(point.x, point.y), id)).collect();

@@ -240,36 +240,56 @@ fn moved(value: f64, steps: i32) -> f64 {
     (0..steps.abs()).fold(value, |value, _| next(value))
 }
 
+/// Finds the last line east of a triangle that its disc touches or crosses, and checks the answers around that line.
+/// `most` is a line beyond the disc; if it is not, nothing is checked.
+fn check_beside_the_line(corners: [[f64; 2]; 3], most: f64, counts: &mut [usize; 3]) {
+    let is_clear = |line: f64| disc_is_between(corners, [None, Some(line), None, None]);
+    let (mut low, mut high) = (-most, most);
+    if !is_clear(high) {
+        return;
+    }
+    while moved(low, 1) < high {
+        let middle = low + 0.5 * (high - low);
+        let middle = if middle > low && middle < high { middle } else { moved(low, 1) };
+        if is_clear(middle) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    for steps in (-20..=20).chain([-1000, -100, 100, 1000]) {
+        let line = moved(low, steps);
+        let found = reach(&Region { east: Some(line), ..Region::WHOLE }, corners);
+        let wrong = if steps <= 0 { Reach::Within } else { Reach::Beyond };
+        assert_ne!(found, wrong, "{steps} steps from the line {low} {corners:?}");
+        counts[found as usize] += 1;
+    }
+}
+
 #[test]
 fn the_answer_of_doubles_is_right_beside_the_line_that_the_disc_touches() {
     let mut random = SplitMix64::new(74);
     let mut counts = [0; 3];
-    for exponent in [-178, -177, -149, -100, -20, 0, 1, 40, 149, 170] {
+    for exponent in [-178, -149, -100, -20, 0, 1, 40, 149, 170] {
         for _ in 0..40 {
             let corners = double_triangle(&mut random, exponent);
-            let east = |line: f64| [None, Some(line), None, None];
-            let (mut low, mut high) = (-2f64.powi(exponent + 3), 2f64.powi(exponent + 40));
-            if !disc_is_between(corners, east(high)) {
-                continue;
-            }
-            while moved(low, 1) < high {
-                let middle = low + 0.5 * (high - low);
-                let middle = if middle > low && middle < high { middle } else { moved(low, 1) };
-                if disc_is_between(corners, east(middle)) {
-                    high = middle;
-                } else {
-                    low = middle;
-                }
-            }
-            // `low` is the last line that the disc touches or crosses.
-            for steps in (-20..=20).chain([-1000, -100, 100, 1000]) {
-                let line = moved(low, steps);
-                let found = reach(&Region { east: Some(line), ..Region::WHOLE }, corners);
-                let wrong = if steps <= 0 { Reach::Within } else { Reach::Beyond };
-                assert_ne!(found, wrong, "{steps} steps from the line {low} {corners:?}");
-                counts[found as usize] += 1;
-            }
+            check_beside_the_line(corners, 2f64.powi(exponent + 40), &mut counts);
         }
     }
     assert!(counts.iter().all(|&count| count > 300), "{counts:?}");
+}
+
+/// The square of the short side is too small for a double, and that of the long one is large.
+#[test]
+fn a_square_that_is_lost_to_underflow_is_no_proof() {
+    let mut random = SplitMix64::new(75);
+    let mut counts = [0; 3];
+    for _ in 0..40 {
+        let [near, far] = [-540, 100].map(|exponent| {
+            let angle = std::f64::consts::TAU * random.unit();
+            [angle.cos(), angle.sin()].map(|value| value * 2f64.powi(exponent))
+        });
+        check_beside_the_line([[0.0, 0.0], near, far], 2f64.powi(130), &mut counts);
+    }
+    assert!(counts[Reach::Unknown as usize] > 1000, "{counts:?}");
 }

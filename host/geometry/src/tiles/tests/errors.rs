@@ -46,6 +46,11 @@ fn a_join_refuses_lists_that_do_not_fit() {
     let mut wild = border(region);
     wild.open.push([0, 7, 2]);
     assert_eq!(join(Region::WHOLE, vec![wild]), Err(Error::NoSuchPoint { place: 7, points: 4 }));
+    for order in [[[0, 2, 3], [0, 1, 2]], [[0, 1, 2], [0, 1, 2]], [[0, 1, 2], [2, 3, 0]]] {
+        let mut disordered = border(region);
+        disordered.open = order.to_vec();
+        assert_eq!(join(Region::WHOLE, vec![disordered]), Err(Error::NotCanonical { place: 1 }));
+    }
     let union = Union::of(Region::WHOLE, vec![border(region)]).expect("a union");
     let more = mesh_of(&[(0, 0), (4, 0), (4, 4), (0, 4), (9, 9)].map(Point::from));
     assert_eq!(union.settle(&more), Err(Error::NoSuchPoint { place: 4, points: 4 }));

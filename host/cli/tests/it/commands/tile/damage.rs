@@ -121,3 +121,36 @@ fn folders_without_rights_are_told() {
     }
     std::fs::set_permissions(&folder, std::fs::Permissions::from_mode(0o755)).expect("the folder is ours");
 }
+
+#[cfg(unix)]
+#[test]
+fn an_input_that_changes_between_the_passes_is_found() {
+    let scratch = Scratch::new();
+    let made = std::process::Command::new("mkfifo").arg(scratch.path("p.csv")).status();
+    assert!(made.expect("mkfifo is there").success());
+    // A pipe gives each pass what is written for it.
+    for second in ["0,0\n5,0\n0,6\n", "0,0\n5,0\n", "0,0\n5,0\n0,5\n1,1\n", "0,0\n5,0\n0,99\n", "0,0\n5,0\n0,0.5\n"] {
+        let mut command = scratch.command(["tile", "split", "p.csv", "--points", "2", "-o", "t"]);
+        command.stdout(std::process::Stdio::piped()).stderr(std::process::Stdio::piped());
+        let child = command.spawn().expect("the command starts");
+        // The second writer waits until the first reader has closed the pipe, or its rows would be read at once.
+        std::fs::write(scratch.path("p.csv"), "0,0\n5,0\n0,5\n").expect("the command reads");
+        std::thread::sleep(std::time::Duration::from_millis(300));
+        std::fs::write(scratch.path("p.csv"), second).expect("the command reads");
+        let run = crate::common::Run::of(child.wait_with_output().expect("it ends"));
+        run.fails(3, &["p.csv has changed since it was read first", "split them again"]);
+        assert_eq!(std::fs::read_dir(scratch.path("t")).expect("the folder is there").count(), 0);
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_told_in_a_sentence() {
+    let (scratch, _) = small();
+    for format in ["npy", "csv", "ele", "obj"] {
+        scratch.run(&format!("tile join t -o /dev/full --format {format}")).fails(3, &["/dev/full", "No space left"]);
+    }
+    assert_eq!(scratch.files(), ["p.npy", "right.npy", "t"]);
+    let left = std::fs::read_dir(scratch.path("t")).expect("it is there").filter_map(Result::ok);
+    assert!(left.into_iter().all(|entry| !entry.file_name().to_string_lossy().starts_with('.')));
+}
