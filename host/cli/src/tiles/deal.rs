@@ -19,6 +19,9 @@ const BUFFERS: usize = 64 << 20;
 /// may be more files than a process may keep open.
 const BUFFER: std::ops::Range<usize> = 1 << 12..1 << 18;
 
+/// The end of a working name.
+const WORKING: &str = ".points.part";
+
 /// A file of points under its working name. Dropping the value removes the file.
 pub struct PointFile {
     path: PathBuf,
@@ -31,7 +34,7 @@ pub struct PointFile {
 impl PointFile {
     /// Makes an empty file with room for a head. The number keeps the files of a run apart.
     pub fn create(folder: &Path, number: usize) -> Result<Self, Failure> {
-        let path = folder.join(format!(".{number}.{}.points.part", std::process::id()));
+        let path = folder.join(format!(".{number}.{}{WORKING}", std::process::id()));
         let mut unfinished = interrupt::unfinished();
         let opened = OpenOptions::new().write(true).create(true).truncate(true).open(&path);
         // The value exists before anything is written, so that a failure removes the file.
@@ -132,6 +135,16 @@ fn remove(path: &Path) {
     let mut unfinished = interrupt::unfinished();
     let _ = fs::remove_file(path);
     unfinished.retain(|kept| kept != path);
+}
+
+/// Removes the working files that earlier runs left in a folder because they were killed.
+pub fn remove_stale(folder: &Path) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for entry in entries.filter_map(Result::ok) {
+        if entry.file_name().to_string_lossy().ends_with(WORKING) {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
 }
 
 /// The size of a buffer, in bytes, if there are so many of them.

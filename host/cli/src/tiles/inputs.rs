@@ -14,7 +14,7 @@ use crate::points::{Coordinates, PointTable};
 use crate::source;
 
 /// Calls `take` with the coordinates of all points of a file, in pieces. The memory holds a piece of an `.npy` file that
-/// is not packed, and of any other file all points.
+/// is not packed, and of any other file all points. Failures of reading name the file; those of `take` are passed on.
 pub fn each_piece(
     path: &Path,
     read: &ReadArguments,
@@ -28,7 +28,12 @@ pub fn each_piece(
     let format = read.from.or_else(|| PointFormat::of_extension(path::extension(path)));
     if format == Some(PointFormat::Npy) {
         read.selection(PointFormat::Npy)?;
-        return Input::open(path, quiet).and_then(|input| npy::read_pieces(input, take)).map_err(in_file);
+        // A failure of `take` is not one of the file.
+        let mut failed = None;
+        let done = Input::open(path, quiet).and_then(|input| {
+            npy::read_pieces(input, &mut |piece| take(piece).inspect_err(|failure| failed = Some(failure.clone())))
+        });
+        return failed.map_or_else(|| done.map_err(in_file), Err);
     }
     let table = source::read_points(path, read, quiet)?;
     let is_rounded = matches!(table.coordinates(), Coordinates::Doubles(_)) && table.rounded() > 0;
@@ -39,7 +44,7 @@ pub fn each_piece(
             table.rounded()
         ))));
     }
-    take(table.coordinates()).map_err(in_file)
+    take(table.coordinates())
 }
 
 /// Reads the points of a run again, for a mesh that has them. The memory must hold them.

@@ -8,7 +8,7 @@ use incircle::order::z_curve::position;
 use incircle::tiles::{Region, Step, Tree};
 use incircle::Point;
 
-use super::deal::{room_for, Placed, PointFile, POINT_BYTES};
+use super::deal::{remove_stale, room_for, Placed, PointFile, POINT_BYTES};
 use super::digest::Digest;
 use super::ground::{Ground, Length};
 use super::head::{Head, Kind, HEAD_BYTES, VERSION};
@@ -59,8 +59,24 @@ pub fn split(plan: &Plan<'_>, last: impl FnOnce(&Summary) -> Result<(), Failure>
     if manifest_path(plan.folder).exists() {
         return last(&known(plan, run)?);
     }
+    let is_new = !plan.folder.exists();
     fs::create_dir_all(plan.folder)
         .map_err(|error| Failure::input(format!("{} cannot be made: {error}", path::name(plan.folder))))?;
+    let done = split_into(plan, survey, run, last);
+    if done.is_err() && is_new {
+        // A folder with anything in it stays.
+        let _ = fs::remove_dir(plan.folder);
+    }
+    done
+}
+
+/// Splits a set that was read once into the files of a folder.
+fn split_into(
+    plan: &Plan<'_>,
+    survey: Survey,
+    run: u64,
+    last: impl FnOnce(&Summary) -> Result<(), Failure>,
+) -> Result<(), Failure> {
     let tree = Tree::of_positions(&positions(&survey.sample), most_of_sample(&survey, plan.most));
     let cells = deal(plan, &survey, &tree)?;
     let mut tiles = Tiles { steps: Vec::new(), files: Vec::new(), created: cells.len(), done: 0 };
@@ -77,6 +93,7 @@ pub fn split(plan: &Plan<'_>, last: impl FnOnce(&Summary) -> Result<(), Failure>
     let (placed, written) = place(plan.folder, &manifest, tiles.files)?;
     output::finish([written], || {
         placed.into_iter().for_each(Placed::keep);
+        remove_stale(plan.folder);
         last(&Summary { manifest, bytes, was_there: false })
     })
 }

@@ -35,7 +35,7 @@ pub fn survey(paths: &[PathBuf], read: &ReadArguments, quiet: bool) -> Result<Su
     for path in paths {
         let mut digest = Digest::default();
         each_piece(path, read, quiet, &mut |piece| {
-            extent.add(piece)?;
+            extent.add(piece).map_err(|failure| failure.in_file(crate::path::name(path)))?;
             sample.add(points + digest.points(), piece);
             digest.add(piece);
             check_count(points + digest.points())

@@ -120,11 +120,13 @@ fn finished_files_are_skipped_and_missing_ones_are_named() {
     scratch.run("generate clusters -n 2000 -o p.npy").ok();
     scratch.run("triangulate p.npy -o right.npy -q").ok();
     let split = "tile split p.npy --points 200 -o t --json";
+    // A run that was killed leaves working files, and the next run removes them.
+    std::fs::create_dir(scratch.path("t")).expect("a folder can be made");
+    scratch.write("t/.3.1.points.part", "half");
     let first = scratch.run(split).ok();
+    assert!(!scratch.path("t/.3.1.points.part").exists());
     let count = tiles(&scratch, "t");
     assert!(first.stdout.contains(&format!("\"tiles\":{count}}}")) && first.stdout.contains("\"skipped\":false"));
-    // A run that was killed leaves working files, which disturb nobody.
-    scratch.write("t/.3.1.points.part", "half");
     assert!(scratch.run(split).ok().stdout.contains("\"skipped\":true"));
     scratch
         .run("tile join t -o m.npy")
