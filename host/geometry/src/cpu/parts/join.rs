@@ -9,12 +9,15 @@ use super::super::conquer::Waiting;
 use super::super::edges::{is_used, Edges, Half, Halves, HALVES};
 use super::super::merge::Part;
 use super::super::parallel::in_parallel;
-use super::super::subtrees::{join, Own};
+use super::super::subtrees::{divide, join, Own};
 use super::super::triangulator::{threads_for, Connectivity};
 use super::super::view::{Integers, Narrow, Site, Wide, Widest, Width, NARROW_BITS, WIDE_BITS};
 use super::guarded::Guarded;
 use super::{Parts, SolvedPart, Unsound};
 use crate::pages;
+
+/// Groups of parts for each thread: enough for all threads to end at about the same time.
+const GROUPS: usize = 8;
 
 /// The borders of all parts in one list.
 struct Borders {
@@ -57,13 +60,16 @@ impl Borders {
         self.parts.push(Some((rings.part.moved(by), by + rings.halves.len() as u32)));
     }
 
-    /// Joins all parts. The half-edges at holes and at the outside are marked. Returns the hull.
-    fn join<W: Width>(&mut self) -> Result<Vec<u32>, Unsound> {
-        let Self { sites, ids, halves, ranges, parts, holes } = self;
-        let mut guarded = Guarded::new(halves);
-        let mut edges = Edges::<Integers<W>, _> { sites, halves: &mut guarded, unused: 0 };
-        let whole = join(&mut edges, sites, ranges, parts, &mut Waiting::new()).filter(|whole| !whole.is_vertex);
-        let whole: Part = whole.filter(|_| !guarded.is_spent()).ok_or(Unsound)?;
+    /// Joins all parts on up to `threads` threads. The half-edges at holes and at the outside are marked. Returns the
+    /// hull.
+    fn join<W: Width>(&mut self, threads: usize) -> Result<Vec<u32>, Unsound> {
+        let groups = self.groups(threads);
+        let joined = self.join_groups::<W>(&groups, threads);
+        let ranges: Vec<Range<usize>> = groups.iter().map(|group| self.vertices(group)).collect();
+        let Self { sites, ids, halves, holes, .. } = self;
+        let mut guarded = Guarded::new(halves, 0);
+        let whole = join_in::<W>(&mut guarded, sites, &ranges, &joined).map(|(whole, _)| whole);
+        let whole: Part = whole.filter(|whole| !whole.is_vertex).ok_or(Unsound)?;
         for &e in holes.iter() {
             let ends = [e, e ^ 1].map(|e| guarded.half(e).end);
             if is_used(ends) {
@@ -74,6 +80,64 @@ impl Borders {
         collect::hull(&mut guarded, ids, whole.leftmost(), &mut hull);
         Ok(hull)
     }
+
+    /// Runs of parts that are subtrees, so that each thread can join some by itself.
+    fn groups(&self, threads: usize) -> Vec<Range<usize>> {
+        let largest = self.ranges.iter().map(Range::len).max().unwrap_or(0);
+        // A cut of a range with more vertices than the largest part lies between parts.
+        let most = if threads < 2 { self.sites.len() } else { (self.sites.len() / (GROUPS * threads)).max(largest) };
+        let mut subtrees = Vec::new();
+        divide::<Integers<Widest>>(&self.sites, 0..self.sites.len(), most, &mut subtrees);
+        let mut first = 0;
+        let group = |subtree: Range<usize>| {
+            let last = self.ranges.partition_point(|range| range.end <= subtree.end);
+            core::mem::replace(&mut first, last)..last
+        };
+        subtrees.into_iter().map(group).collect()
+    }
+
+    /// The vertices of a run of parts.
+    fn vertices(&self, group: &Range<usize>) -> Range<usize> {
+        let vertex = |part: usize| self.ranges.get(part).map_or(self.sites.len(), |range| range.start);
+        vertex(group.start)..vertex(group.end)
+    }
+
+    /// Joins the parts of each group.
+    fn join_groups<W: Width>(&mut self, groups: &[Range<usize>], threads: usize) -> Vec<Option<Own>> {
+        let vertices: Vec<Range<usize>> = groups.iter().map(|group| self.vertices(group)).collect();
+        let Self { sites, ranges, parts, halves, .. } = self;
+        let (sites, ranges, parts) = (&*sites, &*ranges, &*parts);
+        let mut rest = halves.as_mut_slice();
+        let mut tasks = Vec::with_capacity(groups.len());
+        for (group, vertices) in groups.iter().zip(&vertices) {
+            let own = rest.split_off_mut(..HALVES * vertices.len()).unwrap_or_default();
+            tasks.push((group.clone(), Guarded::new(own, (HALVES * vertices.start) as u32)));
+        }
+        let share = tasks.len().div_ceil(threads).max(1);
+        let mut tasks = tasks.into_iter();
+        let shares: Vec<Vec<_>> = (0..threads).map(|_| tasks.by_ref().take(share).collect()).collect();
+        let joined = in_parallel(shares.into_iter(), |own| {
+            let join = |(group, mut halves): (Range<usize>, Guarded<'_>)| {
+                join_in::<W>(&mut halves, sites, &ranges[group.clone()], &parts[group])
+            };
+            own.into_iter().map(join).collect::<Vec<_>>()
+        });
+        joined.into_iter().flatten().collect()
+    }
+}
+
+/// Joins consecutive parts, whose half-edges are in this range. Returns `None` if a part is missing, or if the merges
+/// took too many steps.
+fn join_in<W: Width>(
+    halves: &mut Guarded<'_>,
+    sites: &[Site],
+    ranges: &[Range<usize>],
+    parts: &[Option<Own>],
+) -> Option<Own> {
+    let mut edges = Edges::<Integers<W>, _> { sites, halves, unused: 0 };
+    let whole = join(&mut edges, sites, ranges, parts, &mut Waiting::new());
+    let unused = edges.unused;
+    whole.filter(|_| !halves.is_spent()).map(|whole| (whole, unused))
 }
 
 /// The triangles and the hull of a part; see [`Parts::solved`].
@@ -112,18 +176,18 @@ impl Parts {
         if solved.len() != self.count() || solved.iter().enumerate().any(|(place, solved)| solved.part != place) {
             return Err(Unsound);
         }
+        let threads = threads_for(self.points, threads).get();
         let mut borders = Borders::of(&solved);
         let bits = u32::BITS - (self.far[0] | self.far[1]).leading_zeros();
         let hull = if bits <= NARROW_BITS {
-            borders.join::<Narrow>()
+            borders.join::<Narrow>(threads)
         } else if bits <= WIDE_BITS {
-            borders.join::<Wide>()
+            borders.join::<Wide>(threads)
         } else {
-            borders.join::<Widest>()
+            borders.join::<Widest>(threads)
         }?;
         let count = (2 * self.distinct()).checked_sub(2 + hull.len()).ok_or(Unsound)?;
         let finals: Vec<Vec<[u32; 3]>> = solved.into_iter().map(|solved| solved.finals).collect();
-        let threads = threads_for(self.points, threads).get();
         let Borders { halves, ids, .. } = borders;
         let triangles = collect::triangles_with(halves, &ids, &finals, self.points, count, threads).ok_or(Unsound)?;
         Ok(Connectivity { triangles, hull, duplicates: self.duplicates })

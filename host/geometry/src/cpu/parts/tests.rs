@@ -93,7 +93,7 @@ fn parts_of_many_points_join_to_the_mesh_of_the_whole() {
         let line: Vec<Point> = uniform.iter().map(|p| Point::new(p.x, (p.x / 3).wrapping_add(p.y & 1))).collect();
         let crowd: Vec<Point> = uniform.iter().map(|p| Point::new(p.x >> (p.y & 7), p.y >> (p.x & 7))).collect();
         for points in [&uniform, &line, &crowd] {
-            for (most, threads) in [(100, 2), (2048, 3), (8192, 1)] {
+            for (most, threads) in [(3, 2), (100, 2), (2048, 3), (8192, 1)] {
                 compare(points, most, threads);
             }
         }
