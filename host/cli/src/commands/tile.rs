@@ -12,7 +12,7 @@ use crate::backend::{self, Choice};
 use crate::failure::{counted, failure_of, Failure};
 use crate::formats::{npy_writer, MeshFormat, MeshView};
 use crate::output::{self, Output};
-use crate::progress::Meter;
+use crate::progress::{CountMeter, Meter};
 use crate::tiles::{self, Joined, Manifest, Order, Outcome, Plan, Summary, TileAt};
 use crate::{interrupt, path, source};
 
@@ -159,9 +159,11 @@ fn stream(
             MeshFormat::Ele => writeln!(out, "{} 3 0", joined.triangles)?,
             _ => {}
         }
+        let meter = CountMeter::new(joined.triangles, "writing", "triangles", arguments.quiet);
         let mut id = 0u64;
         let mut disk = None;
         let done = joined.each(&arguments.folder, manifest, &mut |triangles| {
+            meter.advance(triangles.len() as u64);
             write_some(triangles, format, &mut id, out).map_err(|error| {
                 let failure = Failure::input(error.to_string());
                 disk = Some(error);

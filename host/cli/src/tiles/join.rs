@@ -14,6 +14,9 @@ use crate::failure::Failure;
 use crate::path;
 use crate::progress::CountMeter;
 
+/// Triangles that are passed on together.
+const SOME: usize = 1 << 12;
+
 /// The order of the triangles of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Order {
@@ -195,7 +198,17 @@ impl Joined {
                 bucket.each(take)?;
                 for (tile, (region, _)) in (0..).zip(manifest.tiles()) {
                     let owner = Owner { run: manifest.run, tile };
-                    TileResult::read(folder, owner, region, &mut |triangle| take(&[triangle]))?;
+                    let mut some = Vec::with_capacity(SOME);
+                    TileResult::read(folder, owner, region, &mut |triangle| {
+                        some.push(triangle);
+                        if some.len() < SOME {
+                            return Ok(());
+                        }
+                        let taken = take(&some);
+                        some.clear();
+                        taken
+                    })?;
+                    take(&some)?;
                 }
                 Ok(())
             }
