@@ -2,6 +2,7 @@
 
 use super::{array, split_and_solve, tiles};
 use crate::common::Scratch;
+use incircle_cli::generate::SplitMix64;
 
 /// A small set in a few tiles, all triangulated, and its mesh.
 fn small() -> (Scratch, Vec<u8>) {
@@ -92,6 +93,40 @@ fn a_file_that_promises_too_much_takes_no_memory() {
     bytes[72..76].copy_from_slice(&check.to_le_bytes());
     scratch.write("t/0.local", bytes);
     scratch.run("tile join t -o m.npy").fails(3, &["t/0.local", "damaged or cut off"]);
+}
+
+/// Files whose check sums were made to fit. Only an attacker makes such files, and nothing may panic over them.
+#[test]
+fn forged_files_never_panic() {
+    let (scratch, _) = small();
+    let mut random = SplitMix64::new(11);
+    for (name, verb) in [
+        ("t/manifest", "join t -o m.npy"),
+        ("t/1.local", "join t -o m.npy"),
+        ("t/1.points", "local t/1"),
+        ("t/manifest", "local t/1"),
+    ] {
+        let sound = std::fs::read(scratch.path(name)).expect("the file is there");
+        for _ in 0..150 {
+            if verb == "local t/1" {
+                let _ = std::fs::remove_file(scratch.path("t/1.local"));
+            }
+            let mut forged = sound.clone();
+            let at = 76 + 4 * random.below((forged.len() as u64 - 76) / 4) as usize;
+            let word = [0, 1, 5, u32::MAX, 1 << 31, 1 << 20][random.below(6) as usize];
+            forged[at..at + 4].copy_from_slice(&u32::to_le_bytes(word));
+            let check = crc(&forged[76..]);
+            forged[28..32].copy_from_slice(&check.to_le_bytes());
+            let check = crc(&forged[..72]);
+            forged[72..76].copy_from_slice(&check.to_le_bytes());
+            scratch.write(name, &forged);
+            let run = scratch.run(&format!("tile {verb}"));
+            assert!(matches!(run.code, Some(0 | 3)), "{name}, {word:#x} at {at}: {run:?}");
+        }
+        scratch.write(name, &sound);
+        let _ = std::fs::remove_file(scratch.path("t/1.local"));
+        scratch.run("tile local t/1 -q").ok();
+    }
 }
 
 /// The check sum CRC-32 of ISO 3309, bit by bit.
