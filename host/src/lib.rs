@@ -127,7 +127,7 @@ pub use error::{DeviceFault, Error, ErrorKind, Shown, TransportError};
 pub use incircle_geometry::cpu::{Error as TriangulatorError, Triangulator};
 pub use incircle_geometry::lattice::{Lattice, Step};
 pub use incircle_geometry::verify::{self, verify, VerifyError, VerifySummary};
-pub use incircle_geometry::{double, orient2d, predicate, Duplicate, Mesh, Order, PlanePoint, Point};
+pub use incircle_geometry::{double, orient2d, predicate, tiles, Duplicate, Mesh, Order, PlanePoint, Point};
 pub use incircle_geometry::{UnknownOrder, EMPTY, MAX_POINTS};
 pub use incircle_protocol::{Config, Identity};
 pub use job::{Counters, Latencies, Options, Progress, ProgressListener, Report, Share, Solution, Stage};
@@ -140,7 +140,7 @@ pub use transports::{pcie, serial, Transport};
 /// always gets the same order, whatever the order of the input.
 pub mod order {
     pub use crate::job::deal::{brio_hilbert_dealt, deal};
-    pub use incircle_geometry::order::{brio_hilbert, hilbert, random, Order, Rounds, UnknownOrder};
+    pub use incircle_geometry::order::{brio_hilbert, hilbert, random, z_curve, Order, Rounds, UnknownOrder};
 }
 
 /// Triangulates a set of points with the CPU triangulator, on all processors if the set is large.

@@ -83,6 +83,53 @@ Examples:
   incircle bench --backend cpu --threads 1 -n 1000000 --coord-bits 20
   incircle bench uniform --batch 1000 -n 200 --backend clock --json";
 
+/// End of `incircle tile -h`.
+pub const TILE: &str = "\
+Example:
+  incircle tile split points.npy --points 1000000 -o tiles";
+
+/// End of `incircle tile --help`.
+pub const TILE_LONG: &str = "\
+Examples:
+  incircle tile split points.npy --points 1000000 -o tiles
+  incircle tile local tiles/0                            for each tile, here or elsewhere
+  incircle tile join tiles -o mesh.npy";
+
+/// End of `incircle tile split -h`.
+pub const SPLIT: &str = "\
+Example:
+  incircle tile split points.npy --points 1000000 -o tiles";
+
+/// End of `incircle tile split --help`.
+pub const SPLIT_LONG: &str = "\
+Examples:
+  incircle tile split points.npy --points 1000000 -o tiles
+  incircle tile split west.laz east.laz --points 2000000 -o tiles --class 2 --json";
+
+/// End of `incircle tile local -h`.
+pub const LOCAL: &str = "\
+Example:
+  incircle tile local tiles/0";
+
+/// End of `incircle tile local --help`.
+pub const LOCAL_LONG: &str = "\
+Examples:
+  incircle tile local tiles/0
+  incircle tile local tiles/$SLURM_ARRAY_TASK_ID --threads 1
+  incircle tile local tiles/7 --backend clock?config=full";
+
+/// End of `incircle tile join -h`.
+pub const JOIN: &str = "\
+Example:
+  incircle tile join tiles -o mesh.npy";
+
+/// End of `incircle tile join --help`.
+pub const JOIN_LONG: &str = "\
+Examples:
+  incircle tile join tiles -o mesh.npy
+  incircle tile join tiles -o mesh.npy --memory 1G
+  incircle tile join tiles -o mesh.csv.zst --unordered";
+
 /// End of `incircle info -h`.
 pub const INFO: &str = "\
 Example:

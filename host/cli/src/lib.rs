@@ -28,6 +28,7 @@ mod report;
 mod sim_backend;
 mod source;
 mod text;
+mod tiles;
 mod values;
 
 use std::ffi::OsString;
@@ -59,6 +60,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Verify(arguments) => commands::verify::run(arguments),
         Command::Generate(arguments) => commands::generate::run(arguments),
         Command::Bench(arguments) => commands::bench::run(arguments),
+        Command::Tile(arguments) => commands::tile::run(arguments),
         Command::Info(arguments) => commands::info::run(arguments),
         Command::Devices(arguments) => commands::devices::run(arguments),
         Command::Completions(arguments) => commands::completions::run(arguments),

@@ -55,6 +55,47 @@ impl Drop for Meter {
     }
 }
 
+/// The progress of work that is counted in one unit.
+pub struct CountMeter {
+    shown: bool,
+    total: u64,
+    what: [&'static str; 2],
+    since: Instant,
+    bar: OnceCell<ProgressBar>,
+    done: Cell<u64>,
+}
+
+impl CountMeter {
+    /// Makes a meter of `total` units, such as "regions", for work such as "joining". With `quiet`, or if standard
+    /// error is no terminal, the meter shows nothing.
+    pub fn new(total: u64, work: &'static str, units: &'static str, quiet: bool) -> Self {
+        let (shown, what) = (is_shown(quiet), [work, units]);
+        Self { shown, total, what, since: Instant::now(), bar: OnceCell::new(), done: Cell::new(0) }
+    }
+
+    /// Counts units that are done.
+    pub fn advance(&self, units: u64) {
+        self.done.set(self.done.get() + units);
+        if self.shown && self.since.elapsed() >= PATIENCE {
+            let bar = self.bar.get_or_init(|| {
+                let bar = new_bar(self.total, OF_JOBS);
+                bar.set_message(self.what[0]);
+                bar.set_prefix(self.what[1]);
+                bar
+            });
+            bar.set_position(self.done.get());
+        }
+    }
+}
+
+impl Drop for CountMeter {
+    fn drop(&mut self) {
+        if let Some(bar) = self.bar.get() {
+            bar.finish_and_clear();
+        }
+    }
+}
+
 /// A reader that shows how much of a file has been read.
 pub struct ReadMeter<R> {
     source: R,

@@ -36,8 +36,17 @@ pub fn read_mesh(path: &Path, format: Option<MeshFormat>, quiet: bool) -> Result
     read().map_err(|failure| failure.in_file(name(path)))
 }
 
+/// The format of a mesh that is written to this path: `format`, or else the one of the extension.
+pub fn mesh_format(path: &Path, format: Option<MeshFormat>) -> Result<MeshFormat, Failure> {
+    format.or_else(|| MeshFormat::of_extension(extension(path))).ok_or_else(|| {
+        let name = if is_standard(path) { "standard output".to_owned() } else { name(path) };
+        let (why, names) = (no_format(path), MeshFormat::names(|_| true));
+        Failure::usage(format!("{name}: {why}: add --format {names}"))
+    })
+}
+
 /// The reason why a mesh of this name needs `--format`, for a message.
-pub fn no_format(path: &Path) -> &'static str {
+fn no_format(path: &Path) -> &'static str {
     if is_standard(path) {
         "a mesh that has no file name needs a format"
     } else {

@@ -141,6 +141,21 @@ pub fn whole_number(least: u32, most: u32) -> impl Fn(&str) -> Result<u32, Strin
     }
 }
 
+/// Parses a number of bytes, such as `300M`. K, M and G are powers of 1,024.
+pub fn bytes_from(text: &str) -> Result<u64, String> {
+    const LEAST: u64 = 1 << 16;
+    let (number, unit) = match text.as_bytes().last() {
+        Some(b'K' | b'k') => (&text[..text.len() - 1], 1 << 10),
+        Some(b'M' | b'm') => (&text[..text.len() - 1], 1 << 20),
+        Some(b'G' | b'g') => (&text[..text.len() - 1], 1 << 30),
+        _ => (text, 1u64),
+    };
+    let bytes = number.parse::<u64>().ok().and_then(|number| number.checked_mul(unit));
+    bytes
+        .filter(|&bytes| bytes >= LEAST)
+        .ok_or_else(|| "give a number of bytes from 64K, such as 300M or 2G".to_owned())
+}
+
 /// Parses a number of threads.
 pub fn threads_from(text: &str) -> Result<NonZeroU32, String> {
     text.parse().map_err(|_| format!("give a whole number from 1 to {}", u32::MAX))
@@ -223,6 +238,15 @@ mod tests {
         assert_eq!(threads_from("3").map(NonZeroU32::get), Ok(3));
         for bad in ["", "0", "-1", "many", "4294967296"] {
             assert!(threads_from(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn bytes_have_units() {
+        assert_eq!(bytes_from("65536"), Ok(1 << 16));
+        assert_eq!([bytes_from("64K"), bytes_from("3m"), bytes_from("2G")], [Ok(1 << 16), Ok(3 << 20), Ok(2 << 30)]);
+        for bad in ["", "G", "0", "65535", "1.5G", "-1G", "99999999999G", "1GB", "\u{2135}"] {
+            assert!(bytes_from(bad).is_err(), "{bad}");
         }
     }
 

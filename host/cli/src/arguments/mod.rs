@@ -2,6 +2,7 @@
 
 mod backend;
 mod points;
+mod tile;
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -20,6 +21,7 @@ use crate::values::{
 
 pub use backend::{BackendArguments, ConfigName};
 pub use points::{GridArguments, ReadArguments};
+pub use tile::{JoinArguments, LocalArguments, SplitArguments, TileArguments, TileCommand};
 
 /// Exact Delaunay triangulation: one canonical answer, in software or hardware
 #[derive(Debug, Parser)]
@@ -62,6 +64,12 @@ pub enum Command {
     /// the best of three runs.
     #[command(verbatim_doc_comment, after_help = help::BENCH, after_long_help = help::BENCH_LONG)]
     Bench(BenchArguments),
+    /// Triangulate a set in tiles over files: larger than the memory, or on many machines
+    ///
+    /// 'split' cuts the set into tiles, 'local' triangulates one of them, 'join' makes one mesh of
+    /// all. The mesh is the one of 'triangulate', byte for byte.
+    #[command(verbatim_doc_comment, after_help = help::TILE, after_long_help = help::TILE_LONG)]
+    Tile(TileArguments),
     /// Describe a back end: version, coordinates, capacity, contexts
     #[command(after_help = help::INFO, after_long_help = help::INFO_LONG)]
     Info(InfoArguments),

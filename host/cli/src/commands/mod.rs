@@ -7,5 +7,6 @@ pub mod completions;
 pub mod devices;
 pub mod generate;
 pub mod info;
+pub mod tile;
 pub mod triangulate;
 pub mod verify;

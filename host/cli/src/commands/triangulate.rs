@@ -1,6 +1,5 @@
 //! `incircle triangulate`: points in, the canonical mesh out.
 
-use std::path::Path;
 use std::time::{Duration, Instant};
 
 use incircle::{DeviceAddress, Fleet, Options, PlanePoint, Report, Session, Solution};
@@ -19,7 +18,7 @@ use crate::{interrupt, path, source};
 
 /// Reads the points, triangulates them, writes the mesh, and prints the report.
 pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
-    let format = format_of(arguments)?;
+    let format = source::mesh_format(&arguments.output, arguments.format)?;
     let output = prepare_mesh(arguments)?;
     let chosen = Chosen::of(arguments)?;
     let trace = prepare_trace(arguments, &chosen, &output)?;
@@ -161,16 +160,6 @@ fn tell(report: &RunReport<'_>, arguments: &TriangulateArguments) -> Result<(), 
         lines.iter().for_each(|line| output::note(line));
     }
     Ok(())
-}
-
-fn format_of(arguments: &TriangulateArguments) -> Result<MeshFormat, Failure> {
-    let output: &Path = &arguments.output;
-    let format = arguments.format.or_else(|| MeshFormat::of_extension(path::extension(output)));
-    format.ok_or_else(|| {
-        let name = if path::is_standard(output) { "standard output".to_owned() } else { path::name(output) };
-        let (why, names) = (source::no_format(output), MeshFormat::names(|_| true));
-        Failure::usage(format!("{name}: {why}: add --format {names}"))
-    })
 }
 
 /// The mesh without its points, which are in the table of the file.

@@ -5,7 +5,8 @@
 //! Fortran order. An array of records has the fields `x`, `y` and perhaps `z`.
 
 use crate::failure::Failure;
-use crate::formats::array::{Cells, Source, Wanted};
+use crate::formats::array::{Cells, Pieces, Source, Wanted};
+use crate::input::Input;
 use crate::memory::Memory;
 use crate::points::{Coordinates, Place, PointTable, Unit};
 use crate::text;
@@ -36,6 +37,32 @@ pub fn read_points(mut source: Source<'_>) -> Result<PointTable, Failure> {
         Coordinates::Doubles(points)
     };
     Ok(PointTable::of_coordinates("point", coordinates).with_heights(heights))
+}
+
+/// The number of points of a piece.
+const PIECE: usize = 1 << 16;
+
+/// Calls `take` with the coordinates of the points, piece by piece. The memory holds one piece, however large the array
+/// is.
+pub fn read_pieces(input: Input, take: &mut dyn FnMut(&Coordinates) -> Result<(), Failure>) -> Result<(), Failure> {
+    let mut pieces = Pieces::open(input, &POINTS)?;
+    let is_whole =
+        [0, 1].iter().all(|&axis| pieces.layout().columns().any(|one| one.axis == axis && one.item.is_integer()));
+    let rows = pieces.layout().rows;
+    for first in (0..rows).step_by(PIECE) {
+        let count = PIECE.min(rows - first);
+        let (mut steps, mut points) = (Vec::new(), Vec::new());
+        pieces.read(first, count, |cells| match (cells.axis, is_whole) {
+            (2, _) => Ok(()),
+            (_, true) => keep_integers(&mut steps, cells),
+            (_, false) => keep_doubles(&mut points, cells),
+        })?;
+        take(&match is_whole {
+            true => Coordinates::Steps { steps, unit: Unit::of_digits(0) },
+            false => Coordinates::Doubles(points),
+        })?;
+    }
+    Ok(())
 }
 
 /// Reads the triangles of an array of integers.
@@ -79,7 +106,7 @@ fn rows_of<'a, T: Copy + Default>(
         list.resize(cells.end(), T::default());
     }
     let first = cells.first;
-    list[first..].iter_mut().enumerate().map(move |(index, row)| (first + index, row))
+    list[cells.start()..].iter_mut().enumerate().map(move |(index, row)| (first + index, row))
 }
 
 fn keep_integers(steps: &mut Vec<[i64; 2]>, cells: &Cells<'_>) -> Result<(), Failure> {
@@ -96,10 +123,10 @@ fn keep_integers(steps: &mut Vec<[i64; 2]>, cells: &Cells<'_>) -> Result<(), Fai
     if cells.beyond(lowest).is_none() {
         return Ok(());
     }
-    let mut beyond = steps.iter().enumerate().skip(cells.first);
+    let mut beyond = steps.iter().enumerate().skip(cells.start());
     let found = beyond.find_map(|(index, point)| Some((index, cells.beyond(point[axis])?)));
     found.map_or(Ok(()), |(index, value)| {
-        let (place, most) = (place(index, axis), i64::MAX);
+        let (place, most) = (place(cells.list + index, axis), i64::MAX);
         Err(Failure::input(format!("{place}: {value} is beyond 64 bits: whole numbers go up to {most}")))
     })
 }
@@ -122,9 +149,11 @@ fn keep_doubles(points: &mut Vec<[f64; 2]>, cells: &Cells<'_>) -> Result<(), Fai
     if are_finite {
         return Ok(());
     }
-    let mut rows = points.iter().enumerate().skip(cells.first);
+    let mut rows = points.iter().enumerate().skip(cells.start());
     let found = rows.find(|(_, point)| !point[axis].is_finite());
-    found.map_or(Ok(()), |(index, point)| Err(text::not_finite(&format!("'{}'", point[axis]), place(index, axis))))
+    found.map_or(Ok(()), |(index, point)| {
+        Err(text::not_finite(&format!("'{}'", point[axis]), place(cells.list + index, axis)))
+    })
 }
 
 /// Refuses integers that no double holds, in a column whose points have a float as the other coordinate.
@@ -155,8 +184,8 @@ fn keep_heights(heights: &mut Vec<f64>, cells: &Cells<'_>) -> Result<(), Failure
         }
     });
     drop(target);
-    let found = heights.iter().enumerate().skip(cells.first).find(|(_, height)| !height.is_finite());
-    found.map_or(Ok(()), |(index, height)| Err(text::not_finite(&format!("'{height}'"), place(index, 2))))
+    let found = heights.iter().enumerate().skip(cells.start()).find(|(_, height)| !height.is_finite());
+    found.map_or(Ok(()), |(index, height)| Err(text::not_finite(&format!("'{height}'"), place(cells.list + index, 2))))
 }
 
 fn place(index: usize, axis: usize) -> Place {

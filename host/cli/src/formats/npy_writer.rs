@@ -64,11 +64,20 @@ pub fn write_points<N: Stored>(points: impl ExactSizeIterator<Item = [N; 2]>, ou
 
 /// Writes the triangles as an array of m rows and three columns.
 pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
+    write_mesh_head(mesh.triangles.len() as u64, out)?;
+    write_triangles(mesh.triangles, out)
+}
+
+/// Writes the header of an array of so many triangles.
+pub fn write_mesh_head(triangles: u64, out: &mut dyn Write) -> io::Result<()> {
     let item: TypeStr = "<u4".parse().map_err(io::Error::other)?;
-    let shape = [mesh.triangles.len() as u64, 3];
-    let options = WriteOptions::new_header_only().dtype(DType::Plain(item)).shape(&shape);
-    options.writer(&mut *out).write_header_only()?;
-    for triangle in mesh.triangles {
+    let options = WriteOptions::new_header_only().dtype(DType::Plain(item)).shape(&[triangles, 3]);
+    options.writer(&mut *out).write_header_only().map(|_| ())
+}
+
+/// Writes triangles behind the header.
+pub fn write_triangles(triangles: &[[u32; 3]], out: &mut dyn Write) -> io::Result<()> {
+    for triangle in triangles {
         out.write_all(triangle.map(u32::to_le_bytes).as_flattened())?;
     }
     Ok(())

@@ -57,12 +57,19 @@ pub struct Cells<'a> {
     pub axis: usize,
     /// The index of the first row in the array.
     pub first: usize,
+    /// The index in the array of the first row of the list that is filled.
+    pub list: usize,
 }
 
 impl Cells<'_> {
-    /// The index after the last row.
+    /// The place in the list of the first row.
+    pub fn start(&self) -> usize {
+        self.first - self.list
+    }
+
+    /// The place in the list after the last row.
     pub fn end(&self) -> usize {
-        self.first + self.bytes.len() / self.stride.max(1)
+        self.start() + self.bytes.len() / self.stride.max(1)
     }
 
     /// Calls `put` with all numbers of a column of integers. An integer of 2^63 or more comes as a negative one;

@@ -2,8 +2,10 @@
 
 mod cells;
 mod header;
+mod pieces;
 mod stream;
 
 pub use cells::Cells;
 pub use header::Wanted;
+pub use pieces::Pieces;
 pub use stream::Source;

@@ -34,14 +34,7 @@ impl<'a> Source<'a> {
     pub fn open(&mut self, wanted: &Wanted, check: fn(Memory, u64) -> Result<(), Failure>) -> Result<Layout, Failure> {
         let (layout, header_bytes) = Layout::read(self.bytes, wanted)?;
         if let Some(size) = self.size {
-            let found = size.saturating_sub(header_bytes);
-            if found < layout.bytes {
-                return Err(cut(&layout, found));
-            }
-            if found > layout.bytes {
-                let left = counted(usize::try_from(found - layout.bytes).unwrap_or(usize::MAX), "byte");
-                return Err(too_long(&layout, &left));
-            }
+            check_length(&layout, size.saturating_sub(header_bytes))?;
         }
         check(self.memory, layout.rows as u64)?;
         Ok(layout)
@@ -78,7 +71,7 @@ impl<'a> Source<'a> {
                 }
                 for column in &pass.columns {
                     let (axis, offset, item) = (column.axis, column.offset, column.item);
-                    take(&Cells { bytes, stride: pass.stride, offset, item, axis, first })?;
+                    take(&Cells { bytes, stride: pass.stride, offset, item, axis, first, list: 0 })?;
                 }
             }
         }
@@ -102,6 +95,18 @@ impl<'a> Source<'a> {
         }
         Ok(count)
     }
+}
+
+/// Refuses an array whose rows have fewer or more bytes in the file than the header promises.
+pub fn check_length(layout: &Layout, found: u64) -> Result<(), Failure> {
+    if found < layout.bytes {
+        return Err(cut(layout, found));
+    }
+    if found > layout.bytes {
+        let left = counted(usize::try_from(found - layout.bytes).unwrap_or(usize::MAX), "byte");
+        return Err(too_long(layout, &left));
+    }
+    Ok(())
 }
 
 fn cut(layout: &Layout, found: u64) -> Failure {

@@ -1,0 +1,157 @@
+//! The second pass: the points of all inputs are dealt to one file for each cell.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Seek, Write};
+use std::path::{Path, PathBuf};
+
+use crc32fast::Hasher;
+use incircle::Point;
+
+use super::head::{Head, HEAD_BYTES};
+use crate::failure::Failure;
+use crate::{interrupt, path};
+
+/// The number of bytes of a point in a file: its index, x and y.
+pub const POINT_BYTES: usize = 12;
+/// The bytes that all buffers together take, unless there are very many files.
+const BUFFERS: usize = 64 << 20;
+/// The least and the most bytes of a buffer. Each time that one is full, its file is opened and closed, because there
+/// may be more files than a process may keep open.
+const BUFFER: std::ops::Range<usize> = 1 << 12..1 << 18;
+
+/// The end of a working name.
+const WORKING: &str = ".points.part";
+
+/// A file of points under its working name. Dropping the value removes the file.
+pub struct PointFile {
+    path: PathBuf,
+    buffer: Vec<u8>,
+    check: Hasher,
+    /// The number of points.
+    pub points: u64,
+}
+
+impl PointFile {
+    /// Makes an empty file with room for a head. The number keeps the files of a run apart.
+    pub fn create(folder: &Path, number: usize) -> Result<Self, Failure> {
+        let path = folder.join(format!(".{number}.{}{WORKING}", std::process::id()));
+        let mut unfinished = interrupt::unfinished();
+        let opened = OpenOptions::new().write(true).create(true).truncate(true).open(&path);
+        // The value exists before anything is written, so that a failure removes the file.
+        let made = opened.map(|file| {
+            unfinished.push(path.clone());
+            (file, Self { path: path.clone(), buffer: Vec::new(), check: Hasher::new(), points: 0 })
+        });
+        drop(unfinished);
+        let (mut file, made) = made.map_err(|error| cannot_write(&path, &error))?;
+        file.write_all(&[0; HEAD_BYTES]).map_err(|error| cannot_write(&path, &error))?;
+        Ok(made)
+    }
+
+    /// Adds a point. `room` is the size of the buffer, in bytes.
+    #[inline]
+    pub fn push(&mut self, index: u32, point: Point, room: usize) -> Result<(), Failure> {
+        self.buffer.extend([index, point.x, point.y].map(u32::to_le_bytes).as_flattened());
+        self.points += 1;
+        if self.buffer.len() >= room {
+            self.flush()?;
+        }
+        Ok(())
+    }
+
+    /// Writes what is in the buffer.
+    pub fn flush(&mut self) -> Result<(), Failure> {
+        if self.buffer.is_empty() {
+            return Ok(());
+        }
+        self.check.update(&self.buffer);
+        let opened = OpenOptions::new().append(true).open(&self.path);
+        let written = opened.and_then(|mut file| file.write_all(&self.buffer));
+        self.buffer.clear();
+        written.map_err(|error| cannot_write(&self.path, &error))
+    }
+
+    /// All points of the file, as rows of index, x and y.
+    pub fn rows(&mut self) -> Result<Vec<[u32; 3]>, Failure> {
+        self.flush()?;
+        self.buffer = Vec::new();
+        let bytes = fs::read(&self.path).map_err(|error| cannot_write(&self.path, &error))?;
+        let words = bytes.get(HEAD_BYTES..).unwrap_or_default().as_chunks::<4>().0;
+        let row = |row: &[[u8; 4]; 3]| row.map(u32::from_le_bytes);
+        Ok(words.as_chunks::<3>().0.iter().map(row).collect())
+    }
+
+    /// Writes the head, and gives the file its final name.
+    pub fn place(mut self, head: Head, target: &Path) -> Result<Placed, Failure> {
+        self.flush()?;
+        let check = self.check.clone().finalize();
+        let head = Head { check, counts: [self.points, 0, 0, 0, 0], ..head };
+        let write = || -> io::Result<()> {
+            let mut file = File::options().write(true).open(&self.path)?;
+            file.rewind()?;
+            file.write_all(&head.to_bytes())
+        };
+        write().map_err(|error| cannot_write(target, &error))?;
+        let mut unfinished = interrupt::unfinished();
+        interrupt::check()?;
+        fs::rename(&self.path, target).map_err(|error| cannot_write(target, &error))?;
+        unfinished.iter_mut().filter(|kept| **kept == self.path).for_each(|kept| *kept = target.to_owned());
+        drop(unfinished);
+        self.path = PathBuf::new();
+        Ok(Placed { path: target.to_owned() })
+    }
+}
+
+impl Drop for PointFile {
+    fn drop(&mut self) {
+        remove(&self.path);
+    }
+}
+
+/// A file of points under its final name. Dropping the value removes the file, unless it is kept.
+#[must_use]
+pub struct Placed {
+    path: PathBuf,
+}
+
+impl Placed {
+    /// Leaves the file where it is.
+    pub fn keep(mut self) {
+        let path = std::mem::take(&mut self.path);
+        interrupt::unfinished().retain(|kept| *kept != path);
+    }
+}
+
+impl Drop for Placed {
+    fn drop(&mut self) {
+        remove(&self.path);
+    }
+}
+
+fn remove(path: &Path) {
+    if path.as_os_str().is_empty() {
+        return;
+    }
+    let mut unfinished = interrupt::unfinished();
+    let _ = fs::remove_file(path);
+    unfinished.retain(|kept| kept != path);
+}
+
+/// Removes the working files that earlier runs left in a folder because they were killed.
+pub fn remove_stale(folder: &Path) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for entry in entries.filter_map(Result::ok) {
+        if entry.file_name().to_string_lossy().ends_with(WORKING) {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// The size of a buffer, in bytes, if there are so many of them.
+pub fn room_for(files: usize) -> usize {
+    (BUFFERS / files.max(1)).clamp(BUFFER.start, BUFFER.end)
+}
+
+fn cannot_write(path: &Path, error: &io::Error) -> Failure {
+    Failure::input(format!("{} cannot be written: {error}", path::name(path)))
+}

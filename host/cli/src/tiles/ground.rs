@@ -1,0 +1,231 @@
+//! The lattice of all inputs together: one step for all coordinates, and the place from which steps are counted.
+
+use incircle::{Lattice, Point, Step};
+
+use crate::failure::Failure;
+use crate::points::{Coordinates, Unit};
+
+/// Steps of this magnitude or more are refused: about 2^63, as for one file of doubles.
+const MOST_STEPS: i128 = 9_200_000_000_000_000_000;
+
+/// The length of a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Length {
+    /// Ten to the power of minus this number.
+    Decimal(u32),
+    /// Two to the power of this number, which is 0 or less.
+    Binary(i32),
+}
+
+/// The lattice of a set, as far as tiles need it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ground {
+    /// The length of a step.
+    pub length: Length,
+    /// The smallest x and y of all points, in steps.
+    pub offset: [i128; 2],
+    /// Bits of the larger span, at most 32.
+    pub bits: u32,
+}
+
+/// The least and the greatest coordinates, in steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Span {
+    low: [i128; 2],
+    high: [i128; 2],
+}
+
+impl Span {
+    fn with(self, other: Self) -> Self {
+        Self {
+            low: [0, 1].map(|axis| self.low[axis].min(other.low[axis])),
+            high: [0, 1].map(|axis| self.high[axis].max(other.high[axis])),
+        }
+    }
+
+    /// The span in steps that are shorter by a factor; `None` if the numbers become too large.
+    fn times(self, factor: Option<i128>) -> Option<Self> {
+        let scaled = |value: i128| match value {
+            0 => Some(0),
+            _ => value.checked_mul(factor?).filter(|steps| steps.abs() < MOST_STEPS),
+        };
+        let both = |[x, y]: [i128; 2]| Some([scaled(x)?, scaled(y)?]);
+        Some(Self { low: both(self.low)?, high: both(self.high)? })
+    }
+}
+
+/// The spans of the pieces seen so far. Each kind of numbers has the shortest step that one of its pieces needs.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Extent {
+    decimal: Option<(u32, Span)>,
+    binary: Option<(i32, Span)>,
+}
+
+impl Extent {
+    /// Adds the points of a piece. Points that have no lattice are refused.
+    pub fn add(&mut self, piece: &Coordinates) -> Result<(), Failure> {
+        let added = match piece {
+            Coordinates::Steps { steps, unit } => self.add_steps(steps, unit),
+            Coordinates::Doubles(points) => self.add_doubles(points),
+        };
+        added.ok_or_else(no_lattice)
+    }
+
+    fn add_steps(&mut self, steps: &[[i64; 2]], unit: &Unit) -> Option<()> {
+        let values = steps.iter().map(|&point| decimal(unit, point));
+        let span = values.map(|at| Span { low: at, high: at }).reduce(Span::with);
+        let Some(span) = span else { return Some(()) };
+        let (digits, old) = self.decimal.unwrap_or((unit.digits, span));
+        let finest = digits.max(unit.digits);
+        let old = old.times(10i128.checked_pow(finest - digits))?;
+        self.decimal = Some((finest, old.with(span.times(10i128.checked_pow(finest - unit.digits))?)));
+        Some(())
+    }
+
+    fn add_doubles(&mut self, points: &[[f64; 2]]) -> Option<()> {
+        if points.is_empty() {
+            return Some(());
+        }
+        let (lattice, grid) = Lattice::of_doubles(points)?;
+        let most = grid.iter().fold([0; 2], |most: [u32; 2], point| [most[0].max(point.x), most[1].max(point.y)]);
+        let low = lattice.offset.map(i128::from);
+        let span = Span { low, high: [0, 1].map(|axis| low[axis] + i128::from(most[axis])) };
+        let exponent = exponent_of(&lattice);
+        let (coarse, old) = self.binary.unwrap_or((exponent, span));
+        let finest = coarse.min(exponent);
+        let old = old.times(power_of_two(coarse, finest))?;
+        self.binary = Some((finest, old.with(span.times(power_of_two(exponent, finest))?)));
+        Some(())
+    }
+
+    /// The lattice of all points. Sets whose numbers have no common step, or that span 2^32 steps or more, are refused.
+    pub fn ground(&self) -> Result<Ground, Failure> {
+        let (length, span) = match (self.decimal, self.binary) {
+            (None, None) => return Ok(Ground { length: Length::Decimal(0), offset: [0; 2], bits: 0 }),
+            (Some((digits, span)), None) => (Length::Decimal(digits), span),
+            (None, Some((exponent, span))) => (Length::Binary(exponent), span),
+            (Some((digits, decimal)), Some((0, whole))) => {
+                let whole = whole.times(10i128.checked_pow(digits)).ok_or_else(no_lattice)?;
+                (Length::Decimal(digits), decimal.with(whole))
+            }
+            (Some((0, whole)), Some((exponent, binary))) => {
+                let whole = whole.times(power_of_two(0, exponent)).ok_or_else(no_lattice)?;
+                (Length::Binary(exponent), binary.with(whole))
+            }
+            (Some(_), Some(_)) => return Err(no_lattice()),
+        };
+        let spans = [0, 1].map(|axis| span.high[axis].abs_diff(span.low[axis]));
+        let bits = u128::BITS - (spans[0] | spans[1]).leading_zeros();
+        if bits > u32::BITS {
+            return Err(Failure::input(format!(
+                "the points need {bits} bits in their common steps, and tiles take at most 32: round the points, or \
+                 triangulate them in one memory with 'incircle triangulate'"
+            )));
+        }
+        Ok(Ground { length, offset: span.low, bits })
+    }
+}
+
+impl Ground {
+    /// Adds the points of a piece to a list, laid onto the grid. `None` if a point is not on the lattice, which means
+    /// that the input has changed.
+    pub fn lay(&self, piece: &Coordinates, grid: &mut Vec<Point>) -> Option<()> {
+        match piece {
+            Coordinates::Steps { steps, unit } => {
+                let factor = match self.length {
+                    Length::Decimal(digits) => 10i128.checked_pow(digits.checked_sub(unit.digits)?)?,
+                    Length::Binary(exponent) => power_of_two(0, exponent).filter(|_| unit.digits == 0)?,
+                };
+                for &point in steps {
+                    grid.push(self.place(decimal(unit, point), factor)?);
+                }
+            }
+            Coordinates::Doubles(points) if !points.is_empty() => {
+                let (lattice, own) = Lattice::of_doubles(points)?;
+                let exponent = exponent_of(&lattice);
+                let factor = match self.length {
+                    Length::Decimal(digits) => 10i128.checked_pow(digits).filter(|_| exponent == 0)?,
+                    Length::Binary(finest) => power_of_two(exponent, finest)?,
+                };
+                for point in own {
+                    grid.push(self.place(lattice.steps(point).map(i128::from), factor)?);
+                }
+            }
+            Coordinates::Doubles(_) => {}
+        }
+        Some(())
+    }
+
+    #[inline]
+    fn place(&self, value: [i128; 2], factor: i128) -> Option<Point> {
+        let steps = |axis: usize| u32::try_from(value[axis].checked_mul(factor)? - self.offset[axis]).ok();
+        Some(Point::new(steps(0)?, steps(1)?))
+    }
+}
+
+/// The coordinates of a point in units of the last digit.
+#[inline]
+fn decimal(unit: &Unit, point: [i64; 2]) -> [i128; 2] {
+    [0, 1].map(|axis| i128::from(point[axis]) * i128::from(unit.factor) + unit.offset[axis])
+}
+
+fn exponent_of(lattice: &Lattice) -> i32 {
+    match lattice.step {
+        Step::Binary { exponent } => exponent,
+        _ => 0,
+    }
+}
+
+/// How many steps of `2^fine` are one step of `2^coarse`; `None` for more than 2^64.
+fn power_of_two(coarse: i32, fine: i32) -> Option<i128> {
+    let shift = u32::try_from(i64::from(coarse) - i64::from(fine)).ok().filter(|&shift| shift <= 64)?;
+    Some(1 << shift)
+}
+
+fn no_lattice() -> Failure {
+    Failure::input(
+        "the points lie on no common lattice of at most 32 bits, which tiles need: round the points, or triangulate \
+         them in one memory with 'incircle triangulate'",
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn whole(steps: &[[i64; 2]], digits: u32) -> Coordinates {
+        Coordinates::Steps { steps: steps.to_vec(), unit: Unit::of_digits(digits) }
+    }
+
+    fn ground(pieces: &[Coordinates]) -> Result<(Length, u32, Vec<[u32; 2]>), Failure> {
+        let mut extent = Extent::default();
+        pieces.iter().try_for_each(|piece| extent.add(piece))?;
+        let ground = extent.ground()?;
+        let mut grid = Vec::new();
+        pieces.iter().for_each(|piece| ground.lay(piece, &mut grid).expect("the points are on the lattice"));
+        Ok((ground.length, ground.bits, grid.iter().map(|point| [point.x, point.y]).collect()))
+    }
+
+    #[test]
+    fn one_step_fits_all_pieces() {
+        let halves = Coordinates::Doubles(vec![[0.5, -1.0]]);
+        let quarters = Coordinates::Doubles(vec![[0.25, 4.0], [0.0, 0.0]]);
+        let found = ground(&[halves.clone(), quarters, whole(&[[1, -1]], 0)]).expect("quarters");
+        assert_eq!(found, (Length::Binary(-2), 5, vec![[2, 0], [1, 20], [0, 4], [4, 0]]));
+        let found = ground(&[whole(&[[15, 0]], 1), whole(&[[-3, 7]], 0), Coordinates::Doubles(vec![[2.0, 1.0]])]);
+        assert_eq!(found, Ok((Length::Decimal(1), 7, vec![[45, 0], [0, 70], [50, 10]])));
+        assert!(ground(&[whole(&[[15, 0]], 1), halves]).is_err());
+        assert_eq!(ground(&[]), Ok((Length::Decimal(0), 0, vec![])));
+    }
+
+    #[test]
+    fn spans_end_at_32_bits() {
+        assert!(ground(&[whole(&[[i64::MIN, 0], [i64::MIN + (1 << 32) - 1, 5]], 0)]).is_err(), "beyond 9.2e18");
+        assert!(ground(&[whole(&[[-7, 0]], 0), whole(&[[(1 << 32) - 8, 5]], 0)]).is_ok());
+        let failure = ground(&[whole(&[[-7, 0]], 0), whole(&[[(1 << 32) - 7, 5]], 0)]).expect_err("33 bits");
+        assert!(failure.message.contains("33 bits"), "{failure}");
+        assert!(ground(&[Coordinates::Doubles(vec![[0.1, 0.0], [1.0, 0.0]])]).is_err());
+        let far = [Coordinates::Doubles(vec![[1e18, 0.0]]), Coordinates::Doubles(vec![[0.5, 0.0]])];
+        assert!(ground(&far).is_err());
+    }
+}

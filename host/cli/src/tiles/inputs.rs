@@ -1,0 +1,69 @@
+//! The points of an input, piece by piece.
+
+use std::path::Path;
+
+use super::digest::Digest;
+use super::manifest::Manifest;
+use super::survey::changed;
+use crate::arguments::ReadArguments;
+use crate::failure::Failure;
+use crate::formats::{npy, PointFormat};
+use crate::input::Input;
+use crate::path;
+use crate::points::{Coordinates, PointTable};
+use crate::source;
+
+/// Calls `take` with the coordinates of all points of a file, in pieces. The memory holds a piece of an `.npy` file that
+/// is not packed, and of any other file all points. Failures of reading name the file; those of `take` are passed on.
+pub fn each_piece(
+    path: &Path,
+    read: &ReadArguments,
+    quiet: bool,
+    take: &mut dyn FnMut(&Coordinates) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let in_file = |failure: Failure| failure.in_file(path::name(path));
+    if path::is_standard(path) {
+        return Err(Failure::usage("the points are read twice, which standard input is not: give a file"));
+    }
+    let format = read.from.or_else(|| PointFormat::of_extension(path::extension(path)));
+    if format == Some(PointFormat::Npy) {
+        read.selection(PointFormat::Npy)?;
+        // A failure of `take` is not one of the file.
+        let mut failed = None;
+        let done = Input::open(path, quiet).and_then(|input| {
+            npy::read_pieces(input, &mut |piece| take(piece).inspect_err(|failure| failed = Some(failure.clone())))
+        });
+        return failed.map_or_else(|| done.map_err(in_file), Err);
+    }
+    let table = source::read_points(path, read, quiet)?;
+    let is_rounded = matches!(table.coordinates(), Coordinates::Doubles(_)) && table.rounded() > 0;
+    if is_rounded {
+        return Err(in_file(Failure::input(format!(
+            "{} of its coordinates are no doubles and have no common step of up to 64 bits: tiles take points on a \
+             lattice of at most 32 bits, so round the numbers to fewer digits",
+            table.rounded()
+        ))));
+    }
+    take(table.coordinates())
+}
+
+/// Reads the points of a run again, for a mesh that has them. The memory must hold them.
+///
+/// # Errors
+/// The run has no input or several, or the points are no longer those that were split.
+pub fn points_again(manifest: &Manifest, read: &ReadArguments, quiet: bool) -> Result<PointTable, Failure> {
+    let [input] = &manifest.inputs[..] else {
+        return Err(Failure::usage(format!(
+            "the set has {} inputs, and a mesh with its points is written for one: choose npy, csv or ele",
+            manifest.inputs.len()
+        )));
+    };
+    let table = source::read_points(&input.path, read, quiet)?;
+    // The digest does not depend on how the points come in pieces.
+    let mut digest = Digest::default();
+    digest.add(table.coordinates());
+    if (digest.points(), digest.value()) != (input.points, input.digest) {
+        return Err(changed(&input.path));
+    }
+    Ok(table)
+}

@@ -1,0 +1,34 @@
+//! Sets in tiles over files: a set that no memory and no machine holds as a whole, in steps that scripts can spread.
+//!
+//! [`split`] reads the inputs twice and writes one file of points for each tile, and a manifest. [`local`] triangulates
+//! one tile, on any machine. [`join`] joins the borders of all tiles and writes the canonical mesh. What the steps
+//! compute is in [`incircle::tiles`]; here are the files.
+//!
+//! | file in the folder | written by | holds |
+//! |---|---|---|
+//! | `manifest` | `split`, as the last file | the inputs, the steps of the tree, the lattice |
+//! | `K.points` | `split` | the points of tile `K` with their indices in the input |
+//! | `K.local` | `local` | the final triangles of tile `K`, its border, hull and duplicates |
+//!
+//! Every file begins with a [`Head`](head::Head), which has the run and check sums, and is renamed to its name when it
+//! is complete. `docs/tile-files.md` describes the bytes.
+
+mod deal;
+mod digest;
+mod ground;
+mod head;
+mod inputs;
+mod join;
+mod local;
+mod manifest;
+mod opened;
+mod result;
+mod sort;
+mod split;
+mod survey;
+
+pub use inputs::points_again;
+pub use join::{join, triangles_of, Joined, Order};
+pub use local::{local, Outcome, TileAt};
+pub use manifest::Manifest;
+pub use split::{split, Plan, Summary};

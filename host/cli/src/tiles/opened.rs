@@ -1,0 +1,150 @@
+//! A file of tiles that is open for reading: lists of whole numbers, and the check sum of all of them.
+
+use std::fs::File;
+use std::io::{self, BufReader, Read};
+use std::path::Path;
+
+use crc32fast::Hasher;
+
+use super::head::{damaged, Head, Kind, HEAD_BYTES};
+use crate::failure::Failure;
+use crate::input::unreadable;
+use crate::path;
+
+/// The number of bytes that are read at a time.
+const PIECE: usize = 1 << 16;
+
+/// The run and the tile that a file must belong to.
+#[derive(Clone, Copy, Debug)]
+pub struct Owner {
+    /// The run of the manifest.
+    pub run: u64,
+    /// The number of the tile.
+    pub tile: u32,
+}
+
+/// Gives the bytes behind a head with these counts; `None` for more than 2^64.
+pub type BytesOf = fn(&[u64; 5]) -> Option<u64>;
+
+/// A file whose head was read.
+pub struct Opened {
+    /// The head.
+    pub head: Head,
+    source: BufReader<File>,
+    check: Hasher,
+    /// Bytes that were not read yet.
+    left: u64,
+    name: String,
+}
+
+impl Opened {
+    /// Opens a file and reads its head. `bytes_of` gives the bytes behind the head for the counts in the head, unless
+    /// only the file says how many there are.
+    pub fn open(path: &Path, kind: Kind, owner: Option<Owner>, bytes_of: Option<BytesOf>) -> Result<Self, Failure> {
+        let name = path::name(path);
+        let opened = Self::begin(path, &name, kind).and_then(|opened| {
+            opened.check_owner(owner)?;
+            if bytes_of.is_some_and(|bytes_of| bytes_of(&opened.head.counts) != Some(opened.left)) {
+                let left = opened.left;
+                return Err(damaged(&format!("the {left} bytes behind its head are not those that the head counts")));
+            }
+            Ok(opened)
+        });
+        opened.map_err(|failure| failure.in_file(&name))
+    }
+
+    fn begin(path: &Path, name: &str, kind: Kind) -> Result<Self, Failure> {
+        let file = File::open(path).map_err(|error| unreadable(&error))?;
+        let length = file.metadata().map_err(|error| unreadable(&error))?.len();
+        let mut source = BufReader::with_capacity(PIECE, file);
+        let mut bytes = [0; HEAD_BYTES];
+        source.read_exact(&mut bytes).map_err(|error| ended(&error))?;
+        let head = Head::of_bytes(&bytes, kind)?;
+        let left = length.saturating_sub(HEAD_BYTES as u64);
+        Ok(Self { head, source, check: Hasher::new(), left, name: name.to_owned() })
+    }
+
+    fn check_owner(&self, owner: Option<Owner>) -> Result<(), Failure> {
+        let Some(owner) = owner else { return Ok(()) };
+        if self.head.run != owner.run {
+            return Err(Failure::input(format!(
+                "the file belongs to run {:016x}, and the manifest to run {:016x}: remove the file, and run again the \
+                 step that writes it",
+                self.head.run, owner.run
+            )));
+        }
+        if self.head.tile != owner.tile {
+            return Err(Failure::input(format!(
+                "the file belongs to tile {}, not to tile {}: give each file its own name back",
+                self.head.tile, owner.tile
+            )));
+        }
+        Ok(())
+    }
+
+    /// The number of bytes that were not read yet.
+    pub fn left(&self) -> u64 {
+        self.left
+    }
+
+    /// Fills the bytes.
+    pub fn fill(&mut self, bytes: &mut [u8]) -> Result<(), Failure> {
+        self.source.read_exact(bytes).map_err(|error| ended(&error).in_file(&self.name))?;
+        self.check.update(bytes);
+        self.left = self.left.saturating_sub(bytes.len() as u64);
+        Ok(())
+    }
+
+    /// Calls `take` with each of `count` rows of `N` numbers.
+    pub fn rows<const N: usize>(
+        &mut self,
+        count: u64,
+        mut take: impl FnMut([u32; N]) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        let rows_of_piece = PIECE / (4 * N);
+        let mut piece = vec![0; rows_of_piece * 4 * N];
+        let mut left = count;
+        while left > 0 {
+            let rows = left.min(rows_of_piece as u64);
+            let bytes = &mut piece[..rows as usize * 4 * N];
+            self.fill(bytes)?;
+            for row in bytes.chunks_exact(4 * N) {
+                let mut numbers = [0; N];
+                for (number, word) in numbers.iter_mut().zip(row.as_chunks::<4>().0) {
+                    *number = u32::from_le_bytes(*word);
+                }
+                take(numbers)?;
+            }
+            left -= rows;
+        }
+        Ok(())
+    }
+
+    /// A list of `count` rows of `N` numbers. The length of the file must have proved that they are there.
+    pub fn list<const N: usize>(&mut self, count: u64) -> Result<Vec<[u32; N]>, Failure> {
+        let mut list = Vec::new();
+        let room = usize::try_from(count).unwrap_or(usize::MAX);
+        list.try_reserve_exact(room)
+            .map_err(|_| Failure::input(format!("{count} rows do not fit the memory")).in_file(&self.name))?;
+        self.rows(count, |row| {
+            list.push(row);
+            Ok(())
+        })?;
+        Ok(list)
+    }
+
+    /// Compares the check sum of all bytes behind the head. Until then nothing that was read is certain.
+    pub fn finish(self) -> Result<(), Failure> {
+        if self.left > 0 || self.check.finalize() != self.head.check {
+            return Err(damaged("its check sum is wrong").in_file(self.name));
+        }
+        Ok(())
+    }
+}
+
+fn ended(error: &io::Error) -> Failure {
+    match error.kind() {
+        io::ErrorKind::UnexpectedEof => damaged("it ends too early"),
+        _ => unreadable(error),
+    }
+}
