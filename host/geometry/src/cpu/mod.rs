@@ -56,5 +56,7 @@ mod tests;
 mod triangulator;
 mod view;
 
+pub(crate) use view::{view_of_32_bits, Widest, Width};
+
 pub use small::Triangulator;
 pub use triangulator::{connect, threads_for, triangulate, Connectivity, Error, Progress, Stage, Watch};

@@ -93,6 +93,32 @@ pub(crate) fn incircle_of<C: Coordinate>(a: [C; 2], b: [C; 2], c: [C; 2], d: [C;
     exact::incircle(a, b, c, d)
 }
 
+/// Compares the distances from `q` to `a` and to `b`.
+#[inline(always)]
+pub(crate) fn nearer_of<C: Coordinate>(q: [C; 2], a: [C; 2], b: [C; 2]) -> Ordering {
+    let (to_a, to_b) = (View::of(a, a, q).dot, View::of(b, b, q).dot);
+    // Each square errs by 4 u of its size or less: two roundings of differences, one of each product, one of the sum.
+    let (difference, size) = (to_a - to_b, to_a + to_b);
+    if size >= LEAST_SIZE && difference.abs() > DETERMINANT_BOUND * size {
+        return sign(difference);
+    }
+    exact::nearer(q, a, b)
+}
+
+/// Whether `p` lies at most `radius` from `q`. No point lies within a radius that is negative or not a number.
+#[inline]
+pub(crate) fn is_within_of<C: Coordinate>(q: [C; 2], p: [C; 2], radius: f64) -> bool {
+    if radius.is_nan() || radius < 0.0 {
+        return false;
+    }
+    let (to_p, square) = (View::of(p, p, q).dot, radius * radius);
+    let (difference, size) = (square - to_p, square + to_p);
+    if size >= LEAST_SIZE && difference.abs() > DETERMINANT_BOUND * size {
+        return difference > 0.0;
+    }
+    radius == f64::INFINITY || exact::is_within(q, p, radius)
+}
+
 /// Returns on which side of the line from `a` to `b` the point `c` lies: `Greater` to the left, so that `a`, `b`, `c`
 /// turn counter-clockwise; `Less` to the right; `Equal` on the line. Exact for all finite coordinates.
 ///

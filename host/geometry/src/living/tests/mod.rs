@@ -1,0 +1,5 @@
+//! Tests of the living mesh against brute force, after every command of random scripts.
+
+mod brute;
+mod scripts;
+mod structure;
