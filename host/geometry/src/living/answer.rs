@@ -3,7 +3,6 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::plane::INFINITE;
 use super::queries::smallest_first;
 use super::triangulation::Triangulation;
 use crate::mesh::Mesh;
@@ -31,7 +30,7 @@ impl<P: PlanePoint> Triangulation<P> {
     /// changing.delete(1)?;
     /// assert_eq!(changing.mesh().triangles, [[0, 1, 2]]);
     /// assert_eq!(changing.indices(), [0, 2, 3]);
-    /// # Ok::<(), incircle_geometry::living::ChangeError>(())
+    /// # Ok::<(), incircle_geometry::living::Error>(())
     /// ```
     pub fn mesh(&self) -> Mesh<P> {
         let indices = self.indices();
@@ -56,23 +55,14 @@ impl<P: PlanePoint> Triangulation<P> {
     }
 
     fn hull_ranks(&self, rank: impl Fn(u32) -> u32) -> Vec<u32> {
-        let mut hull: Vec<u32> = self.hull_vertices().map(rank).collect();
-        if self.base().is_plane() {
+        let base = self.base();
+        let corners = base.ghosts(base.plane.ghost).map(|ghost| base.hull_vertex(ghost));
+        let mut hull: Vec<u32> = corners.chain(base.line.values().copied()).map(rank).collect();
+        if base.is_plane() {
             let first = (0..hull.len()).min_by_key(|&place| hull[place]).unwrap_or(0);
             hull.rotate_left(first);
         }
         hull
-    }
-
-    /// The vertices of the hull, counter-clockwise, or while all lie on one line, in lexicographic order.
-    pub(super) fn hull_vertices(&self) -> impl Iterator<Item = u32> + '_ {
-        let base = self.base();
-        let start = base.is_plane().then_some(base.plane.ghost);
-        let ghosts = core::iter::successors(start, move |&ghost| {
-            Some(base.plane.next_ghost(ghost)).filter(|&next| next != base.plane.ghost)
-        });
-        let first_end = |ghost: u32| base.plane.hull_edge(ghost, base.plane.get(ghost).slot_of(INFINITE))[0];
-        ghosts.map(first_end).chain(base.line.values().copied())
     }
 }
 

@@ -1,6 +1,6 @@
 //! Changes: insertion, deletion and moves.
 
-use super::error::ChangeError;
+use super::error::Error;
 use super::level::Level;
 use super::triangulation::Triangulation;
 use super::walk::Place;
@@ -20,21 +20,21 @@ impl<P: PlanePoint> Triangulation<P> {
     /// let mut mesh = Triangulation::new();
     /// let (one, other) = (mesh.insert([0.1, 0.2])?, mesh.insert([0.1, 0.2])?);
     /// assert_eq!((one, other, mesh.place_of(other)), (0, 1, Some(0)));
-    /// # Ok::<(), incircle_geometry::living::ChangeError>(())
+    /// # Ok::<(), incircle_geometry::living::Error>(())
     /// ```
     ///
     /// # Errors
     /// The point has a coordinate that is infinite or not a number, or there are too many points or indices.
-    pub fn insert(&mut self, point: P) -> Result<u32, ChangeError> {
+    pub fn insert(&mut self, point: P) -> Result<u32, Error> {
         let q = point.site();
         if !q.is_finite() {
-            return Err(ChangeError::NotFinite);
+            return Err(Error::NotFinite);
         }
         if self.len() >= MAX_POINTS {
-            return Err(ChangeError::TooManyPoints);
+            return Err(Error::TooManyPoints);
         }
         if self.next == u32::MAX {
-            return Err(ChangeError::IndicesUsedUp);
+            return Err(Error::IndicesUsedUp);
         }
         let index = self.next;
         self.next += 1;
@@ -48,7 +48,7 @@ impl<P: PlanePoint> Triangulation<P> {
     ///
     /// # Errors
     /// No living point has the index.
-    pub fn delete(&mut self, index: u32) -> Result<(), ChangeError> {
+    pub fn delete(&mut self, index: u32) -> Result<(), Error> {
         let vertex = self.vertex(index)?;
         self.detach(index, vertex);
         Ok(())
@@ -61,11 +61,11 @@ impl<P: PlanePoint> Triangulation<P> {
     ///
     /// # Errors
     /// No living point has the index, or the place has a coordinate that is infinite or not a number.
-    pub fn move_to(&mut self, index: u32, point: P) -> Result<(), ChangeError> {
+    pub fn move_to(&mut self, index: u32, point: P) -> Result<(), Error> {
         let vertex = self.vertex(index)?;
         let q = point.site();
         if !q.is_finite() {
-            return Err(ChangeError::NotFinite);
+            return Err(Error::NotFinite);
         }
         if q == self.base().site(vertex) {
             return Ok(());
@@ -92,7 +92,7 @@ impl<P: PlanePoint> Triangulation<P> {
     }
 
     /// Puts the point of an index into the mesh.
-    fn attach(&mut self, index: u32, point: P) {
+    pub(super) fn attach(&mut self, index: u32, point: P) {
         let place = self.find(point.site());
         if let Place::Vertex(vertex) = place {
             self.names.set(index, vertex);

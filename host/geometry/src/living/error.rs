@@ -5,7 +5,7 @@ use crate::point::MAX_POINTS;
 /// The reasons why a [`Triangulation`](super::Triangulation) refuses a change. The triangulation stays as it was.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
-pub enum ChangeError {
+pub enum Error {
     /// A coordinate is infinite or not a number.
     #[error("a coordinate of the point is infinite or not a number: leave it out, or give it a place")]
     NotFinite,

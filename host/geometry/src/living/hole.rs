@@ -60,6 +60,7 @@ impl<P: PlanePoint> Level<P> {
     fn fill(&mut self, mut border: Vec<Border>) -> Vec<Border> {
         // Holes lie one behind the other in `border`; the list has the start of each.
         let mut starts: Vec<usize> = alloc::vec![0];
+        self.made.clear();
         while let Some(start) = starts.pop() {
             let hole = &mut border[start..];
             // The base edge needs two ends with coordinates.
@@ -68,6 +69,7 @@ impl<P: PlanePoint> Level<P> {
             }
             let apex = self.apex_of(hole);
             let triangle = self.dead.pop().unwrap_or_else(|| self.plane.allocate());
+            self.made.push(triangle);
             let corners = [hole[0].from, hole[1].from, hole[apex].from];
             self.plane.set(triangle, corners, [Side::new(0, 0); 3]);
             corners.into_iter().for_each(|corner| self.note(corner, triangle));

@@ -48,6 +48,8 @@ pub struct Level<P: PlanePoint> {
     /// Lists that are kept so that a change allocates nothing.
     pub stack: Vec<Side>,
     pub dead: Vec<u32>,
+    /// The triangles that the last removal made.
+    pub made: Vec<u32>,
     pub border: Vec<Border>,
 }
 
@@ -61,6 +63,7 @@ impl<P: PlanePoint> Default for Level<P> {
             plane: Plane::default(),
             stack: Vec::new(),
             dead: Vec::new(),
+            made: Vec::new(),
             border: Vec::new(),
         }
     }

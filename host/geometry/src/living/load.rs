@@ -6,8 +6,9 @@ use core::num::NonZeroUsize;
 use core::ops::ControlFlow;
 
 use super::answer::sorted;
-use super::error::ChangeError;
+use super::error::Error;
 use super::level::{Level, Vertex};
+use super::plane::grow;
 use super::queries::smallest_first;
 use super::triangulation::Triangulation;
 use crate::cpu::{connect, Connectivity};
@@ -24,27 +25,27 @@ impl<P: PlanePoint> Triangulation<P> {
     /// ```
     /// let mesh = incircle_geometry::Triangulation::from((0..9).map(|k| [k % 3, k / 3]))?;
     /// assert_eq!(mesh.mesh().triangles.len(), 8);
-    /// # Ok::<(), incircle_geometry::living::ChangeError>(())
+    /// # Ok::<(), incircle_geometry::living::Error>(())
     /// ```
     ///
     /// # Errors
     /// A point has a coordinate that is infinite or not a number, or there are too many points.
-    pub fn from(points: impl IntoIterator<Item = P>) -> Result<Self, ChangeError> {
+    pub fn from(points: impl IntoIterator<Item = P>) -> Result<Self, Error> {
         let points: Vec<P> = points.into_iter().collect();
         let mut made = Self::new();
-        made.next = u32::try_from(points.len()).map_err(|_| ChangeError::TooManyPoints)?;
+        made.next = u32::try_from(points.len()).map_err(|_| Error::TooManyPoints)?;
         made.load(&points, |index| index)?;
         Ok(made)
     }
 
     /// Loads points, which get the indices that the function gives for their positions, into a triangulation without
     /// points. The indices rise with the positions.
-    pub(super) fn load(&mut self, points: &[P], index: impl Fn(u32) -> u32) -> Result<(), ChangeError> {
+    pub(super) fn load(&mut self, points: &[P], index: impl Fn(u32) -> u32) -> Result<(), Error> {
         if points.len() > MAX_POINTS {
-            return Err(ChangeError::TooManyPoints);
+            return Err(Error::TooManyPoints);
         }
         if let Some(position) = points.iter().position(|point| !point.site().is_finite()) {
-            return Err(ChangeError::NotFiniteAt { position });
+            return Err(Error::NotFiniteAt { position });
         }
         let mesh = connected(points);
         let mut is_first = vec![true; points.len()];
@@ -69,10 +70,11 @@ impl<P: PlanePoint> Triangulation<P> {
     }
 
     /// Makes the levels above the lowest.
-    fn load_levels(&mut self) {
+    pub(super) fn load_levels(&mut self) {
         // Vertices of the level below that are in the next one, and the vertex of the lowest level of each.
         let all = (0..self.base().vertices.len() as u32).map(|vertex| (vertex, vertex));
-        let mut chosen: Vec<(u32, u32)> = all.filter(|&(_, lowest)| Self::top_of(lowest) > 0).collect();
+        let mut chosen: Vec<(u32, u32)> =
+            all.filter(|&(_, lowest)| self.base().is_vertex(lowest) && Self::top_of(lowest) > 0).collect();
         while !chosen.is_empty() {
             let below = &self.levels[self.levels.len() - 1];
             let points: Vec<P> = chosen.iter().map(|&(vertex, _)| below.vertices[vertex as usize].point).collect();
@@ -112,9 +114,14 @@ fn along_curve<P: PlanePoint>(points: &[P]) -> Vec<u32> {
 
 impl<P: PlanePoint> Level<P> {
     /// Makes a level of vertices, given with their names, and of a mesh, each of whose ranks stands for a vertex.
-    fn load(vertices: impl Iterator<Item = (P, u32)>, mesh: &Connectivity, vertex_of: impl Fn(u32) -> u32) -> Self {
+    fn load(
+        vertices: impl ExactSizeIterator<Item = (P, u32)>,
+        mesh: &Connectivity,
+        vertex_of: impl Fn(u32) -> u32,
+    ) -> Self {
         let mut level = Self::default();
-        level.vertices = vertices.map(|(point, name)| Vertex { point, triangle: 0, name }).collect();
+        grow(&mut level.vertices, vertices.len());
+        level.vertices.extend(vertices.map(|(point, name)| Vertex { point, triangle: 0, name }));
         level.count = level.vertices.len();
         let hull: Vec<u32> = mesh.hull.iter().map(|&rank| vertex_of(rank)).collect();
         if mesh.triangles.is_empty() {

@@ -3,8 +3,9 @@
 //! Indices are never used again, so they grow without end, and only a table whose size follows the number of living
 //! points keeps its memory. Eight indices in a row share a line of the processor's cache.
 
-use alloc::vec;
 use alloc::vec::Vec;
+
+use crate::pages;
 
 /// Marks an entry without an index. No point has this index.
 const EMPTY: u32 = u32::MAX;
@@ -105,7 +106,9 @@ impl Names {
     }
 
     fn grow(&mut self, length: usize) {
-        let old = core::mem::replace(&mut self.entries, vec![[EMPTY; 2]; length]);
+        let mut entries = pages::with_room(length);
+        entries.resize(length, [EMPTY; 2]);
+        let old = core::mem::replace(&mut self.entries, entries);
         for entry in old.into_iter().filter(|entry| entry[0] != EMPTY) {
             let place = self.find(entry[0]);
             self.entries[place] = entry;

@@ -2,6 +2,8 @@
 
 use alloc::vec::Vec;
 
+use crate::pages;
+
 /// The infinite vertex, which lies beyond every hull edge.
 pub const INFINITE: u32 = u32::MAX;
 /// Marks the end of the list of free triangles.
@@ -98,7 +100,9 @@ impl Plane {
 
     /// Makes room for triangles.
     pub fn reserve(&mut self, more: usize) {
-        self.triangles.reserve_exact(more);
+        if self.triangles.capacity() - self.triangles.len() < more {
+            grow(&mut self.triangles, more);
+        }
     }
 
     /// The bytes that the triangles take.
@@ -193,9 +197,17 @@ impl Plane {
     }
 }
 
-/// Makes room for one more item. A list grows by a quarter and not to its double, so that little memory lies idle.
-pub fn make_room<T>(list: &mut Vec<T>) {
+/// Makes room for one more item. A list grows by a quarter and not to its double, so that little memory lies idle, and
+/// lies in large pages.
+pub fn make_room<T: Copy>(list: &mut Vec<T>) {
     if list.len() == list.capacity() {
-        list.reserve_exact(list.len() / 4 + 16);
+        grow(list, list.len() / 4 + 16);
     }
+}
+
+/// Makes room for more items, in large pages.
+pub fn grow<T: Copy>(list: &mut Vec<T>, more: usize) {
+    let mut longer = pages::with_room(list.len() + more);
+    longer.extend_from_slice(list);
+    *list = longer;
 }

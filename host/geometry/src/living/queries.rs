@@ -37,7 +37,7 @@ impl<P: PlanePoint> Triangulation<P> {
     /// assert_eq!(mesh.locate([0.2, 0.2]), Location::Triangle([0, 1, 2]));
     /// assert_eq!(mesh.locate([0.0, 0.5]), Location::Edge([0, 2]));
     /// assert_eq!(mesh.locate([0.5, -1.0]), Location::Outside([0, 1]));
-    /// # Ok::<(), incircle_geometry::living::ChangeError>(())
+    /// # Ok::<(), incircle_geometry::living::Error>(())
     /// ```
     pub fn locate(&self, point: P) -> Location {
         let q = point.site();
@@ -70,7 +70,7 @@ impl<P: PlanePoint> Triangulation<P> {
     /// let mesh = incircle_geometry::Triangulation::from([[5, 5], [0, 5], [9, 9]])?;
     /// assert_eq!(mesh.nearest([6, 6]), Some(0));
     /// assert_eq!(mesh.nearest([-4, 7]), Some(1));
-    /// # Ok::<(), incircle_geometry::living::ChangeError>(())
+    /// # Ok::<(), incircle_geometry::living::Error>(())
     /// ```
     pub fn nearest(&self, point: P) -> Option<u32> {
         self.nearest_vertex(point.site()).map(|vertex| self.name(vertex))

@@ -28,7 +28,12 @@ impl<P: PlanePoint> Level<P> {
     /// The sides opposite a vertex, while there are triangles.
     #[inline]
     pub(super) fn star(&self, vertex: u32) -> Star<'_, P> {
-        let start = self.side_opposite(vertex);
+        self.star_from(self.side_opposite(vertex))
+    }
+
+    /// The sides opposite the vertex that is opposite the given one, which comes first.
+    #[inline]
+    pub(super) fn star_from(&self, start: Side) -> Star<'_, P> {
         Star { level: self, start, next: Some(start) }
     }
 

@@ -5,7 +5,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
-use super::error::ChangeError;
+use super::error::Error;
 use super::level::Level;
 use super::names::Names;
 use super::walk::Place;
@@ -134,11 +134,11 @@ impl<P: PlanePoint> Triangulation<P> {
     }
 
     /// The vertex of a living index.
-    pub(super) fn vertex(&self, index: u32) -> Result<u32, ChangeError> {
+    pub(super) fn vertex(&self, index: u32) -> Result<u32, Error> {
         self.names.get(index).ok_or(if index < self.next {
-            ChangeError::Deleted { index }
+            Error::Deleted { index }
         } else {
-            ChangeError::Unknown { index, next: self.next }
+            Error::Unknown { index, next: self.next }
         })
     }
 

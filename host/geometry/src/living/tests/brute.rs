@@ -88,4 +88,52 @@ impl Brute {
         places.sort_by_key(|&(_, p)| (Self::distance(p, q), p));
         places.into_iter().map(|place| place.0).collect()
     }
+
+    /// The triangles whose inside the segment crosses, in its order: each edge of a triangle cuts an interval off the
+    /// segment, whose ends are fractions.
+    pub fn segment(&self, a: Point, b: Point) -> Vec<[u32; 3]> {
+        let less = |[p, q]: [i128; 2], [r, s]: [i128; 2]| p * s < r * q;
+        let mut crossed: Vec<([i128; 2], [u32; 3])> = Vec::new();
+        'triangles: for &triangle in &self.mesh.triangles {
+            let (mut low, mut high) = ([0, 1], [1, 1]);
+            for k in 0..3 {
+                let [from, to] = [k, (k + 1) % 3].map(|k| self.at(triangle[k]));
+                let (start, end) = (orient2d(from, to, a), orient2d(from, to, b));
+                match (start > 0, end > 0) {
+                    (true, true) => {}
+                    (false, false) => continue 'triangles,
+                    // The value is 0 at the fraction start / (start - end) of the segment.
+                    (true, false) if less([start, start - end], high) => high = [start, start - end],
+                    (false, true) if less(low, [-start, end - start]) => low = [-start, end - start],
+                    _ => {}
+                }
+            }
+            if a == b || less(low, high) {
+                crossed.push((low, triangle.map(|rank| self.name(rank))));
+            }
+        }
+        crossed.sort_by(|one, other| (one.0[0] * other.0[1]).cmp(&(other.0[0] * one.0[1])));
+        crossed.into_iter().map(|entry| entry.1).collect()
+    }
+
+    /// The edges of the mesh by index, sorted.
+    pub fn edges(&self) -> Vec<[u32; 2]> {
+        let sides = self.mesh.triangles.iter().flat_map(|t| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]]);
+        let line = if self.mesh.triangles.is_empty() { self.mesh.hull.windows(2) } else { [].windows(2) };
+        let all = sides.chain(line.map(|pair| [pair[0], pair[1]]));
+        let named = all.map(|edge| edge.map(|rank| self.name(rank)));
+        let mut edges: Vec<[u32; 2]> = named.map(|[one, other]| [one.min(other), one.max(other)]).collect();
+        edges.sort_unstable();
+        edges.dedup();
+        edges
+    }
+
+    /// The triangles of the mesh by index.
+    pub fn triangles(&self) -> Vec<[u32; 3]> {
+        self.mesh.triangles.iter().map(|triangle| triangle.map(|rank| self.name(rank))).collect()
+    }
+
+    pub fn hull(&self) -> Vec<u32> {
+        self.mesh.hull.iter().map(|&rank| self.name(rank)).collect()
+    }
 }

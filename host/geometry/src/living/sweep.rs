@@ -1,0 +1,118 @@
+//! Moving all points at once: one sweep of flips, after the vertices in the way have been taken out.
+//!
+//! Under the new places most triangles still turn left. Vertices are taken out of the old mesh until all that are left
+//! do, and until the hull is convex. Then the mesh is a triangulation of the new places, too, which flips make
+//! canonical, and the vertices that were taken out are inserted at their new places.
+//!
+//! **Why that is a triangulation.** Let all triangles turn left, let the hull turn left or go straight on at each vertex,
+//! and let it turn round once. The angles of `2 i + h - 2` triangles then sum up to the angles of a convex polygon of `h`
+//! corners, plus at least 2 π for each of the `i` vertices inside. Both sums are equal, so every vertex has exactly 2 π
+//! around it, and no two triangles overlap.
+
+use alloc::vec::Vec;
+
+use super::level::Level;
+use super::plane::{Side, INFINITE};
+use crate::plane_point::PlanePoint;
+use crate::site::Site;
+
+/// New places of the vertices of a level, and what was found on the way there.
+pub struct Sweep<'a, P: PlanePoint> {
+    pub level: &'a mut Level<P>,
+    /// The new place of each vertex.
+    pub places: &'a [P],
+    /// Vertices that were taken out.
+    pub taken: Vec<u32>,
+    /// The most vertices that may be taken out.
+    pub most: usize,
+}
+
+impl<P: PlanePoint> Sweep<'_, P> {
+    fn site(&self, vertex: u32) -> P::Site {
+        self.places[vertex as usize].site()
+    }
+
+    /// Moves all vertices but those that had to be taken out. Says whether that was possible; if not, the level is of
+    /// no use.
+    pub fn run(&mut self) -> bool {
+        let mut open: Vec<u32> = self.level.plane.iter().map(|(triangle, _)| triangle).collect();
+        while let Some(triangle) = open.pop() {
+            let Some(vertex) = self.vertex_in_the_way(triangle) else { continue };
+            if self.taken.len() == self.most || self.level.count < 4 {
+                return false;
+            }
+            self.taken.push(vertex);
+            self.level.remove(vertex);
+            if !self.level.is_plane() {
+                return false;
+            }
+            for &made in &self.level.made {
+                open.push(made);
+                // The turns at both ends of a new hull edge are those of the hull edges before and behind it.
+                if self.level.plane.get(made).infinite_slot().is_some() {
+                    open.extend([self.level.plane.last_ghost(made), self.level.plane.next_ghost(made)]);
+                }
+            }
+        }
+        if !self.turns_round_once() {
+            return false;
+        }
+        for (vertex, &place) in self.level.vertices.iter_mut().zip(self.places) {
+            vertex.point = place;
+        }
+        self.flip_all();
+        true
+    }
+
+    /// A vertex whose removal may help if a triangle no longer turns left, or if the hull does not at the far end of the
+    /// edge of a ghost triangle.
+    fn vertex_in_the_way(&self, triangle: u32) -> Option<u32> {
+        let found = self.level.plane.get(triangle);
+        if found.vertices == [INFINITE; 3] {
+            return None;
+        }
+        if found.infinite_slot().is_some() {
+            let next = self.level.plane.next_ghost(triangle);
+            let [a, b, c] = [triangle, next, self.level.plane.next_ghost(next)].map(|g| self.level.hull_vertex(g));
+            let [from, middle, to] = [a, b, c].map(|vertex| self.site(vertex));
+            let turn = P::Site::orient2d(from, middle, to);
+            let is_right = turn.is_gt() || turn.is_eq() && P::Site::is_between(from, middle, to);
+            return (!is_right).then_some(b);
+        }
+        let [a, b, c] = found.vertices.map(|vertex| self.site(vertex));
+        if P::Site::orient2d(a, b, c).is_gt() {
+            return None;
+        }
+        // The vertex opposite the longest edge has crossed it.
+        let lengths = [b.rough_distance(c), c.rough_distance(a), a.rough_distance(b)];
+        let longest = (0..3).max_by(|&one, &other| lengths[one].total_cmp(&lengths[other])).unwrap_or(0);
+        Some(found.vertices[longest])
+    }
+
+    /// Whether the hull, which turns left everywhere, goes round once: it then has one lexicographically smallest vertex
+    /// among its neighbours.
+    fn turns_round_once(&self) -> bool {
+        let plane = &self.level.plane;
+        let is_low = |&ghost: &u32| {
+            let around = [plane.last_ghost(ghost), ghost, plane.next_ghost(ghost)];
+            let [before, own, after] = around.map(|ghost| self.site(self.level.hull_vertex(ghost)));
+            own < before && own < after
+        };
+        self.level.ghosts(plane.ghost).filter(is_low).count() == 1
+    }
+
+    /// Makes a triangulation canonical.
+    fn flip_all(&mut self) {
+        let level = &mut *self.level;
+        level.stack.clear();
+        let triangles: Vec<u32> = level.plane.iter().map(|(triangle, _)| triangle).collect();
+        for triangle in triangles {
+            for side in (0..3).map(|slot| Side::new(triangle, slot)) {
+                if triangle < level.plane.across(side).triangle() {
+                    level.stack.push(side);
+                    level.repair();
+                }
+            }
+        }
+    }
+}
