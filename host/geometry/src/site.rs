@@ -6,7 +6,7 @@ use core::fmt::Debug;
 use bytemuck::Zeroable;
 
 use crate::cpu::{view_of_32_bits, Width};
-use crate::double::{incircle_of, is_within_of, nearer_of, orient2d_of, Coordinate};
+use crate::double::{incircle_of, is_acute_of, is_within_of, nearer_of, orient2d_of, Coordinate};
 use crate::point::Point;
 use crate::predicate;
 use crate::tie::is_inside_at_tie;
@@ -52,6 +52,10 @@ pub trait Site: Copy + Ord + Debug + Send + Sync + 'static {
             Ordering::Equal => is_inside_at_tie(abc, d, Self::orient2d),
         }
     }
+
+    /// Whether `c` and `d`, which lie on both sides of the edge from `a` to `b`, see that edge at acute angles, so that
+    /// `d` is outside the circle. A rounding computation may say no where exact numbers say yes.
+    fn are_acute(abc: [Self; 3], d: Self) -> bool;
 
     /// Compares two points by their distance from `q`, and points at the same distance by x, then y.
     #[inline]
@@ -100,6 +104,14 @@ impl Site for Point {
         } else {
             crate::cpu::Widest::determinant(view_of_32_bits(a, b, c), view_of_32_bits(a, b, d)).cmp(&0)
         }
+    }
+
+    #[inline(always)]
+    fn are_acute([a, b, c]: [Self; 3], d: Self) -> bool {
+        let minus = |one: u32, other: u32| i64::from(one) - i64::from(other);
+        let dot = |p: Self| minus(a.x, p.x) * minus(b.x, p.x) + minus(a.y, p.y) * minus(b.y, p.y);
+        // Wider coordinates could overflow.
+        are_below_31_bits([a, b, c, d]) && dot(c) > 0 && dot(d) > 0
     }
 
     #[inline(always)]
@@ -174,6 +186,11 @@ impl<C: Coordinate + Debug> Site for FilteredSite<C> {
     #[inline(always)]
     fn incircle([a, b, c]: [Self; 3], d: Self) -> Ordering {
         incircle_of(a.0, b.0, c.0, d.0)
+    }
+
+    #[inline(always)]
+    fn are_acute([a, b, c]: [Self; 3], d: Self) -> bool {
+        is_acute_of(a.0, b.0, c.0) && is_acute_of(a.0, b.0, d.0)
     }
 
     #[inline(always)]

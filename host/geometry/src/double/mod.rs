@@ -105,6 +105,13 @@ pub(crate) fn nearer_of<C: Coordinate>(q: [C; 2], a: [C; 2], b: [C; 2]) -> Order
     exact::nearer(q, a, b)
 }
 
+/// Whether the edge from `a` to `b` is seen from `p` at an acute angle, if the filter can tell; else no.
+#[inline(always)]
+pub(crate) fn is_acute_of<C: Coordinate>(a: [C; 2], b: [C; 2], p: [C; 2]) -> bool {
+    let SizedView { view, dot_size, .. } = SizedView::of(a, b, p);
+    dot_size >= LEAST_SIZE && view.dot > PRODUCT_BOUND * dot_size
+}
+
 /// Whether `p` lies at most `radius` from `q`. No point lies within a radius that is negative or not a number.
 #[inline]
 pub(crate) fn is_within_of<C: Coordinate>(q: [C; 2], p: [C; 2], radius: f64) -> bool {

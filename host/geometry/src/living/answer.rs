@@ -12,6 +12,9 @@ use crate::point::Duplicate;
 impl<P: PlanePoint> Triangulation<P> {
     /// The indices of all living points, duplicates included, in rising order. O(n log n).
     pub fn indices(&self) -> Vec<u32> {
+        if self.next as usize == self.len() {
+            return (0..self.next).collect();
+        }
         let mut indices: Vec<u32> = self.names.iter().map(|(index, _)| index).collect();
         indices.sort_unstable();
         indices

@@ -1,17 +1,59 @@
 //! Changes of all points: a frame in which all move, and new indices.
 
+use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
 use super::error::Error;
+use super::level::Vertex;
 use super::names::Names;
 use super::sweep::Sweep;
 use super::triangulation::Triangulation;
 use crate::plane_point::PlanePoint;
 use crate::site::Site;
 
+/// Positions are looked up in a table if it is at most this many times as long as the list of living indices.
+const SPARSE: usize = 8;
 /// If more than one in this many vertices would have to be taken out, the mesh is made anew. In tests all may be, so
 /// that small sets take out some.
 const MOST: usize = if cfg!(test) { 1 } else { 16 };
+
+/// The positions of living indices in the list of all.
+enum Ranks<'i> {
+    /// All indices from 0 on are living.
+    Dense,
+    /// A position for each index from the first living one to the last.
+    Table(u32, Vec<u32>),
+    /// A long time has passed since some of the points were inserted.
+    Sparse(&'i [u32]),
+}
+
+impl<'i> Ranks<'i> {
+    fn of(indices: &'i [u32]) -> Self {
+        let [first, .., last] = *indices else { return Self::Sparse(indices) };
+        let range = (last - first) as usize + 1;
+        if last as usize == indices.len() - 1 {
+            return Self::Dense;
+        }
+        if range > SPARSE * indices.len() {
+            return Self::Sparse(indices);
+        }
+        let mut table = alloc::vec![0; range];
+        (0u32..).zip(indices).for_each(|(rank, &index)| table[(index - first) as usize] = rank);
+        Self::Table(first, table)
+    }
+
+    /// The position of a living index.
+    #[inline]
+    fn rank(&self, index: u32) -> usize {
+        match self {
+            Self::Dense => index as usize,
+            Self::Table(first, table) => {
+                table.get(index.wrapping_sub(*first) as usize).map_or(usize::MAX, |&rank| rank as usize)
+            }
+            Self::Sparse(indices) => indices.binary_search(&index).unwrap_or(usize::MAX),
+        }
+    }
+}
 
 impl<P: PlanePoint> Triangulation<P> {
     /// Moves all living points at once: the list has a new place for each, in the order of the indices. All points keep
@@ -51,14 +93,10 @@ impl<P: PlanePoint> Triangulation<P> {
         if !self.base().is_plane() {
             return false;
         }
-        let mut moved: Vec<P> = self.base().vertices.iter().map(|vertex| vertex.point).collect();
-        let vertices: Vec<u32> = indices.iter().filter_map(|&index| self.names.get(index)).collect();
-        // The point that names a place takes the vertex along.
-        for ((&vertex, &index), &place) in vertices.iter().zip(indices).zip(places) {
-            if self.name(vertex) == index {
-                moved[vertex as usize] = place;
-            }
-        }
+        let ranks = Ranks::of(indices);
+        // The point that names a place takes the vertex along. What stands here for a free vertex is never used.
+        let place = |vertex: &Vertex<P>| places.get(ranks.rank(vertex.name)).copied().unwrap_or(vertex.point);
+        let moved: Vec<P> = self.base().vertices.iter().map(place).collect();
         self.levels.truncate(1);
         let most = self.base().count / MOST;
         let mut sweep = Sweep { level: &mut self.levels[0], places: &moved, taken: Vec::new(), most };
@@ -67,27 +105,27 @@ impl<P: PlanePoint> Triangulation<P> {
         }
         let taken = sweep.taken;
         self.load_levels();
-        self.attach_all(indices, &vertices, places, &taken);
+        self.attach_all(&taken, |index| places[ranks.rank(index)]);
         true
     }
 
-    /// Inserts the points of vertices that were taken out, and those that went another way than the point that names
-    /// their place.
-    fn attach_all(&mut self, indices: &[u32], vertices: &[u32], places: &[P], taken: &[u32]) {
-        if taken.is_empty() && self.twins.is_empty() {
-            return;
+    /// Inserts the points of vertices that were taken out, given with their names, and those that went another way than
+    /// the point that names their place.
+    fn attach_all(&mut self, taken: &[(u32, u32)], place: impl Fn(u32) -> P) {
+        let mut loose: Vec<u32> = taken.iter().map(|&(_, index)| index).collect();
+        if !self.twins.is_empty() {
+            let gone: BTreeSet<u32> = taken.iter().map(|&(vertex, _)| vertex).collect();
+            let twins = core::mem::take(&mut self.twins);
+            let base = self.base();
+            let stays =
+                |&(vertex, index): &(u32, u32)| !gone.contains(&vertex) && base.site(vertex) == place(index).site();
+            let (twins, others) = twins.into_iter().partition::<Vec<_>, _>(stays);
+            self.twins = twins.into_iter().collect();
+            loose.extend(others.into_iter().map(|(_, index)| index));
         }
-        let mut is_taken = alloc::vec![false; self.base().vertices.len()];
-        taken.iter().for_each(|&vertex| is_taken[vertex as usize] = true);
-        let mut loose: Vec<(u32, P)> = Vec::new();
-        for ((&index, &vertex), &place) in indices.iter().zip(vertices).zip(places) {
-            if is_taken[vertex as usize] || self.base().site(vertex) != place.site() {
-                self.twins.remove(&(vertex, index));
-                loose.push((index, place));
-            }
-        }
-        for (index, place) in loose {
-            self.attach(index, place);
+        // Neighbours were taken out one after the other, so each is near the one before.
+        for index in loose {
+            self.attach(index, place(index));
         }
     }
 

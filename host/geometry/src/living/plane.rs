@@ -98,6 +98,11 @@ impl Plane {
         self.count
     }
 
+    /// The number after those of all triangles, free ones included.
+    pub fn end(&self) -> u32 {
+        self.triangles.len() as u32
+    }
+
     /// Makes room for triangles.
     pub fn reserve(&mut self, more: usize) {
         if self.triangles.capacity() - self.triangles.len() < more {

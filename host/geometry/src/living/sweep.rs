@@ -12,7 +12,7 @@
 use alloc::vec::Vec;
 
 use super::level::Level;
-use super::plane::{Side, INFINITE};
+use super::plane::{Side, INFINITE, LAST, NEXT};
 use crate::plane_point::PlanePoint;
 use crate::site::Site;
 
@@ -21,8 +21,8 @@ pub struct Sweep<'a, P: PlanePoint> {
     pub level: &'a mut Level<P>,
     /// The new place of each vertex.
     pub places: &'a [P],
-    /// Vertices that were taken out.
-    pub taken: Vec<u32>,
+    /// Vertices that were taken out, with their names.
+    pub taken: Vec<(u32, u32)>,
     /// The most vertices that may be taken out.
     pub most: usize,
 }
@@ -35,22 +35,13 @@ impl<P: PlanePoint> Sweep<'_, P> {
     /// Moves all vertices but those that had to be taken out. Says whether that was possible; if not, the level is of
     /// no use.
     pub fn run(&mut self) -> bool {
-        let mut open: Vec<u32> = self.level.plane.iter().map(|(triangle, _)| triangle).collect();
-        while let Some(triangle) = open.pop() {
-            let Some(vertex) = self.vertex_in_the_way(triangle) else { continue };
-            if self.taken.len() == self.most || self.level.count < 4 {
-                return false;
-            }
-            self.taken.push(vertex);
-            self.level.remove(vertex);
-            if !self.level.is_plane() {
-                return false;
-            }
-            for &made in &self.level.made {
-                open.push(made);
-                // The turns at both ends of a new hull edge are those of the hull edges before and behind it.
-                if self.level.plane.get(made).infinite_slot().is_some() {
-                    open.extend([self.level.plane.last_ghost(made), self.level.plane.next_ghost(made)]);
+        let mut open: Vec<u32> = Vec::new();
+        for triangle in 0..self.level.plane.end() {
+            open.push(triangle);
+            while let Some(triangle) = open.pop() {
+                let Some(vertex) = self.vertex_in_the_way(triangle) else { continue };
+                if self.taken.len() == self.most || !self.take_out(vertex, &mut open) {
+                    return false;
                 }
             }
         }
@@ -61,6 +52,24 @@ impl<P: PlanePoint> Sweep<'_, P> {
             vertex.point = place;
         }
         self.flip_all();
+        true
+    }
+
+    /// Takes a vertex out of the old mesh, and has all triangles looked at that change by that; says whether there still
+    /// are triangles.
+    fn take_out(&mut self, vertex: u32, open: &mut Vec<u32>) -> bool {
+        self.taken.push((vertex, self.level.vertices[vertex as usize].name));
+        self.level.remove(vertex);
+        if !self.level.is_plane() {
+            return false;
+        }
+        for &made in &self.level.made {
+            open.push(made);
+            // The turns at both ends of a new hull edge are those with the hull edges before and behind it.
+            if self.level.plane.get(made).infinite_slot().is_some() {
+                open.extend([self.level.plane.last_ghost(made), self.level.plane.next_ghost(made)]);
+            }
+        }
         true
     }
 
@@ -105,14 +114,24 @@ impl<P: PlanePoint> Sweep<'_, P> {
     fn flip_all(&mut self) {
         let level = &mut *self.level;
         level.stack.clear();
-        let triangles: Vec<u32> = level.plane.iter().map(|(triangle, _)| triangle).collect();
-        for triangle in triangles {
-            for side in (0..3).map(|slot| Side::new(triangle, slot)) {
-                if triangle < level.plane.across(side).triangle() {
-                    level.stack.push(side);
-                    level.repair();
+        for triangle in 0..level.plane.end() {
+            let found = *level.plane.get(triangle);
+            if found.vertices.contains(&INFINITE) {
+                continue;
+            }
+            let sites = found.vertices.map(|vertex| level.site(vertex));
+            for (slot, other) in found.across.into_iter().enumerate() {
+                let apex = level.plane.apex(other);
+                if triangle > other.triangle() || apex == INFINITE {
+                    continue;
+                }
+                let ends = [sites[NEXT[slot]], sites[LAST[slot]], sites[slot]];
+                let d = level.site(apex);
+                if !P::Site::are_acute(ends, d) && P::Site::conflicts(ends, d) {
+                    level.stack.push(Side::new(triangle, slot));
                 }
             }
+            level.repair();
         }
     }
 }
