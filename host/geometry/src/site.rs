@@ -6,7 +6,7 @@ use core::fmt::Debug;
 use bytemuck::Zeroable;
 
 use crate::cpu::{view_of_32_bits, Width};
-use crate::double::{incircle_of, is_acute_of, is_within_of, nearer_of, orient2d_of, Coordinate};
+use crate::double::{acute_corners_of, incircle_of, is_within_of, nearer_of, orient2d_of, Coordinate};
 use crate::point::Point;
 use crate::predicate;
 use crate::tie::is_inside_at_tie;
@@ -53,9 +53,11 @@ pub trait Site: Copy + Ord + Debug + Send + Sync + 'static {
         }
     }
 
-    /// Whether `c` and `d`, which lie on both sides of the edge from `a` to `b`, see that edge at acute angles, so that
-    /// `d` is outside the circle. A rounding computation may say no where exact numbers say yes.
-    fn are_acute(abc: [Self; 3], d: Self) -> bool;
+    /// The corners of a triangle that have acute angles: bit 0 for `a`, and so on. Rounding may leave out a corner, and
+    /// none is named that is not acute.
+    ///
+    /// If both corners opposite an edge are acute, each lies outside the circle of the other triangle.
+    fn acute_corners(abc: [Self; 3]) -> u8;
 
     /// Compares two points by their distance from `q`, and points at the same distance by x, then y.
     #[inline]
@@ -107,11 +109,17 @@ impl Site for Point {
     }
 
     #[inline(always)]
-    fn are_acute([a, b, c]: [Self; 3], d: Self) -> bool {
-        let minus = |one: u32, other: u32| i64::from(one) - i64::from(other);
-        let dot = |p: Self| minus(a.x, p.x) * minus(b.x, p.x) + minus(a.y, p.y) * minus(b.y, p.y);
+    fn acute_corners([a, b, c]: [Self; 3]) -> u8 {
+        let minus =
+            |one: Self, other: Self| [i64::from(one.x) - i64::from(other.x), i64::from(one.y) - i64::from(other.y)];
+        let dot = |[x, y]: [i64; 2], [u, v]: [i64; 2]| x * u + y * v;
         // Wider coordinates could overflow.
-        are_below_31_bits([a, b, c, d]) && dot(c) > 0 && dot(d) > 0
+        if !are_below_31_bits([a, b, c]) {
+            return 0;
+        }
+        let (ab, ac, bc) = (minus(b, a), minus(c, a), minus(c, b));
+        let [at_a, at_b, at_c] = [dot(ab, ac) > 0, dot(ab, bc) < 0, dot(ac, bc) > 0].map(u8::from);
+        at_a | at_b << 1 | at_c << 2
     }
 
     #[inline(always)]
@@ -189,8 +197,8 @@ impl<C: Coordinate + Debug> Site for FilteredSite<C> {
     }
 
     #[inline(always)]
-    fn are_acute([a, b, c]: [Self; 3], d: Self) -> bool {
-        is_acute_of(a.0, b.0, c.0) && is_acute_of(a.0, b.0, d.0)
+    fn acute_corners([a, b, c]: [Self; 3]) -> u8 {
+        acute_corners_of(a.0, b.0, c.0)
     }
 
     #[inline(always)]

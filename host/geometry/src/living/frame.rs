@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use super::error::Error;
 use super::level::Vertex;
 use super::names::Names;
-use super::sweep::Sweep;
+use super::sweep::{Sweep, Taken};
 use super::triangulation::Triangulation;
 use crate::plane_point::PlanePoint;
 use crate::site::Site;
@@ -99,7 +99,8 @@ impl<P: PlanePoint> Triangulation<P> {
         let moved: Vec<P> = self.base().vertices.iter().map(place).collect();
         self.levels.truncate(1);
         let most = self.base().count / MOST;
-        let mut sweep = Sweep { level: &mut self.levels[0], places: &moved, taken: Vec::new(), most };
+        let acute = alloc::vec![0; self.base().plane.end() as usize];
+        let mut sweep = Sweep { level: &mut self.levels[0], places: &moved, taken: Vec::new(), acute, most };
         if !sweep.run() {
             return false;
         }
@@ -109,22 +110,25 @@ impl<P: PlanePoint> Triangulation<P> {
         true
     }
 
-    /// Inserts the points of vertices that were taken out, given with their names, and those that went another way than
+    /// Inserts the points of vertices that were taken out, and those that went another way than
     /// the point that names their place.
-    fn attach_all(&mut self, taken: &[(u32, u32)], place: impl Fn(u32) -> P) {
-        let mut loose: Vec<u32> = taken.iter().map(|&(_, index)| index).collect();
+    fn attach_all(&mut self, taken: &[Taken], place: impl Fn(u32) -> P) {
+        let mut loose: Vec<(u32, Option<u32>)> = taken.iter().map(|taken| (taken.name, taken.near)).collect();
         if !self.twins.is_empty() {
-            let gone: BTreeSet<u32> = taken.iter().map(|&(vertex, _)| vertex).collect();
+            let gone: BTreeSet<u32> = taken.iter().map(|taken| taken.vertex).collect();
             let twins = core::mem::take(&mut self.twins);
             let base = self.base();
             let stays =
                 |&(vertex, index): &(u32, u32)| !gone.contains(&vertex) && base.site(vertex) == place(index).site();
             let (twins, others) = twins.into_iter().partition::<Vec<_>, _>(stays);
             self.twins = twins.into_iter().collect();
-            loose.extend(others.into_iter().map(|(_, index)| index));
+            loose.extend(others.into_iter().map(|(_, index)| (index, None)));
         }
-        // Neighbours were taken out one after the other, so each is near the one before.
-        for index in loose {
+        // The vertex that was freed last is taken first, so most points get back their own.
+        for (index, near) in loose.into_iter().rev() {
+            if let Some(near) = near {
+                self.hint.set(near);
+            }
             self.attach(index, place(index));
         }
     }

@@ -11,6 +11,10 @@ use super::plane::{Side, INFINITE};
 use crate::plane_point::PlanePoint;
 use crate::site::Site;
 
+/// Holes with more edges are filled by the CPU triangulator. On circles of 64, 128 and 256 points of doubles, gift
+/// wrapping took 6.5, 26 and 84 µs, and the CPU triangulator 12, 23 and 42 µs. In tests small holes are large already.
+const LARGE: usize = if cfg!(test) { 6 } else { 128 };
+
 impl<P: PlanePoint> Level<P> {
     /// Removes a vertex.
     pub(super) fn remove(&mut self, vertex: u32) {
@@ -34,10 +38,22 @@ impl<P: PlanePoint> Level<P> {
                 return;
             }
         }
-        self.border = self.fill(border);
-        for triangle in core::mem::take(&mut self.dead) {
+        self.border = if border.len() > LARGE {
+            self.fill_large(&border);
+            border
+        } else {
+            self.fill(border)
+        };
+        while let Some(triangle) = self.dead.pop() {
             self.plane.release(triangle);
         }
+    }
+
+    /// A triangle to be set, which takes the number of a dead one.
+    pub(super) fn next_made(&mut self) -> u32 {
+        let triangle = self.dead.pop().unwrap_or_else(|| self.plane.allocate());
+        self.made.push(triangle);
+        triangle
     }
 
     /// Collects the triangles around a vertex, and the border around them, counter-clockwise.
@@ -68,8 +84,7 @@ impl<P: PlanePoint> Level<P> {
                 hole.rotate_left(1);
             }
             let apex = self.apex_of(hole);
-            let triangle = self.dead.pop().unwrap_or_else(|| self.plane.allocate());
-            self.made.push(triangle);
+            let triangle = self.next_made();
             let corners = [hole[0].from, hole[1].from, hole[apex].from];
             self.plane.set(triangle, corners, [Side::new(0, 0); 3]);
             corners.into_iter().for_each(|corner| self.note(corner, triangle));

@@ -89,7 +89,7 @@ impl<P: PlanePoint> Triangulation<P> {
 }
 
 /// The mesh of points whose coordinates are finite.
-fn connected<P: PlanePoint>(points: &[P]) -> Connectivity {
+pub(super) fn connected<P: PlanePoint>(points: &[P]) -> Connectivity {
     let (numbers, _) = P::numbers(points).on_lattice();
     // There are not too many points, all are finite, and nothing ends the work, so there is no error.
     connect(&numbers, NonZeroUsize::MIN, &mut |_| ControlFlow::Continue(())).unwrap_or_default()

@@ -8,6 +8,7 @@ mod flips;
 mod frame;
 mod hole;
 mod iterate;
+mod large_hole;
 mod level;
 mod line;
 mod link;

@@ -12,17 +12,27 @@
 use alloc::vec::Vec;
 
 use super::level::Level;
-use super::plane::{Side, INFINITE, LAST, NEXT};
+use super::plane::{Side, Triangle, INFINITE};
 use crate::plane_point::PlanePoint;
 use crate::site::Site;
+
+/// A vertex that was taken out.
+pub struct Taken {
+    pub vertex: u32,
+    pub name: u32,
+    /// A vertex that was its neighbour.
+    pub near: Option<u32>,
+}
 
 /// New places of the vertices of a level, and what was found on the way there.
 pub struct Sweep<'a, P: PlanePoint> {
     pub level: &'a mut Level<P>,
     /// The new place of each vertex.
     pub places: &'a [P],
-    /// Vertices that were taken out, with their names.
-    pub taken: Vec<(u32, u32)>,
+    /// Vertices that were taken out.
+    pub taken: Vec<Taken>,
+    /// The acute corners of each triangle at the new places, as far as they are known.
+    pub acute: Vec<u8>,
     /// The most vertices that may be taken out.
     pub most: usize,
 }
@@ -58,7 +68,8 @@ impl<P: PlanePoint> Sweep<'_, P> {
     /// Takes a vertex out of the old mesh, and has all triangles looked at that change by that; says whether there still
     /// are triangles.
     fn take_out(&mut self, vertex: u32, open: &mut Vec<u32>) -> bool {
-        self.taken.push((vertex, self.level.vertices[vertex as usize].name));
+        let (name, near) = (self.level.vertices[vertex as usize].name, self.level.some_neighbor(vertex));
+        self.taken.push(Taken { vertex, name, near });
         self.level.remove(vertex);
         if !self.level.is_plane() {
             return false;
@@ -75,7 +86,7 @@ impl<P: PlanePoint> Sweep<'_, P> {
 
     /// A vertex whose removal may help if a triangle no longer turns left, or if the hull does not at the far end of the
     /// edge of a ghost triangle.
-    fn vertex_in_the_way(&self, triangle: u32) -> Option<u32> {
+    fn vertex_in_the_way(&mut self, triangle: u32) -> Option<u32> {
         let found = self.level.plane.get(triangle);
         if found.vertices == [INFINITE; 3] {
             return None;
@@ -89,6 +100,7 @@ impl<P: PlanePoint> Sweep<'_, P> {
             return (!is_right).then_some(b);
         }
         let [a, b, c] = found.vertices.map(|vertex| self.site(vertex));
+        self.acute[triangle as usize] = P::Site::acute_corners([a, b, c]);
         if P::Site::orient2d(a, b, c).is_gt() {
             return None;
         }
@@ -111,23 +123,20 @@ impl<P: PlanePoint> Sweep<'_, P> {
     }
 
     /// Makes a triangulation canonical.
+    ///
+    /// The corners of triangles that flips have changed need not be known: flips have left their edges right.
     fn flip_all(&mut self) {
         let level = &mut *self.level;
         level.stack.clear();
         for triangle in 0..level.plane.end() {
-            let found = *level.plane.get(triangle);
-            if found.vertices.contains(&INFINITE) {
+            let Triangle { vertices, across } = *level.plane.get(triangle);
+            if vertices == [INFINITE; 3] {
                 continue;
             }
-            let sites = found.vertices.map(|vertex| level.site(vertex));
-            for (slot, other) in found.across.into_iter().enumerate() {
-                let apex = level.plane.apex(other);
-                if triangle > other.triangle() || apex == INFINITE {
-                    continue;
-                }
-                let ends = [sites[NEXT[slot]], sites[LAST[slot]], sites[slot]];
-                let d = level.site(apex);
-                if !P::Site::are_acute(ends, d) && P::Site::conflicts(ends, d) {
+            let own = self.acute[triangle as usize];
+            for (slot, other) in across.into_iter().enumerate() {
+                let theirs = self.acute[other.triangle() as usize] >> other.slot();
+                if own >> slot & theirs & 1 == 0 && triangle < other.triangle() {
                     level.stack.push(Side::new(triangle, slot));
                 }
             }
