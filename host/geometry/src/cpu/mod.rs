@@ -36,7 +36,7 @@ mod edges;
 mod filtered;
 mod filtered_sites;
 #[cfg(test)]
-mod hostile;
+pub(crate) mod hostile;
 mod kernel;
 mod leaf;
 mod merge;
