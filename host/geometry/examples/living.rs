@@ -6,7 +6,8 @@
 //! ```
 //!
 //! Every operation runs in a random order and in the order of a Hilbert curve. The times are the smallest of the
-//! rounds, in nanoseconds an operation, and each is the median over blocks of 2,000 operations. The table has the kinds of coordinates side by side.
+//! rounds, in nanoseconds an operation, and each is the median over blocks of 2,000 operations. The table has the kinds
+//! of coordinates side by side.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -22,8 +23,8 @@ const BITS: u32 = 31;
 /// Operations that are timed together.
 const BLOCK: usize = 2000;
 
-/// Nanoseconds an operation on each item: the median over blocks of items, which other work on the machine disturbs less
-/// than the sum.
+/// Nanoseconds an operation on each item: the median over blocks of items, which other work on the machine disturbs
+/// less than the sum.
 fn each<T: Copy>(items: &[T], mut work: impl FnMut(T)) -> f64 {
     let mut times: Vec<f64> = Vec::new();
     for block in items.chunks(BLOCK) {

@@ -1,8 +1,9 @@
 //! Adding a vertex: its cavity is removed, and the star of the vertex takes its place.
 //!
-//! Source: Bowyer, *Computing Dirichlet tessellations*, and Watson, *Computing the n-dimensional Delaunay tessellation*,
-//! both 1981. The triangles of a cavity and the edges between them form a tree, because every vertex stays a vertex. So
-//! a search in depth meets each triangle once, without marks, and the edges of the border in counter-clockwise order.
+//! Source: Bowyer, *Computing Dirichlet tessellations*, and Watson, *Computing the n-dimensional Delaunay
+//! tessellation*, both 1981. The triangles of a cavity and the edges between them form a tree, because every vertex
+//! stays a vertex. So a search in depth meets each triangle once, without marks, and the edges of the border in
+//! counter-clockwise order.
 
 use super::level::{Border, Level};
 use super::plane::Side;

@@ -39,8 +39,8 @@ impl<P: PlanePoint> Triangulation<P> {
     }
 
     /// The vertices of the hull, counter-clockwise, the smallest index first; points in the middle of a hull edge are
-    /// among them. While all points lie on one line, all places in lexicographic order. O(h) for `h` of them, beside the
-    /// iteration.
+    /// among them. While all points lie on one line, all places in lexicographic order. O(h) for `h` of them, beside
+    /// the iteration.
     pub fn hull(&self) -> impl Iterator<Item = u32> + '_ {
         let base = self.base();
         let ghosts = || base.ghosts(base.plane.ghost);
@@ -49,9 +49,9 @@ impl<P: PlanePoint> Triangulation<P> {
         corners.chain(base.line.values().copied()).map(|vertex| self.name(vertex))
     }
 
-    /// The vertices that have an edge to the place of a point, counter-clockwise. The first is the next one on the hull,
-    /// or the smallest index if the place is inside the hull. While all points lie on one line: the neighbours on the
-    /// line, in lexicographic order.
+    /// The vertices that have an edge to the place of a point, counter-clockwise. The first is the next one on the
+    /// hull, or the smallest index if the place is inside the hull. While all points lie on one line: the neighbours on
+    /// the line, in lexicographic order.
     ///
     /// ```
     /// let mesh = incircle_geometry::Triangulation::from([[0, 0], [4, 0], [4, 4], [0, 4], [2, 1]])?;

@@ -67,8 +67,8 @@ impl<P: PlanePoint> Triangulation<P> {
     }
 
     /// The indices of the places at most `radius` from a place, in rising order. The radius is the exact double that it
-    /// is, and no distance is rounded. None if the radius is negative or not a number, or if a coordinate is infinite or
-    /// not a number.
+    /// is, and no distance is rounded. None if the radius is negative or not a number, or if a coordinate is infinite
+    /// or not a number.
     ///
     /// O(k log k) for `k` of them, beside the search for the nearest.
     ///

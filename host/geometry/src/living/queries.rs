@@ -19,8 +19,8 @@ pub enum Location {
     /// The place lies outside the hull. The edge is the first, counter-clockwise, of the hull edges that are visible
     /// from there, and runs counter-clockwise.
     Outside([u32; 2]),
-    /// There are no triangles, and the place lies on no edge; or it is no place, because a coordinate is infinite or not
-    /// a number.
+    /// There are no triangles, and the place lies on no edge; or it is no place, because a coordinate is infinite or
+    /// not a number.
     None,
 }
 

@@ -53,8 +53,8 @@ impl<P: PlanePoint> Triangulation<P> {
     /// The indices of the places in a rectangle or on its border, in rising order. Any two opposite corners name the
     /// rectangle. None if a coordinate is infinite or not a number.
     ///
-    /// O(t log t) for the `t` triangles that the rectangle touches, beside the search for a corner; O(h) for the hull if
-    /// all corners are outside.
+    /// O(t log t) for the `t` triangles that the rectangle touches, beside the search for a corner; O(h) for the hull
+    /// if all corners are outside.
     ///
     /// ```
     /// let mesh = incircle_geometry::Triangulation::from((0..25).map(|k| [k % 5, k / 5]))?;

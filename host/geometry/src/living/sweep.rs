@@ -4,10 +4,10 @@
 //! do, and until the hull is convex. Then the mesh is a triangulation of the new places, too, which flips make
 //! canonical, and the vertices that were taken out are inserted at their new places.
 //!
-//! **Why that is a triangulation.** Let all triangles turn left, let the hull turn left or go straight on at each vertex,
-//! and let it turn round once. The angles of `2 i + h - 2` triangles then sum up to the angles of a convex polygon of `h`
-//! corners, plus at least 2 π for each of the `i` vertices inside. Both sums are equal, so every vertex has exactly 2 π
-//! around it, and no two triangles overlap.
+//! **Why that is a triangulation.** Let all triangles turn left, let the hull turn left or go straight on at each
+//! vertex, and let it turn round once. The angles of `2 i + h - 2` triangles then sum up to the angles of a convex
+//! polygon of `h` corners, plus at least 2 π for each of the `i` vertices inside. Both sums are equal, so every vertex
+//! has exactly 2 π around it, and no two triangles overlap.
 
 use alloc::vec::Vec;
 
@@ -65,8 +65,8 @@ impl<P: PlanePoint> Sweep<'_, P> {
         true
     }
 
-    /// Takes a vertex out of the old mesh, and has all triangles looked at that change by that; says whether there still
-    /// are triangles.
+    /// Takes a vertex out of the old mesh, and has all triangles looked at that change by that; says whether there
+    /// still are triangles.
     fn take_out(&mut self, vertex: u32, open: &mut Vec<u32>) -> bool {
         let (name, near) = (self.level.vertices[vertex as usize].name, self.level.some_neighbor(vertex));
         self.taken.push(Taken { vertex, name, near });
@@ -84,8 +84,8 @@ impl<P: PlanePoint> Sweep<'_, P> {
         true
     }
 
-    /// A vertex whose removal may help if a triangle no longer turns left, or if the hull does not at the far end of the
-    /// edge of a ghost triangle.
+    /// A vertex whose removal may help if a triangle no longer turns left, or if the hull does not at the far end of
+    /// the edge of a ghost triangle.
     fn vertex_in_the_way(&mut self, triangle: u32) -> Option<u32> {
         let found = self.level.plane.get(triangle);
         if found.vertices == [INFINITE; 3] {
@@ -110,8 +110,8 @@ impl<P: PlanePoint> Sweep<'_, P> {
         Some(found.vertices[longest])
     }
 
-    /// Whether the hull, which turns left everywhere, goes round once: it then has one lexicographically smallest vertex
-    /// among its neighbours.
+    /// Whether the hull, which turns left everywhere, goes round once: it then has one lexicographically smallest
+    /// vertex among its neighbours.
     fn turns_round_once(&self) -> bool {
         let plane = &self.level.plane;
         let is_low = |&ghost: &u32| {

@@ -13,9 +13,9 @@ use crate::order::mix;
 use crate::plane_point::PlanePoint;
 use crate::site::Site;
 
-/// Coins that a vertex throws for each level. All must fall right, so about one vertex of a level in 2^5 is in the level
-/// above; the author of the hierarchy found one in 30 to be good.
-/// In tests half of a level is in the level above, so that small sets have several levels.
+/// Coins that a vertex throws for each level. All must fall right, so about one vertex of a level in 2^5 is in the
+/// level above; the author of the hierarchy found one in 30 to be good. In tests half of a level is in the level above,
+/// so that small sets have several levels.
 const COINS: u32 = if cfg!(test) { 1 } else { 5 };
 /// A walk begins at the last vertex if that is at most the square root of this many edges away, measured by one of its
 /// edges; else at the top of the hierarchy.
