@@ -68,9 +68,9 @@ fn measure<P: PlanePoint>(times: &mut Times, random: &mut SplitMix64, grid: &[Po
     times.note("from", time);
     times.note("bytes a point", mesh.bytes() as f64 / count as f64);
     times.note("mesh", timed(count, || mesh.mesh()).0);
-    let thread = std::num::NonZeroUsize::MIN;
-    let anew = || cpu::triangulate(points.clone(), thread, &mut |_| std::ops::ControlFlow::Continue(()));
-    times.note("cpu::triangulate", timed(count, anew).0);
+    for part in [10, 50] {
+        measure_frames(times, random, &mut mesh.clone(), grid, part, to_point);
+    }
     let queries: Vec<Point> = random.points(count, 1 << BITS);
     for (order, grid_queries) in [("random", queries.clone()), ("hilbert", along_curve(&queries))] {
         let queries: Vec<P> = grid_queries.iter().map(|&point| to_point(point)).collect();
@@ -81,6 +81,35 @@ fn measure<P: PlanePoint>(times: &mut Times, random: &mut SplitMix64, grid: &[Po
         // The points of this order go first, again in this order.
         let indices: Vec<u32> = (count as u32..mesh.next_index()).collect();
         times.note(&format!("delete {order}"), each(&indices, |index| _ = mesh.delete(index)));
+    }
+}
+
+/// Moves all points by up to a part of the mean distance between neighbours on each axis, and triangulates the same
+/// places anew.
+fn measure_frames<P: PlanePoint>(
+    times: &mut Times,
+    random: &mut SplitMix64,
+    mesh: &mut Triangulation<P>,
+    grid: &[Point],
+    part: u32,
+    to_point: fn(Point) -> P,
+) {
+    let side = 1u32 << BITS;
+    let most = (f64::from(side) / (grid.len() as f64).sqrt()) as u32 / part;
+    let mut places = grid.to_vec();
+    for _ in 0..3 {
+        let step = |value: u32, random: &mut SplitMix64| {
+            (value + random.below_u32(2 * most + 1)).saturating_sub(most).min(side - 1)
+        };
+        places.iter_mut().for_each(|p| *p = Point::new(step(p.x, random), step(p.y, random)));
+        let points: Vec<P> = places.iter().map(|&place| to_point(place)).collect();
+        times.note(
+            &format!("move_all, 1/{part}"),
+            timed(grid.len(), || mesh.move_all(&points).expect("finite points")).0,
+        );
+        let thread = std::num::NonZeroUsize::MIN;
+        let anew = || cpu::triangulate(points, thread, &mut |_| std::ops::ControlFlow::Continue(()));
+        times.note("cpu::triangulate", timed(grid.len(), anew).0);
     }
 }
 

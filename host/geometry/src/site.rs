@@ -5,7 +5,7 @@ use core::fmt::Debug;
 
 use bytemuck::Zeroable;
 
-use crate::cpu::{view_of_32_bits, Width};
+use crate::cpu::view::{view_of_32_bits, Widest, Width};
 use crate::double::{acute_corners_of, incircle_of, is_within_of, nearer_of, orient2d_of, Coordinate};
 use crate::point::Point;
 use crate::predicate;
@@ -104,7 +104,7 @@ impl Site for Point {
         if are_below_31_bits([a, b, c, d]) {
             predicate::incircle(a, b, c, d).cmp(&0)
         } else {
-            crate::cpu::Widest::determinant(view_of_32_bits(a, b, c), view_of_32_bits(a, b, d)).cmp(&0)
+            Widest::determinant(view_of_32_bits(a, b, c), view_of_32_bits(a, b, d)).cmp(&0)
         }
     }
 

@@ -54,9 +54,7 @@ mod subtrees;
 #[cfg(test)]
 mod tests;
 mod triangulator;
-mod view;
-
-pub(crate) use view::{view_of_32_bits, Widest, Width};
+pub(crate) mod view;
 
 pub use small::Triangulator;
 pub use triangulator::{connect, threads_for, triangulate, Connectivity, Error, Progress, Stage, Watch};
