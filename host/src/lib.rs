@@ -62,6 +62,24 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! # Points that change
+//!
+//! A [`Triangulation`] can be asked and changed; see [`living`].
+//!
+//! ```
+//! use incircle::living::{Location, Triangulation};
+//!
+//! let mut mesh = Triangulation::from([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]])?;
+//! assert_eq!(mesh.locate([3.0, 1.0]), Location::Triangle([0, 1, 2]));
+//! let middle = mesh.insert([2.0, 1.0])?;
+//! assert!(mesh.neighbors(middle)?.eq([0, 1, 2, 3]));
+//! mesh.move_to(middle, [2.5, 1.5])?;
+//! assert_eq!(mesh.nearest([3.0, 3.0]), Some(2));
+//! mesh.delete(middle)?;
+//! assert_eq!(mesh.mesh().triangles, [[0, 1, 2], [0, 2, 3]]);
+//! # Ok::<(), incircle::living::Error>(())
+//! ```
+//!
 //! # With a device
 //!
 //! Open a [`Device`] when you want hardware, a model of it, another number of threads, or figures about the job. A
@@ -91,6 +109,7 @@
 //! | a board, a card or a model | [`Device::open`] with an address from [`DeviceAddress`], then [`Device::session`] |
 //! | a time limit, a progress bar, a cancel button | [`Options`] with [`Session::triangulate_with`] |
 //! | small sets one after the other, such as points that move | [`Triangulator`], which keeps its memory |
+//! | points that come, go or move, or questions about places | [`Triangulation`], which changes with them |
 //! | many small sets at once | [`Session::triangulate_batch`]: a device works on them side by side |
 //! | several devices for one set | [`Fleet`], which leaves out a device that dies |
 //! | a `Vec` of points that you can hand over | [`Session::triangulate_owned`], which does not copy it |
@@ -103,8 +122,8 @@
 //! points of 16 bits it takes at most 200 bytes a point beyond the points themselves. The CPU triangulator takes whole
 //! numbers of up to 64 bits and all finite doubles; a device has its own number of bits, 16 for the standard cores, and
 //! takes points whose [`Lattice`] fits them. A job may have up to [`MAX_POINTS`] points. A device holds as many
-//! distinct ones as its [`Identity`] says, and does larger sets in parts. There are no constrained edges, no Voronoi cells, no search for the triangle
-//! that holds a place, and no insertion into or deletion from a finished mesh.
+//! distinct ones as its [`Identity`] says, and does larger sets in parts. There are no constrained edges and no Voronoi
+//! cells.
 //!
 //! No set of points and no faulty device makes a call panic: every failure is an [`Error`], whose [`ErrorKind`] says
 //! whose fault it is. Only the predicates of integers, called by themselves, need coordinates below 2^31.
@@ -126,6 +145,7 @@ pub use device::{Device, DeviceAddress, Fleet, Session};
 pub use error::{DeviceFault, Error, ErrorKind, Shown, TransportError};
 pub use incircle_geometry::cpu::{Error as TriangulatorError, Triangulator};
 pub use incircle_geometry::lattice::{Lattice, Step};
+pub use incircle_geometry::living::{self, Triangulation};
 pub use incircle_geometry::verify::{self, verify, VerifyError, VerifySummary};
 pub use incircle_geometry::{double, orient2d, predicate, tiles, Duplicate, Mesh, Order, PlanePoint, Point};
 pub use incircle_geometry::{UnknownOrder, EMPTY, MAX_POINTS};

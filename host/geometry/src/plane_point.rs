@@ -4,10 +4,19 @@ use alloc::borrow::Cow;
 
 use crate::lattice::Numbers;
 use crate::point::Point;
+use crate::site::FilteredSite;
 
 mod sealed {
+    use crate::site::Site;
+
     /// Keeps the trait to this crate: another implementation could not promise exactness.
-    pub trait Sealed {}
+    pub trait Sealed {
+        /// The point in the numbers in which predicates are computed.
+        type Site: Site;
+
+        /// The site of the point.
+        fn site(self) -> Self::Site;
+    }
 }
 
 /// A type of points that can be triangulated: pairs, arrays and vectors of numbers.
@@ -24,7 +33,23 @@ pub trait PlanePoint: Copy + sealed::Sealed {
     fn numbers(points: &[Self]) -> Numbers<'_>;
 }
 
-impl sealed::Sealed for Point {}
+/// The sites of the kinds of [`Numbers`], by the same names.
+mod site_of {
+    use crate::site::FilteredSite;
+
+    pub type Grid = crate::point::Point;
+    pub type Whole = FilteredSite<i64>;
+    pub type Doubles = FilteredSite<f64>;
+}
+
+impl sealed::Sealed for Point {
+    type Site = Self;
+
+    #[inline(always)]
+    fn site(self) -> Self {
+        self
+    }
+}
 
 impl PlanePoint for Point {
     fn numbers(points: &[Self]) -> Numbers<'_> {
@@ -35,7 +60,16 @@ impl PlanePoint for Point {
 /// Implements the trait for types of points, given how a point becomes one of the numbers.
 macro_rules! plane_points {
     ($($kind:ident: $point:ty, $pattern:pat => $value:expr;)*) => {$(
-        impl sealed::Sealed for $point {}
+        impl sealed::Sealed for $point {
+            type Site = site_of::$kind;
+
+            #[inline(always)]
+            fn site(self) -> Self::Site {
+                let $pattern = self;
+                let value = $value;
+                value.into()
+            }
+        }
 
         impl PlanePoint for $point {
             fn numbers(points: &[Self]) -> Numbers<'_> {
@@ -56,7 +90,14 @@ plane_points! {
     Doubles: (f64, f64), (x, y) => [x, y];
 }
 
-impl sealed::Sealed for [i64; 2] {}
+impl sealed::Sealed for [i64; 2] {
+    type Site = FilteredSite<i64>;
+
+    #[inline(always)]
+    fn site(self) -> Self::Site {
+        self.into()
+    }
+}
 
 impl PlanePoint for [i64; 2] {
     fn numbers(points: &[Self]) -> Numbers<'_> {
@@ -64,7 +105,14 @@ impl PlanePoint for [i64; 2] {
     }
 }
 
-impl sealed::Sealed for [f64; 2] {}
+impl sealed::Sealed for [f64; 2] {
+    type Site = FilteredSite<f64>;
+
+    #[inline(always)]
+    fn site(self) -> Self::Site {
+        self.into()
+    }
+}
 
 impl PlanePoint for [f64; 2] {
     fn numbers(points: &[Self]) -> Numbers<'_> {

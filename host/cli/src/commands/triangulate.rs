@@ -1,5 +1,6 @@
 //! `incircle triangulate`: points in, the canonical mesh out.
 
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use incircle::{DeviceAddress, Fleet, Options, PlanePoint, Report, Session, Solution};

@@ -9,39 +9,11 @@ use bytemuck::Zeroable;
 use super::kernel::{tie_is_inside, Ends, Kernel};
 use super::view::level;
 use crate::double::{incircle_of, orient2d_of, Bounds, Coordinate, View};
+use crate::site::FilteredSite;
 
 /// The kernel of points with coordinates of type `C`.
 #[derive(Clone, Copy)]
 pub(super) struct Filtered<C>(PhantomData<C>);
-
-/// A point whose coordinates are finite and never minus zero.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Zeroable)]
-pub(super) struct FilteredSite<C>(pub(super) [C; 2]);
-
-impl<C: Coordinate> FilteredSite<C> {
-    /// The site of a point with finite coordinates.
-    #[inline(always)]
-    pub(super) fn of(point: [C; 2]) -> Self {
-        Self(point.map(C::positive_zero))
-    }
-}
-
-impl<C: Coordinate> Eq for FilteredSite<C> {}
-
-impl<C: Coordinate> PartialOrd for FilteredSite<C> {
-    #[inline(always)]
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl<C: Coordinate> Ord for FilteredSite<C> {
-    #[inline(always)]
-    fn cmp(&self, other: &Self) -> Ordering {
-        // All coordinates are finite, so all are comparable.
-        self.0.partial_cmp(&other.0).unwrap_or(Ordering::Equal)
-    }
-}
 
 /// The place of a site in the tree of cuts: a cell of a grid over all points, and the rank among the points of that
 /// cell in lexicographic order.

@@ -8,12 +8,13 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::filtered::{FilteredSite, Place};
+use super::filtered::Place;
 use super::parallel::in_parallel;
 use super::sites::{self, Sites};
 use crate::double::Coordinate;
 use crate::pages;
 use crate::point::{Duplicate, Point};
+use crate::site::FilteredSite;
 
 /// The finest grid has two to the power of this number of cells a side.
 const MOST_BITS: u32 = 31;

@@ -23,7 +23,7 @@ fn ulps(random: &mut SplitMix64, value: f64, most: u64) -> f64 {
 }
 
 /// Every way to place hostile points.
-const KINDS: [fn(&mut SplitMix64) -> [f64; 2]; 9] =
+pub(crate) const KINDS: [fn(&mut SplitMix64) -> [f64; 2]; 9] =
     [near_line, near_circle, denormal, huge, mixed, ulp_lattice, repeated, far_from_zero, thin];
 
 /// Points near a line through the origin: each coordinate is moved by up to two units in the last place.

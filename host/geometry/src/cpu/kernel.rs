@@ -4,6 +4,8 @@ use core::cmp::Ordering;
 
 use bytemuck::Zeroable;
 
+use crate::tie::is_inside_at_tie;
+
 /// Exact arithmetic for one kind of coordinates.
 ///
 /// Divide and conquer knows points only through these functions: [`Integers`](super::view::Integers) of up to 32 bits,
@@ -65,17 +67,5 @@ pub(super) struct Ends<K: Kernel> {
 /// and whether `q` lies to the left of the edge from `a` to `b`.
 #[inline(never)]
 pub(super) fn tie_is_inside<K: Kernel>(a: K::Site, b: K::Site, c: K::Site, q: K::Site, q_is_left: bool) -> bool {
-    if !q_is_left {
-        return false;
-    }
-    let smallest = a.min(b).min(c).min(q);
-    // Lowering a corner moves `q` inside iff the other three turn right around that corner. Lowering `q` always moves
-    // it inside, and lowering `c` never does, because `c` and `q` lie on one side of the edge.
-    if smallest == a {
-        K::orient2d(q, b, c).is_lt()
-    } else if smallest == b {
-        K::orient2d(q, c, a).is_lt()
-    } else {
-        smallest == q
-    }
+    q_is_left && is_inside_at_tie([a, b, c], q, K::orient2d)
 }

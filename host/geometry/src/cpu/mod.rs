@@ -36,7 +36,7 @@ mod edges;
 mod filtered;
 mod filtered_sites;
 #[cfg(test)]
-mod hostile;
+pub(crate) mod hostile;
 mod kernel;
 mod leaf;
 mod merge;
@@ -55,7 +55,7 @@ mod subtrees;
 #[cfg(test)]
 mod tests;
 mod triangulator;
-mod view;
+pub(crate) mod view;
 
 pub use parts::{Parts, SolvedPart, Unsound};
 pub use small::Triangulator;

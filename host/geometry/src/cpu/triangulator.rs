@@ -9,7 +9,7 @@ use super::conquer::{conquer, Waiting};
 #[cfg(not(feature = "std"))]
 use super::edges::Edges;
 use super::edges::{Half, HALVES};
-use super::filtered::{Filtered, FilteredSite};
+use super::filtered::Filtered;
 use super::filtered_sites::{self, FilteredSites};
 use super::kernel::Kernel;
 #[cfg(feature = "std")]
@@ -23,6 +23,7 @@ use crate::mesh::Mesh;
 use crate::pages;
 use crate::plane_point::PlanePoint;
 use crate::point::{Duplicate, Point, MAX_POINTS};
+use crate::site::FilteredSite;
 
 /// Points that justify one more thread.
 const THREAD_POINTS: usize = 16_384;

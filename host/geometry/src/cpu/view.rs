@@ -51,7 +51,7 @@ pub(super) const WIDE_BITS: u32 = 31;
 
 /// A point of the grid: x above y in one word, which compilers keep in one register and compare at once.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Zeroable)]
-pub(super) struct Site(u64);
+pub(crate) struct Site(u64);
 
 impl Site {
     #[inline(always)]
@@ -79,14 +79,14 @@ impl From<Point> for Site {
 
 /// The edge from `a` to `b`, seen from a point.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct View<P> {
+pub(crate) struct View<P> {
     /// `orient2d` of the edge and the point: positive if the point lies to the left of the edge, zero if on its line.
-    pub(super) cross: P,
+    pub(crate) cross: P,
     dot: P,
 }
 
 /// The integers in which views and determinants are computed.
-pub(super) trait Width: Copy + Sync + 'static {
+pub(crate) trait Width: Copy + Sync + 'static {
     /// The integer that holds a cross or a dot product.
     type Product: Copy + Ord + Default;
     /// The integer that holds the determinant.
@@ -160,7 +160,7 @@ impl Width for Wide {
 
 /// Arithmetic for coordinates of up to 32 bits.
 #[derive(Clone, Copy)]
-pub(super) struct Widest;
+pub(crate) struct Widest;
 
 impl Width for Widest {
     type Product = i128;
@@ -183,6 +183,12 @@ impl Width for Widest {
     fn if_left(cross: i128, determinant: i128) -> i128 {
         determinant | (cross - 1) >> 127
     }
+}
+
+/// The edge from `a` to `b`, seen from `p`, for all coordinates of 32 bits.
+#[inline]
+pub(crate) fn view_of_32_bits(a: Point, b: Point, p: Point) -> View<i128> {
+    Widest::view(a.into(), b.into(), p.into())
 }
 
 /// The kernel of grid points.

@@ -1,7 +1,7 @@
 //! The numbers that coordinates of filtered points may be: doubles and integers of 64 bits.
 
 /// A number that the filter of the predicates can round and their exact stage can take apart.
-pub(crate) trait Coordinate: Copy + PartialOrd + Default + Send + Sync + bytemuck::Zeroable + 'static {
+pub trait Coordinate: Copy + PartialOrd + Default + Send + Sync + bytemuck::Zeroable + 'static {
     /// `self - other`, rounded to the nearest double.
     fn minus(self, other: Self) -> f64;
 

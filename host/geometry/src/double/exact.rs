@@ -60,6 +60,31 @@ pub(super) fn incircle<C: Coordinate>(a: [C; 2], b: [C; 2], c: [C; 2], d: [C; 2]
     }
 }
 
+/// Compares the distances from `q` to `a` and to `b`, of coordinates that are finite.
+#[cold]
+pub(super) fn nearer<C: Coordinate>(q: [C; 2], a: [C; 2], b: [C; 2]) -> Ordering {
+    match whole([q, a, b]) {
+        Whole::Narrow([q, a, b]) => View::of(a, a, q).dot.cmp(&View::of(b, b, q).dot),
+        Whole::Wide([q, a, b]) => WideView::of(&a, &a, &q).dot.minus(&WideView::of(&b, &b, &q).dot).sign(),
+    }
+}
+
+/// Whether `p` lies at most `radius` from `q`. All numbers are finite, and the radius is not negative.
+#[cold]
+pub(super) fn is_within<C: Coordinate>(q: [C; 2], p: [C; 2], radius: f64) -> bool {
+    let parts = [q[0], q[1], p[0], p[1]].map(C::parts);
+    let radius = radius.parts();
+    let least = parts.iter().fold(radius.1, |least, part| least.min(part.1));
+    let big = |(odd, exponent): (i64, i32)| match odd {
+        0 => Big::default(),
+        odd => Big::shifted(odd, (exponent - least) as u32),
+    };
+    let [q0, q1, p0, p1] = parts.map(big);
+    let radius = big(radius);
+    let distance = WideView::of(&[p0.clone(), p1.clone()], &[p0, p1], &[q0, q1]).dot;
+    radius.times(&radius).minus(&distance).sign().is_ge()
+}
+
 /// Cross and dot product of the vectors from a point to `a` and `b`; see `cpu/view.rs`.
 struct View {
     cross: i128,

@@ -93,6 +93,51 @@ pub(crate) fn incircle_of<C: Coordinate>(a: [C; 2], b: [C; 2], c: [C; 2], d: [C;
     exact::incircle(a, b, c, d)
 }
 
+/// Compares the distances from `q` to `a` and to `b`.
+#[inline(always)]
+pub(crate) fn nearer_of<C: Coordinate>(q: [C; 2], a: [C; 2], b: [C; 2]) -> Ordering {
+    let (to_a, to_b) = (View::of(a, a, q).dot, View::of(b, b, q).dot);
+    // Each square errs by 4 u of its size or less: two roundings of differences, one of each product, one of the sum.
+    let (difference, size) = (to_a - to_b, to_a + to_b);
+    if size >= LEAST_SIZE && difference.abs() > DETERMINANT_BOUND * size {
+        return sign(difference);
+    }
+    exact::nearer(q, a, b)
+}
+
+/// The corners of a triangle whose angles the filter knows to be acute: bit 0 for `a`, and so on.
+#[inline(always)]
+pub(crate) fn acute_corners_of<C: Coordinate>(a: [C; 2], b: [C; 2], c: [C; 2]) -> u8 {
+    let minus = |one: [C; 2], other: [C; 2]| [one[0].minus(other[0]), one[1].minus(other[1])];
+    // A dot product that is larger than its error, and 0 otherwise; see the head of the file.
+    let sign = |[x, y]: [f64; 2], [u, v]: [f64; 2]| {
+        let (dot, size) = (x * u + y * v, (x * u).abs() + (y * v).abs());
+        let is_sure = size >= LEAST_SIZE && dot.abs() > PRODUCT_BOUND * size;
+        if is_sure {
+            dot
+        } else {
+            0.0
+        }
+    };
+    let (ab, ac, bc) = (minus(b, a), minus(c, a), minus(c, b));
+    let [at_a, at_b, at_c] = [sign(ab, ac) > 0.0, sign(ab, bc) < 0.0, sign(ac, bc) > 0.0].map(u8::from);
+    at_a | at_b << 1 | at_c << 2
+}
+
+/// Whether `p` lies at most `radius` from `q`. No point lies within a radius that is negative or not a number.
+#[inline]
+pub(crate) fn is_within_of<C: Coordinate>(q: [C; 2], p: [C; 2], radius: f64) -> bool {
+    if radius.is_nan() || radius < 0.0 {
+        return false;
+    }
+    let (to_p, square) = (View::of(p, p, q).dot, radius * radius);
+    let (difference, size) = (square - to_p, square + to_p);
+    if size >= LEAST_SIZE && difference.abs() > DETERMINANT_BOUND * size {
+        return difference > 0.0;
+    }
+    radius == f64::INFINITY || exact::is_within(q, p, radius)
+}
+
 /// Returns on which side of the line from `a` to `b` the point `c` lies: `Greater` to the left, so that `a`, `b`, `c`
 /// turn counter-clockwise; `Less` to the right; `Equal` on the line. Exact for all finite coordinates.
 ///

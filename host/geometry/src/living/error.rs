@@ -1,0 +1,46 @@
+//! The reasons why a change is refused.
+
+use crate::point::MAX_POINTS;
+
+/// The reasons why a [`Triangulation`](super::Triangulation) refuses a change. The triangulation stays as it was.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A coordinate is infinite or not a number.
+    #[error("a coordinate of the point is infinite or not a number: leave it out, or give it a place")]
+    NotFinite,
+    /// A coordinate in a list of points is infinite or not a number.
+    #[error("point {position} of the list has a coordinate that is infinite or not a number: give it a place")]
+    NotFiniteAt {
+        /// The position of the point in the list.
+        position: usize,
+    },
+    /// The point of this index was deleted.
+    #[error("point {index} was deleted: its index is never used again")]
+    Deleted {
+        /// The index that was given.
+        index: u32,
+    },
+    /// No point has had this index yet.
+    #[error("there is no point {index}: so far the indices are those below {next}")]
+    Unknown {
+        /// The index that was given.
+        index: u32,
+        /// The index that the next point will have.
+        next: u32,
+    },
+    /// There are as many points as indices allow.
+    #[error("there are {MAX_POINTS} points, the most that indices allow: delete some, or use several triangulations")]
+    TooManyPoints,
+    /// All indices have been used.
+    #[error("all 4294967295 indices have been used: call `renumber`, which gives the points new ones from 0 on")]
+    IndicesUsedUp,
+    /// A list of new places does not have one for each living point.
+    #[error("there are {given} new places for {living} living points: give one for each, in the order of the indices")]
+    WrongCount {
+        /// The number of places given.
+        given: usize,
+        /// The number of living points.
+        living: usize,
+    },
+}

@@ -1,0 +1,164 @@
+//! Changes of all points: a frame in which all move, and new indices.
+
+use alloc::collections::BTreeSet;
+use alloc::vec::Vec;
+
+use super::error::Error;
+use super::level::Vertex;
+use super::names::Names;
+use super::sweep::{Sweep, Taken};
+use super::triangulation::Triangulation;
+use crate::plane_point::PlanePoint;
+use crate::site::Site;
+
+/// Positions are looked up in a table if it is at most this many times as long as the list of living indices.
+const SPARSE: usize = 8;
+/// If more than one in this many vertices would have to be taken out, the mesh is made anew. In tests all may be, so
+/// that small sets take out some.
+const MOST: usize = if cfg!(test) { 1 } else { 16 };
+
+/// The positions of living indices in the list of all.
+enum Ranks<'i> {
+    /// All indices from 0 on are living.
+    Dense,
+    /// A position for each index from the first living one to the last.
+    Table(u32, Vec<u32>),
+    /// A long time has passed since some of the points were inserted.
+    Sparse(&'i [u32]),
+}
+
+impl<'i> Ranks<'i> {
+    fn of(indices: &'i [u32]) -> Self {
+        let [first, .., last] = *indices else { return Self::Sparse(indices) };
+        let range = (last - first) as usize + 1;
+        if last as usize == indices.len() - 1 {
+            return Self::Dense;
+        }
+        if range > SPARSE * indices.len() {
+            return Self::Sparse(indices);
+        }
+        let mut table = alloc::vec![0; range];
+        (0u32..).zip(indices).for_each(|(rank, &index)| table[(index - first) as usize] = rank);
+        Self::Table(first, table)
+    }
+
+    /// The position of a living index.
+    #[inline]
+    fn rank(&self, index: u32) -> usize {
+        match self {
+            Self::Dense => index as usize,
+            Self::Table(first, table) => {
+                table.get(index.wrapping_sub(*first) as usize).map_or(usize::MAX, |&rank| rank as usize)
+            }
+            Self::Sparse(indices) => indices.binary_search(&index).unwrap_or(usize::MAX),
+        }
+    }
+}
+
+impl<P: PlanePoint> Triangulation<P> {
+    /// Moves all living points at once: the list has a new place for each, in the order of the indices. All points keep
+    /// their indices.
+    ///
+    /// If the steps are short against the distances between neighbours, this is quicker than a new triangulation; if
+    /// not, one is made. The result is the same either way. O(n) where few points have to be inserted anew.
+    ///
+    /// ```
+    /// let mut mesh = incircle_geometry::Triangulation::from([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]])?;
+    /// mesh.move_all(&[[0.0, 0.1], [4.0, 0.0], [4.1, 4.0], [0.0, 4.0]])?;
+    /// assert_eq!(mesh.point(2), Some([4.1, 4.0]));
+    /// # Ok::<(), incircle_geometry::living::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// The list does not have one place for each living point, or a coordinate is infinite or not a number.
+    pub fn move_all(&mut self, places: &[P]) -> Result<(), Error> {
+        if places.len() != self.len() {
+            return Err(Error::WrongCount { given: places.len(), living: self.len() });
+        }
+        if let Some(position) = places.iter().position(|place| !place.site().is_finite()) {
+            return Err(Error::NotFiniteAt { position });
+        }
+        let indices = self.indices();
+        if !self.sweep(&indices, places) {
+            let next = self.next;
+            *self = Self::new();
+            self.next = next;
+            self.load(places, |position| indices[position as usize])?;
+        }
+        Ok(())
+    }
+
+    /// Moves the points by a sweep; says whether that was possible. If not, the mesh is of no use.
+    fn sweep(&mut self, indices: &[u32], places: &[P]) -> bool {
+        if !self.base().is_plane() {
+            return false;
+        }
+        let ranks = Ranks::of(indices);
+        // The point that names a place takes the vertex along. What stands here for a free vertex is never used.
+        let place = |vertex: &Vertex<P>| places.get(ranks.rank(vertex.name)).copied().unwrap_or(vertex.point);
+        let moved: Vec<P> = self.base().vertices.iter().map(place).collect();
+        self.levels.truncate(1);
+        let most = self.base().count / MOST;
+        let acute = alloc::vec![0; self.base().plane.end() as usize];
+        let mut sweep = Sweep { level: &mut self.levels[0], places: &moved, taken: Vec::new(), acute, most };
+        if !sweep.run() {
+            return false;
+        }
+        let taken = sweep.taken;
+        self.load_levels();
+        self.attach_all(&taken, |index| places[ranks.rank(index)]);
+        true
+    }
+
+    /// Inserts the points of vertices that were taken out, and those that went another way than
+    /// the point that names their place.
+    fn attach_all(&mut self, taken: &[Taken], place: impl Fn(u32) -> P) {
+        let mut loose: Vec<(u32, Option<u32>)> = taken.iter().map(|taken| (taken.name, taken.near)).collect();
+        if !self.twins.is_empty() {
+            let gone: BTreeSet<u32> = taken.iter().map(|taken| taken.vertex).collect();
+            let twins = core::mem::take(&mut self.twins);
+            let base = self.base();
+            let stays =
+                |&(vertex, index): &(u32, u32)| !gone.contains(&vertex) && base.site(vertex) == place(index).site();
+            let (twins, others) = twins.into_iter().partition::<Vec<_>, _>(stays);
+            self.twins = twins.into_iter().collect();
+            loose.extend(others.into_iter().map(|(_, index)| (index, None)));
+        }
+        // The vertex that was freed last is taken first, so most points get back their own.
+        for (index, near) in loose.into_iter().rev() {
+            if let Some(near) = near {
+                self.hint.set(near);
+            }
+            self.attach(index, place(index));
+        }
+    }
+
+    /// Gives the living points new indices, from 0 on, in the order of the old ones, which are returned. The next index
+    /// is then the number of points. O(n log n).
+    ///
+    /// ```
+    /// let mut mesh = incircle_geometry::Triangulation::from([[0, 0], [4, 0], [4, 4]])?;
+    /// mesh.delete(1)?;
+    /// assert_eq!(mesh.renumber(), [0, 2]);
+    /// assert_eq!((mesh.point(1), mesh.next_index()), (Some([4, 4]), 2));
+    /// # Ok::<(), incircle_geometry::living::Error>(())
+    /// ```
+    pub fn renumber(&mut self) -> Vec<u32> {
+        let indices = self.indices();
+        let mut names = Names::default();
+        names.reserve(indices.len());
+        let twins = core::mem::take(&mut self.twins);
+        for (new, &old) in (0u32..).zip(&indices) {
+            let Some(vertex) = self.names.get(old) else { continue };
+            names.set(new, vertex);
+            if twins.contains(&(vertex, old)) {
+                self.twins.insert((vertex, new));
+            } else {
+                self.levels[0].vertices[vertex as usize].name = new;
+            }
+        }
+        self.names = names;
+        self.next = indices.len() as u32;
+        indices
+    }
+}

@@ -1,0 +1,6 @@
+//! Tests of the living mesh against brute force, after every command of random scripts.
+
+mod brute;
+mod changes;
+mod scripts;
+mod structure;
