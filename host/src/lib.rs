@@ -100,6 +100,22 @@
 //! # Ok::<(), incircle::Error>(())
 //! ```
 //!
+//! # Several devices for one set
+//!
+//! A set that is too large for a device is cut into parts, and the host joins their meshes. A [`Fleet`] shares the parts
+//! among several devices.
+//!
+//! ```
+//! use incircle::{Fleet, Options, Point};
+//!
+//! let points: Vec<Point> = (0..5000).map(|k| Point::new(k * k % 8191, k * 7 % 8209)).collect();
+//! let fleet = Fleet::open(&["clock?config=quad", "cpu?threads=1"])?;
+//! let solution = fleet.triangulate(&points, &Options::default())?;
+//! assert_eq!(solution.mesh, incircle::triangulate(&points)?);
+//! assert_eq!(solution.report.shares.iter().map(|share| share.parts).sum::<usize>(), solution.report.parts);
+//! # Ok::<(), incircle::Error>(())
+//! ```
+//!
 //! # Which to reach for
 //!
 //! | you have | reach for |

@@ -16,7 +16,7 @@ use crate::job::watch::{tell, Stopwatch};
 use crate::job::{Answer, Options, Progress, Report, Solution, Stage};
 
 /// Noun for the work under way, in errors.
-const DURING: &str = "the triangulation in parts";
+pub(super) const DURING: &str = "the triangulation in parts";
 
 impl Session<'_> {
     /// Triangulates grid points, in parts if they are more than the device holds.

@@ -5,7 +5,8 @@ use std::time::Duration;
 
 use clap::{Args, Subcommand};
 
-use super::{BackendArguments, ReadArguments};
+use super::backend::BackendArguments;
+use super::points::ReadArguments;
 use crate::formats::MeshFormat;
 use crate::help;
 use crate::values::{bytes_from, seconds_from, whole_number};

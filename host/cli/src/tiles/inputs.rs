@@ -4,7 +4,6 @@ use std::path::Path;
 
 use super::digest::Digest;
 use super::manifest::Manifest;
-use super::survey::changed;
 use crate::arguments::ReadArguments;
 use crate::failure::Failure;
 use crate::formats::{npy, PointFormat};
@@ -66,4 +65,13 @@ pub fn points_again(manifest: &Manifest, read: &ReadArguments, quiet: bool) -> R
         return Err(changed(&input.path));
     }
     Ok(table)
+}
+
+/// The failure of an input that is not the same as in an earlier pass.
+pub fn changed(path: &Path) -> Failure {
+    Failure::input(format!(
+        "{} has changed since it was read first: leave the inputs alone until the tiles are joined, and split them \
+         again",
+        path::name(path)
+    ))
 }

@@ -8,7 +8,7 @@ use incircle::tiles::{Region, Step};
 use super::ground::{Ground, Length};
 use super::head::{damaged, Head, Kind};
 use super::opened::Opened;
-use super::result::write_checked;
+use super::written::write_checked;
 use crate::failure::Failure;
 use crate::output::Written;
 use crate::path;

@@ -26,6 +26,7 @@ mod result;
 mod sort;
 mod split;
 mod survey;
+mod written;
 
 pub use inputs::points_again;
 pub use join::{join, triangles_of, Joined, Order};

@@ -1,17 +1,17 @@
-//! The file of a tile's triangulation, and how small files are written with their check sums.
+//! The file of a tile's triangulation.
 
 use std::io::{self, Write};
 use std::path::Path;
 
-use crc32fast::Hasher;
 use incircle::tiles::{Border, Region};
 use incircle::Point;
 
 use super::head::{Head, Kind};
 use super::manifest::local_path;
 use super::opened::{Opened, Owner};
+use super::written::{write_checked, write_rows};
 use crate::failure::Failure;
-use crate::output::{Output, Written};
+use crate::output::Written;
 
 /// What is known of a tile once its points are triangulated.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,45 +75,5 @@ impl TileResult {
             rows.checked_add(hull.checked_mul(4)?)?.checked_add(duplicates.checked_mul(8)?)
         };
         Opened::open(&local_path(folder, owner.tile), Kind::Local, Some(owner), Some(bytes_of))
-    }
-}
-
-/// Writes rows of numbers, little endian.
-pub fn write_rows<const N: usize>(rows: &[[u32; N]], out: &mut dyn Write) -> io::Result<()> {
-    for number in rows.as_flattened() {
-        out.write_all(&number.to_le_bytes())?;
-    }
-    Ok(())
-}
-
-/// Writes a file with a head, whose check sum is that of what `content` writes. `content` is called twice and must write
-/// the same bytes.
-pub fn write_checked(
-    path: &Path,
-    head: Head,
-    content: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>,
-) -> Result<Written, Failure> {
-    let mut sum = io::BufWriter::with_capacity(1 << 16, Sum(Hasher::new()));
-    let output = Output::prepare(path, None)?;
-    output.write(|out| {
-        content(&mut sum)?;
-        sum.flush()?;
-        let check = sum.get_ref().0.clone().finalize();
-        out.write_all(&Head { check, ..head }.to_bytes())?;
-        content(out)
-    })
-}
-
-/// A writer that keeps nothing but the check sum.
-struct Sum(Hasher);
-
-impl Write for Sum {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0.update(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
     }
 }

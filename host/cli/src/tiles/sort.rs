@@ -153,7 +153,7 @@ impl Bucket {
         let Some(path) = &self.file else { return Ok(()) };
         let append = || -> io::Result<()> {
             let mut out = io::BufWriter::with_capacity(PIECE, OpenOptions::new().append(true).open(path)?);
-            super::result::write_rows(&self.buffer, &mut out)?;
+            super::written::write_rows(&self.buffer, &mut out)?;
             out.flush()
         };
         append().map_err(|error| failed(path, "written", &error))?;

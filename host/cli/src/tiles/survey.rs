@@ -6,7 +6,7 @@ use incircle::Point;
 
 use super::digest::{scattered, Digest};
 use super::ground::{Extent, Ground};
-use super::inputs::each_piece;
+use super::inputs::{changed, each_piece};
 use super::manifest::InputFile;
 use crate::arguments::ReadArguments;
 use crate::failure::Failure;
@@ -53,15 +53,6 @@ fn check_count(points: u64) -> Result<(), Failure> {
         return Ok(());
     }
     Err(Failure::input(format!("the inputs have more than {MOST_POINTS} points, which is the most of one set")))
-}
-
-/// The failure of an input that is not the same as in an earlier pass.
-pub fn changed(path: &Path) -> Failure {
-    Failure::input(format!(
-        "{} has changed since it was read first: leave the inputs alone until the tiles are joined, and split them \
-         again",
-        crate::path::name(path)
-    ))
 }
 
 /// Points, each with the number made of its index.

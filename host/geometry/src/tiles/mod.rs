@@ -59,8 +59,8 @@ mod error;
 mod join;
 mod local;
 mod product;
-mod reach;
-mod region;
+pub(crate) mod reach;
+pub(crate) mod region;
 #[cfg(test)]
 mod tests;
 mod tree;

@@ -4,13 +4,28 @@ use std::ops::ControlFlow;
 use std::sync::OnceLock;
 
 use incircle_geometry::cpu::{Parts, SolvedPart, Unsound};
-use incircle_geometry::Point;
+use incircle_geometry::{Order, Point};
 
 use super::hall::{Greeted, Hall};
-use super::{Choices, DURING};
-use crate::device::{Device, Session};
+use crate::device::in_parts::DURING;
+use crate::device::open::Device;
+use crate::device::session::Session;
 use crate::error::{DeviceFault, Error};
 use crate::job::{Options, Progress, Solution};
+
+/// The choices of the caller that concern each device.
+#[derive(Clone, Copy)]
+pub(super) struct Choices {
+    order: Order,
+    contexts: Option<u32>,
+    insert_chunk: usize,
+}
+
+impl Choices {
+    pub(super) fn of(&Options { order, contexts, insert_chunk, .. }: &Options<'_>) -> Self {
+        Self { order, contexts, insert_chunk }
+    }
+}
 
 /// Opens the device at this place of the fleet, and does parts until there are none.
 pub(super) fn work(

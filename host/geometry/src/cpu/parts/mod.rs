@@ -35,7 +35,7 @@ use super::subtrees::divide;
 use super::triangulator::{check, is_collinear, threads_for, Connectivity, Error};
 use super::view::{Integers, Site, Widest};
 use crate::point::{Duplicate, Point};
-use crate::tiles::Region;
+use crate::tiles::region::Region;
 
 pub use solved::SolvedPart;
 

@@ -8,7 +8,7 @@ use super::super::view::{Integers, Site, Widest};
 use super::rings::Rings;
 use super::{Parts, Unsound};
 use crate::point::Point;
-use crate::tiles::{Reach, TilePoint};
+use crate::tiles::reach::{Reach, TilePoint};
 
 /// A vertex that is not at the border.
 const INSIDE: u32 = u32::MAX;

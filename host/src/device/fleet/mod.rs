@@ -9,12 +9,13 @@ use std::thread::Builder;
 
 use incircle_geometry::cpu::{Connectivity, Parts, Unsound};
 use incircle_geometry::lattice::Numbers;
-use incircle_geometry::{Order, PlanePoint};
+use incircle_geometry::PlanePoint;
 
 use self::hall::{Greeted, Hall};
+use self::worker::Choices;
 use super::address::DeviceAddress;
 use super::cpu_backend::error_of;
-use super::in_parts::host_threads;
+use super::in_parts::{host_threads, DURING};
 use super::lay::{lay, Asked};
 use super::open::Device;
 use super::session::own;
@@ -27,8 +28,6 @@ use crate::limit::Limit;
 const LEAST_PART: usize = 1024;
 /// Most points of a part. Many parts keep all devices busy to the end.
 const MOST_PART: usize = 16_384;
-/// Noun for the work under way, in errors.
-const DURING: &str = "the triangulation in parts";
 
 /// Several devices that share the work on one set.
 ///
@@ -86,9 +85,9 @@ impl Fleet {
 
     /// Triangulates one set of points with all devices of the fleet.
     ///
-    /// [`Options::contexts`] bounds the contexts of every device. The points must lie on a [`Lattice`](crate::Lattice) that fits the
-    /// coordinates of every device: one device with few bits makes the fleet refuse the set. The time limit begins when
-    /// all devices are open or left out.
+    /// [`Options::contexts`] bounds the contexts of every device. The points must lie on a
+    /// [`Lattice`](crate::Lattice) that fits the coordinates of every device: one device with few bits makes the fleet
+    /// refuse the set. The time limit begins when all devices are open or left out.
     ///
     /// Cost: the work of the devices, side by side. The host cuts and joins on up to all processors, in O(n) time on
     /// even sets. A device may give sound triangles that are not those of Delaunay; not all of them are found out, so
@@ -138,20 +137,6 @@ impl Member {
             hall.leave_out(place, Error::OutOfStep { device: self.name.clone() });
             resume_unwind(panic);
         }
-    }
-}
-
-/// The choices of the caller that concern each device.
-#[derive(Clone, Copy)]
-struct Choices {
-    order: Order,
-    contexts: Option<u32>,
-    insert_chunk: usize,
-}
-
-impl Choices {
-    fn of(&Options { order, contexts, insert_chunk, .. }: &Options<'_>) -> Self {
-        Self { order, contexts, insert_chunk }
     }
 }
 
