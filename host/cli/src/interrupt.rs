@@ -20,6 +20,8 @@ static DONE: AtomicBool = AtomicBool::new(false);
 static TOLD: Mutex<bool> = Mutex::new(false);
 /// The unfinished outputs of the run, which an interrupt removes.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+/// How the run can go on after an interrupt; empty if it cannot.
+static REMEDY: Mutex<String> = Mutex::new(String::new());
 /// Time for a job to end by itself. A slice of a simulated job takes less.
 const GRACE: Duration = Duration::from_millis(1500);
 
@@ -55,8 +57,9 @@ fn stop() {
     if DONE.load(Ordering::SeqCst) {
         return;
     }
-    for path in unfinished.iter() {
-        let _ = std::fs::remove_file(path);
+    // The last one comes first: a folder is made before the files in it. A folder that is not empty stays.
+    for path in unfinished.iter().rev() {
+        let _ = std::fs::remove_file(path).or_else(|_| std::fs::remove_dir(path));
     }
     tell(&interrupted());
     std::process::exit(Exit::Interrupted as i32);
@@ -72,7 +75,14 @@ pub fn tell(failure: &Failure) {
 }
 
 fn interrupted() -> Failure {
-    Failure::new(Exit::Interrupted, "interrupted: no file was written")
+    let remedy = REMEDY.lock().unwrap_or_else(PoisonError::into_inner);
+    let message = if remedy.is_empty() { "interrupted: no file was written" } else { remedy.as_str() };
+    Failure::new(Exit::Interrupted, message)
+}
+
+/// Sets the sentence of an interrupted run that can go on later.
+pub fn set_remedy(sentence: String) {
+    *REMEDY.lock().unwrap_or_else(PoisonError::into_inner) = sentence;
 }
 
 /// Whether the run was interrupted.

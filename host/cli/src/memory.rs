@@ -36,6 +36,16 @@ impl Memory {
         Self { bytes: free_of(Path::new("/")).unwrap_or(USUAL) }
     }
 
+    /// The memory in bytes.
+    pub fn bytes(self) -> u64 {
+        self.bytes
+    }
+
+    /// The most memory that this process has taken so far, in bytes; `None` on systems other than Linux.
+    pub fn peak() -> Option<u64> {
+        number_behind(Path::new("/proc/self/status"), "VmHWM:").map(|kibibytes| kibibytes * 1024)
+    }
+
     /// The most bytes that an input may have, unpacked: half of the memory, because points are made of them.
     pub fn input_bytes(self) -> u64 {
         self.bytes / 2

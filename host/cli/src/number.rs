@@ -37,6 +37,17 @@ pub struct Nearest {
 }
 
 impl Number {
+    /// The number `steps * 10^-digits`, which is a decimal if its shortest form fits 64 bits.
+    pub fn of_decimal(mut steps: i128, mut digits: u32) -> Self {
+        while digits > 0 && steps % 10 == 0 {
+            (steps, digits) = (steps / 10, if steps == 0 { 0 } else { digits - 1 });
+        }
+        match i64::try_from(steps) {
+            Ok(steps) => Self::Decimal(Decimal { steps, digits }),
+            Err(_) => Self::Double(Nearest { value: nearest(steps, digits), is_exact: is_double(steps, digits) }),
+        }
+    }
+
     /// The double that is nearest to the number.
     pub fn nearest(self) -> Nearest {
         match self {

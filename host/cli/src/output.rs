@@ -41,9 +41,9 @@ pub struct Written {
 }
 
 impl Output {
-    /// Checks an output before the work: the output must not be the input, its folder must exist, and an existing
+    /// Checks an output before the work: the output must be none of the inputs, its folder must exist, and an existing
     /// file must be writable.
-    pub fn prepare(path: &Path, input: Option<&Path>) -> Result<Self, Failure> {
+    pub fn prepare(path: &Path, inputs: &[PathBuf]) -> Result<Self, Failure> {
         if is_standard(path) {
             return Ok(Self {
                 target: Target::Standard,
@@ -52,7 +52,7 @@ impl Output {
             });
         }
         let name = path::name(path);
-        if input.is_some_and(|input| is_same(input, path)) {
+        if inputs.iter().any(|input| is_same(input, path)) {
             return Err(Failure::usage(format!("{name} is both the input and the output: choose another output")));
         }
         let target = match fs::metadata(path) {
@@ -162,8 +162,21 @@ impl Drop for Written {
     }
 }
 
-/// Puts all outputs in place and then calls `last`. If anything fails, none of the outputs is left.
+/// Puts all outputs in place, calls `last`, and marks the run as complete. If anything fails, none of the outputs is
+/// left.
 pub fn finish(
+    outputs: impl IntoIterator<Item = Written>,
+    last: impl FnOnce() -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    keep(outputs, || {
+        last()?;
+        interrupt::done()
+    })
+}
+
+/// Puts all outputs of a step in place and then calls `last`. If anything fails, none of the outputs is left. An
+/// interrupt of a later step leaves them where they are.
+pub fn keep(
     outputs: impl IntoIterator<Item = Written>,
     last: impl FnOnce() -> Result<(), Failure>,
 ) -> Result<(), Failure> {
@@ -172,8 +185,7 @@ pub fn finish(
         for written in outputs {
             placed.extend(written.place()?);
         }
-        last()?;
-        interrupt::done()
+        last()
     };
     let result = place_all();
     let mut unfinished = interrupt::unfinished();
@@ -239,7 +251,8 @@ fn cannot_write(name: &str, error: &io::Error) -> Failure {
     Failure::input(format!("{name} cannot be written: {error}"))
 }
 
-fn folder_of(path: &Path) -> &Path {
+/// The folder of a file.
+pub fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),

@@ -1,6 +1,6 @@
 //! Input files: which format they have, and what they hold.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::arguments::ReadArguments;
 use crate::failure::Failure;
@@ -23,6 +23,30 @@ pub fn read_points(path: &Path, arguments: &ReadArguments, quiet: bool) -> Resul
     let selection: Selection = arguments.selection(format)?;
     let read = || format.read(Input::open(path, quiet)?, &selection);
     read().map_err(|failure| failure.in_file(name(path)))
+}
+
+/// Reads the points of several files as one set, numbered in the order of the files.
+///
+/// # Errors
+/// A file cannot be read, or standard input is named twice.
+pub fn read_set(paths: &[PathBuf], arguments: &ReadArguments, quiet: bool) -> Result<PointTable, Failure> {
+    if paths.iter().filter(|path| is_standard(path)).count() > 1 {
+        return Err(Failure::usage("standard input can be read only once: give '-' once"));
+    }
+    let mut tables = paths.iter().map(|path| read_points(path, arguments, quiet));
+    let first = tables.next().unwrap_or_else(|| Ok(PointTable::of_items("point")))?;
+    if paths.len() < 2 {
+        return Ok(first);
+    }
+    tables.try_fold(first.into_items(), |set, table| set.append(table?))
+}
+
+/// The name of a set of files, for messages.
+pub fn set_name(paths: &[PathBuf]) -> String {
+    match paths {
+        [path] => name(path),
+        _ => format!("the set of {} files", paths.len()),
+    }
 }
 
 /// Reads the triangles of a mesh file. The format is `format`, or else the one of the extension.

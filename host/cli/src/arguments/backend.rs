@@ -42,6 +42,11 @@ pub struct BackendArguments {
 }
 
 impl BackendArguments {
+    /// Whether several back ends are given.
+    pub fn is_several(&self) -> bool {
+        self.backend.len() > 1
+    }
+
     /// The back end of the arguments, or else the one at the address `default`. Refuses several.
     pub fn or(&self, default: &str) -> Result<DeviceAddress, Failure> {
         match &self.backend[..] {

@@ -16,7 +16,8 @@ use crate::formats::{MeshFormat, SetFormat};
 use crate::help;
 use crate::numbers::NumberKind;
 use crate::values::{
-    distribution_parser, mhz_from, order_parser, port_from, readable_format_parser, seconds_from, whole_number,
+    bytes_from, distribution_parser, mhz_from, order_parser, port_from, readable_format_parser, seconds_from,
+    whole_number,
 };
 
 pub use backend::{BackendArguments, ConfigName};
@@ -121,8 +122,11 @@ impl JobArguments {
 /// The arguments of `incircle triangulate`.
 #[derive(Debug, Args)]
 pub struct TriangulateArguments {
-    /// File of points, in the format of its extension; '-' is CSV from standard input
-    pub points: PathBuf,
+    /// Files of points, in the format of their extensions; '-' is CSV from standard input
+    ///
+    /// Several files are one set, whose points are numbered in this order.
+    #[arg(required = true, value_name = "POINTS")]
+    pub points: Vec<PathBuf>,
     /// File for the mesh, in the format of its extension
     ///
     /// '-' is standard output and needs --format.
@@ -141,6 +145,8 @@ pub struct TriangulateArguments {
     pub backend: BackendArguments,
     #[command(flatten)]
     pub job: JobArguments,
+    #[command(flatten)]
+    pub large: LargeArguments,
     /// Record a waveform of the back end 'sim' in this file, for small sets
     ///
     /// The file has every signal of the simulated core at every clock, so it is large and slow to
@@ -158,15 +164,52 @@ pub struct TriangulateArguments {
     pub verbose: bool,
 }
 
+/// The choices for a set that is larger than the memory.
+#[derive(Debug, Args)]
+pub struct LargeArguments {
+    /// Memory that the run may take, from 32M on, such as 300M or 2G: the set is cut into tiles
+    ///
+    /// The tiles and the triangles lie in files. The mesh is the same. The points must lie on a
+    /// lattice of up to 32 bits, and the mesh is written as npy, csv or ele. Without this option a
+    /// set of .npy files that does not fit the free memory is cut into tiles.
+    #[arg(long, value_name = "BYTES", value_parser = bytes_from, verbatim_doc_comment)]
+    pub memory: Option<u64>,
+    /// Folder for the files of a set in tiles (default: the folder of the mesh)
+    ///
+    /// They take about 49 bytes for each point, or half of that with --unordered.
+    #[arg(long, value_name = "DIR")]
+    pub scratch: Option<PathBuf>,
+    /// Go on with the files of a run that did not end
+    #[arg(long)]
+    pub resume: bool,
+    /// Write the triangles of a set in tiles as they come, which needs no sort: npy, csv and ele only
+    #[arg(long)]
+    pub unordered: bool,
+}
+
+impl LargeArguments {
+    /// Whether an option says that the set is cut into tiles.
+    pub fn is_wanted(&self) -> bool {
+        self.memory.is_some() || self.scratch.is_some() || self.resume || self.unordered
+    }
+}
+
 /// The arguments of `incircle verify`.
 #[derive(Debug, Args)]
 pub struct VerifyArguments {
-    /// File of points, in the format of its extension; '-' is CSV from standard input
-    pub points: PathBuf,
+    /// Files of points, in the format of their extensions; '-' is CSV from standard input
+    ///
+    /// Several files are one set, as in 'triangulate'.
+    #[arg(required = true, value_name = "POINTS")]
+    pub points: Vec<PathBuf>,
     /// File of the mesh; '-' is standard input and needs --format
+    #[arg(required = true)]
     pub mesh: PathBuf,
     #[command(flatten)]
     pub read: ReadArguments,
+    /// Take the triangles in any order, as 'triangulate --unordered' writes them
+    #[arg(long)]
+    pub unordered: bool,
     /// Mesh format
     ///
     /// Without this option the extension of the file chooses the format.

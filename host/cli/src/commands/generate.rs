@@ -30,7 +30,7 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
     };
     let bits = arguments.numbers.bits(arguments.bits)?;
     check_count(arguments.n)?;
-    let output = Output::prepare(path, None)?;
+    let output = Output::prepare(path, &[])?;
     let mut points = make(arguments.distribution, arguments.n, bits, arguments.seed)?;
     if let Some(order) = arguments.order {
         points = ordered(&points, order);
@@ -78,7 +78,7 @@ fn draw(arguments: &GenerateArguments) -> Result<(), Failure> {
     }
     let bits = arguments.numbers.bits(arguments.bits)?;
     check_count(arguments.n)?;
-    let output = Output::prepare(&arguments.output, None)?;
+    let output = Output::prepare(&arguments.output, &[])?;
     let points = ordered(&make(arguments.distribution, arguments.n, bits, arguments.seed)?, order);
     let title = format!("{} points, {}, in the order {}", arguments.n, arguments.distribution, order.name());
     let written = output.write(|out| curve::write(&points, &title, out))?;

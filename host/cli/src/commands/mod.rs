@@ -9,4 +9,5 @@ pub mod generate;
 pub mod info;
 pub mod tile;
 pub mod triangulate;
+mod triangulate_large;
 pub mod verify;

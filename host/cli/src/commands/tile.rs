@@ -1,19 +1,17 @@
 //! `incircle tile`: a set in tiles over files. The work is in [`crate::tiles`].
 
-use std::cell::RefCell;
-use std::io::{self, Write};
 use std::num::NonZeroUsize;
 
-use incircle::{Mesh, Options, Point};
+use incircle::{Mesh, Point};
 use serde_json::json;
 
-use crate::arguments::{JoinArguments, LocalArguments, SplitArguments, TileArguments, TileCommand};
+use crate::arguments::{JobArguments, JoinArguments, LocalArguments, SplitArguments, TileArguments, TileCommand};
 use crate::backend::{self, Choice};
 use crate::failure::{counted, failure_of, Failure};
-use crate::formats::{npy_writer, MeshFormat, MeshView};
+use crate::formats::{MeshFormat, MeshView};
 use crate::output::{self, Output};
-use crate::progress::{CountMeter, Meter};
-use crate::tiles::{self, Joined, Manifest, Order, Outcome, Plan, Summary, TileAt};
+use crate::progress::Meter;
+use crate::tiles::{self, Budget, Joined, Manifest, Order, Outcome, Plan, Summary, TileAt};
 use crate::{interrupt, path, source};
 
 /// Runs a verb.
@@ -26,14 +24,21 @@ pub fn run(arguments: &TileArguments) -> Result<(), Failure> {
 }
 
 fn split(arguments: &SplitArguments) -> Result<(), Failure> {
+    let budget = Budget::of_tiles(NonZeroUsize::new(arguments.points as usize).unwrap_or(NonZeroUsize::MIN));
     let plan = Plan {
         inputs: &arguments.inputs,
         read: &arguments.read,
-        most: NonZeroUsize::new(arguments.points as usize).unwrap_or(NonZeroUsize::MIN),
+        most: budget.most,
         folder: &arguments.output,
+        sample: budget.sample,
+        buffers: budget.buffers,
+        check: &|_| Ok(()),
         quiet: arguments.quiet,
     };
-    tiles::split(&plan, |summary| tell_split(summary, arguments))
+    tiles::split(&plan, |summary| {
+        tell_split(summary, arguments)?;
+        interrupt::done()
+    })
 }
 
 fn tell_split(summary: &Summary, arguments: &SplitArguments) -> Result<(), Failure> {
@@ -65,19 +70,31 @@ fn local(arguments: &LocalArguments) -> Result<(), Failure> {
     let at = TileAt::of_path(&arguments.tile)?;
     let choice = Choice::of(&arguments.backend, None, "cpu")?;
     let name = path::name(&arguments.tile);
-    let mut triangulate =
-        |points: &[Point], bits: u32| triangulate(points, bits, &choice, arguments).map_err(|f| f.in_file(&name));
-    tiles::local(&at, &mut triangulate, |outcome| tell_local(&at, outcome, arguments))
+    let job = JobArguments { contexts: None, order: None, timeout: arguments.timeout };
+    let mut triangulate = |points: &[Point], bits: u32| {
+        triangulate_tile(points, bits, &choice, &job, arguments.quiet).map_err(|f| f.in_file(&name))
+    };
+    tiles::local(&at, &mut triangulate, |outcome| {
+        tell_local(&at, outcome, arguments)?;
+        interrupt::done()
+    })
 }
 
-/// Triangulates the points of a tile with the back end.
-fn triangulate(points: &[Point], bits: u32, choice: &Choice, arguments: &LocalArguments) -> Result<Mesh, Failure> {
+/// Triangulates the points of a tile, which need so many bits, with the back end.
+pub fn triangulate_tile(
+    points: &[Point],
+    bits: u32,
+    choice: &Choice,
+    job: &JobArguments,
+    quiet: bool,
+) -> Result<Mesh, Failure> {
     let room = if choice.is_core() { backend::count_distinct(points) } else { points.len() };
-    let mut backend = backend::open_with_room(choice, Some(room), None, arguments.timeout)?;
+    let mut backend = backend::open_with_room(choice, Some(room), None, job.timeout)?;
+    backend.check_job(job)?;
     let (name, takes_all) = (backend.name, backend.takes_all_numbers());
-    let meter = Meter::new(arguments.quiet);
+    let meter = Meter::new(quiet);
     let listener = |progress| meter.hear(progress);
-    let options = Options::default().timeout(arguments.timeout).progress(&listener);
+    let options = job.options(&listener);
     let solution = interrupt::working(|| {
         let mut session = backend.device.session().map_err(|error| failure_of(&error))?;
         let has = session.identity().coord_bits;
@@ -115,86 +132,28 @@ fn tell_local(at: &TileAt, outcome: &Outcome, arguments: &LocalArguments) -> Res
     Ok(())
 }
 
-/// Formats that need nothing but the triangles, so that these can be written one after the other.
-fn is_streamed(format: MeshFormat) -> bool {
-    matches!(format, MeshFormat::Npy | MeshFormat::Csv | MeshFormat::Ele)
-}
-
 fn join(arguments: &JoinArguments) -> Result<(), Failure> {
     let format = source::mesh_format(&arguments.output, arguments.format)?;
-    let output = Output::prepare(&arguments.output, None)?;
+    let output = Output::prepare(&arguments.output, &[])?;
     if arguments.json && output.is_standard() {
         return Err(Failure::usage(
             "the mesh and the report of --json cannot both go to standard output: give -o a file",
         ));
     }
-    if arguments.unordered && !is_streamed(format) {
+    if arguments.unordered && !tiles::is_streamed(format) {
         return Err(Failure::usage("--unordered is for npy, csv and ele only: leave it out, or choose one of them"));
     }
     let manifest = Manifest::read(&arguments.folder)?;
     let order = if arguments.unordered { Order::Unordered } else { Order::Canonical };
-    let (folder, keeps_pairs) = (&arguments.folder, !is_streamed(format));
+    let (folder, keeps_pairs) = (&arguments.folder, !tiles::is_streamed(format));
     let joined = tiles::join(folder, &manifest, order, arguments.memory, keeps_pairs, arguments.quiet)?;
     let counts = [manifest.points(), joined.duplicates, joined.triangles, joined.hull.len() as u64];
-    let written = if is_streamed(format) {
-        stream(joined, &manifest, format, output, arguments)?
+    let written = if tiles::is_streamed(format) {
+        tiles::write_triangles(joined, (folder, &manifest), format, output, arguments.quiet)?
     } else {
         write_whole(joined, &manifest, format, output, arguments)?
     };
     output::finish([written], || tell_join(counts, manifest.tiles().count(), arguments))
-}
-
-/// Writes the triangles one after the other.
-fn stream(
-    joined: Joined,
-    manifest: &Manifest,
-    format: MeshFormat,
-    output: Output,
-    arguments: &JoinArguments,
-) -> Result<output::Written, Failure> {
-    let failed = RefCell::new(None);
-    let written = output.write(|out| {
-        match format {
-            MeshFormat::Npy => npy_writer::write_mesh_head(joined.triangles, out)?,
-            MeshFormat::Ele => writeln!(out, "{} 3 0", joined.triangles)?,
-            _ => {}
-        }
-        let meter = CountMeter::new(joined.triangles, "writing", "triangles", arguments.quiet);
-        let mut id = 0u64;
-        let mut disk = None;
-        let done = joined.each(&arguments.folder, manifest, &mut |triangles| {
-            meter.advance(triangles.len() as u64);
-            write_some(triangles, format, &mut id, out).map_err(|error| {
-                let failure = Failure::input(error.to_string());
-                disk = Some(error);
-                failure
-            })
-        });
-        match (done, disk) {
-            (Ok(()), _) => Ok(()),
-            (_, Some(error)) => Err(error),
-            (Err(failure), None) => {
-                *failed.borrow_mut() = Some(failure);
-                Err(io::Error::other("the tiles cannot be read"))
-            }
-        }
-    });
-    // A file that cannot be read is told by its own sentence.
-    match failed.into_inner() {
-        Some(failure) => Err(failure),
-        None => written,
-    }
-}
-
-fn write_some(triangles: &[[u32; 3]], format: MeshFormat, id: &mut u64, out: &mut dyn Write) -> io::Result<()> {
-    match format {
-        MeshFormat::Npy => npy_writer::write_triangles(triangles, out),
-        MeshFormat::Ele => triangles.iter().try_for_each(|[a, b, c]| {
-            *id += 1;
-            writeln!(out, "{} {a} {b} {c}", *id - 1)
-        }),
-        _ => triangles.iter().try_for_each(|[a, b, c]| writeln!(out, "{a},{b},{c}")),
-    }
 }
 
 /// Writes a mesh with its points, which are read again.

@@ -7,6 +7,7 @@ use incircle::{DeviceAddress, Fleet, Options, PlanePoint, Report, Session, Solut
 
 use crate::arguments::TriangulateArguments;
 use crate::backend::{self, Backend, Choice};
+use crate::commands::triangulate_large;
 use crate::failure::{counted, failure_of, Failure};
 use crate::fleet::Several;
 use crate::formats::{MeshFormat, MeshView};
@@ -19,15 +20,23 @@ use crate::{interrupt, path, source};
 
 /// Reads the points, triangulates them, writes the mesh, and prints the report.
 pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
+    match triangulate_large::memory_of(arguments) {
+        Some(memory) => triangulate_large::run(arguments, memory),
+        None => run_in_memory(arguments),
+    }
+}
+
+/// Triangulates a set that the memory holds.
+fn run_in_memory(arguments: &TriangulateArguments) -> Result<(), Failure> {
     let format = source::mesh_format(&arguments.output, arguments.format)?;
     let output = prepare_mesh(arguments)?;
     let chosen = Chosen::of(arguments)?;
     let trace = prepare_trace(arguments, &chosen, &output)?;
     let mut watch = Watch::start();
-    let table = source::read_points(&arguments.points, &arguments.read, arguments.quiet)?;
+    let table = source::read_set(&arguments.points, &arguments.read, arguments.quiet)?;
     watch.ended("load");
     interrupt::check()?;
-    let in_file = |failure: Failure| failure.in_file(path::name(&arguments.points));
+    let in_file = |failure: Failure| failure.in_file(source::set_name(&arguments.points));
     format.check_points(&table).map_err(in_file)?;
     let how = arguments.grid.quantize.map(|how| (how, chosen.coord_bits()));
     let laid = lattice::lay(&table, how).map_err(in_file)?;
@@ -59,7 +68,7 @@ fn solve(
     arguments: &TriangulateArguments,
     watch: &mut Watch,
 ) -> Result<(Connections, Report, Option<Backend>), Failure> {
-    let in_file = |failure: Failure| failure.in_file(path::name(&arguments.points));
+    let in_file = |failure: Failure| failure.in_file(source::set_name(&arguments.points));
     match chosen {
         Chosen::One(choice) => {
             let room = choice.room_for(&laid.numbers);
@@ -109,7 +118,7 @@ impl Chosen {
 
 /// The output for the mesh, checked before the work.
 fn prepare_mesh(arguments: &TriangulateArguments) -> Result<Output, Failure> {
-    let output = Output::prepare(&arguments.output, Some(&arguments.points))?;
+    let output = Output::prepare(&arguments.output, &arguments.points)?;
     if arguments.json && output.is_standard() {
         return Err(Failure::usage(
             "the mesh and the report of --json cannot both go to standard output: give -o a file",
@@ -126,7 +135,7 @@ fn prepare_trace(arguments: &TriangulateArguments, chosen: &Chosen, mesh: &Outpu
     if !matches!(chosen, Chosen::One(Choice { address: DeviceAddress::Sim { .. }, .. })) {
         return Err(Failure::usage("--trace records the simulated core: it needs --backend sim"));
     }
-    let trace = Output::prepare(file, Some(&arguments.points))?;
+    let trace = Output::prepare(file, &arguments.points)?;
     if trace.is_same(mesh) {
         return Err(Failure::usage(format!(
             "{} is both the mesh and the waveform: choose another file for one",

@@ -12,18 +12,21 @@ use crate::{lattice, output, path, source};
 
 /// Runs the subcommand. A wrong mesh leads to exit code 1.
 pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
-    if path::is_standard(&arguments.points) && path::is_standard(&arguments.mesh) {
+    if arguments.points.iter().any(|path| path::is_standard(path)) && path::is_standard(&arguments.mesh) {
         return Err(Failure::usage(
             "points and mesh cannot both come from standard input: name a file for one of them",
         ));
     }
-    let table = source::read_points(&arguments.points, &arguments.read, arguments.quiet)?;
-    let points_name = path::name(&arguments.points);
+    let table = source::read_set(&arguments.points, &arguments.read, arguments.quiet)?;
+    let points_name = source::set_name(&arguments.points);
     let GridArguments { coord_bits, quantize } = arguments.grid.checked()?;
     let how = quantize.map(|how| (how, coord_bits.unwrap_or(MODEL_COORD_BITS)));
     let laid = lattice::lay(&table, how).map_err(|failure| failure.in_file(&points_name))?;
     let mesh_name = path::name(&arguments.mesh);
-    let checked = source::read_mesh(&arguments.mesh, arguments.format, arguments.quiet).and_then(|triangles| {
+    let checked = source::read_mesh(&arguments.mesh, arguments.format, arguments.quiet).and_then(|mut triangles| {
+        if arguments.unordered {
+            triangles.sort_unstable();
+        }
         check(&laid.numbers, &triangles).map_err(|error| {
             Failure::new(
                 Exit::Rejected,

@@ -42,6 +42,11 @@ pub fn read_points(mut source: Source<'_>) -> Result<PointTable, Failure> {
 /// The number of points of a piece.
 const PIECE: usize = 1 << 16;
 
+/// The number of points of an array, by its header.
+pub fn count_points(input: Input) -> Result<u64, Failure> {
+    Pieces::open(input, &POINTS).map(|pieces| pieces.layout().rows as u64)
+}
+
 /// Calls `take` with the coordinates of the points, piece by piece. The memory holds one piece, however large the array
 /// is.
 pub fn read_pieces(input: Input, take: &mut dyn FnMut(&Coordinates) -> Result<(), Failure>) -> Result<(), Failure> {

@@ -116,6 +116,47 @@ impl Coordinates {
         }
     }
 
+    /// Adds the points of another list. They stay exact as in [`push`](Self::push); returns how many coordinates were
+    /// rounded, earlier ones included.
+    pub fn append(&mut self, other: Self) -> usize {
+        match (self, other) {
+            (own, other) if own.len() == 0 => {
+                *own = other;
+                0
+            }
+            (Self::Steps { steps, unit }, Self::Steps { steps: more, unit: same }) if *unit == same => {
+                steps.extend(more);
+                0
+            }
+            (own, Self::Doubles(points)) => points.into_iter().map(|point| own.push_doubles(point)).sum(),
+            (own, Self::Steps { steps, unit }) => {
+                own.make_decimal();
+                let number = |steps: i64, axis: usize| {
+                    let (steps, digits) = unit.decimal(steps, axis);
+                    Number::of_decimal(steps, digits)
+                };
+                steps.into_iter().map(|[x, y]| own.push([number(x, 0), number(y, 1)])).sum()
+            }
+        }
+    }
+
+    /// Counts the steps in units of the last digit, from zero on. If those do not fit 64 bits, the coordinates become
+    /// the nearest doubles.
+    fn make_decimal(&mut self) {
+        let Self::Steps { steps, unit } = self else { return };
+        let fits = steps
+            .iter_mut()
+            .all(|point| [0, 1].into_iter().all(|axis| i64::try_from(unit.decimal(point[axis], axis).0).is_ok()));
+        if !fits {
+            *self = Self::Doubles(self.doubles().into_owned());
+            return;
+        }
+        for point in steps {
+            *point = [0, 1].map(|axis| unit.decimal(point[axis], axis).0 as i64);
+        }
+        *unit = Unit::of_digits(unit.digits);
+    }
+
     /// Adds a point of decimals; `None` if the steps of any point would not fit 64 bits.
     fn push_decimals(&mut self, x: Decimal, y: Decimal) -> Option<()> {
         let Self::Steps { steps, unit } = self else {

@@ -94,6 +94,30 @@ impl PointTable {
         Self { memory, ..self }
     }
 
+    /// The table as a part of a larger set, whose points are counted over all files.
+    pub fn into_items(self) -> Self {
+        Self { origin: Origin::Items("point"), ..self }
+    }
+
+    /// Adds the points of another table behind those of this one. The set has z only if all its points have one.
+    ///
+    /// # Errors
+    /// The points of both do not fit the memory.
+    pub fn append(mut self, other: Self) -> Result<Self, Failure> {
+        let (own, all) = (self.len(), self.len() + other.len());
+        self.memory.check_points(all as u64)?;
+        let heights = [self.heights(), other.heights()].concat();
+        let some = [&self, &other].into_iter().any(|table| table.has_height || !table.heights().is_empty());
+        if heights.len() < all && some {
+            let first = if self.heights().len() < own { 0 } else { own };
+            self.without_height = self.without_height.or(other.without_height.map(|index| own + index)).or(Some(first));
+            self.has_height = true;
+        }
+        self.heights = heights;
+        self.rounded += other.rounded + self.coordinates.append(other.coordinates);
+        Ok(self)
+    }
+
     /// Adds a point as it is written. Rows are counted from 1; a table of items ignores them. Anything but two finite
     /// numbers is refused with its place.
     pub fn push(&mut self, point: [&[u8]; 2], row: usize) -> Result<(), Failure> {

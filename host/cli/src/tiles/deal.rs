@@ -13,8 +13,6 @@ use crate::{interrupt, path};
 
 /// The number of bytes of a point in a file: its index, x and y.
 pub const POINT_BYTES: usize = 12;
-/// The bytes that all buffers together take, unless there are very many files.
-const BUFFERS: usize = 64 << 20;
 /// The least and the most bytes of a buffer. Each time that one is full, its file is opened and closed, because there
 /// may be more files than a process may keep open.
 const BUFFER: std::ops::Range<usize> = 1 << 12..1 << 18;
@@ -147,9 +145,9 @@ pub fn remove_stale(folder: &Path) {
     }
 }
 
-/// The size of a buffer, in bytes, if there are so many of them.
-pub fn room_for(files: usize) -> usize {
-    (BUFFERS / files.max(1)).clamp(BUFFER.start, BUFFER.end)
+/// The size of a buffer, in bytes, if so many files share `bytes`.
+pub fn room_for(bytes: usize, files: usize) -> usize {
+    (bytes / files.max(1)).clamp(BUFFER.start, BUFFER.end)
 }
 
 fn cannot_write(path: &Path, error: &io::Error) -> Failure {

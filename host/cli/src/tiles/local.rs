@@ -56,7 +56,8 @@ pub type Triangulate<'a> = dyn FnMut(&[Point], u32) -> Result<Mesh, Failure> + '
 /// Triangulates the points of a tile and writes its file, unless that file is there and sound.
 ///
 /// `triangulate` gets the points, moved so that the lowest x and y are 0, with the bits that they need, and must give
-/// their canonical mesh. `last` is called when the file is in place.
+/// their canonical mesh. `last` is called when the file is in place; if it fails, the file is
+/// removed.
 ///
 /// # Errors
 /// A file is missing, damaged or of another run, or cannot be written, or `triangulate` fails.
@@ -89,7 +90,7 @@ pub fn local(
     let result = solve(&ids, own, region, triangulate)?;
     let counts = [result.finals.len(), result.border.points.len(), result.border.open.len()];
     let written = result.write(folder, owner)?;
-    output::finish([written], || last(&Outcome { points, counts, was_there: false }))
+    output::keep([written], || last(&Outcome { points, counts, was_there: false }))
 }
 
 /// Reads the points of a tile, and their indices.

@@ -13,8 +13,10 @@
 //! Every file begins with a [`Head`](head::Head), which has the run and check sums, and is renamed to its name when it
 //! is complete. `docs/tile-files.md` describes the bytes.
 
+mod budget;
 mod deal;
 mod digest;
+mod disk;
 mod ground;
 mod head;
 mod inputs;
@@ -23,13 +25,19 @@ mod local;
 mod manifest;
 mod opened;
 mod result;
+mod scratch;
 mod sort;
 mod split;
 mod survey;
+mod write;
 mod written;
 
+pub use budget::Budget;
+pub use disk::{bytes_in, told, Needed};
 pub use inputs::points_again;
 pub use join::{join, triangles_of, Joined, Order};
 pub use local::{local, Outcome, TileAt};
-pub use manifest::Manifest;
+pub use manifest::{points_path, Manifest};
+pub use scratch::Scratch;
 pub use split::{split, Plan, Summary};
+pub use write::{is_streamed, write_triangles};

@@ -13,7 +13,7 @@ use super::digest::Digest;
 use super::ground::{Ground, Length};
 use super::head::{Head, Kind, HEAD_BYTES, VERSION};
 use super::inputs::{changed, each_piece};
-use super::manifest::{manifest_path, points_path, Manifest};
+use super::manifest::{local_path, manifest_path, points_path, Manifest};
 use super::survey::{survey, Survey};
 use crate::arguments::ReadArguments;
 use crate::failure::Failure;
@@ -21,7 +21,7 @@ use crate::output::{self, Written};
 use crate::path;
 
 /// What is split, and how.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Plan<'a> {
     /// The inputs, whose points are numbered in this order.
     pub inputs: &'a [PathBuf],
@@ -31,6 +31,12 @@ pub struct Plan<'a> {
     pub most: NonZeroUsize,
     /// The folder for the files. It is made if it does not exist.
     pub folder: &'a Path,
+    /// The most points of the sample from which the cuts are made.
+    pub sample: usize,
+    /// The bytes that all buffers together take, unless there are very many tiles.
+    pub buffers: usize,
+    /// Called with the number of points before the first file is written. An error ends the split.
+    pub check: &'a dyn Fn(u64) -> Result<(), Failure>,
     /// Whether no progress is shown.
     pub quiet: bool,
 }
@@ -48,17 +54,19 @@ pub struct Summary {
 
 /// Splits a set. The memory holds a sample and buffers, and then one tile at a time.
 ///
-/// If the folder has the manifest of the same points and cuts, nothing is done.
+/// If the folder has the manifest of the same points and cuts, nothing is done. `last` is called when all files are in
+/// place; if it fails, none of them is left.
 ///
 /// # Errors
 /// An input cannot be read, has no lattice of at most 32 bits in common with the others, or changes between the two
 /// passes. The folder cannot be written, or has tiles of another run. Nothing is left behind.
 pub fn split(plan: &Plan<'_>, last: impl FnOnce(&Summary) -> Result<(), Failure>) -> Result<(), Failure> {
-    let survey = survey(plan.inputs, plan.read, plan.quiet)?;
+    let survey = survey(plan.inputs, plan.read, plan.sample, plan.quiet)?;
     let run = run_of(&survey, plan.most);
     if manifest_path(plan.folder).exists() {
         return last(&known(plan, run)?);
     }
+    (plan.check)(survey.points)?;
     let is_new = !plan.folder.exists();
     fs::create_dir_all(plan.folder)
         .map_err(|error| Failure::input(format!("{} cannot be made: {error}", path::name(plan.folder))))?;
@@ -91,7 +99,7 @@ fn split_into(
     let manifest = Manifest { run, most: plan.most.get() as u64, inputs, ground, steps: tiles.steps };
     let bytes = points * POINT_BYTES as u64 + (tiles.files.len() * HEAD_BYTES) as u64;
     let (placed, written) = place(plan.folder, &manifest, tiles.files)?;
-    output::finish([written], || {
+    output::keep([written], || {
         placed.into_iter().for_each(Placed::keep);
         remove_stale(plan.folder);
         last(&Summary { manifest, bytes, was_there: false })
@@ -131,7 +139,8 @@ fn known(plan: &Plan<'_>, run: u64) -> Result<Summary, Failure> {
     }
     for (tile, _) in (0..).zip(manifest.tiles()) {
         let file = points_path(plan.folder, tile);
-        if !file.exists() {
+        // Nobody needs the points of a tile that is triangulated.
+        if !file.exists() && !local_path(plan.folder, tile).exists() {
             return Err(Failure::input(format!(
                 "{} is missing, which the manifest lists: remove the folder, and split again",
                 path::name(&file)
@@ -164,7 +173,7 @@ fn deal(plan: &Plan<'_>, survey: &Survey, tree: &Tree) -> Result<Vec<PointFile>,
     let count = tree.tiles().count();
     let mut cells: Vec<PointFile> =
         (0..count).map(|number| PointFile::create(plan.folder, number)).collect::<Result<_, _>>()?;
-    let (room, mut index, mut grid) = (room_for(count), 0u32, Vec::new());
+    let (room, mut index, mut grid) = (room_for(plan.buffers, count), 0u32, Vec::new());
     for (path, input) in plan.inputs.iter().zip(&survey.inputs) {
         let mut digest = Digest::default();
         each_piece(path, plan.read, plan.quiet, &mut |piece| {
@@ -226,7 +235,7 @@ impl Tiles {
                     let mut file = PointFile::create(plan.folder, self.created)?;
                     self.created += 1;
                     for [index, x, y] in own {
-                        file.push(index, Point::new(x, y), room_for(1))?;
+                        file.push(index, Point::new(x, y), room_for(plan.buffers, 1))?;
                     }
                     file.flush()?;
                     self.push(common(&region, part), file);

@@ -12,8 +12,6 @@ use crate::arguments::ReadArguments;
 use crate::failure::Failure;
 use crate::points::{Coordinates, Unit};
 
-/// The most points of the sample. They take 16 bytes each, and 8 for their numbers.
-const SAMPLE: usize = 1 << 19;
 /// The most points of a set: each index fits 32 bits, and two values stay free.
 const MOST_POINTS: u64 = u32::MAX as u64 - 1;
 
@@ -29,9 +27,9 @@ pub struct Survey {
     pub sample: Vec<Point>,
 }
 
-/// Reads all inputs.
-pub fn survey(paths: &[PathBuf], read: &ReadArguments, quiet: bool) -> Result<Survey, Failure> {
-    let (mut extent, mut sample, mut inputs, mut points) = (Extent::default(), Sample::new(SAMPLE), Vec::new(), 0);
+/// Reads all inputs. The sample has at most `most` points, which take 16 bytes each, and 8 for their numbers.
+pub fn survey(paths: &[PathBuf], read: &ReadArguments, most: usize, quiet: bool) -> Result<Survey, Failure> {
+    let (mut extent, mut sample, mut inputs, mut points) = (Extent::default(), Sample::new(most), Vec::new(), 0);
     for path in paths {
         let mut digest = Digest::default();
         each_piece(path, read, quiet, &mut |piece| {

@@ -25,7 +25,7 @@ pub fn write_checked(
     content: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>,
 ) -> Result<Written, Failure> {
     let mut sum = io::BufWriter::with_capacity(1 << 16, Sum(Hasher::new()));
-    let output = Output::prepare(path, None)?;
+    let output = Output::prepare(path, &[])?;
     output.write(|out| {
         content(&mut sum)?;
         sum.flush()?;

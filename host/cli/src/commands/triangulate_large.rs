@@ -1,0 +1,266 @@
+//! `incircle triangulate` for a set that is larger than the memory: in tiles over files, in one process.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use std::time::Instant;
+
+use incircle::{Point, MAX_POINTS};
+use serde_json::{json, Map, Value};
+
+use crate::arguments::TriangulateArguments;
+use crate::backend::Choice;
+use crate::commands::tile::triangulate_tile;
+use crate::failure::{counted, Exit, Failure};
+use crate::formats::{npy, MeshFormat, PointFormat};
+use crate::input::Input;
+use crate::memory::Memory;
+use crate::output::{self, Output};
+use crate::progress::CountMeter;
+use crate::tiles::{self, Budget, Manifest, Needed, Order, Plan, Scratch, TileAt};
+use crate::{interrupt, path, source};
+
+/// What is left free of the memory when nobody says how much the run may take.
+const FREE: u64 = 5;
+
+/// The memory for a set that is to be cut into tiles: because the arguments say so, or because the set does not fit.
+/// `None` for a set that fits, and for one whose size only reading tells.
+pub fn memory_of(arguments: &TriangulateArguments) -> Option<u64> {
+    let free = Memory::free();
+    let usual = free.bytes() - free.bytes() / FREE;
+    if arguments.large.is_wanted() {
+        return Some(arguments.large.memory.unwrap_or(usual));
+    }
+    let format = source::mesh_format(&arguments.output, arguments.format).ok()?;
+    let has_choices = arguments.grid.quantize.is_some() || arguments.trace.is_some() || arguments.backend.is_several();
+    if has_choices || !tiles::is_streamed(format) {
+        return None;
+    }
+    let points = count_points(arguments)?;
+    let fits = points <= free.most_points() && points <= MAX_POINTS as u64;
+    if !fits && !arguments.quiet {
+        output::note(&format!(
+            "{points} points do not fit the {} of free memory at once, so they are triangulated in tiles",
+            tiles::told(free.bytes())
+        ));
+    }
+    (!fits).then_some(usual)
+}
+
+/// The number of points of all inputs, if they are arrays that need not be unpacked.
+fn count_points(arguments: &TriangulateArguments) -> Option<u64> {
+    let count = |path: &PathBuf| {
+        let format = arguments.read.from.or_else(|| PointFormat::of_extension(path::extension(path)));
+        let input = Input::open(path, true).ok().filter(|input| input.size() > 0);
+        input.filter(|_| format == Some(PointFormat::Npy)).and_then(|input| npy::count_points(input).ok())
+    };
+    arguments.points.iter().map(count).sum()
+}
+
+/// Triangulates the set within a memory of so many bytes.
+pub fn run(arguments: &TriangulateArguments, memory: u64) -> Result<(), Failure> {
+    let (format, budget) = (source::mesh_format(&arguments.output, arguments.format)?, Budget::of(memory)?);
+    check_choices(arguments, format)?;
+    let choice = Choice::of(&arguments.backend, None, if arguments.job.wants_insertion() { "model" } else { "cpu" })?;
+    let output = Output::prepare(&arguments.output, &arguments.points)?;
+    if arguments.json && output.is_standard() {
+        return Err(Failure::usage(
+            "the mesh and the report of --json cannot both go to standard output: give -o a file",
+        ));
+    }
+    let parent = scratch_parent(arguments)?;
+    let scratch = Scratch::open(Scratch::place(&parent, &arguments.output), arguments.large.resume)?;
+    let run = Run { arguments, budget, format, choice, scratch: &scratch };
+    let done = run.steps(output);
+    let remedy = remedy(&scratch);
+    let left = scratch.can_go_on();
+    match done {
+        Ok(()) => scratch
+            .remove()
+            .map_err(|error| Failure::input(format!("the mesh is written, but its tiles cannot be removed: {error}"))),
+        Err(failure) if left && failure.exit != Exit::Interrupted => {
+            Err(Failure::new(failure.exit, format!("{}; {remedy}", failure.message)))
+        }
+        Err(failure) => Err(failure),
+    }
+}
+
+/// How a run whose tiles are there can go on.
+fn remedy(scratch: &Scratch) -> String {
+    format!("--resume goes on with the tiles in {}, which may also be removed", path::name(scratch.folder()))
+}
+
+/// Refuses choices that need all points in memory.
+fn check_choices(arguments: &TriangulateArguments, format: MeshFormat) -> Result<(), Failure> {
+    let refused = if !tiles::is_streamed(format) {
+        Some("a mesh with its points needs all of them in memory: write npy, csv or ele")
+    } else if arguments.grid.quantize.is_some() || arguments.grid.coord_bits.is_some() {
+        Some("--quantize needs all points in memory: leave it out, or round the points with another program")
+    } else if arguments.trace.is_some() {
+        Some("--trace records one job, and tiles are many: leave it out")
+    } else if arguments.backend.is_several() {
+        Some("tiles take one --backend: leave the others out")
+    } else {
+        None
+    };
+    refused.map_or(Ok(()), |sentence| Err(Failure::usage(sentence)))
+}
+
+/// The folder in which the folder of the tiles lies.
+fn scratch_parent(arguments: &TriangulateArguments) -> Result<PathBuf, Failure> {
+    let parent = match &arguments.large.scratch {
+        Some(folder) => folder.clone(),
+        None if path::is_standard(&arguments.output) => {
+            return Err(Failure::usage("a mesh on standard output has no folder: give --scratch a folder"));
+        }
+        None => output::folder_of(&arguments.output).to_owned(),
+    };
+    match std::fs::metadata(&parent) {
+        Ok(found) if found.is_dir() => Ok(parent),
+        Ok(_) => Err(Failure::input(format!("{} is no folder: give --scratch a folder", path::name(&parent)))),
+        Err(error) => Err(Failure::input(format!("{} cannot be used: {error}", path::name(&parent)))),
+    }
+}
+
+/// A set on its way through the steps.
+struct Run<'a> {
+    arguments: &'a TriangulateArguments,
+    budget: Budget,
+    format: MeshFormat,
+    choice: Choice,
+    scratch: &'a Scratch,
+}
+
+impl Run<'_> {
+    fn steps(&self, output: Output) -> Result<(), Failure> {
+        let mut watch = Watch::new();
+        let manifest = self.split()?;
+        watch.ended("split");
+        interrupt::set_remedy(format!("interrupted: no mesh was written; {}", remedy(self.scratch)));
+        self.solve(&manifest)?;
+        watch.ended("local");
+        let (folder, quiet) = (self.scratch.folder(), self.arguments.quiet);
+        let joined = tiles::join(folder, &manifest, self.order(), self.budget.sort, false, quiet)?;
+        watch.ended("join");
+        let counts = [manifest.points(), joined.duplicates, joined.triangles, joined.hull.len() as u64];
+        let written = tiles::write_triangles(joined, (folder, &manifest), self.format, output, quiet)?;
+        watch.ended("write");
+        output::finish([written], || self.tell(&manifest, counts, &watch))
+    }
+
+    fn order(&self) -> Order {
+        match self.arguments.large.unordered {
+            true => Order::Unordered,
+            false => Order::Canonical,
+        }
+    }
+
+    /// Cuts the set into tiles, or finds those of an earlier run.
+    fn split(&self) -> Result<Manifest, Failure> {
+        let folder = self.scratch.folder();
+        // A run that goes on keeps the tiles that it has, whatever memory it is given now.
+        let known = self.scratch.can_go_on().then(|| Manifest::read(folder)).transpose()?;
+        let most = known.and_then(|manifest| usize::try_from(manifest.most).ok()).and_then(NonZeroUsize::new);
+        let mut manifest = None;
+        let plan = Plan {
+            inputs: &self.arguments.points,
+            read: &self.arguments.read,
+            most: most.unwrap_or(self.budget.most),
+            folder,
+            sample: self.budget.sample,
+            buffers: self.budget.buffers,
+            check: &|points| self.check_disk(points),
+            quiet: self.arguments.quiet,
+        };
+        tiles::split(&plan, |summary| {
+            manifest = Some(summary.manifest.clone());
+            Ok(())
+        })?;
+        manifest.ok_or_else(|| Failure::input("the set was not split"))
+    }
+
+    fn check_disk(&self, points: u64) -> Result<(), Failure> {
+        let needed = Needed::of(points, self.format, self.order() == Order::Canonical);
+        let (folder, out) = (self.scratch.folder(), &self.arguments.output);
+        let mesh = (!path::is_standard(out)).then(|| output::folder_of(out));
+        needed.check(folder, mesh, tiles::bytes_in(folder))?;
+        if !self.arguments.quiet {
+            output::note(&format!(
+                "{} in tiles of up to {}: up to {} in {}, and up to {} for the mesh",
+                counted(points as usize, "point"),
+                self.budget.most,
+                tiles::told(needed.scratch),
+                path::name(folder),
+                tiles::told(needed.mesh)
+            ));
+        }
+        Ok(())
+    }
+
+    /// Triangulates all tiles that are not triangulated yet, one after the other. The points of a tile are removed once
+    /// nobody needs them.
+    fn solve(&self, manifest: &Manifest) -> Result<(), Failure> {
+        let folder = self.scratch.folder();
+        let meter = CountMeter::new(manifest.points(), "triangulating", "points", self.arguments.quiet);
+        for (tile, (_, points)) in (0..).zip(manifest.tiles()) {
+            let at = TileAt { folder: folder.to_owned(), tile };
+            let mut triangulate =
+                |points: &[Point], bits: u32| triangulate_tile(points, bits, &self.choice, &self.arguments.job, true);
+            tiles::local(&at, &mut triangulate, |_| Ok(()))?;
+            let _ = std::fs::remove_file(tiles::points_path(folder, tile));
+            meter.advance(points);
+        }
+        Ok(())
+    }
+
+    fn tell(&self, manifest: &Manifest, counts: [u64; 4], watch: &Watch) -> Result<(), Failure> {
+        let [points, duplicates, triangles, hull] = counts;
+        let tiles = manifest.tiles().count();
+        if self.arguments.json {
+            let report = json!({
+                "points": points, "distinct": points - duplicates, "duplicates": duplicates, "triangles": triangles,
+                "hull": hull, "collinear": triangles == 0, "backend": self.choice.address.to_string(), "tiles": tiles,
+                "tile_points": manifest.most, "unordered": self.arguments.large.unordered,
+                "memory": self.budget.memory, "peak_memory": Memory::peak(), "seconds": watch.to_json(),
+            });
+            return output::print(&format!("{report}\n"));
+        }
+        if !self.arguments.quiet {
+            output::note(&format!(
+                "{} in {}, {}, {} on the hull; {:.1} s{}",
+                counted(points as usize, "point"),
+                counted(tiles, "tile"),
+                counted(triangles as usize, "triangle"),
+                counted(hull as usize, "point"),
+                watch.begun.elapsed().as_secs_f64(),
+                Memory::peak().map_or_else(String::new, |peak| format!(", {} of memory", tiles::told(peak)))
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// A stopwatch for the steps.
+struct Watch {
+    begun: Instant,
+    since: Instant,
+    steps: Map<String, Value>,
+}
+
+impl Watch {
+    fn new() -> Self {
+        let now = Instant::now();
+        Self { begun: now, since: now, steps: Map::new() }
+    }
+
+    fn ended(&mut self, step: &str) {
+        let now = Instant::now();
+        self.steps.insert(step.to_owned(), json!((now - self.since).as_secs_f64()));
+        self.since = now;
+    }
+
+    fn to_json(&self) -> Value {
+        let mut steps = self.steps.clone();
+        steps.insert("total".to_owned(), json!(self.begun.elapsed().as_secs_f64()));
+        Value::Object(steps)
+    }
+}

@@ -1,0 +1,81 @@
+//! How a bound on the memory is divided among the steps, which run one after the other.
+
+use std::num::NonZeroUsize;
+
+use crate::failure::Failure;
+
+/// The least memory that a set in tiles takes.
+const LEAST: u64 = 32 << 20;
+/// What the program itself takes, with the buffers of its files.
+const PROGRAM: u64 = 8 << 20;
+/// The most bytes that a point of a tile takes until its tile is triangulated and written.
+const TILE_BYTES: u64 = 128;
+/// The most points of a tile, whose half-edges have numbers of 32 bits.
+const MOST: u64 = 1 << 28;
+/// The most points of the sample, and the bytes that one takes while the cuts are made.
+const SAMPLE: (u64, u64) = (1 << 19, 48);
+/// The most bytes of all buffers of the files of points.
+const BUFFERS: u64 = 64 << 20;
+
+/// What each step may take of the memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Budget {
+    /// The memory of the whole run, in bytes.
+    pub memory: u64,
+    /// The most points of a tile.
+    pub most: NonZeroUsize,
+    /// The most points of the sample from which the cuts are made.
+    pub sample: usize,
+    /// The bytes of all buffers while points are dealt to their tiles.
+    pub buffers: usize,
+    /// The bytes for the sort of the triangles.
+    pub sort: u64,
+}
+
+impl Budget {
+    /// Divides a memory of so many bytes.
+    ///
+    /// # Errors
+    /// Less than 32 MiB are too little for any set.
+    pub fn of(memory: u64) -> Result<Self, Failure> {
+        if memory < LEAST {
+            return Err(Failure::usage(format!(
+                "--memory {memory} is less than the {LEAST} bytes that tiles take at least: give 32M or more"
+            )));
+        }
+        let free = memory - PROGRAM;
+        let most = usize::try_from((free / TILE_BYTES).min(MOST)).ok().and_then(NonZeroUsize::new);
+        let (sample, bytes) = SAMPLE;
+        Ok(Self {
+            memory,
+            most: most.unwrap_or(NonZeroUsize::MIN),
+            sample: sample.min(free / 4 / bytes) as usize,
+            buffers: BUFFERS.min(free / 4) as usize,
+            sort: free / 8 * 7,
+        })
+    }
+
+    /// What `tile split` takes for a tile of at most `most` points.
+    pub fn of_tiles(most: NonZeroUsize) -> Self {
+        Self { memory: 0, most, sample: SAMPLE.0 as usize, buffers: BUFFERS as usize, sort: 0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_step_fits_the_memory() {
+        for memory in [LEAST, 100 << 20, 1 << 30, 1 << 36] {
+            let budget = Budget::of(memory).expect("enough memory");
+            let steps = [
+                budget.most.get() as u64 * TILE_BYTES,
+                budget.sample as u64 * SAMPLE.1 + budget.buffers as u64,
+                budget.sort,
+            ];
+            assert!(steps.iter().all(|&step| PROGRAM + step <= memory), "{budget:?}");
+        }
+        assert!(Budget::of(LEAST - 1).is_err_and(|failure| failure.message.contains("give 32M")));
+    }
+}

@@ -1,0 +1,117 @@
+//! The room that files of tiles take, which is checked before the first one is written.
+
+use std::fs;
+use std::path::Path;
+
+use crate::failure::Failure;
+use crate::formats::MeshFormat;
+use crate::path;
+
+/// Bytes of a point in the files of points, and of its two triangles in the files of tiles and in those of the sort.
+const POINTS: u64 = 12;
+const TRIANGLES: u64 = 24;
+/// What borders and heads add to the files of tiles, as a share of the files.
+const EXTRA: u64 = 50;
+
+/// The most bytes that the steps of a set have on disk at one time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Needed {
+    /// The files of the tiles and of the sort.
+    pub scratch: u64,
+    /// The mesh.
+    pub mesh: u64,
+    /// Both, if they lie on one disk: the files of the sort go while the mesh is written.
+    pub both: u64,
+}
+
+impl Needed {
+    /// What a set of so many points needs.
+    pub fn of(points: u64, format: MeshFormat, is_sorted: bool) -> Self {
+        let tiles = points * TRIANGLES + points * TRIANGLES / EXTRA;
+        let sort = if is_sorted { points * TRIANGLES } else { 0 };
+        let mesh = mesh_bytes(points, format);
+        let scratch = (points * POINTS).max(tiles + sort);
+        Self { scratch, mesh, both: scratch.max(tiles + mesh) }
+    }
+
+    /// Refuses the set if the disks have less room. `there` are the bytes that an earlier run has written already.
+    pub fn check(self, scratch: &Path, mesh: Option<&Path>, there: u64) -> Result<(), Failure> {
+        let Self { scratch: own, mesh: out, both } = self;
+        match mesh {
+            Some(mesh) if is_one_disk(scratch, mesh) => room_for(scratch, both.saturating_sub(there)),
+            Some(mesh) => {
+                room_for(scratch, own.saturating_sub(there))?;
+                room_for(mesh, out)
+            }
+            None => room_for(scratch, own.saturating_sub(there)),
+        }
+    }
+}
+
+/// The bytes of a mesh of so many points, at most: two triangles for each.
+fn mesh_bytes(points: u64, format: MeshFormat) -> u64 {
+    let digits = u64::from(points.max(1).ilog10()) + 2;
+    match format {
+        MeshFormat::Npy => points * TRIANGLES,
+        MeshFormat::Ele => 2 * points * 4 * digits,
+        _ => 2 * points * 3 * digits,
+    }
+}
+
+/// Refuses to write `bytes` to a folder whose disk has less room. A disk that does not tell is not refused.
+pub fn room_for(folder: &Path, bytes: u64) -> Result<(), Failure> {
+    match fs4::available_space(folder) {
+        Ok(free) if free < bytes => Err(Failure::input(format!(
+            "{} has {} free, and {} are needed: choose another folder, or make room",
+            path::name(folder),
+            told(free),
+            told(bytes)
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// A number of bytes for people.
+pub fn told(bytes: u64) -> String {
+    match bytes {
+        0..1_000_000 => format!("{bytes} bytes"),
+        1_000_000..10_000_000_000 => format!("{} MB", bytes / 1_000_000),
+        _ => format!("{} GB", bytes / 1_000_000_000),
+    }
+}
+
+/// The bytes of all files in a folder; 0 if there is no such folder.
+pub fn bytes_in(folder: &Path) -> u64 {
+    let Ok(entries) = fs::read_dir(folder) else { return 0 };
+    entries.filter_map(Result::ok).filter_map(|entry| entry.metadata().ok()).map(|found| found.len()).sum()
+}
+
+#[cfg(unix)]
+fn is_one_disk(one: &Path, other: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let disk = |folder: &Path| fs::metadata(folder).ok().map(|found| found.dev());
+    disk(one) == disk(other)
+}
+
+/// Other systems do not tell, so all files are counted on one disk.
+#[cfg(not(unix))]
+fn is_one_disk(_: &Path, _: &Path) -> bool {
+    true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_files_of_the_sort_make_room_for_the_mesh() {
+        let sorted = Needed::of(1_000_000, MeshFormat::Npy, true);
+        assert_eq!(sorted, Needed { scratch: 48_480_000, mesh: 24_000_000, both: 48_480_000 });
+        let unordered = Needed::of(1_000_000, MeshFormat::Csv, false);
+        assert_eq!(unordered, Needed { scratch: 24_480_000, mesh: 48_000_000, both: 72_480_000 });
+        let folder = std::env::temp_dir();
+        assert!(sorted.check(&folder, Some(&folder), 0).is_ok());
+        let huge = Needed::of(u64::MAX / 1000, MeshFormat::Npy, true);
+        assert!(huge.check(&folder, None, 0).is_err_and(|failure| failure.message.contains("GB are needed")));
+    }
+}

@@ -1,0 +1,73 @@
+//! The triangles of a joined set, written one after the other.
+
+use std::cell::RefCell;
+use std::io::{self, Write};
+use std::path::Path;
+
+use super::join::Joined;
+use super::manifest::Manifest;
+use crate::failure::Failure;
+use crate::formats::{npy_writer, MeshFormat};
+use crate::output::{Output, Written};
+use crate::progress::CountMeter;
+
+/// Whether a format needs nothing but the triangles, so that these can be written one after the other.
+pub fn is_streamed(format: MeshFormat) -> bool {
+    matches!(format, MeshFormat::Npy | MeshFormat::Csv | MeshFormat::Ele)
+}
+
+/// Writes the triangles of a set whose tiles are in `folder`. The format must be [streamed](is_streamed).
+///
+/// # Errors
+/// A file of the tiles cannot be read, or the output cannot be written.
+pub fn write_triangles(
+    joined: Joined,
+    (folder, manifest): (&Path, &Manifest),
+    format: MeshFormat,
+    output: Output,
+    quiet: bool,
+) -> Result<Written, Failure> {
+    let failed = RefCell::new(None);
+    let written = output.write(|out| {
+        match format {
+            MeshFormat::Npy => npy_writer::write_mesh_head(joined.triangles, out)?,
+            MeshFormat::Ele => writeln!(out, "{} 3 0", joined.triangles)?,
+            _ => {}
+        }
+        let meter = CountMeter::new(joined.triangles, "writing", "triangles", quiet);
+        let mut id = 0u64;
+        let mut disk = None;
+        let done = joined.each(folder, manifest, &mut |triangles| {
+            meter.advance(triangles.len() as u64);
+            write_some(triangles, format, &mut id, out).map_err(|error| {
+                let failure = Failure::input(error.to_string());
+                disk = Some(error);
+                failure
+            })
+        });
+        match (done, disk) {
+            (Ok(()), _) => Ok(()),
+            (_, Some(error)) => Err(error),
+            (Err(failure), None) => {
+                *failed.borrow_mut() = Some(failure);
+                Err(io::Error::other("the tiles cannot be read"))
+            }
+        }
+    });
+    // A file that cannot be read is told by its own sentence.
+    match failed.into_inner() {
+        Some(failure) => Err(failure),
+        None => written,
+    }
+}
+
+fn write_some(triangles: &[[u32; 3]], format: MeshFormat, id: &mut u64, out: &mut dyn Write) -> io::Result<()> {
+    match format {
+        MeshFormat::Npy => npy_writer::write_triangles(triangles, out),
+        MeshFormat::Ele => triangles.iter().try_for_each(|[a, b, c]| {
+            *id += 1;
+            writeln!(out, "{} {a} {b} {c}", *id - 1)
+        }),
+        _ => triangles.iter().try_for_each(|[a, b, c]| writeln!(out, "{a},{b},{c}")),
+    }
+}
