@@ -1,6 +1,6 @@
 //! Back ends of the command: from arguments to devices.
 
-use std::num::NonZeroU32;
+use std::num::{NonZeroU32, NonZeroUsize};
 use std::path::Path;
 use std::time::Duration;
 
@@ -140,6 +140,26 @@ impl Choice {
             ));
         }
         Ok(choice)
+    }
+
+    /// The threads of the CPU triangulator; 1 for any other back end.
+    pub fn cpu_threads(&self) -> NonZeroUsize {
+        let chosen = self.threads.and_then(|threads| NonZeroUsize::new(threads.get() as usize));
+        match self.address {
+            DeviceAddress::Cpu { .. } => {
+                chosen.or_else(|| std::thread::available_parallelism().ok()).unwrap_or(NonZeroUsize::MIN)
+            }
+            _ => NonZeroUsize::MIN,
+        }
+    }
+
+    /// The same back end, with so many threads if it is the CPU triangulator.
+    pub fn with_cpu_threads(self, threads: NonZeroUsize) -> Self {
+        let threads = u32::try_from(threads.get()).ok().and_then(NonZeroU32::new);
+        match self.address {
+            DeviceAddress::Cpu { .. } => Self { threads, ..self },
+            _ => self,
+        }
     }
 
     /// The back end for points of a file. Coordinates have the bits of `--coord-bits` or of the address. If neither

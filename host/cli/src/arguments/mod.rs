@@ -176,7 +176,7 @@ pub struct LargeArguments {
     pub memory: Option<u64>,
     /// Folder for the files of a set in tiles (default: the folder of the mesh)
     ///
-    /// They take about 49 bytes for each point, or half of that with --unordered.
+    /// They take about 25 bytes for each point.
     #[arg(long, value_name = "DIR")]
     pub scratch: Option<PathBuf>,
     /// Go on with the files of a run that did not end

@@ -124,9 +124,9 @@ fn tell_local(at: &TileAt, outcome: &Outcome, arguments: &LocalArguments) -> Res
             "tile {}: {}, {}, {} and {} for the join{there}",
             at.tile,
             counted(points as usize, "point"),
-            counted(finals, "final triangle"),
-            counted(border, "point"),
-            counted(open, "triangle")
+            counted(finals as usize, "final triangle"),
+            counted(border as usize, "point"),
+            counted(open as usize, "triangle")
         ));
     }
     Ok(())
@@ -146,10 +146,10 @@ fn join(arguments: &JoinArguments) -> Result<(), Failure> {
     let manifest = Manifest::read(&arguments.folder)?;
     let order = if arguments.unordered { Order::Unordered } else { Order::Canonical };
     let (folder, keeps_pairs) = (&arguments.folder, !tiles::is_streamed(format));
-    let joined = tiles::join(folder, &manifest, order, arguments.memory, keeps_pairs, arguments.quiet)?;
+    let joined = tiles::join(folder, &manifest, arguments.memory, keeps_pairs, arguments.quiet)?;
     let counts = [manifest.points(), joined.duplicates, joined.triangles, joined.hull.len() as u64];
     let written = if tiles::is_streamed(format) {
-        tiles::write_triangles(joined, (folder, &manifest), format, output, arguments.quiet)?
+        tiles::write_triangles(joined, (folder, &manifest), (order, arguments.memory), format, output, arguments.quiet)?
     } else {
         write_whole(joined, &manifest, format, output, arguments)?
     };
@@ -167,7 +167,7 @@ fn write_whole(
     let points = tiles::points_again(manifest, &arguments.read, arguments.quiet)?;
     format.check_points(&points).map_err(|failure| failure.in_file(path::name(&manifest.inputs[0].path)))?;
     let (hull, duplicates) = (std::mem::take(&mut joined.hull), std::mem::take(&mut joined.pairs));
-    let triangles = tiles::triangles_of(joined, &arguments.folder, manifest)?;
+    let triangles = tiles::triangles_of(joined, &arguments.folder, manifest, arguments.memory)?;
     let mesh = MeshView { points: &points, triangles: &triangles, hull: &hull, duplicates: &duplicates };
     output.write(|out| format.write(&mesh, out))
 }

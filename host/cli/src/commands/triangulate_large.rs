@@ -2,6 +2,8 @@
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc;
 use std::time::Instant;
 
 use incircle::{Point, MAX_POINTS};
@@ -58,9 +60,12 @@ fn count_points(arguments: &TriangulateArguments) -> Option<u64> {
 
 /// Triangulates the set within a memory of so many bytes.
 pub fn run(arguments: &TriangulateArguments, memory: u64) -> Result<(), Failure> {
-    let (format, budget) = (source::mesh_format(&arguments.output, arguments.format)?, Budget::of(memory)?);
+    let format = source::mesh_format(&arguments.output, arguments.format)?;
     check_choices(arguments, format)?;
     let choice = Choice::of(&arguments.backend, None, if arguments.job.wants_insertion() { "model" } else { "cpu" })?;
+    let budget = Budget::of(memory, choice.cpu_threads())?;
+    let threads = choice.cpu_threads().get().div_ceil(budget.workers.get());
+    let choice = choice.with_cpu_threads(NonZeroUsize::new(threads).unwrap_or(NonZeroUsize::MIN));
     let output = Output::prepare(&arguments.output, &arguments.points)?;
     if arguments.json && output.is_standard() {
         return Err(Failure::usage(
@@ -139,10 +144,17 @@ impl Run<'_> {
         self.solve(&manifest)?;
         watch.ended("local");
         let (folder, quiet) = (self.scratch.folder(), self.arguments.quiet);
-        let joined = tiles::join(folder, &manifest, self.order(), self.budget.sort, false, quiet)?;
+        let joined = tiles::join(folder, &manifest, self.budget.sort, false, quiet)?;
         watch.ended("join");
         let counts = [manifest.points(), joined.duplicates, joined.triangles, joined.hull.len() as u64];
-        let written = tiles::write_triangles(joined, (folder, &manifest), self.format, output, quiet)?;
+        let written = tiles::write_triangles(
+            joined,
+            (folder, &manifest),
+            (self.order(), self.budget.sort),
+            self.format,
+            output,
+            quiet,
+        )?;
         watch.ended("write");
         output::finish([written], || self.tell(&manifest, counts, &watch))
     }
@@ -179,7 +191,7 @@ impl Run<'_> {
     }
 
     fn check_disk(&self, points: u64) -> Result<(), Failure> {
-        let needed = Needed::of(points, self.format, self.order() == Order::Canonical);
+        let needed = Needed::of(points, self.format);
         let (folder, out) = (self.scratch.folder(), &self.arguments.output);
         let mesh = (!path::is_standard(out)).then(|| output::folder_of(out));
         needed.check(folder, mesh, tiles::bytes_in(folder))?;
@@ -196,19 +208,41 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Triangulates all tiles that are not triangulated yet, one after the other. The points of a tile are removed once
-    /// nobody needs them.
+    /// Triangulates all tiles that are not triangulated yet, as many at once as the memory has room for. The points of a
+    /// tile are removed once nobody needs them.
     fn solve(&self, manifest: &Manifest) -> Result<(), Failure> {
-        let folder = self.scratch.folder();
+        let tiles: Vec<u64> = manifest.tiles().map(|(_, points)| points).collect();
+        let (next, is_over) = (AtomicUsize::new(0), AtomicBool::new(false));
         let meter = CountMeter::new(manifest.points(), "triangulating", "points", self.arguments.quiet);
-        for (tile, (_, points)) in (0..).zip(manifest.tiles()) {
-            let at = TileAt { folder: folder.to_owned(), tile };
-            let mut triangulate =
-                |points: &[Point], bits: u32| triangulate_tile(points, bits, &self.choice, &self.arguments.job, true);
-            tiles::local(&at, &mut triangulate, |_| Ok(()))?;
-            let _ = std::fs::remove_file(tiles::points_path(folder, tile));
-            meter.advance(points);
-        }
+        std::thread::scope(|scope| {
+            let (sender, done) = mpsc::channel();
+            for _ in 0..self.budget.workers.get() {
+                let (sender, tiles, next, is_over) = (sender.clone(), &tiles, &next, &is_over);
+                scope.spawn(move || {
+                    while !is_over.load(Ordering::Relaxed) {
+                        let tile = next.fetch_add(1, Ordering::Relaxed);
+                        let Some(&points) = tiles.get(tile) else { return };
+                        // Nobody listens after a failure.
+                        let _ = sender.send(self.solve_tile(tile as u32).map(|()| points));
+                    }
+                });
+            }
+            drop(sender);
+            done.into_iter().try_for_each(|result: Result<u64, Failure>| {
+                meter.advance(result.inspect_err(|_| is_over.store(true, Ordering::Relaxed))?);
+                Ok(())
+            })
+        })
+    }
+
+    /// Triangulates one tile.
+    fn solve_tile(&self, tile: u32) -> Result<(), Failure> {
+        let folder = self.scratch.folder();
+        let at = TileAt { folder: folder.to_owned(), tile };
+        let mut triangulate =
+            |points: &[Point], bits: u32| triangulate_tile(points, bits, &self.choice, &self.arguments.job, true);
+        tiles::local(&at, &mut triangulate, |_| Ok(()))?;
+        let _ = std::fs::remove_file(tiles::points_path(folder, tile));
         Ok(())
     }
 

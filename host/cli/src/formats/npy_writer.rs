@@ -77,8 +77,13 @@ pub fn write_mesh_head(triangles: u64, out: &mut dyn Write) -> io::Result<()> {
 
 /// Writes triangles behind the header.
 pub fn write_triangles(triangles: &[[u32; 3]], out: &mut dyn Write) -> io::Result<()> {
-    for triangle in triangles {
-        out.write_all(triangle.map(u32::to_le_bytes).as_flattened())?;
+    // So many triangles become bytes together that the calls of the output do not count.
+    const SOME: usize = 1 << 12;
+    let mut bytes = Vec::with_capacity(SOME.min(triangles.len()) * 12);
+    for some in triangles.chunks(SOME) {
+        bytes.clear();
+        bytes.extend(some.as_flattened().iter().flat_map(|index| index.to_le_bytes()));
+        out.write_all(&bytes)?;
     }
     Ok(())
 }

@@ -7,11 +7,13 @@ use crate::failure::Failure;
 /// The least memory that a set in tiles takes.
 const LEAST: u64 = 32 << 20;
 /// What the program itself takes, with the buffers of its files.
-const PROGRAM: u64 = 8 << 20;
+const PROGRAM: u64 = 14 << 20;
 /// The most bytes that a point of a tile takes until its tile is triangulated and written.
 const TILE_BYTES: u64 = 128;
 /// The most points of a tile, whose half-edges have numbers of 32 bits.
 const MOST: u64 = 1 << 28;
+/// A tile of fewer points is not worth a worker of its own.
+const LEAST_TILE: u64 = 100_000;
 /// The most points of the sample, and the bytes that one takes while the cuts are made.
 const SAMPLE: (u64, u64) = (1 << 19, 48);
 /// The most bytes of all buffers of the files of points.
@@ -24,6 +26,8 @@ pub struct Budget {
     pub memory: u64,
     /// The most points of a tile.
     pub most: NonZeroUsize,
+    /// The most tiles that are triangulated at once.
+    pub workers: NonZeroUsize,
     /// The most points of the sample from which the cuts are made.
     pub sample: usize,
     /// The bytes of all buffers while points are dealt to their tiles.
@@ -33,22 +37,25 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// Divides a memory of so many bytes.
+    /// Divides a memory of so many bytes among at most `workers` tiles that are triangulated at once.
     ///
     /// # Errors
     /// Less than 32 MiB are too little for any set.
-    pub fn of(memory: u64) -> Result<Self, Failure> {
+    pub fn of(memory: u64, workers: NonZeroUsize) -> Result<Self, Failure> {
         if memory < LEAST {
             return Err(Failure::usage(format!(
                 "--memory {memory} is less than the {LEAST} bytes that tiles take at least: give 32M or more"
             )));
         }
         let free = memory - PROGRAM;
-        let most = usize::try_from((free / TILE_BYTES).min(MOST)).ok().and_then(NonZeroUsize::new);
+        let workers = (free / TILE_BYTES / LEAST_TILE).clamp(1, workers.get() as u64);
+        let most = (free / TILE_BYTES / workers).min(MOST);
+        let number = |value: u64| usize::try_from(value).ok().and_then(NonZeroUsize::new).unwrap_or(NonZeroUsize::MIN);
         let (sample, bytes) = SAMPLE;
         Ok(Self {
             memory,
-            most: most.unwrap_or(NonZeroUsize::MIN),
+            most: number(most),
+            workers: number(workers),
             sample: sample.min(free / 4 / bytes) as usize,
             buffers: BUFFERS.min(free / 4) as usize,
             sort: free / 8 * 7,
@@ -57,7 +64,14 @@ impl Budget {
 
     /// What `tile split` takes for a tile of at most `most` points.
     pub fn of_tiles(most: NonZeroUsize) -> Self {
-        Self { memory: 0, most, sample: SAMPLE.0 as usize, buffers: BUFFERS as usize, sort: 0 }
+        Self {
+            memory: 0,
+            most,
+            workers: NonZeroUsize::MIN,
+            sample: SAMPLE.0 as usize,
+            buffers: BUFFERS as usize,
+            sort: 0,
+        }
     }
 }
 
@@ -67,15 +81,16 @@ mod tests {
 
     #[test]
     fn every_step_fits_the_memory() {
+        let some = NonZeroUsize::new(6).expect("not zero");
         for memory in [LEAST, 100 << 20, 1 << 30, 1 << 36] {
-            let budget = Budget::of(memory).expect("enough memory");
+            let budget = Budget::of(memory, some).expect("enough memory");
             let steps = [
-                budget.most.get() as u64 * TILE_BYTES,
+                (budget.most.get() * budget.workers.get()) as u64 * TILE_BYTES,
                 budget.sample as u64 * SAMPLE.1 + budget.buffers as u64,
                 budget.sort,
             ];
             assert!(steps.iter().all(|&step| PROGRAM + step <= memory), "{budget:?}");
         }
-        assert!(Budget::of(LEAST - 1).is_err_and(|failure| failure.message.contains("give 32M")));
+        assert!(Budget::of(LEAST - 1, some).is_err_and(|failure| failure.message.contains("give 32M")));
     }
 }

@@ -7,38 +7,34 @@ use crate::failure::Failure;
 use crate::formats::MeshFormat;
 use crate::path;
 
-/// Bytes of a point in the files of points, and of its two triangles in the files of tiles and in those of the sort.
+/// Bytes of a point in the files of points, and of its two triangles in the files of tiles.
 const POINTS: u64 = 12;
 const TRIANGLES: u64 = 24;
-/// What borders and heads add to the files of tiles, as a share of the files.
-const EXTRA: u64 = 50;
+/// What borders and the triangles of joins add to the files of tiles: one in so many bytes.
+const EXTRA: u64 = 20;
 
 /// The most bytes that the steps of a set have on disk at one time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Needed {
-    /// The files of the tiles and of the sort.
+    /// The files of the tiles.
     pub scratch: u64,
     /// The mesh.
     pub mesh: u64,
-    /// Both, if they lie on one disk: the files of the sort go while the mesh is written.
-    pub both: u64,
 }
 
 impl Needed {
     /// What a set of so many points needs.
-    pub fn of(points: u64, format: MeshFormat, is_sorted: bool) -> Self {
-        let tiles = points * TRIANGLES + points * TRIANGLES / EXTRA;
-        let sort = if is_sorted { points * TRIANGLES } else { 0 };
-        let mesh = mesh_bytes(points, format);
-        let scratch = (points * POINTS).max(tiles + sort);
-        Self { scratch, mesh, both: scratch.max(tiles + mesh) }
+    pub fn of(points: u64, format: MeshFormat) -> Self {
+        let tiles = points * TRIANGLES;
+        // The points of a tile go when it is triangulated.
+        Self { scratch: (points * POINTS).max(tiles + tiles / EXTRA), mesh: mesh_bytes(points, format) }
     }
 
     /// Refuses the set if the disks have less room. `there` are the bytes that an earlier run has written already.
     pub fn check(self, scratch: &Path, mesh: Option<&Path>, there: u64) -> Result<(), Failure> {
-        let Self { scratch: own, mesh: out, both } = self;
+        let Self { scratch: own, mesh: out } = self;
         match mesh {
-            Some(mesh) if is_one_disk(scratch, mesh) => room_for(scratch, both.saturating_sub(there)),
+            Some(mesh) if is_one_disk(scratch, mesh) => room_for(scratch, (own + out).saturating_sub(there)),
             Some(mesh) => {
                 room_for(scratch, own.saturating_sub(there))?;
                 room_for(mesh, out)
@@ -104,14 +100,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_files_of_the_sort_make_room_for_the_mesh() {
-        let sorted = Needed::of(1_000_000, MeshFormat::Npy, true);
-        assert_eq!(sorted, Needed { scratch: 48_480_000, mesh: 24_000_000, both: 48_480_000 });
-        let unordered = Needed::of(1_000_000, MeshFormat::Csv, false);
-        assert_eq!(unordered, Needed { scratch: 24_480_000, mesh: 48_000_000, both: 72_480_000 });
+    fn tiles_and_mesh_need_room() {
+        let needed = Needed::of(1_000_000, MeshFormat::Npy);
+        assert_eq!(needed, Needed { scratch: 25_200_000, mesh: 24_000_000 });
+        assert_eq!(Needed::of(1_000_000, MeshFormat::Csv).mesh, 48_000_000);
         let folder = std::env::temp_dir();
-        assert!(sorted.check(&folder, Some(&folder), 0).is_ok());
-        let huge = Needed::of(u64::MAX / 1000, MeshFormat::Npy, true);
+        assert!(needed.check(&folder, Some(&folder), 0).is_ok());
+        let huge = Needed::of(u64::MAX / 1000, MeshFormat::Npy);
         assert!(huge.check(&folder, None, 0).is_err_and(|failure| failure.message.contains("GB are needed")));
     }
 }

@@ -7,22 +7,20 @@ use incircle::Point;
 
 use super::head::damaged;
 use super::manifest::{local_path, manifest_path, Manifest};
+use super::merge::{merge, Source, Take};
 use super::opened::Owner;
-use super::result::TileResult;
-use super::sort::{Bucket, Sorter, Take};
+use super::result::TileFile;
+use super::runs::Runs;
 use crate::failure::Failure;
 use crate::path;
 use crate::progress::CountMeter;
 
-/// Triangles that are passed on together.
-const SOME: usize = 1 << 12;
-
 /// The order of the triangles of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Order {
-    /// The canonical order: sorted, which needs as much disk as the mesh.
+    /// The canonical order: the sorted lists of all tiles are merged.
     Canonical,
-    /// Those of the joins first, then those of one tile after the other. Nothing is sorted.
+    /// Those of the joins first, then those of one tile after the other.
     Unordered,
 }
 
@@ -37,37 +35,21 @@ pub struct Joined {
     /// The duplicates themselves, if they were asked for: pairs of a duplicate and the lowest index at the same place,
     /// sorted.
     pub pairs: Vec<[u32; 2]>,
-    store: Store,
+    /// Triangles of the joins. The others are in the files of the tiles.
+    runs: Runs,
 }
 
-/// Where the triangles are.
-enum Store {
-    Sorted(Sorter),
-    /// Those of the joins. The others are in the files of the tiles.
-    Unordered(Bucket),
-}
-
-/// Joins the tiles of a folder. `memory` is the number of bytes for the sort of the triangles; beside it, the memory
-/// holds the border of up to 3 regions for each level of the tree, and the border and duplicates of one tile.
+/// Joins the tiles of a folder. `memory` is the number of bytes for the triangles of the joins; beside it, the memory
+/// holds the border of up to 3 regions for each level of the tree, and the border of one tile.
 ///
 /// # Errors
 /// A tile has no file yet, or a file is damaged or of another run, or the disk is full.
-pub fn join(
-    folder: &Path,
-    manifest: &Manifest,
-    order: Order,
-    memory: u64,
-    keep_pairs: bool,
-    quiet: bool,
-) -> Result<Joined, Failure> {
+pub fn join(folder: &Path, manifest: &Manifest, memory: u64, keep_pairs: bool, quiet: bool) -> Result<Joined, Failure> {
     check_there(folder, manifest)?;
     let points = manifest.points();
-    let store = match order {
-        Order::Canonical => Store::Sorted(Sorter::new(folder, points, 2 * points, memory)),
-        Order::Unordered => Store::Unordered(Bucket::new()),
-    };
-    let joined = Joined { triangles: 0, duplicates: 0, hull: Vec::new(), pairs: Vec::new(), store };
-    let mut work = Work { folder, manifest, memory, keep_pairs, joined, borders: Vec::new(), tile: 0 };
+    let runs = Runs::new(folder, memory / 2);
+    let joined = Joined { triangles: 0, duplicates: 0, hull: Vec::new(), pairs: Vec::new(), runs };
+    let mut work = Work { folder, manifest, keep_pairs, joined, borders: Vec::new(), tile: 0 };
     let meter = CountMeter::new(manifest.steps.len() as u64, "joining", "regions", quiet);
     for step in &manifest.steps {
         match step {
@@ -106,7 +88,6 @@ fn check_there(folder: &Path, manifest: &Manifest) -> Result<(), Failure> {
 struct Work<'a> {
     folder: &'a Path,
     manifest: &'a Manifest,
-    memory: u64,
     keep_pairs: bool,
     joined: Joined,
     borders: Vec<Border<Point, u32>>,
@@ -116,23 +97,12 @@ struct Work<'a> {
 impl Work<'_> {
     fn tile(&mut self, region: Region) -> Result<(), Failure> {
         let owner = Owner { run: self.manifest.run, tile: self.tile };
-        let (points, joined) = (self.manifest.points(), &mut self.joined);
-        let name = local_path(self.folder, self.tile);
-        let (store, triangles) = (&mut joined.store, &mut joined.triangles);
-        let read = TileResult::read(self.folder, owner, region, &mut |triangle| {
-            *triangles += 1;
-            check_index(triangle.into_iter().max(), points).map_err(|failure| failure.in_file(path::name(&name)))?;
-            match store {
-                Store::Sorted(sorter) => sorter.add(&[triangle]),
-                Store::Unordered(_) => Ok(()),
-            }
-        })?;
-        let indices = read.border.ids.iter().chain(&read.hull).chain(read.duplicates.as_flattened());
-        check_index(indices.copied().max(), points).map_err(|failure| failure.in_file(path::name(&name)))?;
-        joined.duplicates += read.duplicates.len() as u64;
-        if self.keep_pairs {
-            joined.pairs.extend(read.duplicates);
-        }
+        let mut file = TileFile::open(self.folder, owner, self.manifest.points())?;
+        let read = file.result(region, self.keep_pairs)?;
+        let joined = &mut self.joined;
+        joined.triangles += file.finals();
+        joined.duplicates += file.duplicates();
+        joined.pairs.extend(read.duplicates);
         joined.hull = read.hull;
         self.borders.push(read.border);
         self.tile += 1;
@@ -148,25 +118,10 @@ impl Work<'_> {
                 damaged(&format!("the borders of its tiles do not fit together: {error}")).in_file(name)
             })?;
         self.joined.triangles += finals.len() as u64;
-        match &mut self.joined.store {
-            Store::Sorted(sorter) => sorter.add(&finals)?,
-            Store::Unordered(bucket) => {
-                let room = usize::try_from(self.memory).unwrap_or(usize::MAX);
-                finals.iter().try_for_each(|&triangle| bucket.push(triangle, room, self.folder))?;
-            }
-        }
+        self.joined.runs.add(&finals)?;
         self.joined.hull = hull;
         self.borders.push(border);
         Ok(())
-    }
-}
-
-fn check_index(most: Option<u32>, points: u64) -> Result<(), Failure> {
-    match most {
-        Some(index) if u64::from(index) >= points => {
-            Err(damaged(&format!("it names point {index} of a set of {points} points")))
-        }
-        _ => Ok(()),
     }
 }
 
@@ -190,38 +145,47 @@ impl Joined {
         )))
     }
 
-    /// Calls `take` with all triangles, in the order that was asked for.
-    pub fn each(self, folder: &Path, manifest: &Manifest, take: &mut Take<'_>) -> Result<(), Failure> {
-        match self.store {
-            Store::Sorted(sorter) => sorter.finish(take),
-            Store::Unordered(bucket) => {
-                bucket.each(take)?;
-                for (tile, (region, _)) in (0..).zip(manifest.tiles()) {
-                    let owner = Owner { run: manifest.run, tile };
-                    let mut some = Vec::with_capacity(SOME);
-                    TileResult::read(folder, owner, region, &mut |triangle| {
-                        some.push(triangle);
-                        if some.len() < SOME {
-                            return Ok(());
-                        }
-                        let taken = take(&some);
-                        some.clear();
-                        taken
-                    })?;
-                    take(&some)?;
+    /// Calls `take` with all triangles in this order. The triangles of the joins and the lists of the tiles take about
+    /// `memory` bytes.
+    ///
+    /// # Errors
+    /// A file is damaged, which may show only after all triangles were taken, or `take` fails.
+    pub fn each(
+        self,
+        (folder, manifest): (&Path, &Manifest),
+        order: Order,
+        memory: u64,
+        take: &mut Take<'_>,
+    ) -> Result<(), Failure> {
+        let (in_memory, runs) = self.runs.finish();
+        // The triangles of the joins may have the other half.
+        let memory = memory / 2;
+        let mut sources = vec![Source::Memory(in_memory.into_iter())];
+        sources.extend(runs.into_iter().map(Source::Run));
+        let tiles = (0..manifest.tiles().count() as u32).map(|tile| {
+            let owner = Owner { run: manifest.run, tile };
+            TileFile::open(folder, owner, manifest.points())?.into_finals().map(Source::Tile)
+        });
+        match order {
+            Order::Canonical => {
+                for tile in tiles {
+                    sources.push(tile?);
                 }
-                Ok(())
+                merge(sources, memory, take)
+            }
+            Order::Unordered => {
+                sources.into_iter().map(Ok).chain(tiles).try_for_each(|source| merge(vec![source?], memory, take))
             }
         }
     }
 }
 
 /// All triangles as one list, which the memory must hold.
-pub fn triangles_of(joined: Joined, folder: &Path, manifest: &Manifest) -> Result<Vec<[u32; 3]>, Failure> {
+pub fn triangles_of(joined: Joined, folder: &Path, manifest: &Manifest, memory: u64) -> Result<Vec<[u32; 3]>, Failure> {
     let mut list = Vec::new();
     let count = usize::try_from(joined.triangles).unwrap_or(usize::MAX);
     list.try_reserve_exact(count).map_err(|_| Failure::input(format!("{count} triangles do not fit the memory")))?;
-    joined.each(folder, manifest, &mut |triangles| {
+    joined.each((folder, manifest), Order::Canonical, memory, &mut |triangles| {
         list.extend_from_slice(triangles);
         Ok(())
     })?;

@@ -8,7 +8,8 @@ use incircle::{Mesh, Point};
 use super::head::Kind;
 use super::manifest::{local_path, points_path, Manifest};
 use super::opened::{Opened, Owner};
-use super::result::TileResult;
+use super::order::sorted;
+use super::result::{TileFile, TileResult};
 use crate::failure::Failure;
 use crate::output;
 use crate::path;
@@ -45,7 +46,7 @@ pub struct Outcome {
     /// The number of points of the tile.
     pub points: u64,
     /// The numbers of final triangles, and of points and open triangles of the border.
-    pub counts: [usize; 3],
+    pub counts: [u64; 3],
     /// Whether the file was there already.
     pub was_there: bool,
 }
@@ -78,18 +79,16 @@ pub fn local(
     };
     let owner = Owner { run: manifest.run, tile: *tile };
     if local_path(folder, *tile).exists() {
-        let mut finals = 0;
-        let found = TileResult::read(folder, owner, region, &mut |_| {
-            finals += 1;
-            Ok(())
-        })?;
-        let counts = [finals, found.border.points.len(), found.border.open.len()];
+        let mut file = TileFile::open(folder, owner, manifest.points())?;
+        let result = file.result(region, false)?;
+        let counts = [file.finals(), result.border.points.len() as u64, result.border.open.len() as u64];
+        file.check_finals()?;
         return last(&Outcome { points, counts, was_there: true });
     }
     let (ids, own) = read_points(folder, owner, points)?;
-    let result = solve(&ids, own, region, triangulate)?;
-    let counts = [result.finals.len(), result.border.points.len(), result.border.open.len()];
-    let written = result.write(folder, owner)?;
+    let (finals, result) = solve(&ids, own, region, triangulate)?;
+    let counts = [finals.len(), result.border.points.len(), result.border.open.len()].map(|count| count as u64);
+    let written = result.write(&finals, folder, owner)?;
     output::keep([written], || last(&Outcome { points, counts, was_there: false }))
 }
 
@@ -110,13 +109,13 @@ fn read_points(folder: &Path, owner: Owner, points: u64) -> Result<(Vec<u32>, Ve
     Ok((rows.iter().map(|row| row[0]).collect(), rows.iter().map(|row| Point::new(row[1], row[2])).collect()))
 }
 
-/// Triangulates the points of a region and finds out what is final.
+/// Triangulates the points of a region and finds out what is final. The final triangles are in canonical order.
 fn solve(
     ids: &[u32],
     points: Vec<Point>,
     region: tiles::Region,
     triangulate: &mut Triangulate<'_>,
-) -> Result<TileResult, Failure> {
+) -> Result<(Vec<[u32; 3]>, TileResult), Failure> {
     let low = points.iter().fold([u32::MAX; 2], |low, point| [low[0].min(point.x), low[1].min(point.y)]);
     let moved: Vec<Point> = points.iter().map(|point| Point::new(point.x - low[0], point.y - low[1])).collect();
     let all = moved.iter().fold(0, |all, point| all | point.x | point.y);
@@ -128,5 +127,5 @@ fn solve(
         .map_err(|error| Failure::input(format!("the tile does not fit its manifest, as {error}")))?;
     let index = |place: u32| ids.get(place as usize).copied().unwrap_or_default();
     let duplicates = mesh.duplicates.iter().map(|duplicate| [duplicate.index, duplicate.of].map(index)).collect();
-    Ok(TileResult { finals: tile.finals, border: tile.border, hull: tile.hull, duplicates })
+    Ok((sorted(tile.finals), TileResult { border: tile.border, hull: tile.hull, duplicates }))
 }

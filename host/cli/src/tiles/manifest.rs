@@ -94,7 +94,7 @@ impl Manifest {
             counts: [points, tiles, inputs, steps, self.most],
             check: 0,
         };
-        write_checked(&manifest_path(folder), head, &mut |out| self.encode(out))
+        write_checked(&manifest_path(folder), head, &mut |out| self.encode(out), None)
     }
 
     fn encode(&self, out: &mut dyn Write) -> io::Result<()> {

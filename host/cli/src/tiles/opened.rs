@@ -133,12 +133,44 @@ impl Opened {
         Ok(list)
     }
 
+    /// Passes over bytes without checking them, before anything else is read.
+    pub fn skip(&mut self, bytes: u64) -> Result<(), Failure> {
+        let step = i64::try_from(bytes).unwrap_or(i64::MAX);
+        self.source.seek_relative(step).map_err(|error| unreadable(&error).in_file(&self.name))?;
+        self.left = self.left.saturating_sub(bytes);
+        Ok(())
+    }
+
+    /// Compares the check sum of the head with that of all bytes that were read. Until then none of them is certain.
+    /// A check sum of what follows begins.
+    pub fn end_of_content(&mut self) -> Result<(), Failure> {
+        match std::mem::take(&mut self.check).finalize() == self.head.check {
+            true => Ok(()),
+            false => Err(self.wrong_sum()),
+        }
+    }
+
     /// Compares the check sum of all bytes behind the head. Until then nothing that was read is certain.
-    pub fn finish(self) -> Result<(), Failure> {
-        if self.left > 0 || self.check.finalize() != self.head.check {
-            return Err(damaged("its check sum is wrong").in_file(self.name));
+    pub fn finish(mut self) -> Result<(), Failure> {
+        if self.left > 0 {
+            return Err(self.wrong_sum());
+        }
+        self.end_of_content()
+    }
+
+    /// Compares the check sum of what was read with the one at the end of the file.
+    pub fn finish_with_sum(mut self) -> Result<(), Failure> {
+        let sum = std::mem::take(&mut self.check).finalize();
+        let mut bytes = [0; 4];
+        self.fill(&mut bytes)?;
+        if self.left > 0 || u32::from_le_bytes(bytes) != sum {
+            return Err(self.wrong_sum());
         }
         Ok(())
+    }
+
+    fn wrong_sum(&self) -> Failure {
+        damaged("its check sum is wrong").in_file(&self.name)
     }
 }
 

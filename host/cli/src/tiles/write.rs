@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::io::{self, Write};
 use std::path::Path;
 
-use super::join::Joined;
+use super::join::{Joined, Order};
 use super::manifest::Manifest;
 use crate::failure::Failure;
 use crate::formats::{npy_writer, MeshFormat};
@@ -16,13 +16,15 @@ pub fn is_streamed(format: MeshFormat) -> bool {
     matches!(format, MeshFormat::Npy | MeshFormat::Csv | MeshFormat::Ele)
 }
 
-/// Writes the triangles of a set whose tiles are in `folder`. The format must be [streamed](is_streamed).
+/// Writes the triangles of a set whose tiles are in `folder`, in this order. The lists of the tiles take about `memory`
+/// bytes. The format must be [streamed](is_streamed).
 ///
 /// # Errors
 /// A file of the tiles cannot be read, or the output cannot be written.
 pub fn write_triangles(
     joined: Joined,
     (folder, manifest): (&Path, &Manifest),
+    (order, memory): (Order, u64),
     format: MeshFormat,
     output: Output,
     quiet: bool,
@@ -37,7 +39,7 @@ pub fn write_triangles(
         let meter = CountMeter::new(joined.triangles, "writing", "triangles", quiet);
         let mut id = 0u64;
         let mut disk = None;
-        let done = joined.each(folder, manifest, &mut |triangles| {
+        let done = joined.each((folder, manifest), order, memory, &mut |triangles| {
             meter.advance(triangles.len() as u64);
             write_some(triangles, format, &mut id, out).map_err(|error| {
                 let failure = Failure::input(error.to_string());

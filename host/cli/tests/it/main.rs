@@ -19,6 +19,7 @@ mod commands {
     mod generate;
     mod generate_numbers;
     mod tile;
+    mod triangulate_large;
 }
 
 mod formats {

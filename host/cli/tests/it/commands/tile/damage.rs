@@ -79,7 +79,10 @@ fn files_of_another_run_or_tile_are_refused() {
     scratch.run("tile local t/99").fails(3, &["no tile 99"]);
     scratch.run("tile local t").fails(2, &["names no tile", "tiles/0"]);
     scratch.run("tile local empty/0").fails(3, &["no manifest", "tile split"]);
+    // The points are needed until the tile is triangulated.
     std::fs::remove_file(scratch.path("other/1.points")).expect("it is there");
+    assert!(scratch.run("tile split p.npy --points 9 -o other").ok().stderr.contains("there already"));
+    std::fs::remove_file(scratch.path("other/1.local")).expect("it is there");
     scratch.run("tile split p.npy --points 9 -o other").fails(3, &["1.points is missing"]);
 }
 

@@ -1,0 +1,158 @@
+//! Sets larger than the memory: `triangulate --memory` in tiles over files gives the mesh of the run in memory, byte for
+//! byte, or one sentence.
+
+use std::process::Stdio;
+use std::time::Duration;
+
+use crate::common::{Run, Scratch};
+use incircle_cli::generate::Distribution;
+
+fn bytes(scratch: &Scratch, name: &str) -> Vec<u8> {
+    std::fs::read(scratch.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+/// Two sets in one file, and its mesh. The least memory has room for tiles of 196,608 points.
+fn large() -> Scratch {
+    let scratch = Scratch::new();
+    scratch.run("generate uniform -n 500000 --bits 31 -o p.npy").ok();
+    scratch.run("triangulate p.npy -o right.npy -q").ok();
+    scratch
+}
+
+#[test]
+fn every_distribution_has_the_mesh_of_the_run_in_memory() {
+    let scratch = Scratch::new();
+    for set in Distribution::ALL {
+        scratch.run(&format!("generate {} -n 250000 -o p.npy", set.name())).ok();
+        scratch.run("triangulate p.npy -o right.npy -q").ok();
+        let run = scratch.run("triangulate p.npy -o mesh.npy --memory 32M --threads 1").ok();
+        assert!(bytes(&scratch, "mesh.npy") == bytes(&scratch, "right.npy"), "{}: {run:?}", set.name());
+    }
+    assert_eq!(scratch.files(), ["mesh.npy", "p.npy", "right.npy"]);
+}
+
+#[test]
+fn a_large_set_takes_the_memory_that_it_is_given() {
+    let scratch = large();
+    for threads in [1, 3] {
+        let run = scratch.run(&format!("triangulate p.npy -o m.npy --memory 32M --threads {threads} --json")).ok();
+        let report: serde_json::Value = serde_json::from_str(&run.stdout).expect("an object");
+        assert!(bytes(&scratch, "m.npy") == bytes(&scratch, "right.npy"), "{report}");
+        assert!(report["tiles"].as_u64() > Some(2), "{report}");
+        assert_eq!((&report["points"], &report["memory"]), (&500_000.into(), &(32 << 20).into()));
+        if let Some(peak) = report["peak_memory"].as_u64() {
+            assert!(peak < (32 << 20) * 105 / 100, "{report}");
+        }
+    }
+}
+
+#[test]
+fn unordered_triangles_are_those_of_the_mesh() {
+    let scratch = large();
+    scratch.run("triangulate p.npy -o m.npy --memory 32M --unordered").ok();
+    assert!(bytes(&scratch, "m.npy") != bytes(&scratch, "right.npy"));
+    scratch.run("verify p.npy m.npy").fails(1, &["not the canonical"]);
+    scratch.run("verify p.npy m.npy --unordered -q").ok();
+    scratch.run("triangulate p.npy -o m.csv --memory 32M").ok();
+    scratch.run("triangulate p.npy -o right.csv -q").ok();
+    assert!(bytes(&scratch, "m.csv") == bytes(&scratch, "right.csv"));
+}
+
+#[test]
+fn several_inputs_are_one_set_with_tiles_and_without() {
+    let scratch = Scratch::new();
+    scratch.write("a.csv", "x,y\n0.5,0\n9,0.25\n0,9\n");
+    scratch.write("b.csv", "x,y\n9,9\n4,5\n");
+    scratch.write("all.csv", "x,y\n0.5,0\n9,0.25\n0,9\n9,9\n4,5\n");
+    scratch.run("triangulate all.csv -o right.npy -q").ok();
+    for options in ["", "--memory 32M", "--memory 32M --backend model"] {
+        scratch.run(&format!("triangulate a.csv b.csv -o m.npy {options}")).ok();
+        assert!(bytes(&scratch, "m.npy") == bytes(&scratch, "right.npy"), "{options}");
+    }
+    scratch.run("verify a.csv b.csv m.npy -q").ok();
+    scratch.run("verify b.csv a.csv m.npy -q").fails(1, &["the set of 2 files"]);
+    scratch.run("triangulate a.csv b.csv -o m.obj -q").ok();
+    scratch.run("triangulate all.csv -o right.obj -q").ok();
+    assert_eq!(scratch.read("m.obj"), scratch.read("right.obj"));
+    // Numbers of several kinds in one set become doubles, and one height too few leaves all out.
+    scratch.write("c.xyz", "1e-300 2 7\n3 1 8\n");
+    let run = scratch.run("triangulate a.csv c.xyz -o m.obj").ok();
+    assert!(run.stderr.contains("z is left out"), "{run:?}");
+    scratch.run("verify a.csv c.xyz m.obj -q").ok();
+    scratch.run("triangulate - - -o m.npy").fails(2, &["give '-' once"]);
+    scratch.run("triangulate a.csv m.npy -o m.npy").fails(2, &["both the input and the output"]);
+}
+
+#[test]
+fn a_killed_run_goes_on() {
+    let scratch = large();
+    let command = "triangulate p.npy -o m.npy --memory 32M --threads 1";
+    let folder = scratch.path(".m.npy.tiles");
+    // The run is killed once a tile is triangulated.
+    let mut child = scratch.command(command.split(' ')).stderr(Stdio::null()).spawn().expect("the command starts");
+    while !folder.join("0.local").exists() {
+        assert!(child.try_wait().expect("a process").is_none(), "the run ended before it was killed");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    child.kill().expect("a process");
+    child.wait().expect("a process");
+    assert!(!scratch.path("m.npy").exists());
+    scratch.run(command).fails(3, &[".m.npy.tiles", "give --resume"]);
+    // Another memory makes no other tiles, and other points are found.
+    let other = "triangulate right.npy -o m.npy --memory 32M --resume";
+    scratch.run("generate uniform -n 500000 --bits 30 -o q.npy").ok();
+    scratch.run(&other.replace("right", "q")).fails(3, &["tiles of another run", "--resume goes on"]);
+    let before = std::fs::metadata(folder.join("0.local")).and_then(|file| file.modified()).expect("a file");
+    scratch.write(".m.npy.tiles/.9.local.1.part", "left by the killed run");
+    let log = scratch.run("triangulate p.npy -o m.npy --memory 64M --resume").ok();
+    assert!(bytes(&scratch, "m.npy") == bytes(&scratch, "right.npy"), "{log:?}");
+    assert!(before.elapsed().is_ok());
+    assert_eq!(scratch.files(), ["m.npy", "p.npy", "q.npy", "right.npy"]);
+    // With nothing to go on from, a run begins anew.
+    scratch.run("triangulate p.npy -o m.npy --memory 32M --resume -q").ok();
+}
+
+#[test]
+fn what_cannot_be_done_in_tiles_is_refused() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", "0,0\n9,0\n0,9\n");
+    let refused = |options: &str, code: i32, parts: &[&str]| {
+        scratch.run(&format!("triangulate p.csv {options}")).fails(code, parts);
+        assert_eq!(scratch.files(), ["p.csv"], "{options}");
+    };
+    refused("-o m.npy --memory 1M", 2, &["32M or more"]);
+    refused("-o m.obj --memory 32M", 2, &["npy, csv or ele"]);
+    refused("-o m.npy --memory 32M --quantize fit", 2, &["--quantize"]);
+    refused("-o m.npy --memory 32M --backend cpu --backend model", 2, &["one --backend"]);
+    refused("-o m.npy --unordered --scratch gone", 3, &["gone cannot be used"]);
+    refused("-o m.npy --scratch p.csv", 3, &["p.csv is no folder"]);
+    refused("-o - --format csv --memory 32M", 2, &["--scratch"]);
+
+    scratch.write("d.csv", "0,0\n0.1,1e-300\n3,1e300\n");
+    scratch.run("triangulate d.csv -o m.npy --memory 32M").fails(3, &["lattice"]);
+    assert_eq!(scratch.files(), ["d.csv", "p.csv"]);
+}
+
+#[test]
+fn a_mesh_on_standard_output_needs_a_scratch_folder() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", "0,0\n9,0\n0,9\n9,9\n");
+    let run = scratch.run("triangulate p.csv -o - --format csv --memory 32M --scratch . -q").ok();
+    assert_eq!(run.stdout, "0,1,3\n0,3,2\n");
+    assert_eq!(scratch.files(), ["p.csv"]);
+}
+
+/// Another process that works in the folder is told, and not disturbed.
+#[test]
+fn two_runs_do_not_share_a_folder() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", "0,0\n9,0\n0,9\n");
+    std::fs::create_dir(scratch.path(".m.npy.tiles")).expect("a folder");
+    let lock = std::fs::File::create(scratch.path(".m.npy.tiles/lock")).expect("a file");
+    lock.lock().expect("nobody else has it");
+    scratch.run("triangulate p.csv -o m.npy --memory 32M").fails(3, &["another process works in"]);
+    assert!(scratch.path(".m.npy.tiles/lock").exists());
+    drop(lock);
+    let run: Run = scratch.run("triangulate p.csv -o m.npy --memory 32M -q").ok();
+    assert_eq!(scratch.files(), ["m.npy", "p.csv"], "{run:?}");
+}
