@@ -32,4 +32,4 @@ pub use oracle_of_doubles::{
 };
 pub use random::SplitMix64;
 pub use random32::Random32;
-pub use sets::{generate, Distribution, GenerateError, UnknownName, BITS};
+pub use sets::{generate, stream, Distribution, GenerateError, SetPoints, UnknownName, BITS};

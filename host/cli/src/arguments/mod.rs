@@ -231,8 +231,8 @@ pub struct GenerateArguments {
     /// Set
     #[arg(value_parser = distribution_parser())]
     pub distribution: Distribution,
-    /// Number of points, up to 536870911
-    #[arg(short, value_name = "N", value_parser = whole_number(0, u32::MAX))]
+    /// Number of points, up to 4294967294; with --order up to 536870911
+    #[arg(short, value_name = "N", value_parser = whole_number(0, u32::MAX - 1))]
     pub n: u32,
     /// Kind of numbers of the coordinates
     #[arg(long, value_enum, default_value_t = NumberKind::Whole)]

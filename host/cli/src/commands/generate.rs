@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use incircle::{Order, Point, MAX_POINTS};
-use incircle_testkit::{generate, Distribution, GenerateError};
+use incircle_testkit::{generate, stream, Distribution, GenerateError, SetPoints};
 
 use crate::arguments::GenerateArguments;
 use crate::failure::{Exit, Failure};
@@ -12,6 +12,10 @@ use crate::numbers::doubles::DoubleSet;
 use crate::numbers::{signed, Double, NumberKind, Single, SixDigits};
 use crate::output::{self, Output};
 use crate::path::{extension, name};
+use crate::progress::CountMeter;
+
+/// Points after which the progress bar moves.
+const TOLD: u64 = 1 << 16;
 
 /// Makes the set and writes it, as points or as a drawing of an order.
 pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
@@ -29,25 +33,40 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
         )));
     };
     let bits = arguments.numbers.bits(arguments.bits)?;
-    check_count(arguments.n)?;
-    let output = Output::prepare(path, &[])?;
-    let mut points = make(arguments.distribution, arguments.n, bits, arguments.seed)?;
-    if let Some(order) = arguments.order {
-        points = ordered(&points, order);
+    if arguments.order.is_some() {
+        check_count(arguments.n)?;
     }
-    let written = output.write(|out| write(&points, bits, arguments, format, out))?;
+    let output = Output::prepare(path, &[])?;
+    let points: SetPoints = match arguments.order {
+        Some(order) => {
+            let points = make(arguments.distribution, arguments.n, bits, arguments.seed)?;
+            Box::new(ordered(&points, order).into_iter())
+        }
+        None => {
+            let points = stream(arguments.distribution, arguments.n as usize, bits, arguments.seed);
+            points.map_err(failure_of)?
+        }
+    };
+    let meter = CountMeter::new(points.len() as u64, "writing", "points", false);
+    let mut count = 0;
+    let points = points.inspect(|_| {
+        count += 1;
+        if count % TOLD == 0 {
+            meter.advance(TOLD);
+        }
+    });
+    let written = output.write(|out| write(points, bits, arguments, format, out))?;
     output::finish([written], || Ok(()))
 }
 
 /// Writes points of the grid of `bits` bits in the numbers that the user has chosen.
 fn write(
-    points: &[[u32; 2]],
+    points: impl ExactSizeIterator<Item = [u32; 2]>,
     bits: u32,
     arguments: &GenerateArguments,
     format: SetFormat,
     out: &mut dyn Write,
 ) -> io::Result<()> {
-    let points = points.iter().copied();
     match arguments.numbers {
         NumberKind::Whole => format.write_points(points, out),
         NumberKind::Signed => format.write_points(points.map(|point| signed(point, bits)), out),
@@ -95,7 +114,7 @@ fn ordered(points: &[[u32; 2]], order: Order) -> Vec<[u32; 2]> {
 pub fn check_count(n: u32) -> Result<(), Failure> {
     if n as usize > MAX_POINTS {
         return Err(Failure::usage(format!(
-            "-n {n} is more than the {MAX_POINTS} points that a job may have: choose fewer"
+            "-n {n} is more than the {MAX_POINTS} points that one job and one order may have: choose fewer"
         )));
     }
     Ok(())
@@ -103,11 +122,13 @@ pub fn check_count(n: u32) -> Result<(), Failure> {
 
 /// The points of a set, or a failure with the reason.
 pub fn make(distribution: Distribution, n: u32, bits: u32, seed: u64) -> Result<Vec<[u32; 2]>, Failure> {
-    generate(distribution, n as usize, bits, seed).map_err(|error| {
-        let exit = match error {
-            GenerateError::Bits(_) => Exit::Usage,
-            GenerateError::Memory(_) => Exit::Capacity,
-        };
-        Failure::new(exit, error.to_string())
-    })
+    generate(distribution, n as usize, bits, seed).map_err(failure_of)
+}
+
+fn failure_of(error: GenerateError) -> Failure {
+    let exit = match error {
+        GenerateError::Bits(_) => Exit::Usage,
+        GenerateError::Memory(_) => Exit::Capacity,
+    };
+    Failure::new(exit, error.to_string())
 }

@@ -127,32 +127,52 @@ impl FromStr for Distribution {
     }
 }
 
+/// Points of a set, one after the other.
+pub type SetPoints = Box<dyn ExactSizeIterator<Item = [u32; 2]>>;
+
 /// Exactly `n` points of a distribution on the grid `[0, 2^bits)` squared. O(n).
 ///
 /// # Errors
 /// `bits` outside [`BITS`], or no memory for `n` points.
 pub fn generate(distribution: Distribution, n: usize, bits: u32, seed: u64) -> Result<Vec<[u32; 2]>, GenerateError> {
+    let mut points = grid::room(n)?;
+    points.extend(stream(distribution, n, bits, seed)?);
+    Ok(points)
+}
+
+/// The points of [`generate`], one after the other. Samples of a distribution take no memory for their points, but a
+/// hundredth of that for clusters; sets with a fixed shape take all of it.
+///
+/// # Errors
+/// Those of [`generate`].
+pub fn stream(distribution: Distribution, n: usize, bits: u32, seed: u64) -> Result<SetPoints, GenerateError> {
     if !BITS.contains(&bits) {
         return Err(GenerateError::Bits(bits));
     }
     let grid = Grid { size: 1 << bits };
-    let random = &mut SplitMix64::new(seed);
-    match distribution {
-        Distribution::Uniform => sampled::uniform(n, grid, random),
-        Distribution::Normal => sampled::normal(n, grid, random),
-        Distribution::Kuzmin => sampled::kuzmin(n, grid, random),
-        Distribution::Line => sampled::line(n, grid, random),
-        Distribution::Checkers => sampled::checkers(n, grid, random),
-        Distribution::Circle => sampled::circle(n, grid, random),
-        Distribution::Clusters => sampled::clusters(n, grid, random),
-        Distribution::Lattice => shaped::lattice(n, grid, random),
-        Distribution::RotatedLattice => shaped::rotated_lattice(n, grid, random),
-        Distribution::Parabola => shaped::parabola(n, grid, random),
-        Distribution::ParabolaInward => shaped::parabola_inward(n, grid, random),
-        Distribution::TwoChains => shaped::two_chains(n, grid, random),
-        Distribution::Spiral => shaped::spiral(n, grid, random),
-        Distribution::Box => shaped::filled_box(n, grid, random),
-    }
+    let mut own = SplitMix64::new(seed);
+    let random = &mut own;
+    let draw = match distribution {
+        Distribution::Uniform => sampled::uniform(grid),
+        Distribution::Normal => sampled::normal(grid),
+        Distribution::Kuzmin => sampled::kuzmin(grid),
+        Distribution::Line => sampled::line(grid),
+        Distribution::Checkers => sampled::checkers(grid),
+        Distribution::Circle => sampled::circle(grid),
+        Distribution::Clusters => sampled::clusters(n, grid, random)?,
+        Distribution::Lattice => return listed(shaped::lattice(n, grid, random)),
+        Distribution::RotatedLattice => return listed(shaped::rotated_lattice(n, grid, random)),
+        Distribution::Parabola => return listed(shaped::parabola(n, grid, random)),
+        Distribution::ParabolaInward => return listed(shaped::parabola_inward(n, grid, random)),
+        Distribution::TwoChains => return listed(shaped::two_chains(n, grid, random)),
+        Distribution::Spiral => return listed(shaped::spiral(n, grid, random)),
+        Distribution::Box => return listed(shaped::filled_box(n, grid, random)),
+    };
+    Ok(Box::new(sampled::Drawn::new(n, own, draw)))
+}
+
+fn listed(points: grid::Points) -> Result<SetPoints, GenerateError> {
+    Ok(Box::new(points?.into_iter()))
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@
 //! Delaunay triangulations along space-filling curves", ESA 2009, and O. Schrijvers, F. van Bommel, K.
 //! Buchin, EuroCG 2012 (checkers).
 
-use super::grid::{room, Grid, Points};
+use super::grid::{room, GenerateError, Grid};
 use crate::random::SplitMix64;
 
 /// Standard deviations from the centre of the grid to its sides.
@@ -21,16 +21,20 @@ const CLUSTER_POINTS: usize = 100;
 /// Number of standard deviations of a cluster along a side of the grid.
 const CLUSTER_DEVIATIONS: f64 = 200.0;
 
+/// Draws a point of a set; `None` for one outside the grid, which is to be drawn anew. Every distribution here has at
+/// least a quarter of its mass inside, so drawing ends.
+pub type Draw = Box<dyn FnMut(&mut SplitMix64) -> Option<[u32; 2]>>;
+
 /// Points of which every grid point has an equal chance.
-pub fn uniform(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
-    repeat(n, || Some(anywhere(grid, random)))
+pub fn uniform(grid: Grid) -> Draw {
+    Box::new(move |random| Some(anywhere(grid, random)))
 }
 
 /// Independent Gaussian coordinates around the centre; the sides are four standard deviations away. A point
 /// outside is drawn anew.
-pub fn normal(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
+pub fn normal(grid: Grid) -> Draw {
     let deviation = grid.half() / NORMAL_DEVIATIONS;
-    repeat(n, || {
+    Box::new(move |random| {
         let [x, y] = random.normal_pair();
         grid.cell(grid.half() + x * deviation, grid.half() + y * deviation)
     })
@@ -38,9 +42,9 @@ pub fn normal(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
 
 /// Kuzmin's disc, a model of flat galaxies: the share of points within radius r is 1 - 1 / sqrt(1 + r²), so r = sqrt(1
 /// / (1 - u)² - 1) for uniform u. The sides are 32 units away; the few points outside are drawn anew.
-pub fn kuzmin(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
+pub fn kuzmin(grid: Grid) -> Draw {
     let unit = grid.half() / KUZMIN_UNITS;
-    repeat(n, || {
+    Box::new(move |random| {
         let outside = 1.0 - random.unit();
         let radius = unit * libm::sqrt(1.0 / (outside * outside) - 1.0);
         let angle = std::f64::consts::TAU * random.unit();
@@ -50,9 +54,9 @@ pub fn kuzmin(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
 
 /// The line singularity: x = b / (u - b u + b), y = v for uniform u, v and b = 0.001. Density falls with the square of
 /// the distance from the left side.
-pub fn line(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
+pub fn line(grid: Grid) -> Draw {
     let size = grid.size as f64;
-    repeat(n, || {
+    Box::new(move |random| {
         let (u, v) = (random.unit(), random.unit());
         let x = LINE_OFFSET / (u - LINE_OFFSET * u + LINE_OFFSET);
         // u = 0 gives x = 1, just outside.
@@ -62,51 +66,77 @@ pub fn line(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
 
 /// Every eighth point anywhere on the white squares of a chess board, the others on the black ones; the square at the
 /// origin is black. Boards of fewer than 8 grid points a side have fewer squares.
-pub fn checkers(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
+pub fn checkers(grid: Grid) -> Draw {
     let squares = BOARD.min(grid.size);
     let side = grid.size / squares;
-    let one = |random: &mut SplitMix64| {
+    let one = move |random: &mut SplitMix64| {
         let white = random.below(8) == 0;
         let row = random.below(squares);
         let column = 2 * random.below(squares / 2) + (row + u64::from(white)) % 2;
         let [x, y] = [column * side + random.below(side), row * side + random.below(side)];
         [x as u32, y as u32]
     };
-    repeat(n, || Some(one(random)))
+    Box::new(move |random| Some(one(random)))
 }
 
 /// The grid points next to random places of the circle that touches the sides: they are nearly cocircular, so
 /// `incircle` is near zero everywhere.
-pub fn circle(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
+pub fn circle(grid: Grid) -> Draw {
     let centre = grid.half() - 0.5;
-    let one = |random: &mut SplitMix64| {
+    let one = move |random: &mut SplitMix64| {
         let angle = std::f64::consts::TAU * random.unit();
         grid.nearest(centre + centre * libm::cos(angle), centre + centre * libm::sin(angle))
     };
-    repeat(n, || Some(one(random)))
+    Box::new(move |random| Some(one(random)))
 }
 
 /// Gaussian clusters around uniform centres, a hundred points each on average; a standard deviation is 1/200 of a side.
 /// Points outside the grid are drawn anew.
-pub fn clusters(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
+pub fn clusters(n: usize, grid: Grid, random: &mut SplitMix64) -> Result<Draw, GenerateError> {
     let count = n.div_ceil(CLUSTER_POINTS);
-    let centres = repeat(count, || Some(anywhere(grid, random)))?;
+    let mut centres = room(count)?;
+    centres.extend((0..count).map(|_| anywhere(grid, random)));
     let deviation = grid.size as f64 / CLUSTER_DEVIATIONS;
-    repeat(n, || {
+    Ok(Box::new(move |random| {
         let [x, y] = centres[random.below(count as u64) as usize];
         let [dx, dy] = random.normal_pair();
         grid.cell(f64::from(x) + 0.5 + dx * deviation, f64::from(y) + 0.5 + dy * deviation)
-    })
+    }))
 }
 
 fn anywhere(grid: Grid, random: &mut SplitMix64) -> [u32; 2] {
     [random.below(grid.size) as u32, random.below(grid.size) as u32]
 }
 
-/// Draws until `n` points lie inside the grid. Every distribution here has at least a quarter of its mass inside,
-/// so the loop ends.
-fn repeat(n: usize, mut draw: impl FnMut() -> Option<[u32; 2]>) -> Points {
-    let mut points = room(n)?;
-    points.extend(std::iter::from_fn(|| Some(draw())).flatten().take(n));
-    Ok(points)
+/// Points of a set, drawn one after the other.
+pub struct Drawn {
+    draw: Draw,
+    random: SplitMix64,
+    left: usize,
 }
+
+impl Drawn {
+    /// Draws `n` points.
+    pub fn new(n: usize, random: SplitMix64, draw: Draw) -> Self {
+        Self { draw, random, left: n }
+    }
+}
+
+impl Iterator for Drawn {
+    type Item = [u32; 2];
+
+    fn next(&mut self) -> Option<[u32; 2]> {
+        self.left = self.left.checked_sub(1)?;
+        loop {
+            if let Some(point) = (self.draw)(&mut self.random) {
+                return Some(point);
+            }
+        }
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        (self.left, Some(self.left))
+    }
+}
+
+impl ExactSizeIterator for Drawn {}

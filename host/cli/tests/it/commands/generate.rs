@@ -55,10 +55,11 @@ fn no_points_are_possible() {
 }
 
 #[test]
-fn more_points_than_a_job_may_have_are_refused() {
+fn more_points_than_an_order_may_have_are_refused() {
     let scratch = Scratch::new();
-    for n in ["536870912", "4294967295"] {
-        scratch.run(&format!("generate uniform -n {n} -o p.csv")).fails(2, &[n, "536870911"]);
+    for n in ["536870912", "4294967294"] {
+        let command = format!("generate uniform -n {n} --order hilbert -o p.csv");
+        scratch.run(&command).fails(2, &[n, "536870911"]);
     }
     assert!(scratch.files().is_empty());
 }
