@@ -4,7 +4,7 @@ mod backend;
 mod points;
 mod tile;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand};
@@ -12,6 +12,7 @@ use incircle::serial::Address;
 use incircle::{Options, Order, ProgressListener};
 use incircle_testkit::Distribution;
 
+use crate::failure::Failure;
 use crate::formats::{MeshFormat, SetFormat};
 use crate::help;
 use crate::numbers::NumberKind;
@@ -44,7 +45,12 @@ pub enum Command {
     /// Only the triangles are checked, as indices into POINTS. Everything else in the mesh file is
     /// ignored: the vertices of OBJ and PLY; the points, hull and duplicates of JSON.
     /// If 'triangulate' had --quantize, --coord-bits, --class, --bounds or --array, give the same here.
-    #[command(verbatim_doc_comment, after_help = help::VERIFY, after_long_help = help::VERIFY_LONG)]
+    #[command(
+        verbatim_doc_comment,
+        override_usage = "incircle verify [OPTIONS] <POINTS>... <MESH>",
+        after_help = help::VERIFY,
+        after_long_help = help::VERIFY_LONG
+    )]
     Verify(VerifyArguments),
     /// Make a set of points
     #[command(after_help = help::GENERATE, after_long_help = help::GENERATE_LONG)]
@@ -197,14 +203,12 @@ impl LargeArguments {
 /// The arguments of `incircle verify`.
 #[derive(Debug, Args)]
 pub struct VerifyArguments {
-    /// Files of points, in the format of their extensions; '-' is CSV from standard input
+    /// Files of points, and then the file of the mesh
     ///
-    /// Several files are one set, as in 'triangulate'.
-    #[arg(required = true, value_name = "POINTS")]
-    pub points: Vec<PathBuf>,
-    /// File of the mesh; '-' is standard input and needs --format
-    #[arg(required = true)]
-    pub mesh: PathBuf,
+    /// Several files of points are one set, as in 'triangulate'. Standard input is '-': points in
+    /// CSV, or a mesh of the format that --format names.
+    #[arg(required = true, value_name = "FILE", verbatim_doc_comment)]
+    files: Vec<PathBuf>,
     #[command(flatten)]
     pub read: ReadArguments,
     /// Take the triangles in any order, as 'triangulate --unordered' writes them
@@ -223,6 +227,19 @@ pub struct VerifyArguments {
     /// Print only errors
     #[arg(short, long)]
     pub quiet: bool,
+}
+
+impl VerifyArguments {
+    /// The files of points, and the file of the mesh, which is the last one.
+    ///
+    /// # Errors
+    /// There is only one file.
+    pub fn files(&self) -> Result<(&[PathBuf], &Path), Failure> {
+        match &self.files[..] {
+            [points @ .., mesh] if !points.is_empty() => Ok((points, mesh)),
+            _ => Err(Failure::usage("one file is given: give the files of points, and then the file of the mesh")),
+        }
+    }
 }
 
 /// The arguments of `incircle generate`.

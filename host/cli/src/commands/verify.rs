@@ -12,18 +12,19 @@ use crate::{lattice, output, path, source};
 
 /// Runs the subcommand. A wrong mesh leads to exit code 1.
 pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
-    if arguments.points.iter().any(|path| path::is_standard(path)) && path::is_standard(&arguments.mesh) {
+    let (points, mesh) = arguments.files()?;
+    if points.iter().any(|path| path::is_standard(path)) && path::is_standard(mesh) {
         return Err(Failure::usage(
             "points and mesh cannot both come from standard input: name a file for one of them",
         ));
     }
-    let table = source::read_set(&arguments.points, &arguments.read, arguments.quiet)?;
-    let points_name = source::set_name(&arguments.points);
+    let table = source::read_set(points, &arguments.read, arguments.quiet)?;
+    let points_name = source::set_name(points);
     let GridArguments { coord_bits, quantize } = arguments.grid.checked()?;
     let how = quantize.map(|how| (how, coord_bits.unwrap_or(MODEL_COORD_BITS)));
     let laid = lattice::lay(&table, how).map_err(|failure| failure.in_file(&points_name))?;
-    let mesh_name = path::name(&arguments.mesh);
-    let checked = source::read_mesh(&arguments.mesh, arguments.format, arguments.quiet).and_then(|mut triangles| {
+    let mesh_name = path::name(mesh);
+    let checked = source::read_mesh(mesh, arguments.format, arguments.quiet).and_then(|mut triangles| {
         if arguments.unordered {
             triangles.sort_unstable();
         }

@@ -7,7 +7,7 @@ use crate::failure::Failure;
 /// The least memory that a set in tiles takes.
 const LEAST: u64 = 32 << 20;
 /// What the program itself takes, with the buffers of its files.
-const PROGRAM: u64 = 14 << 20;
+const PROGRAM: u64 = 16 << 20;
 /// The most bytes that a point of a tile takes until its tile is triangulated and written.
 const TILE_BYTES: u64 = 128;
 /// The most points of a tile, whose half-edges have numbers of 32 bits.

@@ -160,7 +160,19 @@ fn a_batch_is_told_from_the_first_word_to_the_last_triangle() {
         let bench: Value = serde_json::from_str(&run.stdout).expect("an object");
         assert_eq!((bench.get("mhz"), bench["sets"][0].get("cycles")), (None, None));
     }
-    scratch.run("bench --batch 2 -n 2000 --backend clock --config small").fails(7, &["2000", "--config full"]);
+}
+
+#[test]
+fn jobs_that_a_core_cannot_hold_are_done_in_parts() {
+    let scratch = Scratch::new();
+    let run = scratch.run("bench uniform --batch 2 -n 2000 --backend clock --config small").ok();
+    let row = &rows(&run, 2)[0];
+    assert_eq!((&row[1..3], row[4].as_str()), (&["4000".to_owned(), "7952".to_owned()][..], "-"), "{row:?}");
+    // Parts take more clocks than the insertions alone would.
+    assert!(row[3].parse::<f64>().is_ok_and(|clocks| (15.0..40.0).contains(&clocks)), "{row:?}");
+    let run = scratch.run("bench uniform -n 4096 --backend clock --config small").ok();
+    assert!(rows(&run, 3)[0][2..].iter().all(|cell| cell == "-"), "{run:?}");
+    assert!(run.stdout.lines().last().is_some_and(|line| line.trim_start().starts_with("13 parts")), "{run:?}");
 }
 
 #[test]
@@ -181,7 +193,7 @@ fn a_batch_of_too_many_points_is_refused() {
     scratch.run("bench --batch 1000000 -n 2000").fails(2, &["2000000000 points", "at most 67108864"]);
     scratch.run("bench --batch 4096 -n 16385").fails(2, &["67112960 points"]);
     // The largest allowed number passes this check, and the next wrong argument is named.
-    scratch.run("bench --batch 4096 -n 16384 --backend clock --config small").fails(7, &["16384"]);
+    scratch.run("bench --batch 4096 -n 16384 --backend clock --coord-bits 17").fails(7, &["16 bits", "17"]);
 }
 
 /// As many jobs share the core as fit. Jobs of 5,000 points, of which only one fits, are exclusive jobs.
@@ -237,10 +249,8 @@ fn a_sequence_of_exclusive_jobs_costs_little_more_than_the_insertions() {
 }
 
 #[test]
-fn what_does_not_fit_is_told_before_any_row() {
+fn arguments_that_do_not_fit_the_core_are_told_before_any_row() {
     let scratch = Scratch::new();
-    let run = scratch.run("bench --backend clock --config small");
-    run.fails(7, &["4096 distinct points", "--config full or --backend model"]);
     scratch.run("bench --backend clock --coord-bits 17").fails(7, &["16 bits", "17"]);
     scratch.run("bench --backend clock --contexts 17").fails(2, &["17 contexts", "the 16 of the core full"]);
     // Only distinct points count: 20000 points fall onto 5000 places.

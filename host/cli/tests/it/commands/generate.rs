@@ -69,7 +69,8 @@ fn more_points_than_an_order_may_have_are_refused() {
 fn more_points_than_memory_end_with_seven() {
     let scratch = Scratch::new();
     let program = env!("CARGO_BIN_EXE_incircle");
-    for distribution in ["uniform", "clusters", "lattice"] {
+    // These sets are shuffled, so all of their points are in memory.
+    for distribution in ["lattice", "parabola", "spiral"] {
         // A quarter of a gigabyte of addresses, where four fifths of one are wanted.
         let line = format!("ulimit -v 262144 && '{program}' generate {distribution} -n 100000000 -o p.csv");
         let output = std::process::Command::new("sh").args(["-c", &line]).current_dir(scratch.path("")).output();
