@@ -3,7 +3,8 @@
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use incircle_research::{figures, orders, picture, FiguresArguments, OrdersArguments, PictureArguments};
+use incircle_research::{figures, living, orders, picture};
+use incircle_research::{FiguresArguments, LivingArguments, OrdersArguments, PictureArguments};
 
 /// Measure and draw the orders of insertion of the literature
 #[derive(Debug, Parser)]
@@ -27,6 +28,9 @@ enum Command {
     /// Make all published figures again: the table, the ranking, the guided walks
     #[command(after_help = "Example:\n  incircle-research figures --out figures")]
     Figures(FiguresArguments),
+    /// Compare the triangulation that lives with spade and, where it is installed, CGAL
+    #[command(after_help = "Example:\n  incircle-research living -n 100000")]
+    Living(LivingArguments),
 }
 
 fn main() -> ExitCode {
@@ -34,6 +38,7 @@ fn main() -> ExitCode {
         Command::Orders(arguments) => orders(arguments),
         Command::Draw(arguments) => picture(arguments),
         Command::Figures(arguments) => figures(arguments),
+        Command::Living(arguments) => living(arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
