@@ -59,21 +59,22 @@ impl<P: PlanePoint> Level<P> {
     /// Collects the triangles around a vertex, and the border around them, counter-clockwise. In the ring the infinite
     /// vertex has the coordinates of the vertex itself.
     pub(super) fn collect_star(&mut self, vertex: u32) {
+        let (mut sides, mut behind) = (core::mem::take(&mut self.stack), core::mem::take(&mut self.behind));
+        sides.clear();
+        self.star_both_ways(self.side_opposite(vertex), |side, is_ahead| {
+            if is_ahead { &mut sides } else { &mut behind }.push(side);
+        });
+        sides.extend(behind.drain(..).rev());
         self.dead.clear();
         self.border.clear();
         self.ring.clear();
-        let start = self.side_opposite(vertex);
-        let mut side = start;
-        loop {
-            self.dead.push(side.triangle());
+        for &side in &sides {
             let from = self.plane.ends(side)[0];
+            self.dead.push(side.triangle());
             self.border.push(Border { from, outside: self.plane.across(side) });
             self.ring.push(self.site(if from == INFINITE { vertex } else { from }));
-            side = self.plane.across(side.next()).next();
-            if side == start {
-                return;
-            }
         }
+        (self.stack, self.behind) = (sides, behind);
     }
 
     /// Fills a hole with triangles, which take the numbers of dead ones.

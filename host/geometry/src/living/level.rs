@@ -57,6 +57,8 @@ pub struct Level<P: PlanePoint> {
     pub plane: Plane,
     /// Lists that are kept so that a change allocates nothing.
     pub stack: Vec<Side>,
+    /// The sides of a star that a walk found clockwise.
+    pub behind: Vec<Side>,
     pub dead: Vec<u32>,
     /// The triangles that the last removal made.
     pub made: Vec<u32>,
@@ -76,6 +78,7 @@ impl<P: PlanePoint> Default for Level<P> {
             line: BTreeMap::new(),
             plane: Plane::default(),
             stack: Vec::new(),
+            behind: Vec::new(),
             dead: Vec::new(),
             made: Vec::new(),
             border: Vec::new(),
