@@ -50,6 +50,7 @@ impl<P: PlanePoint> Level<P> {
     }
 
     /// A triangle to be set, which takes the number of a dead one.
+    #[inline(always)]
     pub(super) fn next_made(&mut self) -> u32 {
         let triangle = self.dead.pop().unwrap_or_else(|| self.plane.allocate());
         self.made.push(triangle);
@@ -154,6 +155,7 @@ impl<P: PlanePoint> Level<P> {
     }
 
     /// Makes a triangle, given the other side of the edge between its first two corners.
+    #[inline(always)]
     fn make(&mut self, corners: [u32; 3], outside: Side) -> u32 {
         let triangle = self.next_made();
         self.plane.set(triangle, corners, [Side::new(0, 0); 3]);
