@@ -9,6 +9,7 @@
 //! place, in all libraries. Times are those of the calls alone: each library may answer with handles of its own, which
 //! become numbers of points after the clock has stopped.
 
+mod arguments;
 mod cgal;
 mod contestant;
 mod ours;
@@ -17,43 +18,23 @@ mod spade;
 mod table;
 
 use ::spade::{HierarchyHintGenerator, LastUsedVertexHintGenerator};
-use clap::Args;
 use incircle_geometry::Point;
 use incircle_testkit::SplitMix64;
 
 use crate::orders::{print, Failure};
+pub use arguments::LivingArguments;
 use contestant::Contestant;
 use ours::Ours;
 use script::{Script, Stage, SIDE};
 use spade::Spade;
 use table::Times;
 
-/// Arguments of `living`.
-#[derive(Clone, Debug, Args)]
-pub struct LivingArguments {
-    /// Points at the beginning
-    #[arg(short, value_name = "N", default_value_t = 1_000_000, value_parser = clap::value_parser!(u32).range(3..))]
-    pub n: u32,
-    /// Commands of each kind
-    #[arg(long, value_name = "N", default_value_t = 250_000)]
-    pub commands: u32,
-    /// Commands that are timed together before it is the next library's turn
-    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..))]
-    pub block: u32,
-    /// Take points of a grid of 31 bits, which are integers for us and doubles for the others, instead of doubles
-    #[arg(long)]
-    pub grid: bool,
-    /// Seed; one seed gives the same points and commands on every machine
-    #[arg(long, default_value_t = 1)]
-    pub seed: u64,
-}
-
 /// Runs the subcommand: a row for each operation and order.
 ///
 /// # Errors
 /// Answers differ, or a library fails.
 pub fn living(arguments: &LivingArguments) -> Result<(), Failure> {
-    let program = cgal::Program::new();
+    let program = if arguments.without_cgal { Err("left out".to_owned()) } else { cgal::Program::new() };
     print(&table::header(arguments))?;
     if let Err(reason) = &program {
         print(&format!("cgal: {reason}\n"))?;

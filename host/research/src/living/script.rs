@@ -4,8 +4,8 @@ use incircle::Order;
 use incircle_geometry::Point;
 use incircle_testkit::SplitMix64;
 
+use super::arguments::LivingArguments;
 use super::contestant::Block;
-use super::LivingArguments;
 
 /// Bits of the grid, and its side. Doubles are the same points, each with a fraction.
 const BITS: u32 = 31;

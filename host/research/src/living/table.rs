@@ -1,7 +1,7 @@
 //! The table of the comparison.
 
+use super::arguments::LivingArguments;
 use super::script::Stage;
-use super::LivingArguments;
 
 /// The times of one stage: seconds a command for each block, in a list for each contestant.
 pub(super) struct Times {
