@@ -5,11 +5,26 @@ use core::fmt::Debug;
 
 use bytemuck::Zeroable;
 
-use crate::cpu::view::{view_of_32_bits, Widest, Width};
+use crate::cpu::view::{view_of_32_bits, View, Wide, Widest, Width};
 use crate::double::{acute_corners_of, incircle_of, is_within_of, nearer_of, orient2d_of, Coordinate};
+use crate::double::{incircle_seen, orient2d_seen, SizedView};
 use crate::point::Point;
 use crate::predicate;
 use crate::tie::is_inside_at_tie;
+
+/// A point, and an edge as seen from there.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen<S: Site> {
+    pub site: S,
+    pub view: S::View,
+}
+
+impl<S: Site> Seen<S> {
+    #[inline(always)]
+    pub fn of(edge: [S; 2], site: S) -> Self {
+        Self { site, view: S::view(edge, site) }
+    }
+}
 
 /// A point whose predicates are exact. The order is lexicographic, x before y, as the tie rule wants.
 pub trait Site: Copy + Ord + Debug + Send + Sync + 'static {
@@ -21,6 +36,28 @@ pub trait Site: Copy + Ord + Debug + Send + Sync + 'static {
 
     /// The sign of incircle: `Greater` if `d` lies inside the circle of the counter-clockwise triangle.
     fn incircle(abc: [Self; 3], d: Self) -> Ordering;
+
+    /// What predicates share that look at one edge from several points.
+    type View: Copy + Debug;
+
+    /// Views an edge from a point.
+    fn view(edge: [Self; 2], p: Self) -> Self::View;
+
+    /// The side of the edge on which a point lies, as [`orient2d`](Self::orient2d) gives it.
+    fn side(edge: [Self; 2], seen: Seen<Self>) -> Ordering;
+
+    /// The sign of incircle of the triangle on an edge with the apex `c`.
+    fn incircle_seen(edge: [Self; 2], c: Seen<Self>, d: Seen<Self>) -> Ordering;
+
+    /// The same as [`conflicts`](Self::conflicts) for the triangle on an edge with the apex `c`.
+    #[inline(always)]
+    fn conflicts_seen(edge: [Self; 2], c: Seen<Self>, d: Seen<Self>) -> bool {
+        match Self::incircle_seen(edge, c, d) {
+            Ordering::Greater => true,
+            Ordering::Less => false,
+            Ordering::Equal => is_inside_at_tie([edge[0], edge[1], c.site], d.site, Self::orient2d),
+        }
+    }
 
     /// Compares the distances from `q` to `a` and to `b`.
     fn compare_distances(q: Self, a: Self, b: Self) -> Ordering;
@@ -105,6 +142,36 @@ impl Site for Point {
             predicate::incircle(a, b, c, d).cmp(&0)
         } else {
             Widest::determinant(view_of_32_bits(a, b, c), view_of_32_bits(a, b, d)).cmp(&0)
+        }
+    }
+
+    /// Means nothing for coordinates from 2^31 on.
+    type View = View<i64>;
+
+    #[inline(always)]
+    fn view([a, b]: [Self; 2], p: Self) -> View<i64> {
+        if are_below_31_bits([a, b, p]) {
+            Wide::view(a.into(), b.into(), p.into())
+        } else {
+            View::default()
+        }
+    }
+
+    #[inline(always)]
+    fn side([a, b]: [Self; 2], seen: Seen<Self>) -> Ordering {
+        if are_below_31_bits([a, b, seen.site]) {
+            seen.view.cross.cmp(&0)
+        } else {
+            Self::orient2d(a, b, seen.site)
+        }
+    }
+
+    #[inline(always)]
+    fn incircle_seen([a, b]: [Self; 2], c: Seen<Self>, d: Seen<Self>) -> Ordering {
+        if are_below_31_bits([a, b, c.site, d.site]) {
+            Wide::determinant(c.view, d.view).cmp(&0)
+        } else {
+            Self::incircle([a, b, c.site], d.site)
         }
     }
 
@@ -194,6 +261,23 @@ impl<C: Coordinate + Debug> Site for FilteredSite<C> {
     #[inline(always)]
     fn incircle([a, b, c]: [Self; 3], d: Self) -> Ordering {
         incircle_of(a.0, b.0, c.0, d.0)
+    }
+
+    type View = SizedView;
+
+    #[inline(always)]
+    fn view([a, b]: [Self; 2], p: Self) -> SizedView {
+        SizedView::of(a.0, b.0, p.0)
+    }
+
+    #[inline(always)]
+    fn side([a, b]: [Self; 2], seen: Seen<Self>) -> Ordering {
+        orient2d_seen([a.0, b.0], seen.site.0, seen.view)
+    }
+
+    #[inline(always)]
+    fn incircle_seen([a, b]: [Self; 2], c: Seen<Self>, d: Seen<Self>) -> Ordering {
+        incircle_seen([a.0, b.0], [c.site.0, d.site.0], [c.view, d.view])
     }
 
     #[inline(always)]

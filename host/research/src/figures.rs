@@ -8,7 +8,6 @@ use incircle_testkit::Distribution;
 use crate::compare::{draw, ranking, to_csv, Row};
 use crate::order::{BrioDc, Order};
 use crate::orders::{print, table, write, Failure};
-use crate::way::Way;
 
 /// Arguments of `figures`. The defaults are those of the published figures.
 #[derive(Clone, Debug, Args)]
@@ -46,7 +45,7 @@ pub fn figures(arguments: &FiguresArguments) -> Result<(), Failure> {
     print("== All orders, on the literature's distributions and on two sets on which plain curves fail\n")?;
     let hard = [Distribution::TwoChains, Distribution::ParabolaInward];
     let sets: Vec<Distribution> = Distribution::LITERATURE.into_iter().chain(hard).collect();
-    let rows = table(&sets, &[arguments.table], &Way::usual(), 16, SEED)?;
+    let rows = table(&sets, &[arguments.table], &Order::usual(), 16, SEED)?;
     keep("orders.csv", to_csv(&rows))?;
     keep("orders.svg", draw(&rows))?;
     print("\n== Published ranking\n")?;
@@ -54,22 +53,22 @@ pub fn figures(arguments: &FiguresArguments) -> Result<(), Failure> {
     print(&ranking(&rows))?;
     keep("ranking.csv", to_csv(&rows))?;
     print("\n== Guided walks (docs/performance.md)\n")?;
-    let ways = [Order::BRIO_HILBERT, Order::BrioDc(BrioDc::Linear)].map(Way::Ordered);
-    let rows = table(&Distribution::LITERATURE, &[arguments.walks], &ways, WIDE_BITS, SEED)?;
+    let orders = [Order::BRIO_HILBERT, Order::BrioDc(BrioDc::Linear)];
+    let rows = table(&Distribution::LITERATURE, &[arguments.walks], &orders, WIDE_BITS, SEED)?;
     keep("walks.csv", to_csv(&rows))?;
     print(&guided_walks(&rows))?;
     Ok(())
 }
 
 /// The orders of the published ranking.
-fn published() -> Vec<Way> {
-    Way::usual().into_iter().filter(|way| way.name().starts_with("brio")).collect()
+fn published() -> Vec<Order> {
+    Order::usual().into_iter().filter(|order| order.name().starts_with("brio")).collect()
 }
 
 /// The sentence about guided walks in the documents.
 fn guided_walks(rows: &[Row]) -> String {
     let of = |name: &str, get: fn(&Row) -> f64| {
-        let values = || rows.iter().filter(|row| row.way.name() == name).map(get);
+        let values = || rows.iter().filter(|row| row.order.name() == name).map(get);
         (values().fold(f64::INFINITY, f64::min), values().fold(0.0, f64::max))
     };
     let [guided, plain] =

@@ -80,30 +80,6 @@ impl GuidedMesh {
         }
     }
 
-    /// Inserts a point as [`Self::insert`] does, and returns its vertex. If there is a vertex at the place of the point
-    /// already, that vertex is the error, and the mesh stays as it is.
-    pub fn insert_unless_there(&mut self, point: Point, guide: Option<u32>) -> Result<u32, u32> {
-        let own = self.triangle_of.len() as u32;
-        let Some(approach) = self.walk_to(point, guide) else {
-            self.insert_first(point);
-            return Ok(own);
-        };
-        let (vertex, at) = approach.nearest();
-        if at == in_model(point) {
-            return Err(vertex);
-        }
-        let record = approach.record();
-        if approach.insert() == Insertion::Inserted {
-            self.note_star(record);
-        }
-        Ok(own)
-    }
-
-    /// Finds a vertex near this point by a walk that begins at `guide`; `None` before the first triangle.
-    pub fn find(&mut self, point: Point, guide: Option<u32>) -> Option<u32> {
-        self.walk_to(point, guide).map(|approach| approach.nearest().0)
-    }
-
     fn walk_to(&mut self, point: Point, guide: Option<u32>) -> Option<Approach<'_>> {
         let start = guide.and_then(|vertex| self.triangle_of.get(vertex as usize).copied());
         self.mesh.approach(in_model(point), start.filter(|&record| record != NONE))

@@ -2,8 +2,10 @@
 //!
 //! The product inserts points in one of four orders, because none of the others is faster on the whole. This package
 //! has all orders that were tried: twelve [curves](order::Curve), alone and in rounds of three sizes, rounds with
-//! [guides](order::brio_dc()), and the [Delaunay hierarchy](Hierarchy) for points that arrive one at a time. All are
-//! measured on the software model, and in cycles of the largest core.
+//! [guides](order::brio_dc()). All are measured on the software model, and in cycles of the largest core.
+//!
+//! The package also compares the mesh that lives with those of other libraries, and ways to fill the hole of a vertex
+//! that is deleted.
 //!
 //! Nothing here ships with the product. `cargo run --release -p incircle-research -- figures` makes
 //! all published figures again.
@@ -13,17 +15,17 @@ pub mod assembly;
 pub mod compare;
 mod figures;
 mod guided;
-mod hierarchy;
+mod holes;
 pub mod job;
+mod living;
 pub mod order;
 mod orders;
 mod picture;
 pub mod prepare;
-mod way;
 
 pub use figures::{figures, FiguresArguments};
 pub use guided::{GuidedMesh, RING_CAPACITY};
-pub use hierarchy::Hierarchy;
+pub use holes::{holes, HolesArguments};
+pub use living::{living, LivingArguments};
 pub use orders::{orders, Failure, OrdersArguments};
 pub use picture::{picture, PictureArguments};
-pub use way::Way;

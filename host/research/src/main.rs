@@ -3,7 +3,8 @@
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use incircle_research::{figures, orders, picture, FiguresArguments, OrdersArguments, PictureArguments};
+use incircle_research::{figures, holes, living, orders, picture};
+use incircle_research::{FiguresArguments, HolesArguments, LivingArguments, OrdersArguments, PictureArguments};
 
 /// Measure and draw the orders of insertion of the literature
 #[derive(Debug, Parser)]
@@ -27,6 +28,12 @@ enum Command {
     /// Make all published figures again: the table, the ranking, the guided walks
     #[command(after_help = "Example:\n  incircle-research figures --out figures")]
     Figures(FiguresArguments),
+    /// Compare the triangulation that lives with spade and, where it is installed, CGAL
+    #[command(after_help = "Example:\n  incircle-research living -n 100000")]
+    Living(LivingArguments),
+    /// Count the tests of four ways to fill the hole of a deleted vertex, by its number of neighbours
+    #[command(after_help = "Example:\n  incircle-research holes -n 20000")]
+    Holes(HolesArguments),
 }
 
 fn main() -> ExitCode {
@@ -34,6 +41,8 @@ fn main() -> ExitCode {
         Command::Orders(arguments) => orders(arguments),
         Command::Draw(arguments) => picture(arguments),
         Command::Figures(arguments) => figures(arguments),
+        Command::Living(arguments) => living(arguments),
+        Command::Holes(arguments) => holes(arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

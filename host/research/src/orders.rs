@@ -8,7 +8,7 @@ use incircle::Point;
 use incircle_testkit::{generate, Distribution};
 
 use crate::compare::{draw, header, measure, ranking, to_csv, Row};
-use crate::way::Way;
+use crate::order::Order;
 
 /// The reason why a run failed, as a sentence.
 pub type Failure = Box<dyn std::error::Error>;
@@ -24,9 +24,9 @@ pub struct OrdersArguments {
     pub n: Vec<u32>,
     /// Orders, separated by commas (default: all but 'input', with rounds of a quarter)
     ///
-    /// The default is random, every curve, rounds along every curve, rounds with guides, and the hierarchy.
-    #[arg(long = "order", value_name = "ORDER", value_delimiter = ',', value_parser = way_from)]
-    pub orders: Vec<Way>,
+    /// The default is random, every curve, rounds along every curve, and rounds with guides.
+    #[arg(long = "order", value_name = "ORDER", value_delimiter = ',', value_parser = order_from)]
+    pub orders: Vec<Order>,
     /// Bits of a coordinate; cycles are counted up to 16
     #[arg(long, value_name = "BITS", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=31))]
     pub coord_bits: u32,
@@ -41,9 +41,11 @@ pub struct OrdersArguments {
     pub plot: Option<PathBuf>,
 }
 
-/// Parses the name of a way of insertion.
-fn way_from(name: &str) -> Result<Way, String> {
-    Way::named(name).ok_or_else(|| format!("the orders are {}", Way::names().collect::<Vec<_>>().join(", ")))
+/// Parses the name of an order.
+fn order_from(name: &str) -> Result<Order, String> {
+    Order::named(name).ok_or_else(|| {
+        format!("the orders are {}", Order::all().into_iter().map(Order::name).collect::<Vec<_>>().join(", "))
+    })
 }
 
 /// Runs the subcommand. Each row is printed as soon as it is measured, the published ranking follows below the table,
@@ -53,8 +55,8 @@ fn way_from(name: &str) -> Result<Way, String> {
 /// The files cannot be written or are the same, or a set cannot be made.
 pub fn orders(arguments: &OrdersArguments) -> Result<(), Failure> {
     check_files(arguments)?;
-    let ways = if arguments.orders.is_empty() { Way::usual() } else { arguments.orders.clone() };
-    let rows = table(&sets_of(arguments), &arguments.n, &ways, arguments.coord_bits, arguments.seed)?;
+    let orders = if arguments.orders.is_empty() { Order::usual() } else { arguments.orders.clone() };
+    let rows = table(&sets_of(arguments), &arguments.n, &orders, arguments.coord_bits, arguments.seed)?;
     print(&ranking(&rows))?;
     if let Some(path) = &arguments.csv {
         write(path, &to_csv(&rows))?;
@@ -65,11 +67,11 @@ pub fn orders(arguments: &OrdersArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Measures all ways of insertion on all sets, and prints the table.
+/// Measures all orders of insertion on all sets, and prints the table.
 pub(crate) fn table(
     sets: &[Distribution],
     sizes: &[u32],
-    ways: &[Way],
+    orders: &[Order],
     coord_bits: u32,
     seed: u64,
 ) -> Result<Vec<Row>, Failure> {
@@ -79,8 +81,8 @@ pub(crate) fn table(
         for &set in sets {
             let points = generate(set, n as usize, coord_bits, seed)?;
             let points: Vec<Point> = points.into_iter().map(Point::from).collect();
-            for &way in ways {
-                let row = measure(set, &points, way, coord_bits)?;
+            for &order in orders {
+                let row = measure(set, &points, order, coord_bits)?;
                 print(&row.line())?;
                 rows.push(row);
             }

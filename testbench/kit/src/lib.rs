@@ -15,6 +15,7 @@
 
 mod batch;
 mod canonical;
+mod compiled;
 mod exchange;
 mod oracle;
 mod oracle_of_doubles;
@@ -25,6 +26,7 @@ pub mod words;
 
 pub use batch::Batch;
 pub use canonical::{canonical, Canonical, StoredRecord};
+pub use compiled::Compiled;
 pub use exchange::exchange_steps;
 pub use oracle::{conflicts, delaunay, orient2d};
 pub use oracle_of_doubles::{

@@ -5,10 +5,10 @@
 //! little-endian; the answer is a line.
 
 use std::io::{BufRead, BufReader, Write};
-use std::path::PathBuf;
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
 use incircle::Point;
+use incircle_testkit::Compiled;
 
 use super::contestant::{Contestant, Missing, Run};
 use super::error::PeerError;
@@ -24,35 +24,11 @@ pub(super) struct Process {
     output: BufReader<ChildStdout>,
 }
 
-/// Starts CGAL if the compiler finds its headers: a small program, compiled on the spot. `CPLUS_INCLUDE_PATH` and
-/// `LIBRARY_PATH` help if the headers are elsewhere.
+/// Starts CGAL if the compiler finds its headers: a small program, compiled on the spot.
 pub(super) fn cgal() -> Result<Process, Missing> {
     let absent = |reason: String| Missing { name: "cgal", reason };
-    let folder = std::env::temp_dir().join(format!("incircle-peers-{}", std::process::id()));
-    // The folder must be new and private: the program that is compiled there is run.
-    let mut builder = std::fs::DirBuilder::new();
-    #[cfg(unix)]
-    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
-    builder.create(&folder).map_err(|error| absent(format!("{}: {error}", folder.display())))?;
-    let program = compile(&folder).map_err(absent);
-    let started = program.and_then(|program| Process::start("cgal", Command::new(program)));
-    // The running program does not need its file any more.
-    let _ = std::fs::remove_dir_all(&folder);
-    started
-}
-
-fn compile(folder: &std::path::Path) -> Result<PathBuf, String> {
-    let (source, program) = (folder.join("cgal.cpp"), folder.join("cgal"));
-    std::fs::write(&source, CGAL_SOURCE).map_err(|error| error.to_string())?;
-    let mut compiler = Command::new("g++");
-    compiler.args(["-O3", "-DNDEBUG", "-w", "-std=c++17", "-o"]).arg(&program).arg(&source).args(["-lmpfr", "-lgmp"]);
-    let output = compiler.output().map_err(|error| format!("g++: {error}"))?;
-    if output.status.success() {
-        return Ok(program);
-    }
-    let text = String::from_utf8_lossy(&output.stderr);
-    let first = text.lines().find(|line| line.contains("error") || line.contains("cannot find"));
-    Err(format!("not installed: {}", first.unwrap_or("g++ failed").trim()))
+    let compiled = Compiled::new(CGAL_SOURCE, &["-lmpfr", "-lgmp"]).map_err(absent)?;
+    Process::start("cgal", Command::new(compiled.program()))
 }
 
 /// Starts Triangle if the Python in `PYTHON`, or else `python3`, has the package `triangle`.

@@ -78,8 +78,8 @@ impl From<Point> for Site {
 }
 
 /// The edge from `a` to `b`, seen from a point.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct View<P> {
+#[derive(Clone, Copy, Debug, Default)]
+pub struct View<P> {
     /// `orient2d` of the edge and the point: positive if the point lies to the left of the edge, zero if on its line.
     pub(crate) cross: P,
     dot: P,
@@ -136,7 +136,7 @@ impl Width for Narrow {
 
 /// Arithmetic for coordinates of up to [`WIDE_BITS`] bits.
 #[derive(Clone, Copy)]
-pub(super) struct Wide;
+pub(crate) struct Wide;
 
 impl Width for Wide {
     type Product = i64;

@@ -39,7 +39,7 @@ const LEAST_SIZE: f64 = f64::from_bits((1023 - 960) << 52);
 
 /// A view with the sizes of its products, which bound their errors.
 #[derive(Clone, Copy, Debug)]
-struct SizedView {
+pub struct SizedView {
     view: View,
     /// `|ax by| + |ay bx|`.
     cross_size: f64,
@@ -50,7 +50,7 @@ struct SizedView {
 impl SizedView {
     /// The edge from `a` to `b`, seen from `p`.
     #[inline(always)]
-    fn of<C: Coordinate>(a: [C; 2], b: [C; 2], p: [C; 2]) -> Self {
+    pub(crate) fn of<C: Coordinate>(a: [C; 2], b: [C; 2], p: [C; 2]) -> Self {
         let (ax, ay, bx, by) = (a[0].minus(p[0]), a[1].minus(p[1]), b[0].minus(p[0]), b[1].minus(p[1]));
         let cross_size = (ax * by).abs() + (ay * bx).abs();
         let dot_size = (ax * bx).abs() + (ay * by).abs();
@@ -74,7 +74,13 @@ impl SizedView {
 /// The side of the edge from `a` to `b` on which `p` lies: `Greater` is left.
 #[inline(always)]
 pub(crate) fn orient2d_of<C: Coordinate>(a: [C; 2], b: [C; 2], p: [C; 2]) -> Ordering {
-    match SizedView::of(a, b, p).side() {
+    orient2d_seen([a, b], p, SizedView::of(a, b, p))
+}
+
+/// The side of an edge on which `p` lies, given the view from there.
+#[inline(always)]
+pub(crate) fn orient2d_seen<C: Coordinate>([a, b]: [[C; 2]; 2], p: [C; 2], view: SizedView) -> Ordering {
+    match view.side() {
         Some(side) => side,
         None => exact::orient2d(a, b, p),
     }
@@ -83,7 +89,16 @@ pub(crate) fn orient2d_of<C: Coordinate>(a: [C; 2], b: [C; 2], p: [C; 2]) -> Ord
 /// The sign of `incircle(a, b, c, d)`.
 #[inline(always)]
 pub(crate) fn incircle_of<C: Coordinate>(a: [C; 2], b: [C; 2], c: [C; 2], d: [C; 2]) -> Ordering {
-    let (from_c, from_d) = (SizedView::of(a, b, c), SizedView::of(a, b, d));
+    incircle_seen([a, b], [c, d], [SizedView::of(a, b, c), SizedView::of(a, b, d)])
+}
+
+/// The sign of `incircle(a, b, c, d)`, given the views of the edge from `a` to `b` from `c` and from `d`.
+#[inline(always)]
+pub(crate) fn incircle_seen<C: Coordinate>(
+    [a, b]: [[C; 2]; 2],
+    [c, d]: [[C; 2]; 2],
+    [from_c, from_d]: [SizedView; 2],
+) -> Ordering {
     let determinant = from_c.view.determinant(from_d.view);
     let size = from_c.dot_size * from_d.cross_size + from_d.dot_size * from_c.cross_size;
     // A product of two small sizes may underflow, too.

@@ -49,7 +49,7 @@ impl<P: PlanePoint> Triangulation<P> {
     /// # Errors
     /// No living point has the index.
     pub fn delete(&mut self, index: u32) -> Result<(), Error> {
-        let vertex = self.vertex(index)?;
+        let vertex = self.names.remove(index).ok_or_else(|| self.missing(index))?;
         self.detach(index, vertex);
         Ok(())
     }
@@ -71,6 +71,7 @@ impl<P: PlanePoint> Triangulation<P> {
             return Ok(());
         }
         if self.is_shared(vertex) || !self.shift(vertex, point) {
+            self.names.remove(index);
             self.detach(index, vertex);
             self.attach(index, point);
         }
@@ -108,9 +109,8 @@ impl<P: PlanePoint> Triangulation<P> {
         self.promote(vertex, point);
     }
 
-    /// Takes the point of an index out of the mesh.
+    /// Takes the point of an index out of the mesh. The index itself is gone already.
     fn detach(&mut self, index: u32, vertex: u32) {
-        self.names.remove(index);
         if self.name(vertex) != index {
             self.twins.remove(&(vertex, index));
         } else if let Some(twin) = self.first_twin(vertex) {

@@ -17,8 +17,9 @@ impl<P: PlanePoint> Level<P> {
         self.collect_star(vertex);
         let q = point.site();
         let turns_left = |edge: usize| {
-            let ends = [edge, (edge + 1) % self.border.len()].map(|place| self.border[place].from);
-            !ends.contains(&INFINITE) && P::Site::orient2d(self.site(ends[0]), self.site(ends[1]), q).is_gt()
+            let ends = [edge, (edge + 1) % self.border.len()];
+            let is_finite = ends.iter().all(|&place| self.border[place].from != INFINITE);
+            is_finite && P::Site::orient2d(self.ring[ends[0]], self.ring[ends[1]], q).is_gt()
         };
         if !(0..self.border.len()).all(turns_left) {
             return false;

@@ -6,10 +6,10 @@
 
 use alloc::vec::Vec;
 
-use super::level::{Border, Level};
+use super::level::{Border, Level, Part};
 use super::plane::{Side, INFINITE};
 use crate::plane_point::PlanePoint;
-use crate::site::Site;
+use crate::site::{Seen, Site};
 
 /// Holes with more edges are filled by the CPU triangulator. On circles of 64, 128 and 256 points of doubles, gift
 /// wrapping took 6.5, 26 and 84 µs, and the CPU triangulator 12, 23 and 42 µs. In tests small holes are large already.
@@ -28,7 +28,7 @@ impl<P: PlanePoint> Level<P> {
 
     fn remove_from_plane(&mut self, vertex: u32) {
         self.collect_star(vertex);
-        let border = core::mem::take(&mut self.border);
+        let mut border = core::mem::take(&mut self.border);
         let is_on_hull = border.iter().any(|edge| edge.from == INFINITE);
         // All points can only lie on one line if all others are around this one.
         if is_on_hull && border.len() == self.count {
@@ -38,112 +38,141 @@ impl<P: PlanePoint> Level<P> {
                 return;
             }
         }
-        self.border = if border.len() > LARGE {
+        if border.len() > LARGE {
             self.fill_large(&border);
-            border
         } else {
-            self.fill(border)
-        };
+            self.fill(&mut border);
+        }
+        self.border = border;
         while let Some(triangle) = self.dead.pop() {
             self.plane.release(triangle);
         }
     }
 
     /// A triangle to be set, which takes the number of a dead one.
+    #[inline(always)]
     pub(super) fn next_made(&mut self) -> u32 {
         let triangle = self.dead.pop().unwrap_or_else(|| self.plane.allocate());
         self.made.push(triangle);
         triangle
     }
 
-    /// Collects the triangles around a vertex, and the border around them, counter-clockwise.
+    /// Collects the triangles around a vertex, and the border around them, counter-clockwise. In the ring the infinite
+    /// vertex has the coordinates of the vertex itself.
     pub(super) fn collect_star(&mut self, vertex: u32) {
+        let (mut sides, mut behind) = (core::mem::take(&mut self.stack), core::mem::take(&mut self.behind));
+        sides.clear();
+        self.star_both_ways(self.side_opposite(vertex), |side, is_ahead| {
+            if is_ahead { &mut sides } else { &mut behind }.push(side);
+        });
+        sides.extend(behind.drain(..).rev());
         self.dead.clear();
         self.border.clear();
-        let start = self.side_opposite(vertex);
-        let mut side = start;
-        loop {
+        self.ring.clear();
+        for &side in &sides {
+            let from = self.plane.ends(side)[0];
             self.dead.push(side.triangle());
-            self.border.push(Border { from: self.plane.ends(side)[0], outside: self.plane.across(side) });
-            side = self.plane.across(side.next()).next();
-            if side == start {
-                return;
-            }
+            self.border.push(Border { from, outside: self.plane.across(side) });
+            self.ring.push(self.site(if from == INFINITE { vertex } else { from }));
         }
+        (self.stack, self.behind) = (sides, behind);
     }
 
-    /// Fills holes with triangles, which take the numbers of dead ones. A hole is its border, counter-clockwise.
-    fn fill(&mut self, mut border: Vec<Border>) -> Vec<Border> {
-        // Holes lie one behind the other in `border`; the list has the start of each.
-        let mut starts: Vec<usize> = alloc::vec![0];
+    /// Fills a hole with triangles, which take the numbers of dead ones.
+    fn fill(&mut self, border: &mut [Border]) {
         self.made.clear();
-        while let Some(start) = starts.pop() {
-            let hole = &mut border[start..];
-            // The base edge needs two ends with coordinates.
-            while hole[0].from == INFINITE || hole[1].from == INFINITE {
-                hole.rotate_left(1);
-            }
-            let apex = self.apex_of(hole);
-            let triangle = self.next_made();
-            let corners = [hole[0].from, hole[1].from, hole[apex].from];
-            self.plane.set(triangle, corners, [Side::new(0, 0); 3]);
-            corners.into_iter().for_each(|corner| self.note(corner, triangle));
-            self.plane.link(Side::new(triangle, 2), hole[0].outside);
-            let (first, last, length) = (hole[0], hole[apex], hole.len());
-            // Behind the edge from corner 1 to the apex, and behind the one from the apex to corner 0.
-            let cut = [Side::new(triangle, 0), Side::new(triangle, 1)];
-            if apex == 2 {
-                self.plane.link(cut[0], hole[1].outside);
-            }
-            if apex == length - 1 {
-                self.plane.link(cut[1], last.outside);
-            }
-            // The hole becomes [1 .. apex] and [apex .. end, 0], each if it has three corners or more.
-            border.push(Border { from: first.from, outside: cut[1] });
-            let right = (apex > 2).then_some(start + 1);
-            let left = (apex < length - 1).then_some(start + apex);
-            match (right, left) {
-                (None, None) => border.truncate(start),
-                (Some(_), None) => {
-                    border.truncate(start + length);
-                    border[start + apex].outside = cut[0];
-                    border.remove(start);
-                    starts.push(start);
-                }
-                (None, Some(_)) => {
-                    border.drain(start..start + apex);
-                    starts.push(start);
-                }
-                (Some(_), Some(_)) => {
-                    border.insert(start + apex, Border { from: last.from, outside: cut[0] });
-                    border.remove(start);
-                    starts.extend([start, start + apex]);
-                }
-            }
+        let mut ring = core::mem::take(&mut self.ring);
+        let last = border.len() - 1;
+        if let Some(place) = border.iter().position(|edge| edge.from == INFINITE) {
+            border.rotate_left(place);
+            ring.rotate_left(place);
+            self.fill_at_hull(border, &mut ring);
+        } else {
+            self.fill_part(border, &ring, Part { first: 0, last, chord: border[last].outside });
         }
-        border
+        // All other vertices of the border have got a triangle with the edge that begins there.
+        self.note(border[last].from, self.plane.across(border[last].outside).triangle());
+        self.ring = ring;
     }
 
-    /// The place in a hole of the apex of the triangle on its first edge.
-    fn apex_of(&self, hole: &[Border]) -> usize {
-        let [a, b] = [0, 1].map(|place| self.site(hole[place].from));
-        if hole.len() == 3 {
-            return 2;
+    /// Fills a part of a hole. All its vertices have coordinates.
+    fn fill_part(&mut self, border: &[Border], ring: &[P::Site], part: Part) {
+        let mut parts = core::mem::take(&mut self.parts);
+        parts.push(part);
+        while let Some(Part { first, last, chord }) = parts.pop() {
+            let others = &ring[first + 1..last];
+            let apex = match others {
+                [_] => first + 1,
+                others => first + 1 + Self::apex_of([ring[last], ring[first]], others).unwrap_or(0),
+            };
+            let corners = [last, first, apex].map(|place| border[place].from);
+            let triangle = self.make(corners, chord);
+            for (slot, first, last) in [(0, first, apex), (1, apex, last)] {
+                let chord = Side::new(triangle, slot);
+                if last - first > 1 {
+                    parts.push(Part { first, last, chord });
+                } else {
+                    self.plane.link(chord, border[first].outside);
+                    self.note(border[first].from, triangle);
+                }
+            }
         }
-        let mut best: Option<(usize, P::Site)> = None;
-        let mut infinite = 2;
-        for (place, edge) in hole.iter().enumerate().skip(2) {
-            if edge.from == INFINITE {
-                infinite = place;
+        self.parts = parts;
+    }
+
+    /// Fills a hole that reaches the hull. The border begins with the infinite vertex, and is changed.
+    fn fill_at_hull(&mut self, border: &mut [Border], ring: &mut [P::Site]) {
+        let last = border.len() - 1;
+        // What is left of the hole: the infinite vertex, and the border from `first` on. `behind` is the side outside
+        // the edge from the one to the other.
+        let (mut first, mut behind) = (1, border[0].outside);
+        while first < last {
+            let Border { from, outside } = border[first];
+            let to = border[first + 1].from;
+            // If no vertex lies to the left, the edge becomes a hull edge.
+            let Some(apex) = Self::apex_of([ring[first], ring[first + 1]], &ring[first + 2..]) else {
+                let ghost = self.make([from, to, INFINITE], outside);
+                self.plane.link(Side::new(ghost, 1), behind);
+                self.note(from, ghost);
+                self.note(INFINITE, ghost);
+                (first, behind) = (first + 1, Side::new(ghost, 0));
                 continue;
+            };
+            let apex = first + 2 + apex;
+            let triangle = self.make([from, to, border[apex].from], outside);
+            let chord = Side::new(triangle, 0);
+            if apex == first + 2 {
+                self.plane.link(chord, border[first + 1].outside);
+                self.note(to, triangle);
+            } else {
+                self.fill_part(border, ring, Part { first: first + 1, last: apex, chord });
             }
-            let d = self.site(edge.from);
-            let is_left = P::Site::orient2d(a, b, d).is_gt();
-            if is_left && best.is_none_or(|(_, c)| P::Site::conflicts([a, b, c], d)) {
-                best = Some((place, d));
+            // The edge from the first vertex to the apex takes the place of all edges in between.
+            (border[apex - 1], ring[apex - 1]) = (Border { from, outside: Side::new(triangle, 1) }, ring[first]);
+            first = apex - 1;
+        }
+        self.plane.link(behind, border[last].outside);
+    }
+
+    /// Makes a triangle, given the other side of the edge between its first two corners.
+    #[inline(always)]
+    fn make(&mut self, corners: [u32; 3], outside: Side) -> u32 {
+        let triangle = self.next_made();
+        self.plane.set(triangle, corners, [Side::new(0, 0); 3]);
+        self.plane.link(Side::new(triangle, 2), outside);
+        triangle
+    }
+
+    /// The place in a list of vertices of the apex of the triangle on an edge; `None` if none of them lies to the left.
+    fn apex_of(edge: [P::Site; 2], sites: &[P::Site]) -> Option<usize> {
+        let mut best: Option<(usize, Seen<P::Site>)> = None;
+        for (place, &site) in sites.iter().enumerate() {
+            let seen = Seen::of(edge, site);
+            let is_left = P::Site::side(edge, seen).is_gt();
+            if is_left && best.is_none_or(|(_, c)| P::Site::conflicts_seen(edge, c, seen)) {
+                best = Some((place, seen));
             }
         }
-        // If no vertex lies to the left, the base edge becomes a hull edge.
-        best.map_or(infinite, |(place, _)| place)
+        best.map(|(place, _)| place)
     }
 }

@@ -35,6 +35,16 @@ pub struct Border {
     pub outside: Side,
 }
 
+/// A part of a hole: the edges of its border from one place to another, closed by a chord from the last vertex to the
+/// first.
+#[derive(Clone, Copy, Debug)]
+pub struct Part {
+    pub first: usize,
+    pub last: usize,
+    /// The side of the chord outside the part.
+    pub chord: Side,
+}
+
 /// A mesh that can be changed.
 #[derive(Clone, Debug)]
 pub struct Level<P: PlanePoint> {
@@ -47,10 +57,16 @@ pub struct Level<P: PlanePoint> {
     pub plane: Plane,
     /// Lists that are kept so that a change allocates nothing.
     pub stack: Vec<Side>,
+    /// The sides of a star that a walk found clockwise.
+    pub behind: Vec<Side>,
     pub dead: Vec<u32>,
     /// The triangles that the last removal made.
     pub made: Vec<u32>,
     pub border: Vec<Border>,
+    /// The first end of each edge of the border around a star.
+    pub ring: Vec<P::Site>,
+    /// The parts of a hole that are still to be filled.
+    pub parts: Vec<Part>,
 }
 
 impl<P: PlanePoint> Default for Level<P> {
@@ -62,9 +78,12 @@ impl<P: PlanePoint> Default for Level<P> {
             line: BTreeMap::new(),
             plane: Plane::default(),
             stack: Vec::new(),
+            behind: Vec::new(),
             dead: Vec::new(),
             made: Vec::new(),
             border: Vec::new(),
+            ring: Vec::new(),
+            parts: Vec::new(),
         }
     }
 }

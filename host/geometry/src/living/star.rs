@@ -37,6 +37,29 @@ impl<P: PlanePoint> Level<P> {
         Star { level: self, start, next: Some(start) }
     }
 
+    /// Visits the sides opposite the vertex that is opposite the given one, in both directions by turns, from the given
+    /// one on; `is_ahead` is true for those that were found counter-clockwise.
+    ///
+    /// Each triangle names the next, so a walk around a star waits for memory again and again. Two walks wait at the
+    /// same time.
+    #[inline(always)]
+    pub(super) fn star_both_ways(&self, start: Side, mut visit: impl FnMut(Side, bool)) {
+        visit(start, true);
+        let (mut ahead, mut behind) = (start, start);
+        loop {
+            ahead = self.plane.across(ahead.next()).next();
+            if ahead == behind {
+                return;
+            }
+            visit(ahead, true);
+            behind = self.plane.across(behind.last()).last();
+            if behind == ahead {
+                return;
+            }
+            visit(behind, false);
+        }
+    }
+
     /// The vertices that have an edge to this one, while there are triangles; also the infinite one.
     #[inline]
     pub(super) fn link(&self, vertex: u32) -> impl Iterator<Item = u32> + '_ {
@@ -55,12 +78,16 @@ impl<P: PlanePoint> Level<P> {
         let (mut best, mut site) = (from, self.site(from));
         loop {
             let start = best;
-            for vertex in self.link(start).filter(|&vertex| vertex != INFINITE) {
+            self.star_both_ways(self.side_opposite(start), |side, _| {
+                let vertex = self.plane.ends(side)[0];
+                if vertex == INFINITE {
+                    return;
+                }
                 let other = self.site(vertex);
                 if P::Site::compare_nearness(q, other, site).is_lt() {
                     (best, site) = (vertex, other);
                 }
-            }
+            });
             if best == start {
                 return best;
             }

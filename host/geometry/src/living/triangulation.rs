@@ -135,11 +135,16 @@ impl<P: PlanePoint> Triangulation<P> {
 
     /// The vertex of a living index.
     pub(super) fn vertex(&self, index: u32) -> Result<u32, Error> {
-        self.names.get(index).ok_or(if index < self.next {
+        self.names.get(index).ok_or_else(|| self.missing(index))
+    }
+
+    /// Why an index is not living.
+    pub(super) fn missing(&self, index: u32) -> Error {
+        if index < self.next {
             Error::Deleted { index }
         } else {
             Error::Unknown { index, next: self.next }
-        })
+        }
     }
 
     /// The highest level that a vertex of the lowest level is in.

@@ -45,7 +45,7 @@ pub fn draw(rows: &[Row]) -> String {
         say(&mut text, 8, y, &title);
         for row in group {
             y += BAR;
-            say(&mut text, 16, y, row.way.name());
+            say(&mut text, 16, y, row.order.name());
             draw_bars(&mut text, row, rows, y);
         }
     }

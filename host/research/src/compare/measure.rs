@@ -1,4 +1,4 @@
-//! The measurement of one way of insertion on one set.
+//! The measurement of one order of insertion on one set.
 
 use std::time::Instant;
 
@@ -8,46 +8,28 @@ use incircle_protocol::{CORE_COORD_BITS, LARGE};
 use incircle_testkit::Distribution;
 
 use super::row::Row;
-use crate::hierarchy::Hierarchy;
 use crate::job;
 use crate::order::Order;
 use crate::prepare::prepare;
-use crate::way::Way;
 
 /// The number of runs, of which the fastest counts.
 const RUNS: usize = 3;
 
-/// Measures one way of insertion on one set.
+/// Measures one order of insertion on one set.
 ///
 /// # Errors
 /// An error of the core's model, which a sound model never causes.
-pub fn measure(set: Distribution, points: &[Point], way: Way, coord_bits: u32) -> Result<Row, Error> {
-    let (order_ns, total_ns, (distinct, counts)) = match way {
-        Way::Hierarchy => {
-            let (found, total_ns) = fastest(points.len(), || {
-                let mut hierarchy = Hierarchy::new();
-                // The points of a set are all within 31 bits.
-                let taken = points.iter().filter(|&&point| hierarchy.insert(point) == Ok(None)).count();
-                (hierarchy.mesh(), taken, hierarchy.counts())
-            });
-            (0.0, total_ns, (found.1, found.2))
-        }
-        Way::Ordered(order) => {
-            let (_, order_ns) = fastest(points.len(), || order.order(points));
-            let (outcome, total_ns) = fastest(points.len(), || job::triangulate(points, order));
-            (order_ns, total_ns, (points.len() - outcome.mesh.duplicates.len(), outcome.counts))
-        }
-    };
-    let cycles = match way {
-        Way::Hierarchy => None,
-        Way::Ordered(order) => cycles(points, order, coord_bits, distinct)?,
-    };
+pub fn measure(set: Distribution, points: &[Point], order: Order, coord_bits: u32) -> Result<Row, Error> {
+    let (_, order_ns) = fastest(points.len(), || order.order(points));
+    let (job::Outcome { mesh, counts }, total_ns) = fastest(points.len(), || job::triangulate(points, order));
+    let distinct = points.len() - mesh.duplicates.len();
+    let cycles = cycles(points, order, coord_bits, distinct)?;
     let mean = |count: u32| f64::from(count) / distinct.max(1) as f64;
     Ok(Row {
         set,
         asked: points.len(),
         points: distinct,
-        way,
+        order,
         order_ns,
         total_ns,
         walk: mean(counts.walk_visits),

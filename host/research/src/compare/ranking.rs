@@ -83,7 +83,7 @@ fn pairs_of(count: usize) -> String {
 /// The published orders among these rows, in the published ranking.
 fn ranked(rows: &[&Row]) -> Vec<Ranked> {
     let measured = |name: &str| {
-        let is_meant = |row: &&&Row| row.way.name() == name && Distribution::LITERATURE.contains(&row.set);
+        let is_meant = |row: &&&Row| row.order.name() == name && Distribution::LITERATURE.contains(&row.set);
         let times: Vec<f64> = rows.iter().filter(is_meant).map(|row| row.total_ns).collect();
         (!times.is_empty()).then(|| times.iter().sum::<f64>() / times.len() as f64)
     };
@@ -102,15 +102,15 @@ fn pairs_apart(ranked: &[Ranked]) -> Vec<(&Ranked, &Ranked)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::way::Way;
+    use crate::order::Order;
 
     fn row(set: Distribution, name: &str, total_ns: f64) -> Row {
-        let way = Way::named(name).expect("a published order is one of ours");
+        let order = Order::named(name).expect("a published order is one of ours");
         Row {
             set,
             asked: 100,
             points: 100,
-            way,
+            order,
             order_ns: 1.0,
             total_ns,
             walk: 1.0,
@@ -122,7 +122,7 @@ mod tests {
 
     #[test]
     fn all_published_orders_are_ours_and_sorted() {
-        assert!(PUBLISHED.iter().all(|(name, _)| Way::named(name).is_some()));
+        assert!(PUBLISHED.iter().all(|(name, _)| Order::named(name).is_some()));
         assert!(PUBLISHED.is_sorted_by(|one, other| one.1 <= other.1));
     }
 

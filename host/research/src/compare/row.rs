@@ -5,9 +5,9 @@ use std::fmt::Write as _;
 use incircle_protocol::LARGE;
 use incircle_testkit::Distribution;
 
-use crate::way::Way;
+use crate::order::Order;
 
-/// The figures of one way of insertion on one set.
+/// The figures of one order of insertion on one set.
 pub struct Row {
     /// The set of points.
     pub set: Distribution,
@@ -15,8 +15,8 @@ pub struct Row {
     pub asked: usize,
     /// Number of distinct points.
     pub points: usize,
-    /// The way in which the points were inserted: an order or the hierarchy.
-    pub way: Way,
+    /// The order of insertion.
+    pub order: Order,
     /// Nanoseconds per point to put the points in order.
     pub order_ns: f64,
     /// Nanoseconds per point of the whole job on the software model: order, insertions with the guides of the order if
@@ -28,8 +28,8 @@ pub struct Row {
     pub tests: f64,
     /// Triangles that an insertion removes, on average.
     pub cavity: f64,
-    /// Cycles of an insertion on the largest core, which takes no guides; `None` for a set that the core does not hold,
-    /// and for the hierarchy, which it does not offer.
+    /// Cycles of an insertion on the largest core, which takes no guides; `None` for a set that the core does not
+    /// hold.
     pub cycles: Option<f64>,
 }
 
@@ -54,7 +54,7 @@ impl Row {
             "{:<15}{:>9}  {:<36}{:>9.1}{:>9.1}{:>9.2}{:>9.2}{:>9.2}{cycles:>9}\n",
             self.set.to_string(),
             self.points,
-            self.way.name(),
+            self.order.name(),
             self.order_ns,
             self.total_ns,
             self.walk,
@@ -68,8 +68,8 @@ impl Row {
 pub fn to_csv(rows: &[Row]) -> String {
     let mut text = format!("{COLUMNS}\n");
     for row in rows {
-        let Row { set, points, way, order_ns, total_ns, walk, tests, cavity, cycles, .. } = row;
-        let (name, cycles) = (way.name(), cycles.map_or_else(String::new, |cycles| cycles.to_string()));
+        let Row { set, points, order, order_ns, total_ns, walk, tests, cavity, cycles, .. } = row;
+        let (name, cycles) = (order.name(), cycles.map_or_else(String::new, |cycles| cycles.to_string()));
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{set},{points},{name},{order_ns},{total_ns},{walk},{tests},{cavity},{cycles}");
     }

@@ -39,6 +39,14 @@ impl Order {
             .collect()
     }
 
+    /// The orders that are compared by default: random order, every curve alone and in rounds of a quarter, and both
+    /// variants of BrioDC.
+    pub fn usual() -> Vec<Self> {
+        let of_curve = |curve| [Self::Along(curve), Self::Brio(curve, Alpha::Quarter)];
+        let curves = Curve::ALL.into_iter().flat_map(of_curve);
+        [Self::Random].into_iter().chain(curves).chain(BrioDc::ALL.map(Self::BrioDc)).collect()
+    }
+
     /// The name in tables and on the command line.
     pub const fn name(self) -> &'static str {
         match self {

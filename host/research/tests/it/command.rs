@@ -108,21 +108,20 @@ fn plain_hilbert_collapses_on_hard_sets_and_rounds_do_not() {
 }
 
 #[test]
-fn guides_and_the_hierarchy_shorten_walks_and_the_published_ranking_is_told() {
+fn guides_shorten_walks_and_the_published_ranking_is_told() {
     let scratch = Scratch::new();
-    let orders = "brio-hilbert,briodc-linear,briodc-log-u,input,arrival-hierarchy";
+    let orders = "brio-hilbert,briodc-linear,briodc-log-u,input";
     let run = scratch.run(&format!("orders uniform line -n 3000 --order {orders} --csv o.csv")).ok();
     let rows: Vec<Vec<String>> = rows(&run, 2).into_iter().filter(|row| row.len() == 9).collect();
-    assert_eq!(rows.len(), 2 * 5, "{run:?}");
-    for of_set in rows.chunks(5) {
+    assert_eq!(rows.len(), 2 * 4, "{run:?}");
+    for of_set in rows.chunks(4) {
         let column = |way: usize, column: usize| of_set[way][column].parse::<f64>().expect("a number");
         let walk = |way: usize| column(way, 5);
         // On a line some vertices have many triangles, and a few points are enough to show the effect.
         assert!(walk(1) < 3.3 && walk(1) < walk(0), "{of_set:?}");
         // Both variants give the same order.
         assert_eq!(of_set[1][5..], of_set[2][5..], "{of_set:?}");
-        assert!(walk(4) < 0.5 * walk(3), "{of_set:?}");
-        assert!(column(1, 8) > 0.0 && of_set[4][8] == "-", "{of_set:?}");
+        assert!(column(1, 8) > 0.0, "{of_set:?}");
     }
     assert_eq!(scratch.read("o.csv").lines().count(), 1 + rows.len());
     let told = "3000 points, the literature's distributions among the rows: of 3 pairs more than 5 % apart there, ";
@@ -152,9 +151,31 @@ fn one_command_makes_all_published_figures() {
     {
         assert!(run.stdout.contains(part), "no {part:?} in {run:?}");
     }
-    // The table has random order, 12 curves alone and in rounds, both variants of BrioDC, and the hierarchy, on 7 sets.
-    assert_eq!(scratch.read("kept/orders.csv").lines().count(), 1 + 7 * 28);
+    // The table has random order, 12 curves alone and in rounds, and both variants of BrioDC, on 7 sets.
+    assert_eq!(scratch.read("kept/orders.csv").lines().count(), 1 + 7 * 27);
     assert_eq!(scratch.read("kept/ranking.csv").lines().count(), 1 + 5 * 14);
     assert_eq!(scratch.read("kept/walks.csv").lines().count(), 1 + 5 * 2);
     assert!(scratch.read("kept/orders.svg").starts_with("<svg "));
+}
+
+/// Every run compares all answers and meshes, and fails where they differ.
+#[test]
+fn the_mesh_that_lives_answers_as_spade_does() {
+    let scratch = Scratch::new();
+    for grid in ["", "--grid"] {
+        let run = scratch.run(&format!("living -n 400 --commands 150 --block 40 --without-cgal {grid}")).ok();
+        assert_eq!(rows(&run, 2).len(), 2 * 4 + 1, "{run:?}");
+        assert!(run.stdout.contains("all answers are equal, and so are all meshes"), "{run:?}");
+    }
+}
+
+/// The tests are counted, so the numbers are the same on every machine.
+#[test]
+fn ways_to_fill_holes_are_compared_by_their_tests() {
+    let run = Scratch::new().run("holes -n 1000 --wheels 5").ok();
+    let rows = rows(&run, 1);
+    assert!(rows.len() > 12, "{run:?}");
+    assert!(run.stdout.contains("wheel, 128 neighbours"), "{run:?}");
+    let triangle = rows.iter().find(|row| row[1] == "3").expect("a vertex with three neighbours");
+    assert!(triangle.ends_with(&["insertion", "0.0", "+", "0.0", "(0)"].map(str::to_owned)), "{triangle:?}");
 }

@@ -2,4 +2,3 @@
 
 mod command;
 mod guides;
-mod hierarchy;

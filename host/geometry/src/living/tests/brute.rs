@@ -1,4 +1,5 @@
-//! The answers of a triangulation by brute force, from a list of points and the mesh of the CPU triangulator.
+//! The answers of a triangulation by brute force, from a list of points and their mesh. The CPU triangulator makes that
+//! mesh, and the validator, which shares no code with it, confirms each.
 
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
@@ -29,6 +30,7 @@ impl Brute {
         let (indices, points): (Vec<u32>, Vec<Point>) = living.unzip();
         self.indices = indices;
         self.mesh = cpu::triangulate(points, NonZeroUsize::MIN, &mut |_| ControlFlow::Continue(())).expect("a mesh");
+        self.mesh.verify().expect("the canonical mesh");
     }
 
     /// The indices of places, the lowest of each.

@@ -11,7 +11,7 @@ use crate::cpu::hostile::KINDS;
 use crate::living::{Error, Location, Triangulation};
 use crate::plane_point::PlanePoint;
 
-fn check<P: PlanePoint + PartialEq + core::fmt::Debug>(mesh: &Triangulation<P>) {
+pub fn check<P: PlanePoint + PartialEq + core::fmt::Debug>(mesh: &Triangulation<P>) {
     structure::check(mesh);
     let points: Vec<P> = mesh.indices().into_iter().map(|index| mesh.point(index).expect("living")).collect();
     let expected = cpu::triangulate(points, NonZeroUsize::MIN, &mut |_| ControlFlow::Continue(()));

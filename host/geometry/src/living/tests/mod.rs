@@ -2,5 +2,6 @@
 
 mod brute;
 mod changes;
+mod reports;
 mod scripts;
 mod structure;

@@ -71,7 +71,8 @@ impl<P: PlanePoint + core::fmt::Debug + PartialEq> Script<P> {
     fn step(&mut self, random: &mut SplitMix64, growth: u64) {
         let place = random.pick(&self.places);
         let index = random.below(self.brute.points.len() as u64 + 1) as u32;
-        match random.below(12) {
+        match random.below(13) {
+            12 => self.renumber(),
             10 => {
                 let moved: Vec<Point> = self.brute.indices.iter().map(|_| random.pick(&self.places)).collect();
                 self.move_all(&moved);
@@ -114,6 +115,14 @@ impl<P: PlanePoint + core::fmt::Debug + PartialEq> Script<P> {
         self.mesh.move_all(&points).expect("finite points");
         let living = self.brute.points.iter_mut().filter(|point| point.is_some());
         living.zip(moved).for_each(|(point, &place)| *point = Some(place));
+    }
+
+    /// Gives the living points new indices, from 0 on.
+    fn renumber(&mut self) {
+        self.log.push("renumber".to_owned());
+        assert_eq!(self.mesh.renumber(), self.brute.indices);
+        self.brute.points.retain(Option::is_some);
+        assert_eq!(self.mesh.next_index() as usize, self.brute.points.len());
     }
 
     fn compare_change(&mut self, index: u32, found: Result<(), Error>, place: Option<Point>) {
