@@ -1,7 +1,9 @@
 //! The arguments of the command.
 
 mod backend;
+mod generate;
 mod points;
+mod replay;
 mod tile;
 
 use std::path::PathBuf;
@@ -12,15 +14,16 @@ use incircle::serial::Address;
 use incircle::{Options, Order, ProgressListener};
 use incircle_testkit::Distribution;
 
-use crate::formats::{MeshFormat, SetFormat};
+use crate::formats::MeshFormat;
 use crate::help;
-use crate::numbers::NumberKind;
 use crate::values::{
     distribution_parser, mhz_from, order_parser, port_from, readable_format_parser, seconds_from, whole_number,
 };
 
 pub use backend::{BackendArguments, ConfigName};
+pub use generate::GenerateArguments;
 pub use points::{GridArguments, ReadArguments};
+pub use replay::ReplayArguments;
 pub use tile::{JoinArguments, LocalArguments, SplitArguments, TileArguments, TileCommand};
 
 /// Exact Delaunay triangulation: one canonical answer, in software or hardware
@@ -45,7 +48,7 @@ pub enum Command {
     /// If 'triangulate' had --quantize, --coord-bits, --class, --bounds or --array, give the same here.
     #[command(verbatim_doc_comment, after_help = help::VERIFY, after_long_help = help::VERIFY_LONG)]
     Verify(VerifyArguments),
-    /// Make a set of points
+    /// Make a set of points, or a script for 'replay'
     #[command(after_help = help::GENERATE, after_long_help = help::GENERATE_LONG)]
     Generate(GenerateArguments),
     /// Measure a back end on generated sets, with a row of a table for each set
@@ -70,6 +73,12 @@ pub enum Command {
     /// all. The mesh is the one of 'triangulate', byte for byte.
     #[command(verbatim_doc_comment, after_help = help::TILE, after_long_help = help::TILE_LONG)]
     Tile(TileArguments),
+    /// Carry out a script of changes and questions on a mesh that lives
+    ///
+    /// The CPU makes all changes and answers all questions. A back end other than 'cpu' only makes
+    /// the mesh at the end, from the points that live then; the bytes are the same.
+    #[command(verbatim_doc_comment, after_help = help::REPLAY, after_long_help = help::REPLAY_LONG)]
+    Replay(ReplayArguments),
     /// Describe a back end: version, coordinates, capacity, contexts
     #[command(after_help = help::INFO, after_long_help = help::INFO_LONG)]
     Info(InfoArguments),
@@ -163,6 +172,9 @@ pub struct TriangulateArguments {
 pub struct VerifyArguments {
     /// File of points, in the format of its extension; '-' is CSV from standard input
     pub points: PathBuf,
+    /// POINTS is a script of 'replay': check the mesh of the points that live at its end
+    #[arg(long, conflicts_with_all = ["from", "classes", "bounds", "array", "quantize", "coord_bits"])]
+    pub script: bool,
     /// File of the mesh; '-' is standard input and needs --format
     pub mesh: PathBuf,
     #[command(flatten)]
@@ -180,43 +192,6 @@ pub struct VerifyArguments {
     /// Print only errors
     #[arg(short, long)]
     pub quiet: bool,
-}
-
-/// The arguments of `incircle generate`.
-#[derive(Debug, Args)]
-pub struct GenerateArguments {
-    /// Set
-    #[arg(value_parser = distribution_parser())]
-    pub distribution: Distribution,
-    /// Number of points, up to 536870911
-    #[arg(short, value_name = "N", value_parser = whole_number(0, u32::MAX))]
-    pub n: u32,
-    /// Kind of numbers of the coordinates
-    #[arg(long, value_enum, default_value_t = NumberKind::Whole)]
-    pub numbers: NumberKind,
-    /// Bits of a coordinate, counted in steps, 1 to 31 (default: 16; for decimal 28, for f32 24)
-    ///
-    /// --numbers f32 takes up to 24 bits. Doubles have no steps, so --numbers double refuses --bits.
-    #[arg(long, value_parser = whole_number(1, 31), verbatim_doc_comment)]
-    pub bits: Option<u32>,
-    /// Seed; one seed gives the same points on every machine
-    #[arg(long, default_value_t = 1)]
-    pub seed: u64,
-    /// Insertion order
-    ///
-    /// The file has the points in this order. Default: as generated.
-    #[arg(long, value_parser = order_parser())]
-    pub order: Option<Order>,
-    /// File for the points: .csv, .xyz, .node or .npy; '-' is CSV on standard output
-    ///
-    /// With --order, a file .svg is a drawing of the order: a line from each point to the next.
-    #[arg(short, long, value_name = "POINTS")]
-    pub output: PathBuf,
-    /// Point format
-    ///
-    /// Without this option the extension of the file chooses the format.
-    #[arg(long, value_enum)]
-    pub format: Option<SetFormat>,
 }
 
 /// The arguments of `incircle bench`.

@@ -5,6 +5,7 @@ use serde_json::{json, Value};
 
 use crate::arguments::{GridArguments, VerifyArguments};
 use crate::backend::MODEL_COORD_BITS;
+use crate::commands::replay;
 use crate::failure::{counted, Exit, Failure};
 use crate::lattice::{Laid, Numbers};
 use crate::report::quantization_json;
@@ -17,34 +18,65 @@ pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
             "points and mesh cannot both come from standard input: name a file for one of them",
         ));
     }
-    let table = source::read_points(&arguments.points, &arguments.read, arguments.quiet)?;
     let points_name = path::name(&arguments.points);
+    if arguments.script {
+        return run_script(arguments, &points_name);
+    }
+    let table = source::read_points(&arguments.points, &arguments.read, arguments.quiet)?;
     let GridArguments { coord_bits, quantize } = arguments.grid.checked()?;
     let how = quantize.map(|how| (how, coord_bits.unwrap_or(MODEL_COORD_BITS)));
     let laid = lattice::lay(&table, how).map_err(|failure| failure.in_file(&points_name))?;
+    let triangles = source::read_mesh(&arguments.mesh, arguments.format, arguments.quiet)?;
+    tell(check(&laid.numbers, &triangles).map_err(|error| error.to_string()), &laid, &points_name, arguments)
+}
+
+/// Verifies the mesh that a script leaves, which names points by the numbers of their insertions.
+fn run_script(arguments: &VerifyArguments, name: &str) -> Result<(), Failure> {
+    let in_file = |failure: Failure| failure.in_file(name);
+    let script = replay::read(&arguments.points, arguments.quiet).map_err(in_file)?;
+    let laid = lattice::lay(&script.places, None).map_err(in_file)?;
+    let living = script.living();
+    let numbers = laid.numbers.select(&script.last_places(&living));
+    let triangles = source::read_mesh(&arguments.mesh, arguments.format, arguments.quiet)?;
+    let counted = triangles.iter().map(|&triangle| {
+        let [a, b, c] = triangle.map(|index| living.binary_search(&index).map_err(|_| index));
+        Ok([a?, b?, c?].map(|rank| rank as u32))
+    });
+    let counted: Result<Vec<_>, u32> = counted.collect();
+    let checked = counted.map_err(|index| format!("a triangle has the point {index}, which does not live at the end"));
+    let checked = checked.and_then(|triangles| {
+        let words = "the living points counted from 0 in the order of their indices";
+        check(&numbers, &triangles).map_err(|error| format!("{error} ({words})"))
+    });
+    tell(checked, &laid, name, arguments)
+}
+
+/// Prints the result. A wrong mesh is a failure.
+fn tell(
+    checked: Result<VerifySummary, String>,
+    laid: &Laid<'_>,
+    points_name: &str,
+    arguments: &VerifyArguments,
+) -> Result<(), Failure> {
     let mesh_name = path::name(&arguments.mesh);
-    let checked = source::read_mesh(&arguments.mesh, arguments.format, arguments.quiet).and_then(|triangles| {
-        check(&laid.numbers, &triangles).map_err(|error| {
-            Failure::new(
+    let summary = match checked {
+        Ok(summary) => summary,
+        Err(reason) => {
+            let failure = Failure::new(
                 Exit::Rejected,
                 format!(
                     "the triangles of {mesh_name} are not the canonical Delaunay triangulation of {points_name}: \
-                     {error}"
+                     {reason}"
                 ),
-            )
-        })
-    });
-    let summary = match checked {
-        Ok(summary) => summary,
-        Err(failure) => {
-            if arguments.json && failure.exit == Exit::Rejected {
+            );
+            if arguments.json {
                 output::print(&format!("{}\n", json!({ "valid": false, "reason": failure.message })))?;
             }
             return Err(failure);
         }
     };
     if arguments.json {
-        output::print(&format!("{}\n", to_json(&summary, &laid)))
+        output::print(&format!("{}\n", to_json(&summary, laid)))
     } else if arguments.quiet {
         Ok(())
     } else {
