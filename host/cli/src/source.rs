@@ -8,6 +8,7 @@ use crate::formats::{MeshFormat, PointFormat, Selection};
 use crate::input::Input;
 use crate::path::{extension, is_standard, name};
 use crate::points::PointTable;
+use crate::script::{self, Script};
 
 /// Reads the points of a file or of standard input, those that the arguments select. The format is that of `--from`, or
 /// else that of the extension. Without `--from`, standard input is CSV.
@@ -22,6 +23,16 @@ pub fn read_points(path: &Path, arguments: &ReadArguments, quiet: bool) -> Resul
     };
     let selection: Selection = arguments.selection(format)?;
     let read = || format.read(Input::open(path, quiet)?, &selection);
+    read().map_err(|failure| failure.in_file(name(path)))
+}
+
+/// Reads a script from a file or from standard input.
+pub fn read_script(path: &Path, quiet: bool) -> Result<Script, Failure> {
+    let read = || {
+        let input = Input::open(path, quiet)?;
+        let memory = input.memory();
+        script::read(&input.into_bytes()?, memory)
+    };
     read().map_err(|failure| failure.in_file(name(path)))
 }
 

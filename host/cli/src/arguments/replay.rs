@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::backend::BackendArguments;
-use super::JobArguments;
+use super::job::JobArguments;
 use crate::formats::MeshFormat;
 use crate::script::MOST_FRAMES;
 use crate::values::whole_number;

@@ -1,6 +1,6 @@
 //! `incircle replay`: a script of changes and questions in; answers, the mesh at the end, and a film out.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
 use incircle::DeviceAddress;
@@ -11,7 +11,6 @@ use crate::backend::{self, Backend, Choice, MODEL_COORD_BITS};
 use crate::connections::Connections;
 use crate::failure::{counted, Failure};
 use crate::formats::MeshFormat;
-use crate::input::Input;
 use crate::lattice::{self, Laid, Numbers};
 use crate::output::{self, Output, Written};
 use crate::path::{self, is_standard};
@@ -27,7 +26,7 @@ pub fn run(arguments: &ReplayArguments) -> Result<(), Failure> {
     let mut watch = Watch::start();
     let name = path::name(&arguments.script);
     let in_file = |failure: Failure| failure.in_file(&name);
-    let script = read(&arguments.script, arguments.quiet).map_err(in_file)?;
+    let script = source::read_script(&arguments.script, arguments.quiet)?;
     watch.ended("load");
     interrupt::check()?;
     let laid = lattice::lay(&script.places, None).map_err(in_file)?;
@@ -57,13 +56,6 @@ pub fn run(arguments: &ReplayArguments) -> Result<(), Failure> {
     let written = outputs.write(&script, &living, &mesh, &played.answers, film.as_ref())?;
     watch.ended("write");
     output::finish(written, || told.tell(arguments, &watch.stages))
-}
-
-/// Reads a script.
-pub fn read(path: &Path, quiet: bool) -> Result<Script, Failure> {
-    let input = Input::open(path, quiet)?;
-    let memory = input.memory();
-    script::read(&input.into_bytes()?, memory)
 }
 
 /// The back end of the arguments, which makes the mesh at the end.

@@ -5,7 +5,6 @@ use serde_json::{json, Value};
 
 use crate::arguments::{GridArguments, VerifyArguments};
 use crate::backend::MODEL_COORD_BITS;
-use crate::commands::replay;
 use crate::failure::{counted, Exit, Failure};
 use crate::lattice::{Laid, Numbers};
 use crate::report::quantization_json;
@@ -33,7 +32,7 @@ pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
 /// Verifies the mesh that a script leaves, which names points by the numbers of their insertions.
 fn run_script(arguments: &VerifyArguments, name: &str) -> Result<(), Failure> {
     let in_file = |failure: Failure| failure.in_file(name);
-    let script = replay::read(&arguments.points, arguments.quiet).map_err(in_file)?;
+    let script = source::read_script(&arguments.points, arguments.quiet)?;
     let laid = lattice::lay(&script.places, None).map_err(in_file)?;
     let living = script.living();
     let numbers = laid.numbers.select(&script.last_places(&living));

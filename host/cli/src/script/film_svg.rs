@@ -15,7 +15,7 @@ const RATE: usize = 10;
 const HOLD: usize = 10;
 /// Colours of points and of the places of questions.
 const POINT: &str = "#1d2b53";
-const ASKED: &str = "#2f9e44";
+const ASKED: &str = "#c2188b";
 
 /// Writes a film. `places` are the places of its script, as doubles.
 pub fn write_film(film: &Film, places: &[[f64; 2]], commands: usize, out: &mut dyn Write) -> io::Result<()> {
@@ -34,7 +34,7 @@ pub fn write_film(film: &Film, places: &[[f64; 2]], commands: usize, out: &mut d
         draw_hull(&frame.hull, !frame.triangles.is_empty(), &canvas, out)?;
         draw_dots(frame.points.iter().map(|&place| canvas.vertex(place)), dot(most), POINT, out)?;
         let asked = frame.asked.iter().filter(|&&place| canvas.is_inside(places[place as usize]));
-        draw_dots(asked.map(|&place| canvas.vertex(place)), 0.7 * dot(most), ASKED, out)?;
+        draw_dots(asked.map(|&place| canvas.vertex(place)), dot(most), ASKED, out)?;
         write_caption(frame, commands, &canvas, out)?;
         writeln!(out, "</g>")?;
     }

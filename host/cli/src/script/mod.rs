@@ -10,6 +10,8 @@ mod film_svg;
 mod play;
 mod read;
 mod recipe;
+#[cfg(test)]
+mod tests;
 
 use crate::points::PointTable;
 

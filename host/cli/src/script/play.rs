@@ -3,7 +3,9 @@
 use incircle::living::{Error, Triangulation};
 use incircle::PlanePoint;
 
-use super::{Answer, Command, Film, Script};
+use super::answer::Answer;
+use super::film::Film;
+use super::{Command, Script};
 use crate::connections::Connections;
 use crate::failure::{Exit, Failure};
 use crate::interrupt;

@@ -140,7 +140,7 @@ impl Script {
             Some(point) if point.is_living => Ok(index),
             Some(_) => Err(Failure::input(format!("{place}: point {index} is deleted: its index is never used again"))),
             None => Err(Failure::input(format!(
-                "{place}: there is no point {index}: so far there are {}, counted from 0",
+                "{place}: there is no point {index}: before this row the script has {}, counted from 0",
                 counted(self.points.len(), "insertion")
             ))),
         }
