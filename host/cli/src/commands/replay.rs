@@ -80,8 +80,8 @@ fn check_bits(laid: &Laid<'_>, bits: u32, device: &str) -> Result<(), Failure> {
     })
 }
 
-/// Opens the device that makes the mesh at the end; `None` for the back end `cpu`, where the triangulation that takes the
-/// changes gives the mesh.
+/// Opens the device that makes the mesh at the end; `None` for the back end `cpu`, where the triangulation that takes
+/// the changes gives the mesh.
 fn open(choice: &Choice, living: &Numbers<'_>, arguments: &ReplayArguments) -> Result<Option<Backend>, Failure> {
     let room = choice.room_for(living);
     let backend = backend::open_with_room(choice, Some(room), None, arguments.job.timeout)?;

@@ -13,8 +13,8 @@ pub enum Answer {
     Nearest(Option<u32>),
 }
 
-/// Writes answers: `vertex I`, `edge I J`, `triangle I J K` or `outside I J` for a place, `I` for the nearest point, and
-/// `none` if there is none.
+/// Writes answers: `vertex I`, `edge I J`, `triangle I J K` or `outside I J` for a place, `I` for the nearest point,
+/// and `none` if there is none.
 pub fn write_answers(answers: &[Answer], out: &mut dyn Write) -> io::Result<()> {
     for answer in answers {
         match answer {

@@ -1,8 +1,9 @@
 //! Scripts of changes and questions, for a mesh that lives.
 //!
-//! A script has a command in each row: `insert X Y`, `delete I`, `move I X Y`, `locate X Y` or `nearest X Y`. `I` is the
-//! number of an insertion, counted from 0. [`read`](read::read) reads a script and checks it to its end, so that
-//! [`play`](play::play), which carries it out, meets no wrong command. [`Recipe`] makes scripts for `incircle generate`.
+//! A script has a command in each row: `insert X Y`, `delete I`, `move I X Y`, `locate X Y` or `nearest X Y`. `I` is
+//! the number of an insertion, counted from 0. [`read`](read::read) reads a script and checks it to its end, so that
+//! [`play`](play::play), which carries it out, meets no wrong command. [`Recipe`] makes scripts for
+//! `incircle generate`.
 
 mod answer;
 mod film;

@@ -10,8 +10,8 @@ use crate::text;
 
 /// Reads a script. Empty rows, and all that follows a `#`, are skipped.
 ///
-/// A row that is no command, a wrong number of values, a coordinate that is not a finite number, and an index of a point
-/// that is not inserted yet or is deleted are refused with the row.
+/// A row that is no command, a wrong number of values, a coordinate that is not a finite number, and an index of a
+/// point that is not inserted yet or is deleted are refused with the row.
 pub fn read(bytes: &[u8], memory: Memory) -> Result<Script, Failure> {
     if bytes.is_empty() {
         return Err(Failure::input(

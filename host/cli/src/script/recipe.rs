@@ -85,8 +85,8 @@ impl Recipe {
         Ok(length)
     }
 
-    /// Writes the script of about as many living points as `start`, at whose places the first points appear. `length` is
-    /// the number of frames or commands.
+    /// Writes the script of about as many living points as `start`, at whose places the first points appear. `length`
+    /// is the number of frames or commands.
     pub fn write(self, start: &[[u32; 2]], length: u64, to: &mut ScriptWriter<'_>) -> io::Result<()> {
         let points = counted(start.len(), "point");
         let unit = if self == Self::Churn { "command" } else { "frame" };
