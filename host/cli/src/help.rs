@@ -55,7 +55,8 @@ Example:
 pub const VERIFY_LONG: &str = "\
 Examples:
   incircle verify points.csv mesh.obj
-  incircle verify points.csv mesh.ele --json";
+  incircle verify points.csv mesh.ele --json
+  incircle verify tracks.txt mesh.obj --script";
 
 /// End of `incircle generate -h`.
 pub const GENERATE: &str = "\
@@ -69,7 +70,22 @@ Examples:
   incircle generate uniform -n 1000000 --bits 20 --seed 7 -o points.node
   incircle generate clusters -n 1000 --numbers decimal -o points.csv
   incircle generate uniform -n 1000000 --numbers double -o points.npy
-  incircle generate lattice -n 256 --order hilbert -o order.svg";
+  incircle generate lattice -n 256 --order hilbert -o order.svg
+  incircle generate tracks -n 400 --frames 60 -o tracks.txt";
+
+/// End of `incircle replay -h`.
+pub const REPLAY: &str = "\
+Example:
+  incircle replay tracks.txt -o mesh.obj --answers answers.txt";
+
+/// End of `incircle replay --help`.
+pub const REPLAY_LONG: &str = "\
+Examples:
+  incircle generate tracks -n 400 --frames 60 -o tracks.txt
+  incircle replay tracks.txt -o mesh.obj --answers answers.txt
+  incircle verify tracks.txt mesh.obj --script
+  incircle replay tracks.txt --film film.svg
+  incircle replay - -o mesh.json --backend model --json < tracks.txt";
 
 /// End of `incircle bench -h`.
 pub const BENCH: &str = "\

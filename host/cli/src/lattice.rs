@@ -8,7 +8,7 @@ use incircle::{Error, Lattice, Point, Quantization, Quantize, Shown, Step};
 use serde_json::{json, Value};
 
 use crate::failure::{counted, failure_of, Exit, Failure};
-use crate::points::{Coordinates, PointTable, Unit};
+use crate::points::{chosen, Coordinates, PointTable, Unit};
 
 /// Points in the numbers in which they are triangulated.
 pub enum Numbers<'a> {
@@ -27,6 +27,15 @@ impl Numbers<'_> {
             Self::Grid(points) => points.len(),
             Self::Whole(points) => points.len(),
             Self::Doubles(points) => points.len(),
+        }
+    }
+
+    /// The points at these indices, which must exist.
+    pub fn select(&self, indices: &[u32]) -> Numbers<'static> {
+        match self {
+            Self::Grid(points) => Numbers::Grid(chosen(points, indices)),
+            Self::Whole(points) => Numbers::Whole(chosen(points, indices).into()),
+            Self::Doubles(points) => Numbers::Doubles(chosen(points, indices).into()),
         }
     }
 }
@@ -121,10 +130,8 @@ impl Laid<'_> {
 
     /// Refuses points that a device with coordinates of `coord_bits` bits cannot take. The message names both remedies.
     pub fn check_bits(&self, coord_bits: u32, device: &str) -> Result<(), Failure> {
-        let have = match (&self.numbers, self.bits) {
-            (Numbers::Grid(_), Some(bits)) if bits <= coord_bits => return Ok(()),
-            (_, Some(bits)) => format!("the {} need {}", self.noun(), counted(bits as usize, "bit")),
-            (_, None) => "the points lie on no lattice of up to 32 bits".to_owned(),
+        let Some(have) = self.beyond_bits(coord_bits) else {
+            return Ok(());
         };
         if let Kind::Quantized(_) = self.kind {
             return Err(Failure::input(format!(
@@ -136,6 +143,15 @@ impl Laid<'_> {
             "{have}, but {device} has coordinates of {coord_bits} bits: give --backend cpu, which takes them exactly, \
              or --quantize fit, which rounds them"
         )))
+    }
+
+    /// What the points need, if it is more than coordinates of `coord_bits` bits, for a message.
+    pub fn beyond_bits(&self, coord_bits: u32) -> Option<String> {
+        match (&self.numbers, self.bits) {
+            (Numbers::Grid(_), Some(bits)) if bits <= coord_bits => None,
+            (_, Some(bits)) => Some(format!("the {} need {}", self.noun(), counted(bits as usize, "bit"))),
+            (_, None) => Some("the points lie on no lattice of up to 32 bits".to_owned()),
+        }
     }
 
     fn noun(&self) -> String {

@@ -8,6 +8,7 @@ mod arguments;
 mod backend;
 mod bench_report;
 mod commands;
+mod connections;
 mod failure;
 mod fit;
 mod fleet;
@@ -24,12 +25,15 @@ mod path;
 mod points;
 mod progress;
 mod report;
+mod script;
 #[cfg(feature = "sim")]
 mod sim_backend;
+mod solve;
 mod source;
 mod text;
 mod tiles;
 mod values;
+mod watch;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -61,6 +65,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Generate(arguments) => commands::generate::run(arguments),
         Command::Bench(arguments) => commands::bench::run(arguments),
         Command::Tile(arguments) => commands::tile::run(arguments),
+        Command::Replay(arguments) => commands::replay::run(arguments),
         Command::Info(arguments) => commands::info::run(arguments),
         Command::Devices(arguments) => commands::devices::run(arguments),
         Command::Completions(arguments) => commands::completions::run(arguments),

@@ -3,11 +3,12 @@
 use std::time::Duration;
 
 use incircle::{Counters, Latencies, Quantization, Report, Share};
-use serde_json::{json, Map, Value};
+use serde_json::{json, Value};
 
 use crate::backend::Backend;
 use crate::failure::counted;
 use crate::lattice::Laid;
+use crate::watch::{seconds_json, total};
 
 /// The report of one triangulation by the command.
 pub struct RunReport<'a> {
@@ -64,7 +65,7 @@ impl<'a> RunReport<'a> {
             "parts": job.parts,
             "engines": job.engines,
             "stuck_engines": job.stuck_engines,
-            "seconds": self.seconds(),
+            "seconds": seconds_json(&self.stages),
             "quantisation": self.laid.quantization().map(quantization_json),
             "counters": job.counters.as_ref().map(counters_json),
             "latency": job.latencies.as_ref().map(latencies_json),
@@ -76,15 +77,6 @@ impl<'a> RunReport<'a> {
             object["shares"] = job.shares.iter().map(share_json).collect();
         }
         object
-    }
-
-    fn seconds(&self) -> Value {
-        let seconds = |duration: Duration| Value::from(duration.as_secs_f64());
-        let stages = self.stages.iter().map(|&(name, duration)| (name.to_owned(), seconds(duration)));
-        let mut object: Map<String, Value> = stages.collect();
-        let total = self.stages.iter().map(|&(_, duration)| duration).sum();
-        object.insert("total".to_owned(), seconds(total));
-        Value::Object(object)
     }
 
     /// The lines for people: the counts, and with `verbose` also times and counters.
@@ -113,7 +105,6 @@ impl<'a> RunReport<'a> {
 
     fn counts_line(&self) -> String {
         let job = self.job;
-        let total: Duration = self.stages.iter().map(|&(_, duration)| duration).sum();
         let duplicates = match job.duplicates {
             0 => String::new(),
             count => format!(" ({count} of them with the coordinates of an earlier one)"),
@@ -124,7 +115,7 @@ impl<'a> RunReport<'a> {
             counted(job.triangles, "triangle"),
             counted(job.hull, "point"),
             job.backend,
-            total.as_secs_f64()
+            total(&self.stages).as_secs_f64()
         )
     }
 }

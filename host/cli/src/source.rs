@@ -8,6 +8,7 @@ use crate::formats::{MeshFormat, PointFormat, Selection};
 use crate::input::Input;
 use crate::path::{extension, is_standard, name};
 use crate::points::PointTable;
+use crate::script::{self, Script};
 
 /// Reads the points of a file or of standard input, those that the arguments select. The format is that of `--from`, or
 /// else that of the extension. Without `--from`, standard input is CSV.
@@ -47,6 +48,16 @@ pub fn set_name(paths: &[PathBuf]) -> String {
         [path] => name(path),
         _ => format!("the set of {} files", paths.len()),
     }
+}
+
+/// Reads a script from a file or from standard input.
+pub fn read_script(path: &Path, quiet: bool) -> Result<Script, Failure> {
+    let read = || {
+        let input = Input::open(path, quiet)?;
+        let memory = input.memory();
+        script::read(&input.into_bytes()?, memory)
+    };
+    read().map_err(|failure| failure.in_file(name(path)))
 }
 
 /// Reads the triangles of a mesh file. The format is `format`, or else the one of the extension.

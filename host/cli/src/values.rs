@@ -11,6 +11,7 @@ use incircle_testkit::Distribution;
 
 use crate::formats::{Bounds, MeshFormat};
 use crate::number::{self, Decimal, Number, MOST_DIGITS_COMPARED};
+use crate::script::Recipe;
 
 /// Parses the name of an order. Help and completions show the names.
 pub fn order_parser() -> impl clap::builder::TypedValueParser<Value = Order> {
@@ -44,6 +45,26 @@ pub fn distribution_parser() -> impl clap::builder::TypedValueParser<Value = Dis
     use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
     let named = |set: Distribution| PossibleValue::new(set.name()).help(set.description());
     PossibleValuesParser::new(Distribution::ALL.map(named)).try_map(|name| name.parse::<Distribution>())
+}
+
+/// What `incircle generate` makes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Made {
+    /// A set of points.
+    Set(Distribution),
+    /// A script.
+    Script(Recipe),
+}
+
+/// Parses the name of a generated set or script. Help shows the names with a description of each.
+pub fn made_parser() -> impl clap::builder::TypedValueParser<Value = Made> {
+    use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+    let sets = Distribution::ALL.map(|set| PossibleValue::new(set.name()).help(set.description()));
+    let scripts = Recipe::ALL.map(|recipe| PossibleValue::new(recipe.name()).help(recipe.description()));
+    PossibleValuesParser::new(sets.into_iter().chain(scripts)).try_map(|name| {
+        let recipe = Recipe::ALL.into_iter().find(|recipe| recipe.name() == name);
+        recipe.map_or_else(|| name.parse().map(Made::Set), |recipe| Ok(Made::Script(recipe)))
+    })
 }
 
 /// Parses the address of a back end. Help and completions show the forms of addresses.

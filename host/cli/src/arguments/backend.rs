@@ -24,7 +24,7 @@ pub struct BackendArguments {
     /// clock?config=full or serial:/dev/ttyUSB0?baud=12000000.
     ///
     /// Default: 'triangulate' takes 'cpu', or 'model' if --order or --contexts is given.
-    /// All other commands take 'model'.
+    /// 'replay' and 'tile local' take 'cpu', and all other commands 'model'.
     ///
     /// 'triangulate' takes several, each with a --backend of its own: they share the work on the set.
     #[arg(long, value_parser = backend_parser(), verbatim_doc_comment)]

@@ -1,28 +1,28 @@
 //! The arguments of the command.
 
 mod backend;
+mod generate;
+mod job;
 mod points;
+mod replay;
 mod tile;
 
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand};
 use incircle::serial::Address;
-use incircle::{Options, Order, ProgressListener};
 use incircle_testkit::Distribution;
 
 use crate::failure::Failure;
-use crate::formats::{MeshFormat, SetFormat};
+use crate::formats::MeshFormat;
 use crate::help;
-use crate::numbers::NumberKind;
-use crate::values::{
-    bytes_from, distribution_parser, mhz_from, order_parser, port_from, readable_format_parser, seconds_from,
-    whole_number,
-};
+use crate::values::{bytes_from, distribution_parser, mhz_from, port_from, readable_format_parser, whole_number};
 
 pub use backend::{BackendArguments, ConfigName};
+pub use generate::GenerateArguments;
+pub use job::JobArguments;
 pub use points::{GridArguments, ReadArguments};
+pub use replay::ReplayArguments;
 pub use tile::{JoinArguments, LocalArguments, SplitArguments, TileArguments, TileCommand};
 
 /// Exact Delaunay triangulation: one canonical answer, in software or hardware
@@ -52,7 +52,7 @@ pub enum Command {
         after_long_help = help::VERIFY_LONG
     )]
     Verify(VerifyArguments),
-    /// Make a set of points
+    /// Make a set of points, or a script for 'replay'
     #[command(after_help = help::GENERATE, after_long_help = help::GENERATE_LONG)]
     Generate(GenerateArguments),
     /// Measure a back end on generated sets, with a row of a table for each set
@@ -77,6 +77,12 @@ pub enum Command {
     /// all. The mesh is the one of 'triangulate', byte for byte.
     #[command(verbatim_doc_comment, after_help = help::TILE, after_long_help = help::TILE_LONG)]
     Tile(TileArguments),
+    /// Carry out a script of changes and questions on a mesh that lives
+    ///
+    /// The CPU makes all changes and answers all questions. A back end other than 'cpu' only makes
+    /// the mesh at the end, from the points that live then; the bytes are the same.
+    #[command(verbatim_doc_comment, after_help = help::REPLAY, after_long_help = help::REPLAY_LONG)]
+    Replay(ReplayArguments),
     /// Describe a back end: version, coordinates, capacity, contexts
     #[command(after_help = help::INFO, after_long_help = help::INFO_LONG)]
     Info(InfoArguments),
@@ -86,43 +92,6 @@ pub enum Command {
     /// Print a completion script for a shell
     #[command(after_help = help::COMPLETIONS, after_long_help = help::COMPLETIONS_LONG)]
     Completions(CompletionsArguments),
-}
-
-/// The choices for a job that change its time and never the mesh.
-#[derive(Debug, Args)]
-pub struct JobArguments {
-    /// Insertions in flight at once (default: all contexts of the back end)
-    ///
-    /// The number changes the time, never the mesh.
-    #[arg(long, value_name = "N", value_parser = whole_number(1, u32::MAX))]
-    pub contexts: Option<u32>,
-    /// Insertion order
-    ///
-    /// The order changes the time, never the mesh. Default: brio-hilbert.
-    #[arg(long, value_parser = order_parser())]
-    pub order: Option<Order>,
-    /// Seconds that a job may take (default: 60, and 0.002 for each point)
-    ///
-    /// A slow simulated device has more by default.
-    #[arg(long, value_name = "SECONDS", value_parser = seconds_from)]
-    pub timeout: Option<Duration>,
-}
-
-impl JobArguments {
-    /// The order of the arguments, or else the default order.
-    pub fn order(&self) -> Order {
-        self.order.unwrap_or_default()
-    }
-
-    /// The library's options for a job whose progress goes to `listener`.
-    pub fn options<'a>(&self, listener: ProgressListener<'a>) -> Options<'a> {
-        Options::default().timeout(self.timeout).order(self.order()).contexts(self.contexts).progress(listener)
-    }
-
-    /// Whether the choices make sense only for a back end that inserts points one by one.
-    pub fn wants_insertion(&self) -> bool {
-        self.order.is_some() || self.contexts.is_some()
-    }
 }
 
 /// The arguments of `incircle triangulate`.
@@ -209,6 +178,9 @@ pub struct VerifyArguments {
     /// CSV, or a mesh of the format that --format names.
     #[arg(required = true, value_name = "FILE", verbatim_doc_comment)]
     files: Vec<PathBuf>,
+    /// POINTS is a script of 'replay': check the mesh of the points that live at its end
+    #[arg(long, conflicts_with_all = ["from", "classes", "bounds", "array", "quantize", "coord_bits"])]
+    pub script: bool,
     #[command(flatten)]
     pub read: ReadArguments,
     /// Take the triangles in any order, as 'triangulate --unordered' writes them
@@ -240,43 +212,6 @@ impl VerifyArguments {
             _ => Err(Failure::usage("one file is given: give the files of points, and then the file of the mesh")),
         }
     }
-}
-
-/// The arguments of `incircle generate`.
-#[derive(Debug, Args)]
-pub struct GenerateArguments {
-    /// Set
-    #[arg(value_parser = distribution_parser())]
-    pub distribution: Distribution,
-    /// Number of points, up to 4294967294; with --order up to 536870911
-    #[arg(short, value_name = "N", value_parser = whole_number(0, u32::MAX - 1))]
-    pub n: u32,
-    /// Kind of numbers of the coordinates
-    #[arg(long, value_enum, default_value_t = NumberKind::Whole)]
-    pub numbers: NumberKind,
-    /// Bits of a coordinate, counted in steps, 1 to 31 (default: 16; for decimal 28, for f32 24)
-    ///
-    /// --numbers f32 takes up to 24 bits. Doubles have no steps, so --numbers double refuses --bits.
-    #[arg(long, value_parser = whole_number(1, 31), verbatim_doc_comment)]
-    pub bits: Option<u32>,
-    /// Seed; one seed gives the same points on every machine
-    #[arg(long, default_value_t = 1)]
-    pub seed: u64,
-    /// Insertion order
-    ///
-    /// The file has the points in this order. Default: as generated.
-    #[arg(long, value_parser = order_parser())]
-    pub order: Option<Order>,
-    /// File for the points: .csv, .xyz, .node or .npy; '-' is CSV on standard output
-    ///
-    /// With --order, a file .svg is a drawing of the order: a line from each point to the next.
-    #[arg(short, long, value_name = "POINTS")]
-    pub output: PathBuf,
-    /// Point format
-    ///
-    /// Without this option the extension of the file chooses the format.
-    #[arg(long, value_enum)]
-    pub format: Option<SetFormat>,
 }
 
 /// The arguments of `incircle bench`.

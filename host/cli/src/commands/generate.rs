@@ -1,4 +1,4 @@
-//! `incircle generate`: writes a point set that is chosen by name.
+//! `incircle generate`: writes a set of points, or a script, that is chosen by name.
 
 use std::io::{self, Write};
 
@@ -13,16 +13,30 @@ use crate::numbers::{signed, Double, NumberKind, Single, SixDigits};
 use crate::output::{self, Output};
 use crate::path::{extension, name};
 use crate::progress::CountMeter;
+use crate::script::{Recipe, ScriptWriter};
+use crate::values::Made;
 
 /// Points after which the progress bar moves.
 const TOLD: u64 = 1 << 16;
 
 /// Makes the set and writes it, as points or as a drawing of an order.
 pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
+    match arguments.set {
+        Made::Set(distribution) => make_set(distribution, arguments),
+        Made::Script(recipe) => make_script(recipe, arguments),
+    }
+}
+
+fn make_set(distribution: Distribution, arguments: &GenerateArguments) -> Result<(), Failure> {
     let path = arguments.output.as_path();
     let extension = extension(path);
+    if arguments.frames.is_some() || arguments.commands.is_some() {
+        return Err(Failure::usage(format!(
+            "--frames and --commands are for scripts, and {distribution} is a set of points: leave them out"
+        )));
+    }
     if arguments.format.is_none() && extension == "svg" {
-        return draw(arguments);
+        return draw(distribution, arguments);
     }
     // Outputs without an extension, such as standard output or a device, take CSV.
     let by_name = if extension.is_empty() { Some(SetFormat::Csv) } else { SetFormat::of_extension(extension) };
@@ -39,11 +53,11 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
     let output = Output::prepare(path, &[])?;
     let points: SetPoints = match arguments.order {
         Some(order) => {
-            let points = make(arguments.distribution, arguments.n, bits, arguments.seed)?;
+            let points = make(distribution, arguments.n, bits, arguments.seed)?;
             Box::new(ordered(&points, order).into_iter())
         }
         None => {
-            let points = stream(arguments.distribution, arguments.n as usize, bits, arguments.seed);
+            let points = stream(distribution, arguments.n as usize, bits, arguments.seed);
             points.map_err(failure_of)?
         }
     };
@@ -55,7 +69,7 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
             meter.advance(TOLD);
         }
     });
-    let written = output.write(|out| write(points, bits, arguments, format, out))?;
+    let written = output.write(|out| write(points, bits, distribution, arguments, format, out))?;
     output::finish([written], || Ok(()))
 }
 
@@ -63,6 +77,7 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
 fn write(
     points: impl ExactSizeIterator<Item = [u32; 2]>,
     bits: u32,
+    distribution: Distribution,
     arguments: &GenerateArguments,
     format: SetFormat,
     out: &mut dyn Write,
@@ -72,7 +87,7 @@ fn write(
         NumberKind::Signed => format.write_points(points.map(|point| signed(point, bits)), out),
         NumberKind::Decimal => format.write_points(points.map(|point| signed(point, bits).map(SixDigits)), out),
         NumberKind::Double => {
-            let set = DoubleSet::new(arguments.distribution, arguments.seed);
+            let set = DoubleSet::new(distribution, arguments.seed);
             format.write_points(points.map(|point| set.place(point).map(Double)), out)
         }
         NumberKind::F32 => {
@@ -83,7 +98,7 @@ fn write(
 }
 
 /// Draws an order of insertion instead of writing points.
-fn draw(arguments: &GenerateArguments) -> Result<(), Failure> {
+fn draw(distribution: Distribution, arguments: &GenerateArguments) -> Result<(), Failure> {
     let Some(order) = arguments.order else {
         return Err(Failure::usage(
             "an .svg shows an order of the points: add --order, or write .csv, .xyz, .node or .npy",
@@ -98,9 +113,29 @@ fn draw(arguments: &GenerateArguments) -> Result<(), Failure> {
     let bits = arguments.numbers.bits(arguments.bits)?;
     check_count(arguments.n)?;
     let output = Output::prepare(&arguments.output, &[])?;
-    let points = ordered(&make(arguments.distribution, arguments.n, bits, arguments.seed)?, order);
-    let title = format!("{} points, {}, in the order {}", arguments.n, arguments.distribution, order.name());
+    let points = ordered(&make(distribution, arguments.n, bits, arguments.seed)?, order);
+    let title = format!("{} points, {}, in the order {}", arguments.n, distribution, order.name());
     let written = output.write(|out| curve::write(&points, &title, out))?;
+    output::finish([written], || Ok(()))
+}
+
+/// Makes a script and writes it.
+fn make_script(recipe: Recipe, arguments: &GenerateArguments) -> Result<(), Failure> {
+    let (path, name) = (arguments.output.as_path(), recipe.name());
+    let extension = extension(path);
+    let is_other = extension == "svg" || SetFormat::of_extension(extension).is_some();
+    if is_other || arguments.format.is_some() || arguments.order.is_some() {
+        return Err(Failure::usage(format!(
+            "{name} is a script, which is text: leave --format and --order out, and give -o a name such as {name}.txt"
+        )));
+    }
+    let bits = arguments.numbers.bits(arguments.bits)?;
+    check_count(arguments.n)?;
+    let length = recipe.length(arguments.n, arguments.frames, arguments.commands)?;
+    let output = Output::prepare(path, &[])?;
+    let start = make(Distribution::Uniform, arguments.n, bits, arguments.seed)?;
+    let (numbers, seed) = (arguments.numbers, arguments.seed);
+    let written = output.write(|out| recipe.write(&start, length, &mut ScriptWriter::new(numbers, bits, seed, out)))?;
     output::finish([written], || Ok(()))
 }
 

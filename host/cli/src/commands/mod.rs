@@ -7,6 +7,7 @@ pub mod completions;
 pub mod devices;
 pub mod generate;
 pub mod info;
+pub mod replay;
 pub mod tile;
 pub mod triangulate;
 mod triangulate_large;

@@ -1,21 +1,22 @@
 //! `incircle triangulate`: points in, the canonical mesh out.
 
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use incircle::{DeviceAddress, Fleet, Options, PlanePoint, Report, Session, Solution};
+use incircle::{DeviceAddress, Fleet, Report};
 
 use crate::arguments::TriangulateArguments;
 use crate::backend::{self, Backend, Choice};
 use crate::commands::triangulate_large;
+use crate::connections::Connections;
 use crate::failure::{counted, failure_of, Failure};
 use crate::fleet::Several;
-use crate::formats::{MeshFormat, MeshView};
 use crate::lattice::{self, Laid, Numbers};
 use crate::output::{self, Output, Written};
-use crate::points::PointTable;
 use crate::progress::Meter;
 use crate::report::RunReport;
+use crate::solve::{self, without_points};
+use crate::watch::Watch;
 use crate::{interrupt, path, source};
 
 /// Reads the points, triangulates them, writes the mesh, and prints the report.
@@ -76,7 +77,9 @@ fn solve(
             backend.check_job(&arguments.job)?;
             tell_if_long(&backend, laid.numbers.len(), arguments);
             watch.ended("open");
-            let (mesh, about) = triangulate(&mut backend, laid, arguments).map_err(in_file)?;
+            let check_bits = |bits| laid.check_bits(bits, choice.address.name());
+            let solved = solve::triangulate(&mut backend, &laid.numbers, check_bits, &arguments.job, arguments.quiet);
+            let (mesh, about) = solved.map_err(in_file)?;
             Ok((mesh, about, Some(backend)))
         }
         Chosen::Several(several) => {
@@ -172,55 +175,6 @@ fn tell(report: &RunReport<'_>, arguments: &TriangulateArguments) -> Result<(), 
     Ok(())
 }
 
-/// The mesh without its points, which are in the table of the file.
-struct Connections {
-    triangles: Vec<[u32; 3]>,
-    hull: Vec<u32>,
-    duplicates: Vec<[u32; 2]>,
-}
-
-impl Connections {
-    /// Writes the mesh with the coordinates of the input file, not with those of the lattice.
-    fn write(&self, points: &PointTable, format: MeshFormat, out: &mut dyn std::io::Write) -> std::io::Result<()> {
-        let Self { triangles, hull, duplicates } = self;
-        format.write(&MeshView { points, triangles, hull, duplicates }, out)
-    }
-}
-
-fn triangulate(
-    backend: &mut Backend,
-    laid: &Laid<'_>,
-    arguments: &TriangulateArguments,
-) -> Result<(Connections, Report), Failure> {
-    let meter = Meter::new(arguments.quiet);
-    let listener = |progress| meter.hear(progress);
-    let options = arguments.job.options(&listener);
-    let (name, takes_all) = (backend.name, backend.takes_all_numbers());
-    let solution = interrupt::working(|| {
-        let mut session = backend.device.session().map_err(|error| failure_of(&error))?;
-        if !takes_all {
-            laid.check_bits(session.identity().coord_bits, name)?;
-        }
-        match &laid.numbers {
-            Numbers::Grid(points) => connect(&mut session, points, &options),
-            Numbers::Whole(points) => connect(&mut session, points, &options),
-            Numbers::Doubles(points) => connect(&mut session, points, &options),
-        }
-    });
-    // The check comes first, because an interrupt may surface as any error.
-    interrupt::check()?;
-    solution
-}
-
-/// Triangulates points whose coordinates are numbers of one type.
-fn connect<P: PlanePoint>(
-    session: &mut Session<'_>,
-    points: &[P],
-    options: &Options<'_>,
-) -> Result<(Connections, Report), Failure> {
-    session.triangulate_with(points, options).map(without_points).map_err(|error| failure_of(&error))
-}
-
 /// Triangulates points with several back ends.
 fn triangulate_together(
     fleet: &Fleet,
@@ -237,28 +191,4 @@ fn triangulate_together(
     });
     interrupt::check()?;
     solution.map_err(|error| failure_of(&error))
-}
-
-/// A solution without its points.
-fn without_points<P>(solution: Solution<P>) -> (Connections, Report) {
-    let duplicates = solution.mesh.duplicates.iter().map(|duplicate| [duplicate.index, duplicate.of]).collect();
-    (Connections { triangles: solution.mesh.triangles, hull: solution.mesh.hull, duplicates }, solution.report)
-}
-
-/// A stopwatch for the stages of the command.
-struct Watch {
-    since: Instant,
-    stages: Vec<(&'static str, Duration)>,
-}
-
-impl Watch {
-    fn start() -> Self {
-        Self { since: Instant::now(), stages: Vec::new() }
-    }
-
-    fn ended(&mut self, stage: &'static str) {
-        let now = Instant::now();
-        self.stages.push((stage, now - self.since));
-        self.since = now;
-    }
 }

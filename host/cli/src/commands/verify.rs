@@ -1,5 +1,7 @@
 //! `incircle verify`: checks that a mesh is the canonical Delaunay triangulation of its points.
 
+use std::path::Path;
+
 use incircle::{VerifyError, VerifySummary};
 use serde_json::{json, Value};
 
@@ -18,37 +20,78 @@ pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
             "points and mesh cannot both come from standard input: name a file for one of them",
         ));
     }
-    let table = source::read_set(points, &arguments.read, arguments.quiet)?;
     let points_name = source::set_name(points);
+    if arguments.script {
+        let [script] = points else {
+            return Err(Failure::usage("a mesh is that of one script: give one script, and then the file of the mesh"));
+        };
+        return run_script(arguments, script, mesh);
+    }
+    let table = source::read_set(points, &arguments.read, arguments.quiet)?;
     let GridArguments { coord_bits, quantize } = arguments.grid.checked()?;
     let how = quantize.map(|how| (how, coord_bits.unwrap_or(MODEL_COORD_BITS)));
     let laid = lattice::lay(&table, how).map_err(|failure| failure.in_file(&points_name))?;
-    let mesh_name = path::name(mesh);
-    let checked = source::read_mesh(mesh, arguments.format, arguments.quiet).and_then(|mut triangles| {
-        if arguments.unordered {
-            triangles.sort_unstable();
-        }
-        check(&laid.numbers, &triangles).map_err(|error| {
-            Failure::new(
+    let triangles = read_triangles(arguments, mesh)?;
+    let names = [&*path::name(mesh), &*points_name];
+    tell(check(&laid.numbers, &triangles).map_err(|error| error.to_string()), &laid, names, arguments)
+}
+
+/// Reads the triangles of the mesh.
+fn read_triangles(arguments: &VerifyArguments, mesh: &Path) -> Result<Vec<[u32; 3]>, Failure> {
+    let mut triangles = source::read_mesh(mesh, arguments.format, arguments.quiet)?;
+    if arguments.unordered {
+        triangles.sort_unstable();
+    }
+    Ok(triangles)
+}
+
+/// Verifies the mesh that a script leaves, which names points by the numbers of their insertions.
+fn run_script(arguments: &VerifyArguments, path: &Path, mesh: &Path) -> Result<(), Failure> {
+    let name = path::name(path);
+    let in_file = |failure: Failure| failure.in_file(&name);
+    let script = source::read_script(path, arguments.quiet)?;
+    let laid = lattice::lay(&script.places, None).map_err(in_file)?;
+    let living = script.living();
+    let numbers = laid.numbers.select(&script.last_places(&living));
+    let triangles = read_triangles(arguments, mesh)?;
+    let counted = triangles.iter().map(|&triangle| {
+        let [a, b, c] = triangle.map(|index| living.binary_search(&index).map_err(|_| index));
+        Ok([a?, b?, c?].map(|rank| rank as u32))
+    });
+    let counted: Result<Vec<_>, u32> = counted.collect();
+    let checked = counted.map_err(|index| format!("a triangle has the point {index}, which does not live at the end"));
+    let checked = checked.and_then(|triangles| {
+        let words = "the living points counted from 0 in the order of their indices";
+        check(&numbers, &triangles).map_err(|error| format!("{error} ({words})"))
+    });
+    tell(checked, &laid, [&path::name(mesh), &name], arguments)
+}
+
+/// Prints the result. A wrong mesh is a failure.
+fn tell(
+    checked: Result<VerifySummary, String>,
+    laid: &Laid<'_>,
+    [mesh_name, points_name]: [&str; 2],
+    arguments: &VerifyArguments,
+) -> Result<(), Failure> {
+    let summary = match checked {
+        Ok(summary) => summary,
+        Err(reason) => {
+            let failure = Failure::new(
                 Exit::Rejected,
                 format!(
                     "the triangles of {mesh_name} are not the canonical Delaunay triangulation of {points_name}: \
-                     {error}"
+                     {reason}"
                 ),
-            )
-        })
-    });
-    let summary = match checked {
-        Ok(summary) => summary,
-        Err(failure) => {
-            if arguments.json && failure.exit == Exit::Rejected {
+            );
+            if arguments.json {
                 output::print(&format!("{}\n", json!({ "valid": false, "reason": failure.message })))?;
             }
             return Err(failure);
         }
     };
     if arguments.json {
-        output::print(&format!("{}\n", to_json(&summary, &laid)))
+        output::print(&format!("{}\n", to_json(&summary, laid)))
     } else if arguments.quiet {
         Ok(())
     } else {

@@ -30,10 +30,28 @@ const RAMP: [[u8; 3]; 6] = [
     [0xfb, 0xec, 0xc4],
 ];
 
+/// The colour of points.
+const POINT: &str = "#1d2b53";
+
 /// Writes the picture of a mesh.
 pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
     let doubles = mesh.points.doubles();
-    let canvas = Canvas::around(&doubles);
+    let canvas = Canvas::around(&doubles, doubles.iter().copied());
+    let (points, triangles) = (counted(mesh.points.len(), "point"), counted(mesh.triangles.len(), "triangle"));
+    write_head(&canvas, &format!("Delaunay triangulation: {points}, {triangles}"), out)?;
+    let sides = mesh.triangles.iter().map(|&triangle| side(canvas.corners(triangle)));
+    draw_triangles(mesh.triangles, &canvas, &Classes::of(sides.collect()), out)?;
+    draw_hull(mesh.hull, !mesh.triangles.is_empty(), &canvas, out)?;
+    let count = mesh.points.len();
+    if count <= MOST_DOTS {
+        let width = (CANVAS * 0.15 / (count as f64).sqrt()).clamp(60.0, 280.0);
+        draw_dots(doubles.iter().map(|&point| canvas.place(point)), width, POINT, out)?;
+    }
+    writeln!(out, "</svg>")
+}
+
+/// Writes the start of a picture: its size, its title and its ground.
+pub(crate) fn write_head(canvas: &Canvas<'_>, title: &str, out: &mut dyn Write) -> io::Result<()> {
     let [width, height] = canvas.size;
     let shown = PIXELS * height / width;
     writeln!(
@@ -41,31 +59,28 @@ pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" \
          width=\"{PIXELS}\" height=\"{shown:.0}\">"
     )?;
-    let (points, triangles) = (counted(mesh.points.len(), "point"), counted(mesh.triangles.len(), "triangle"));
-    writeln!(out, "<title>Delaunay triangulation: {points}, {triangles}</title>")?;
-    writeln!(out, "<rect width=\"100%\" height=\"100%\" fill=\"#fdfcf9\"/>")?;
-    write_triangles(mesh, &canvas, out)?;
-    write_hull(mesh, &canvas, out)?;
-    write_dots(mesh, &canvas, out)?;
-    writeln!(out, "</svg>")
+    writeln!(out, "<title>{title}</title>")?;
+    writeln!(out, "<rect width=\"100%\" height=\"100%\" fill=\"#fdfcf9\"/>")
 }
 
 /// The map from input coordinates to whole canvas units.
-struct Canvas<'a> {
+pub(crate) struct Canvas<'a> {
     points: &'a [[f64; 2]],
     low: [f64; 2],
     scale: f64,
     shrink: f64,
-    size: [f64; 2],
+    /// Width and height, in canvas units.
+    pub(crate) size: [f64; 2],
 }
 
 impl<'a> Canvas<'a> {
-    fn around(points: &'a [[f64; 2]]) -> Self {
-        let largest = points.iter().flatten().fold(0.0, |most: f64, value| most.max(value.abs()));
+    /// The canvas of these points, which shows at least those that are `shown`.
+    pub(crate) fn around(points: &'a [[f64; 2]], shown: impl Iterator<Item = [f64; 2]> + Clone) -> Self {
+        let largest = shown.clone().flatten().fold(0.0, |most: f64, value| most.max(value.abs()));
         // Differences of huge doubles would overflow.
         let shrink = if largest > 1e150 { 1e-200 } else { 1.0 };
         let bound = |axis: usize, pick: fn(f64, f64) -> f64| {
-            let values = points.iter().map(|point| point[axis] * shrink);
+            let values = shown.clone().map(|point| point[axis] * shrink);
             values.reduce(pick).unwrap_or(0.0)
         };
         let low = [bound(0, f64::min), bound(1, f64::min)];
@@ -86,24 +101,31 @@ impl<'a> Canvas<'a> {
         [x as i64, y as i64]
     }
 
+    /// Whether a point lies on the canvas.
+    pub(crate) fn is_inside(&self, point: [f64; 2]) -> bool {
+        let place = self.place(point);
+        (0..2).all(|axis| (0..=self.size[axis] as i64).contains(&place[axis]))
+    }
+
     /// The place of a vertex on the canvas.
-    fn vertex(&self, vertex: u32) -> [i64; 2] {
+    pub(crate) fn vertex(&self, vertex: u32) -> [i64; 2] {
         self.place(self.points.get(vertex as usize).copied().unwrap_or_default())
     }
 
-    fn corners(&self, triangle: [u32; 3]) -> [[i64; 2]; 3] {
+    /// The places of the corners of a triangle on the canvas.
+    pub(crate) fn corners(&self, triangle: [u32; 3]) -> [[i64; 2]; 3] {
         triangle.map(|vertex| self.vertex(vertex))
     }
 }
 
 /// The side of a square that is as large as the triangle, at least one unit.
-fn side([a, b, c]: [[i64; 2]; 3]) -> f64 {
+pub(crate) fn side([a, b, c]: [[i64; 2]; 3]) -> f64 {
     let twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     (twice.abs() as f64 / 2.0).sqrt().max(1.0)
 }
 
 /// The scale from triangle sides to size classes.
-struct Classes {
+pub(crate) struct Classes {
     middle: f64,
     spread: f64,
 }
@@ -111,7 +133,7 @@ struct Classes {
 impl Classes {
     /// Makes the scale, centred on the median size. The scale spans all sizes but the outer fiftieths, and at least a
     /// factor of 8 to both sides, so that even triangles have similar colours.
-    fn of(mut sides: Vec<f64>) -> Self {
+    pub(crate) fn of(mut sides: Vec<f64>) -> Self {
         sides.sort_unstable_by(f64::total_cmp);
         let at = |share: f64| {
             let index = (sides.len().saturating_sub(1) as f64 * share) as usize;
@@ -135,16 +157,19 @@ impl Classes {
     }
 }
 
-fn write_triangles(mesh: &MeshView<'_>, canvas: &Canvas<'_>, out: &mut dyn Write) -> io::Result<()> {
-    let sides = mesh.triangles.iter().map(|&triangle| side(canvas.corners(triangle)));
-    let classes = Classes::of(sides.collect());
+/// Draws triangles, the large ones first, so that the thin lines of small triangles stay above the thick ones.
+pub(crate) fn draw_triangles(
+    all: &[[u32; 3]],
+    canvas: &Canvas<'_>,
+    classes: &Classes,
+    out: &mut dyn Write,
+) -> io::Result<()> {
     let mut members = vec![Vec::new(); CLASSES];
-    for &triangle in mesh.triangles {
+    for &triangle in all {
         let corners = canvas.corners(triangle);
         members[classes.class(side(corners))].push(corners);
     }
     writeln!(out, "<g stroke=\"#12304a\" stroke-opacity=\".45\" stroke-linejoin=\"round\">")?;
-    // Large triangles come first, so that the thin lines of small triangles stay above the thick ones.
     for (class, triangles) in members.iter().enumerate().rev() {
         if triangles.is_empty() {
             continue;
@@ -172,14 +197,14 @@ fn colour(class: usize) -> String {
 }
 
 /// Draws the hull as a closed line, or without triangles the line through the points.
-fn write_hull(mesh: &MeshView<'_>, canvas: &Canvas<'_>, out: &mut dyn Write) -> io::Result<()> {
+pub(crate) fn draw_hull(hull: &[u32], is_closed: bool, canvas: &Canvas<'_>, out: &mut dyn Write) -> io::Result<()> {
     let mut d = String::new();
-    for (index, &vertex) in mesh.hull.iter().enumerate() {
+    for (index, &vertex) in hull.iter().enumerate() {
         let [x, y] = canvas.vertex(vertex);
         let command = if index == 0 { "M" } else { "L" };
         d.push_str(&format!("{command}{x} {y}"));
     }
-    if !mesh.triangles.is_empty() {
+    if is_closed {
         d.push('z');
     }
     writeln!(
@@ -189,16 +214,19 @@ fn write_hull(mesh: &MeshView<'_>, canvas: &Canvas<'_>, out: &mut dyn Write) -> 
     )
 }
 
-/// Draws a dot for each point, as a subpath of no length with round ends.
-fn write_dots(mesh: &MeshView<'_>, canvas: &Canvas<'_>, out: &mut dyn Write) -> io::Result<()> {
-    let count = mesh.points.len();
-    if count == 0 || count > MOST_DOTS {
+/// Draws a dot at each place of the canvas, as a subpath of no length with round ends. Without places nothing is drawn.
+pub(crate) fn draw_dots(
+    places: impl Iterator<Item = [i64; 2]>,
+    width: f64,
+    colour: &str,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let mut places = places.peekable();
+    if places.peek().is_none() {
         return Ok(());
     }
-    let width = (CANVAS * 0.15 / (count as f64).sqrt()).clamp(60.0, 280.0);
-    write!(out, "<path fill=\"none\" stroke=\"#1d2b53\" stroke-width=\"{width:.0}\" stroke-linecap=\"round\" d=\"")?;
-    for &point in canvas.points {
-        let [x, y] = canvas.place(point);
+    write!(out, "<path fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width:.0}\" stroke-linecap=\"round\" d=\"")?;
+    for [x, y] in places {
         write!(out, "M{x} {y}h0")?;
     }
     writeln!(out, "\"/>")

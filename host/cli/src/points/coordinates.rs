@@ -76,6 +76,14 @@ impl Coordinates {
         }
     }
 
+    /// The coordinates of the points at these indices, which must exist.
+    pub(super) fn select(&self, indices: &[u32]) -> Self {
+        match self {
+            Self::Steps { steps, unit } => Self::Steps { steps: chosen(steps, indices), unit: *unit },
+            Self::Doubles(points) => Self::Doubles(chosen(points, indices)),
+        }
+    }
+
     /// Adds a point as it is written. The coordinates stay exact as long as all are decimals whose steps of one common
     /// length fit 64 bits. Otherwise all coordinates become the nearest doubles. Returns how many coordinates were
     /// rounded, earlier ones included.
@@ -198,6 +206,11 @@ impl Coordinates {
             Self::Doubles(points) => Coordinate::Double(points.get(index).map_or(0.0, |point| point[axis])),
         }
     }
+}
+
+/// The items at these indices, which must exist.
+pub fn chosen<T: Copy>(items: &[T], indices: &[u32]) -> Vec<T> {
+    indices.iter().map(|&index| items[index as usize]).collect()
 }
 
 #[cfg(test)]

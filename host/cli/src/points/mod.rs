@@ -10,7 +10,7 @@ use crate::memory::Memory;
 use crate::number::{self, Coordinate, Decimal, Number};
 use crate::text;
 
-pub use coordinates::{Coordinates, Unit};
+pub use coordinates::{chosen, Coordinates, Unit};
 pub use place::Place;
 use place::{Origin, Rows};
 
@@ -53,6 +53,16 @@ impl PointTable {
     /// Makes a table of items of this name with these coordinates, which must be finite.
     pub fn of_coordinates(name: &'static str, coordinates: Coordinates) -> Self {
         Self::new(coordinates, Origin::Items(name), [1, 2, 3])
+    }
+
+    /// Says in which columns x, y and z of the next point stand, counted from 1.
+    pub fn set_columns(&mut self, columns: [usize; 3]) {
+        self.columns = columns;
+    }
+
+    /// The points at these indices, which must exist, without their z.
+    pub fn select(&self, indices: &[u32]) -> Self {
+        Self::of_coordinates("point", self.coordinates.select(indices))
     }
 
     fn new(coordinates: Coordinates, origin: Origin, columns: [usize; 3]) -> Self {

@@ -18,6 +18,7 @@ mod commands {
     mod bench;
     mod generate;
     mod generate_numbers;
+    mod replay;
     mod tile;
     mod triangulate_large;
 }

@@ -1,0 +1,43 @@
+//! A mesh without its points.
+
+use std::io::{self, Write};
+
+use incircle::Mesh;
+
+use crate::formats::{MeshFormat, MeshView};
+use crate::points::PointTable;
+
+/// A mesh without its points, which are in the table of a file.
+#[derive(Clone, Debug, Default)]
+pub struct Connections {
+    /// Counter-clockwise triples of indices.
+    pub triangles: Vec<[u32; 3]>,
+    /// The hull, counter-clockwise; without triangles the distinct points along their line.
+    pub hull: Vec<u32>,
+    /// Pairs of a duplicate and the lowest index at the same place.
+    pub duplicates: Vec<[u32; 2]>,
+}
+
+impl Connections {
+    /// A mesh without its points.
+    pub fn of_mesh<P>(mesh: Mesh<P>) -> Self {
+        let duplicates = mesh.duplicates.iter().map(|duplicate| [duplicate.index, duplicate.of]).collect();
+        Self { triangles: mesh.triangles, hull: mesh.hull, duplicates }
+    }
+
+    /// The mesh with other indices: `names` has the new one of each.
+    pub fn renamed(&self, names: &[u32]) -> Self {
+        let name = |index: u32| names.get(index as usize).copied().unwrap_or(index);
+        Self {
+            triangles: self.triangles.iter().map(|triangle| triangle.map(name)).collect(),
+            hull: self.hull.iter().map(|&vertex| name(vertex)).collect(),
+            duplicates: self.duplicates.iter().map(|pair| pair.map(name)).collect(),
+        }
+    }
+
+    /// Writes the mesh with the coordinates of the input file, not with those of the lattice.
+    pub fn write(&self, points: &PointTable, format: MeshFormat, out: &mut dyn Write) -> io::Result<()> {
+        let Self { triangles, hull, duplicates } = self;
+        format.write(&MeshView { points, triangles, hull, duplicates }, out)
+    }
+}

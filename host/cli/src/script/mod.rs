@@ -1,0 +1,117 @@
+//! Scripts of changes and questions, for a mesh that lives.
+//!
+//! A script has a command in each row: `insert X Y`, `delete I`, `move I X Y`, `locate X Y` or `nearest X Y`. `I` is
+//! the number of an insertion, counted from 0. [`read`](read::read) reads a script and checks it to its end, so that
+//! [`play`](play::play), which carries it out, meets no wrong command. [`Recipe`] makes scripts for
+//! `incircle generate`.
+
+mod answer;
+mod film;
+mod film_svg;
+mod play;
+mod read;
+mod recipe;
+#[cfg(test)]
+mod tests;
+
+use crate::points::PointTable;
+
+pub use answer::{write_answers, Answer};
+pub use film::{Film, MOST_FRAMES};
+pub use film_svg::write_film;
+pub use play::{play, Played};
+pub use read::read;
+pub use recipe::{Recipe, ScriptWriter};
+
+/// A command of a script. A command with a place has the next one of [`Script::places`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Command {
+    /// Insert a point.
+    Insert,
+    /// Delete the point of this index.
+    Delete(u32),
+    /// Move the point of this index.
+    Move(u32),
+    /// Say what a place is.
+    Locate,
+    /// Say which living point is nearest to a place.
+    Nearest,
+}
+
+/// The names of the commands with the values behind each, for messages and for counting.
+pub const FORMS: [(&str, &str); 5] =
+    [("insert", "X Y"), ("delete", "I"), ("move", "I X Y"), ("locate", "X Y"), ("nearest", "X Y")];
+
+impl Command {
+    /// The position of the command's name in [`FORMS`].
+    pub fn form(self) -> usize {
+        match self {
+            Self::Insert => 0,
+            Self::Delete(_) => 1,
+            Self::Move(_) => 2,
+            Self::Locate => 3,
+            Self::Nearest => 4,
+        }
+    }
+
+    /// Whether the command has a place.
+    pub fn has_place(self) -> bool {
+        !matches!(self, Self::Delete(_))
+    }
+}
+
+/// A script in which every index is that of a living point.
+#[derive(Clone, Debug)]
+pub struct Script {
+    /// The commands, in order.
+    pub commands: Vec<Command>,
+    /// The places of all commands that have one, in order.
+    pub places: PointTable,
+    /// The points, by index.
+    points: Vec<ScriptPoint>,
+    /// The most points that live at one time.
+    pub most_living: usize,
+}
+
+/// What became of a point of a script.
+#[derive(Clone, Copy, Debug)]
+struct ScriptPoint {
+    /// The number of its last place.
+    place: u32,
+    is_living: bool,
+}
+
+impl Script {
+    /// The number of each command, in the order of [`FORMS`].
+    pub fn counts(&self) -> [usize; FORMS.len()] {
+        let mut counts = [0; FORMS.len()];
+        self.commands.iter().for_each(|command| counts[command.form()] += 1);
+        counts
+    }
+
+    /// The number of insertions.
+    pub fn insertions(&self) -> usize {
+        self.points.len()
+    }
+
+    /// The indices of the points that live at the end, in rising order.
+    pub fn living(&self) -> Vec<u32> {
+        (0u32..).zip(&self.points).filter(|(_, point)| point.is_living).map(|(index, _)| index).collect()
+    }
+
+    /// The numbers of the last places of these points, which were inserted.
+    pub fn last_places(&self, indices: &[u32]) -> Vec<u32> {
+        indices.iter().map(|&index| self.points[index as usize].place).collect()
+    }
+
+    /// All points that were inserted, by index, each at its last place.
+    pub fn all_points(&self) -> PointTable {
+        let places: Vec<u32> = self.points.iter().map(|point| point.place).collect();
+        self.places.select(&places)
+    }
+
+    /// The points that live at the end, in the order of their indices.
+    pub fn living_points(&self) -> PointTable {
+        self.places.select(&self.last_places(&self.living()))
+    }
+}

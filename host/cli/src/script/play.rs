@@ -1,0 +1,86 @@
+//! Carrying out a script on a mesh that lives.
+
+use incircle::living::{Error, Triangulation};
+use incircle::PlanePoint;
+
+use super::answer::Answer;
+use super::film::Film;
+use super::{Command, Script};
+use crate::connections::Connections;
+use crate::failure::{Exit, Failure};
+use crate::interrupt;
+use crate::progress::CountMeter;
+
+/// After so many commands an interrupt is noticed and the progress is shown.
+const SLICE: usize = 1 << 10;
+
+/// What a script leaves.
+pub struct Played {
+    /// The answers, in the order of the questions.
+    pub answers: Vec<Answer>,
+    /// The mesh of the living points, which are counted from 0 in the order of their indices; empty if nobody asked for
+    /// it.
+    pub mesh: Connections,
+}
+
+/// Carries out a script. `points` are its places in the numbers in which they are triangulated.
+///
+/// A film gets its frames, and the mesh is made only if `wants_mesh`. The insertions at the start of a script are made
+/// in one step, which takes a fraction of the time, unless there is a film.
+pub fn play<P: PlanePoint>(
+    script: &Script,
+    points: &[P],
+    mut film: Option<&mut Film>,
+    wants_mesh: bool,
+    meter: &CountMeter,
+) -> Result<Played, Failure> {
+    let is_insertion = |command: &&Command| **command == Command::Insert;
+    let lead = if film.is_some() { 0 } else { script.commands.iter().take_while(is_insertion).count() };
+    let mut mesh = Triangulation::from(points[..lead].iter().copied()).map_err(failure_of)?;
+    meter.advance(lead as u64);
+    let mut answers = Vec::new();
+    let mut place = lead;
+    let mut done = lead;
+    for slice in script.commands[lead..].chunks(SLICE) {
+        interrupt::check()?;
+        for &command in slice {
+            // A deletion has no place and does not look at the point.
+            let point = points.get(place).copied();
+            if let Some(film) = film.as_deref_mut() {
+                film.note(command, place as u32);
+            }
+            place += usize::from(command.has_place());
+            answers.extend(step(&mut mesh, command, point).map_err(failure_of)?);
+            done += 1;
+            if let Some(film) = film.as_deref_mut().filter(|film| film.is_due(done)) {
+                film.take(&mesh, done);
+            }
+        }
+        meter.advance(slice.len() as u64);
+    }
+    let mesh = if wants_mesh { Connections::of_mesh(mesh.mesh()) } else { Connections::default() };
+    Ok(Played { answers, mesh })
+}
+
+/// Carries out a command, and returns the answer to a question. `point` is the place of the command, if it has one.
+fn step<P: PlanePoint>(
+    mesh: &mut Triangulation<P>,
+    command: Command,
+    point: Option<P>,
+) -> Result<Option<Answer>, Error> {
+    match (command, point) {
+        (Command::Insert, Some(point)) => mesh.insert(point).map(|_| None),
+        (Command::Delete(index), _) => mesh.delete(index).map(|()| None),
+        (Command::Move(index), Some(point)) => mesh.move_to(index, point).map(|()| None),
+        (Command::Locate, Some(point)) => Ok(Some(Answer::Located(mesh.locate(point)))),
+        (Command::Nearest, Some(point)) => Ok(Some(Answer::Nearest(mesh.nearest(point)))),
+        // The reader gives each such command a place.
+        (_, None) => Ok(None),
+    }
+}
+
+/// The failure of a change. The reader refuses all that the triangulation would refuse, so there is none but by a fault
+/// in the program.
+fn failure_of(error: Error) -> Failure {
+    Failure::new(Exit::Capacity, error.to_string())
+}

@@ -1,0 +1,148 @@
+//! Reading scripts: every row is checked, and so is every index.
+
+use incircle::MAX_POINTS;
+
+use super::{Command, Script, ScriptPoint, FORMS};
+use crate::failure::{counted, quoted, Exit, Failure};
+use crate::memory::Memory;
+use crate::points::{Place, PointTable};
+use crate::text;
+
+/// Reads a script. Empty rows, and all that follows a `#`, are skipped.
+///
+/// A row that is no command, a wrong number of values, a coordinate that is not a finite number, and an index of a
+/// point that is not inserted yet or is deleted are refused with the row.
+pub fn read(bytes: &[u8], memory: Memory) -> Result<Script, Failure> {
+    if bytes.is_empty() {
+        return Err(Failure::input(
+            "the file is empty: a script without commands is a file with a comment, such as '#'",
+        ));
+    }
+    let places = PointTable::of_rows([2, 3, 4]).within(memory);
+    let mut script = Script { commands: Vec::new(), places, points: Vec::new(), most_living: 0 };
+    let mut living = 0;
+    for (row, content) in text::rows(text::without_mark(bytes)?) {
+        let mut words = text::words(text::without_comment(content));
+        let Some(name) = words.next() else { continue };
+        let command = read_command(name, words, row, &mut script)?;
+        script.commands.push(command);
+        match command {
+            Command::Insert => living += 1,
+            Command::Delete(_) => living -= 1,
+            _ => {}
+        }
+        script.most_living = script.most_living.max(living);
+        check_counts(&script, row)?;
+    }
+    script.places = script.places.complete()?;
+    Ok(script)
+}
+
+/// Reads a command whose name stands in front of these values, and notes its place and its point.
+fn read_command<'a>(
+    name: &[u8],
+    values: impl Iterator<Item = &'a [u8]>,
+    row: usize,
+    script: &mut Script,
+) -> Result<Command, Failure> {
+    let Some(form) = FORMS.iter().position(|(known, _)| known.as_bytes() == name) else {
+        let shown = quoted(name);
+        return Err(Failure::input(format!(
+            "row {row}: {shown} is no command: the commands are insert, delete, move, locate and nearest"
+        )));
+    };
+    let [a, b, c] = read_values(FORMS[form], values, row)?;
+    Ok(match FORMS[form].0 {
+        "insert" => {
+            script.push_place([a, b], 2, row)?;
+            let place = script.last_place();
+            script.points.push(ScriptPoint { place, is_living: true });
+            Command::Insert
+        }
+        "delete" => {
+            let index = script.read_index(a, row)?;
+            script.points[index as usize].is_living = false;
+            Command::Delete(index)
+        }
+        "move" => {
+            let index = script.read_index(a, row)?;
+            script.push_place([b, c], 3, row)?;
+            script.points[index as usize].place = script.last_place();
+            Command::Move(index)
+        }
+        name => {
+            script.push_place([a, b], 2, row)?;
+            if name == "locate" {
+                Command::Locate
+            } else {
+                Command::Nearest
+            }
+        }
+    })
+}
+
+/// The values behind the name of a command, of which there must be as many as its form has.
+fn read_values<'a>(
+    (name, form): (&str, &str),
+    values: impl Iterator<Item = &'a [u8]>,
+    row: usize,
+) -> Result<[&'a [u8]; 3], Failure> {
+    let mut found = [&b""[..]; 3];
+    let mut count = 0;
+    for value in values {
+        if let Some(place) = found.get_mut(count) {
+            *place = value;
+        }
+        count += 1;
+    }
+    if count != form.split(' ').count() {
+        let values = counted(count, "value");
+        return Err(Failure::input(format!("row {row} has {values} behind '{name}': the command is '{name} {form}'")));
+    }
+    Ok(found)
+}
+
+/// Refuses more points and places than a triangulation can have.
+fn check_counts(script: &Script, row: usize) -> Result<(), Failure> {
+    if script.most_living > MAX_POINTS {
+        return Err(Failure::new(
+            Exit::Capacity,
+            format!("row {row}: {MAX_POINTS} points live already, the most that a mesh can have: delete some before"),
+        ));
+    }
+    if script.places.len() > u32::MAX as usize {
+        return Err(Failure::new(
+            Exit::Capacity,
+            format!("row {row}: the script has more than {} places: divide it into several scripts", u32::MAX),
+        ));
+    }
+    Ok(())
+}
+
+impl Script {
+    /// Adds a place whose x stands in this column of the row.
+    fn push_place(&mut self, place: [&[u8]; 2], column: usize, row: usize) -> Result<(), Failure> {
+        self.places.set_columns([column, column + 1, column + 2]);
+        self.places.push(place, row)
+    }
+
+    /// The number of the last place that was added.
+    fn last_place(&self) -> u32 {
+        // More than 2^32 - 1 places are refused after the row.
+        self.places.len().saturating_sub(1) as u32
+    }
+
+    /// Reads the index of a living point, which stands in column 2.
+    fn read_index(&self, value: &[u8], row: usize) -> Result<u32, Failure> {
+        let place = Place::Cell { row, column: 2 };
+        let index = text::whole(value, "an index", place)?;
+        match self.points.get(index as usize) {
+            Some(point) if point.is_living => Ok(index),
+            Some(_) => Err(Failure::input(format!("{place}: point {index} is deleted: its index is never used again"))),
+            None => Err(Failure::input(format!(
+                "{place}: there is no point {index}: before this row the script has {}, counted from 0",
+                counted(self.points.len(), "insertion")
+            ))),
+        }
+    }
+}
