@@ -168,7 +168,7 @@ fn jobs_that_a_core_cannot_hold_are_done_in_parts() {
     let run = scratch.run("bench uniform --batch 2 -n 2000 --backend clock --config small").ok();
     let row = &rows(&run, 2)[0];
     assert_eq!((&row[1..3], row[4].as_str()), (&["4000".to_owned(), "7952".to_owned()][..], "-"), "{row:?}");
-    // Parts take more clocks than the insertions alone would.
+    // Parts take more clocks than the insertions of one set.
     assert!(row[3].parse::<f64>().is_ok_and(|clocks| (15.0..40.0).contains(&clocks)), "{row:?}");
     let run = scratch.run("bench uniform -n 4096 --backend clock --config small").ok();
     assert!(rows(&run, 3)[0][2..].iter().all(|cell| cell == "-"), "{run:?}");
