@@ -1,7 +1,11 @@
 //! Which vertex has the point of an index: a hash table of the living indices.
 //!
 //! Indices are never used again, so they grow without end, and only a table whose size follows the number of living
-//! points keeps its memory. Eight indices in a row share a line of the processor's cache.
+//! points keeps its memory.
+//!
+//! Eight indices in a row share a line of the processor's cache. Each has a column of its own, and a search goes down
+//! its column, from line to line. If it went along the lines, a line that is already full would make all eight indices
+//! of the next such line search on, and runs of entries would be eight times as long.
 
 use alloc::vec::Vec;
 
@@ -14,10 +18,10 @@ const LINE: usize = 8;
 /// The odd number nearest to 2^64 divided by the golden ratio, whose multiples are spread evenly.
 const SPREAD: u64 = 0x9e37_79b9_7f4a_7c15;
 
-/// A map from living indices to vertices: open addressing with linear probing.
+/// A map from living indices to vertices: open addressing with linear probing, one column after the other.
 #[derive(Clone, Debug, Default)]
 pub struct Names {
-    /// Pairs of index and vertex; the length is 0 or a power of two.
+    /// Pairs of index and vertex, line by line; the length is 0 or a power of two from [`LINE`] on.
     entries: Vec<[u32; 2]>,
     count: usize,
 }
@@ -34,24 +38,24 @@ impl Names {
         if self.entries.is_empty() || index == EMPTY {
             return None;
         }
-        let place = self.find(index);
-        (self.entries[place][0] == index).then(|| self.entries[place][1])
+        let [found, vertex] = *self.at(self.find(index));
+        (found == index).then_some(vertex)
     }
 
     /// Gives an index a vertex, whether it has one already or not. The index `u32::MAX` is not allowed.
     pub fn set(&mut self, index: u32, vertex: u32) {
-        // At most seven of eight entries are in use.
-        if 8 * (self.count + 1) > 7 * self.entries.len() {
+        // At most three of four entries are in use.
+        if 4 * (self.count + 1) > 3 * self.entries.len() {
             self.grow((2 * self.entries.len()).max(LINE));
         }
         let place = self.find(index);
-        self.count += usize::from(self.entries[place][0] == EMPTY);
-        self.entries[place] = [index, vertex];
+        self.count += usize::from(self.at(place)[0] == EMPTY);
+        self.put(place, [index, vertex]);
     }
 
     /// Makes room for more indices.
     pub fn reserve(&mut self, more: usize) {
-        let needed = (8 * (self.count + more) / 7 + 1).next_power_of_two().max(LINE);
+        let needed = (4 * (self.count + more) / 3 + 1).next_power_of_two().max(LINE);
         if needed > self.entries.len() {
             self.grow(needed);
         }
@@ -59,20 +63,30 @@ impl Names {
 
     /// Takes an index out; returns its vertex.
     pub fn remove(&mut self, index: u32) -> Option<u32> {
-        let vertex = self.get(index)?;
+        if self.entries.is_empty() || index == EMPTY {
+            return None;
+        }
         let mask = self.entries.len() - 1;
         let mut hole = self.find(index);
+        let [found, vertex] = *self.at(hole);
+        if found != index {
+            return None;
+        }
         let mut next = (hole + 1) & mask;
         // Later entries of the run move up, unless that would put them before the place at which they are looked for.
-        while self.entries[next][0] != EMPTY {
-            let home = self.home(self.entries[next][0]);
+        loop {
+            let entry = *self.at(next);
+            if entry[0] == EMPTY {
+                break;
+            }
+            let home = self.home(entry[0]);
             if next.wrapping_sub(home) & mask >= next.wrapping_sub(hole) & mask {
-                self.entries[hole] = self.entries[next];
+                self.put(hole, entry);
                 hole = next;
             }
             next = (next + 1) & mask;
         }
-        self.entries[hole][0] = EMPTY;
+        self.put(hole, [EMPTY; 2]);
         self.count -= 1;
         Some(vertex)
     }
@@ -87,22 +101,41 @@ impl Names {
         size_of::<[u32; 2]>() * self.entries.capacity()
     }
 
-    /// The entry of an index, or the empty one where it would be put.
+    /// The place of an index, or the empty one where it would be put. Places go down the columns.
     #[inline]
     fn find(&self, index: u32) -> usize {
         let mask = self.entries.len() - 1;
         let mut place = self.home(index);
-        while self.entries[place][0] != index && self.entries[place][0] != EMPTY {
+        while self.at(place)[0] != index && self.at(place)[0] != EMPTY {
             place = (place + 1) & mask;
         }
         place
     }
 
-    /// The entry at which the search for an index begins.
+    /// The place at which the search for an index begins.
     #[inline]
     fn home(&self, index: u32) -> usize {
+        let lines = self.entries.len() / LINE;
         let line = (u64::from(index) / LINE as u64).wrapping_mul(SPREAD) >> 32;
-        (LINE * line as usize + index as usize % LINE) & (self.entries.len() - 1)
+        index as usize % LINE * lines + (line as usize & (lines - 1))
+    }
+
+    /// The number of the entry at a place.
+    #[inline]
+    fn entry(&self, place: usize) -> usize {
+        let lines = self.entries.len() / LINE;
+        (place & (lines - 1)) * LINE + (place >> lines.trailing_zeros())
+    }
+
+    #[inline]
+    fn at(&self, place: usize) -> &[u32; 2] {
+        &self.entries[self.entry(place)]
+    }
+
+    #[inline]
+    fn put(&mut self, place: usize, entry: [u32; 2]) {
+        let number = self.entry(place);
+        self.entries[number] = entry;
     }
 
     fn grow(&mut self, length: usize) {
@@ -111,7 +144,7 @@ impl Names {
         let old = core::mem::replace(&mut self.entries, entries);
         for entry in old.into_iter().filter(|entry| entry[0] != EMPTY) {
             let place = self.find(entry[0]);
-            self.entries[place] = entry;
+            self.put(place, entry);
         }
     }
 }
