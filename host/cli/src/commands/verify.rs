@@ -25,8 +25,10 @@ pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
     let GridArguments { coord_bits, quantize } = arguments.grid.checked()?;
     let how = quantize.map(|how| (how, coord_bits.unwrap_or(MODEL_COORD_BITS)));
     let laid = lattice::lay(&table, how).map_err(|failure| failure.in_file(&points_name))?;
-    let triangles = source::read_mesh(&arguments.mesh, arguments.format, arguments.quiet)?;
-    tell(check(&laid.numbers, &triangles).map_err(|error| error.to_string()), &laid, &points_name, arguments)
+    let checked = source::read_mesh(&arguments.mesh, arguments.format, arguments.quiet).and_then(|triangles| {
+        check(&laid.numbers, &triangles).map_err(|error| rejected(&error.to_string(), &points_name, arguments))
+    });
+    tell(checked, &laid, &points_name, arguments)
 }
 
 /// Verifies the mesh that a script leaves, which names points by the numbers of their insertions.
@@ -36,23 +38,37 @@ fn run_script(arguments: &VerifyArguments, name: &str) -> Result<(), Failure> {
     let laid = lattice::lay(&script.places, None).map_err(in_file)?;
     let living = script.living();
     let numbers = laid.numbers.select(&script.last_places(&living));
-    let triangles = source::read_mesh(&arguments.mesh, arguments.format, arguments.quiet)?;
-    let counted = triangles.iter().map(|&triangle| {
-        let [a, b, c] = triangle.map(|index| living.binary_search(&index).map_err(|_| index));
-        Ok([a?, b?, c?].map(|rank| rank as u32))
-    });
-    let counted: Result<Vec<_>, u32> = counted.collect();
-    let checked = counted.map_err(|index| format!("a triangle has the point {index}, which does not live at the end"));
-    let checked = checked.and_then(|triangles| {
-        let words = "the living points counted from 0 in the order of their indices";
-        check(&numbers, &triangles).map_err(|error| format!("{error} ({words})"))
+    let checked = source::read_mesh(&arguments.mesh, arguments.format, arguments.quiet).and_then(|triangles| {
+        check_living(&numbers, &living, &triangles).map_err(|reason| rejected(&reason, name, arguments))
     });
     tell(checked, &laid, name, arguments)
 }
 
+/// Verifies triangles that name points by the numbers of their insertions. `living` has the numbers of the points.
+fn check_living(numbers: &Numbers<'_>, living: &[u32], triangles: &[[u32; 3]]) -> Result<VerifySummary, String> {
+    let rank = |index: u32| {
+        let found = living.binary_search(&index);
+        let rank = found.map_err(|_| format!("a triangle has the point {index}, which does not live at the end"))?;
+        Ok::<u32, String>(rank as u32)
+    };
+    let ranks = |&[a, b, c]: &[u32; 3]| Ok([rank(a)?, rank(b)?, rank(c)?]);
+    let triangles: Vec<[u32; 3]> = triangles.iter().map(ranks).collect::<Result<_, String>>()?;
+    let words = "the living points counted from 0 in the order of their indices";
+    check(numbers, &triangles).map_err(|error| format!("{error} ({words})"))
+}
+
+/// The failure of a mesh that is not the one of these points.
+fn rejected(reason: &str, points_name: &str, arguments: &VerifyArguments) -> Failure {
+    let mesh_name = path::name(&arguments.mesh);
+    Failure::new(
+        Exit::Rejected,
+        format!("the triangles of {mesh_name} are not the canonical Delaunay triangulation of {points_name}: {reason}"),
+    )
+}
+
 /// Prints the result. A wrong mesh is a failure.
 fn tell(
-    checked: Result<VerifySummary, String>,
+    checked: Result<VerifySummary, Failure>,
     laid: &Laid<'_>,
     points_name: &str,
     arguments: &VerifyArguments,
@@ -60,15 +76,8 @@ fn tell(
     let mesh_name = path::name(&arguments.mesh);
     let summary = match checked {
         Ok(summary) => summary,
-        Err(reason) => {
-            let failure = Failure::new(
-                Exit::Rejected,
-                format!(
-                    "the triangles of {mesh_name} are not the canonical Delaunay triangulation of {points_name}: \
-                     {reason}"
-                ),
-            );
-            if arguments.json {
+        Err(failure) => {
+            if arguments.json && failure.exit == Exit::Rejected {
                 output::print(&format!("{}\n", json!({ "valid": false, "reason": failure.message })))?;
             }
             return Err(failure);
