@@ -31,9 +31,10 @@ pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
     let GridArguments { coord_bits, quantize } = arguments.grid.checked()?;
     let how = quantize.map(|how| (how, coord_bits.unwrap_or(MODEL_COORD_BITS)));
     let laid = lattice::lay(&table, how).map_err(|failure| failure.in_file(&points_name))?;
-    let triangles = read_triangles(arguments, mesh)?;
     let names = [&*path::name(mesh), &*points_name];
-    tell(check(&laid.numbers, &triangles).map_err(|error| error.to_string()), &laid, names, arguments)
+    let checked = read_triangles(arguments, mesh)
+        .and_then(|triangles| check(&laid.numbers, &triangles).map_err(|error| rejected(&error.to_string(), names)));
+    tell(checked, &laid, names, arguments)
 }
 
 /// Reads the triangles of the mesh.
@@ -53,38 +54,44 @@ fn run_script(arguments: &VerifyArguments, path: &Path, mesh: &Path) -> Result<(
     let laid = lattice::lay(&script.places, None).map_err(in_file)?;
     let living = script.living();
     let numbers = laid.numbers.select(&script.last_places(&living));
-    let triangles = read_triangles(arguments, mesh)?;
-    let counted = triangles.iter().map(|&triangle| {
-        let [a, b, c] = triangle.map(|index| living.binary_search(&index).map_err(|_| index));
-        Ok([a?, b?, c?].map(|rank| rank as u32))
-    });
-    let counted: Result<Vec<_>, u32> = counted.collect();
-    let checked = counted.map_err(|index| format!("a triangle has the point {index}, which does not live at the end"));
-    let checked = checked.and_then(|triangles| {
-        let words = "the living points counted from 0 in the order of their indices";
-        check(&numbers, &triangles).map_err(|error| format!("{error} ({words})"))
-    });
-    tell(checked, &laid, [&path::name(mesh), &name], arguments)
+    let names = [&*path::name(mesh), &*name];
+    let checked = read_triangles(arguments, mesh)
+        .and_then(|triangles| check_living(&numbers, &living, &triangles).map_err(|reason| rejected(&reason, names)));
+    tell(checked, &laid, names, arguments)
+}
+
+/// Verifies triangles that name points by the numbers of their insertions. `living` has the numbers of the points.
+fn check_living(numbers: &Numbers<'_>, living: &[u32], triangles: &[[u32; 3]]) -> Result<VerifySummary, String> {
+    let rank = |index: u32| {
+        let found = living.binary_search(&index);
+        let rank = found.map_err(|_| format!("a triangle has the point {index}, which does not live at the end"))?;
+        Ok::<u32, String>(rank as u32)
+    };
+    let ranks = |&[a, b, c]: &[u32; 3]| Ok([rank(a)?, rank(b)?, rank(c)?]);
+    let triangles: Vec<[u32; 3]> = triangles.iter().map(ranks).collect::<Result<_, String>>()?;
+    let words = "the living points counted from 0 in the order of their indices";
+    check(numbers, &triangles).map_err(|error| format!("{error} ({words})"))
+}
+
+/// The failure of a mesh that is not the one of these points.
+fn rejected(reason: &str, [mesh_name, points_name]: [&str; 2]) -> Failure {
+    Failure::new(
+        Exit::Rejected,
+        format!("the triangles of {mesh_name} are not the canonical Delaunay triangulation of {points_name}: {reason}"),
+    )
 }
 
 /// Prints the result. A wrong mesh is a failure.
 fn tell(
-    checked: Result<VerifySummary, String>,
+    checked: Result<VerifySummary, Failure>,
     laid: &Laid<'_>,
     [mesh_name, points_name]: [&str; 2],
     arguments: &VerifyArguments,
 ) -> Result<(), Failure> {
     let summary = match checked {
         Ok(summary) => summary,
-        Err(reason) => {
-            let failure = Failure::new(
-                Exit::Rejected,
-                format!(
-                    "the triangles of {mesh_name} are not the canonical Delaunay triangulation of {points_name}: \
-                     {reason}"
-                ),
-            );
-            if arguments.json {
+        Err(failure) => {
+            if arguments.json && failure.exit == Exit::Rejected {
                 output::print(&format!("{}\n", json!({ "valid": false, "reason": failure.message })))?;
             }
             return Err(failure);

@@ -45,12 +45,7 @@ fn read_command<'a>(
     row: usize,
     script: &mut Script,
 ) -> Result<Command, Failure> {
-    let Some(form) = FORMS.iter().position(|(known, _)| known.as_bytes() == name) else {
-        let shown = quoted(name);
-        return Err(Failure::input(format!(
-            "row {row}: {shown} is no command: the commands are insert, delete, move, locate and nearest"
-        )));
-    };
+    let form = FORMS.iter().position(|(known, _)| known.as_bytes() == name).ok_or_else(|| no_command(name, row))?;
     let [a, b, c] = read_values(FORMS[form], values, row)?;
     Ok(match FORMS[form].0 {
         "insert" => {
@@ -79,6 +74,14 @@ fn read_command<'a>(
             }
         }
     })
+}
+
+/// The failure of a row that begins with no name of a command.
+fn no_command(name: &[u8], row: usize) -> Failure {
+    let shown = quoted(name);
+    Failure::input(format!(
+        "row {row}: {shown} is no command: the commands are insert, delete, move, locate and nearest"
+    ))
 }
 
 /// The values behind the name of a command, of which there must be as many as its form has.

@@ -211,10 +211,16 @@ fn write_tracks(start: &[[u32; 2]], frames: u32, to: &mut ScriptWriter<'_>) -> i
             let place = to.anywhere();
             appear(&mut features, place, to)?;
         }
-        for _ in 0..start.len().div_ceil(8) {
-            let place = to.anywhere();
-            to.place(format_args!("locate"), place)?;
-        }
+        ask(start.len().div_ceil(8), to)?;
+    }
+    Ok(())
+}
+
+/// Asks what so many random places are.
+fn ask(count: usize, to: &mut ScriptWriter<'_>) -> io::Result<()> {
+    for _ in 0..count {
+        let place = to.anywhere();
+        to.place(format_args!("locate"), place)?;
     }
     Ok(())
 }

@@ -123,7 +123,7 @@ fn random_scripts_give_the_mesh_and_the_answers_of_brute_force() {
 
 /// The mesh has the bytes of `triangulate` for the living points, if none was deleted.
 #[test]
-fn insertions_alone_are_a_set_of_points() {
+fn a_script_of_insertions_is_a_set_of_points() {
     let scratch = Scratch::new();
     for numbers in ["whole", "decimal", "double"] {
         scratch.run(&format!("generate clusters -n 500 --numbers {numbers} --seed 3 -o p.csv")).ok();
