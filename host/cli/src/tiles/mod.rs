@@ -28,8 +28,10 @@ mod split;
 mod survey;
 mod written;
 
+pub use digest::scattered;
+pub use ground::{Extent, Ground};
 pub use inputs::points_again;
-pub use join::{join, triangles_of, Joined, Order};
+pub use join::{euler, join, triangles_of, Joined, Order};
 pub use local::{local, Outcome, TileAt};
 pub use manifest::Manifest;
 pub use split::{split, Plan, Summary};
