@@ -15,7 +15,7 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Triangulate the points of all inputs together: mpirun -n 8 incircle-mpi triangulate parts/*.npy -o mesh
+    /// Triangulate the points of all inputs together: mpirun -n 8 incircle-mpi triangulate pieces/*.npy -o mesh
     Triangulate(TriangulateArguments),
 }
 

@@ -8,7 +8,7 @@ use incircle_cli::{Exit, Failure};
 
 use crate::exchange::Tiles;
 use crate::nodes::{shared_levels, Node};
-use crate::team::Team;
+use crate::world::World;
 
 /// What all regions of a level of the tree have in common.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -32,7 +32,7 @@ pub struct Climb {
     pub duplicates: u64,
     /// The number of points on the hull of the set, in the process of the last step, and 0 in all others.
     pub hull: u64,
-    /// The share of this process in each level.
+    /// What this process has found on each level of the tree.
     pub levels: Vec<Level>,
     borders: BTreeMap<usize, Border<Point, u32>>,
     triangulator: Triangulator,
@@ -61,23 +61,23 @@ impl Climb {
     }
 
     /// Does the joins that several processes share. A failure ends all processes.
-    pub fn together(&mut self, team: &Team, nodes: &[Node]) {
+    pub fn together(&mut self, world: &World, nodes: &[Node]) {
         for level in shared_levels(nodes) {
-            let messages = self.messages(team, nodes, &level);
-            let done = team.while_sending(&messages, || {
-                let own = level.iter().filter(|&&place| nodes[place].rank == team.rank());
-                own.into_iter().try_for_each(|&place| self.shared_join(team, nodes, place))
+            let messages = self.messages(world, nodes, &level);
+            let done = world.while_sending(&messages, || {
+                let mut own = level.iter().filter(|&&place| nodes[place].rank == world.rank());
+                own.try_for_each(|&place| self.shared_join(world, nodes, place))
             });
             if let Err(failure) = done {
-                team.abort(&failure);
+                world.abort(&failure);
             }
         }
     }
 
     /// The borders that this process sends for joins of other processes.
-    fn messages(&mut self, team: &Team, nodes: &[Node], level: &[usize]) -> Vec<(usize, Vec<u32>)> {
+    fn messages(&mut self, world: &World, nodes: &[Node], level: &[usize]) -> Vec<(usize, Vec<u32>)> {
         let mut messages = Vec::new();
-        for join in level.iter().map(|&place| &nodes[place]).filter(|join| join.rank != team.rank()) {
+        for join in level.iter().map(|&place| &nodes[place]).filter(|join| join.rank != world.rank()) {
             for child in &join.children {
                 if let Some(border) = self.borders.remove(child) {
                     let message = words_of(&border);
@@ -89,14 +89,14 @@ impl Climb {
         messages
     }
 
-    fn shared_join(&mut self, team: &Team, nodes: &[Node], place: usize) -> Result<(), Failure> {
+    fn shared_join(&mut self, world: &World, nodes: &[Node], place: usize) -> Result<(), Failure> {
         let join = &nodes[place];
         let mut borders = Vec::with_capacity(join.children.len());
         for child in &join.children {
             let Node { region, rank, .. } = nodes[*child];
             borders.push(match self.borders.remove(child) {
                 Some(border) => border,
-                None => border_of(&team.receive(rank), region).ok_or_else(|| lost(rank))?,
+                None => border_of(&world.receive(rank), region).ok_or_else(|| lost(rank))?,
             });
         }
         let tile = self.join(join.region, borders)?;

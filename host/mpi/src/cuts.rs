@@ -6,8 +6,8 @@ use incircle::order::z_curve::position;
 use incircle::tiles::Tree;
 use incircle_cli::scattered;
 
-use crate::share::Share;
-use crate::team::Team;
+use crate::slice::Slice;
+use crate::world::World;
 
 /// The tiles of a process, if nobody says how large a tile is. With more tiles the processes have more equal work, and
 /// longer borders.
@@ -25,18 +25,18 @@ pub struct Cuts {
     pub owners: Vec<usize>,
 }
 
-/// Cuts the set of all shares. A point is in the sample or not by its index alone.
-pub fn cut(team: &Team, share: &Share, most: Option<NonZeroUsize>) -> Cuts {
-    let wanted = LEAST_SAMPLE.max(SAMPLE_EACH * team.size() as u64);
-    let limit = match share.total {
+/// Cuts the set of all processes. A point is in the sample or not by its index alone.
+pub fn cut(world: &World, slice: &Slice, most: Option<NonZeroUsize>) -> Cuts {
+    let wanted = LEAST_SAMPLE.max(SAMPLE_EACH * world.size() as u64);
+    let limit = match slice.total {
         total if total <= wanted => u64::MAX,
         total => ((u128::from(wanted) << u64::BITS) / u128::from(total)) as u64,
     };
-    let chosen = (share.first..).zip(&share.points).filter(|&(index, _)| scattered(index) <= limit);
+    let chosen = (slice.first..).zip(&slice.points).filter(|&(index, _)| scattered(index) <= limit);
     let own: Vec<u64> = chosen.map(|(_, point)| position(point.x, point.y)).collect();
-    let mut sample = team.gather(&own).concat();
+    let mut sample = world.gather(&own).concat();
     sample.sort_unstable();
-    of_sample(&sample, share.total, most, team.size())
+    of_sample(&sample, slice.total, most, world.size())
 }
 
 /// The cuts for positions of a sample in ascending order.
@@ -46,7 +46,7 @@ fn of_sample(sample: &[u64], total: u64, most: Option<NonZeroUsize>, size: usize
         Some(most) => (sample.len() as u128 * most.get() as u128 / u128::from(total.max(1))) as usize,
     };
     let tree = Tree::of_positions(sample, NonZeroUsize::new(of_tile).unwrap_or(NonZeroUsize::MIN));
-    // A tile belongs to the process in whose share of the sample its middle lies.
+    // A tile belongs to the process whose equal part of the sample holds the middle of the tile.
     let owner = |middle: usize| (middle * size / sample.len().max(1)).min(size - 1);
     let owners = tree.tiles().map(|(_, points)| owner(points.start.midpoint(points.end))).collect();
     Cuts { tree, owners }

@@ -5,8 +5,8 @@ use std::ops::Range;
 use incircle::Point;
 
 use crate::cuts::Cuts;
-use crate::share::Share;
-use crate::team::Team;
+use crate::slice::Slice;
+use crate::world::World;
 
 /// The numbers of 32 bits of a point on its way: index, x, y.
 const ROW: usize = 3;
@@ -24,10 +24,10 @@ pub struct Tiles {
 }
 
 /// Sends all points to the processes of their tiles.
-pub fn exchange(team: &Team, share: Share, cuts: &Cuts) -> Tiles {
-    let stretches = stretches(&cuts.owners, team.size());
-    let lists = team.exchange(lists(share, cuts, &stretches));
-    let own = stretches[team.rank()].len();
+pub fn exchange(world: &World, slice: Slice, cuts: &Cuts) -> Tiles {
+    let stretches = stretches(&cuts.owners, world.size());
+    let lists = world.exchange(lists(slice, cuts, &stretches));
+    let own = stretches[world.rank()].len();
     let points = lists.iter().map(|list| (list.len() - own.min(list.len())) / ROW).sum::<usize>() as u64;
     Tiles { at: vec![own; lists.len()], lists, taken: 0, points }
 }
@@ -39,8 +39,8 @@ fn stretches(owners: &[usize], size: usize) -> Vec<Range<usize>> {
 }
 
 /// The lists for all processes. Within a tile, indices ascend.
-fn lists(share: Share, cuts: &Cuts, stretches: &[Range<usize>]) -> Vec<Vec<u32>> {
-    let tiles: Vec<u32> = share.points.iter().map(|&point| cuts.tree.tile_of(point) as u32).collect();
+fn lists(slice: Slice, cuts: &Cuts, stretches: &[Range<usize>]) -> Vec<Vec<u32>> {
+    let tiles: Vec<u32> = slice.points.iter().map(|&point| cuts.tree.tile_of(point) as u32).collect();
     let mut counts = vec![0u32; cuts.owners.len()];
     for &tile in &tiles {
         counts[tile as usize] += 1;
@@ -58,7 +58,7 @@ fn lists(share: Share, cuts: &Cuts, stretches: &[Range<usize>]) -> Vec<Vec<u32>>
         lists.push(list);
     }
     // An index of a set fits 32 bits.
-    for (index, (point, tile)) in (share.first as u32..).zip(share.points.iter().zip(tiles)) {
+    for (index, (point, tile)) in (slice.first as u32..).zip(slice.points.iter().zip(tiles)) {
         let place = &mut places[tile as usize];
         lists[cuts.owners[tile as usize]][*place..*place + ROW].copy_from_slice(&[index, point.x, point.y]);
         *place += ROW;

@@ -1,7 +1,7 @@
 //! One Delaunay triangulation on many machines: tiles, whose points and borders travel by MPI.
 //!
 //! All processes run this program. MPI numbers them from 0, and calls the number of a process its rank. [`run`] has the
-//! steps, and each step is a module: [`share`], [`cuts`], [`exchange`], [`climb`], [`ordering`], [`folder`].
+//! steps, and each step is a module: [`slice`], [`cuts`], [`exchange`], [`climb`], [`ordering`], [`folder`].
 //! What the steps compute is in [`incircle::tiles`]; here is what carries it from rank to rank.
 
 mod arguments;
@@ -13,8 +13,8 @@ mod nodes;
 mod ordering;
 mod report;
 mod run;
-mod share;
-mod team;
+mod slice;
+mod world;
 
 use std::process::ExitCode;
 
@@ -22,7 +22,7 @@ use clap::Parser;
 use incircle_cli::Exit;
 
 use arguments::{Cli, Command};
-use team::Team;
+use world::World;
 
 fn main() -> ExitCode {
     // MPI may take arguments of its own, so it begins before they are read.
@@ -30,11 +30,11 @@ fn main() -> ExitCode {
         eprintln!("incircle-mpi: MPI does not start: run the program with mpirun, mpiexec or srun");
         return ExitCode::from(Exit::Device as u8);
     };
-    let team = Team::new(universe.world());
+    let world = World::new(universe.world());
     let code = match Cli::try_parse() {
-        Ok(Cli { command: Command::Triangulate(arguments) }) => run::triangulate(&team, &arguments),
+        Ok(Cli { command: Command::Triangulate(arguments) }) => run::triangulate(&world, &arguments),
         Err(refusal) => {
-            if team.is_first() {
+            if world.is_first() {
                 // Nobody can be told that standard output is closed.
                 let _ = refusal.print();
             }

@@ -6,7 +6,7 @@ use serde_json::{json, Map, Value};
 
 use crate::climb::Level;
 use crate::folder::file_name;
-use crate::team::Team;
+use crate::world::World;
 
 /// The counts of a mesh.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -66,8 +66,8 @@ impl Log {
     }
 
     /// Ends a step, and says so. All processes must call this, and they wait for each other.
-    pub fn step(&mut self, team: &Team, name: &'static str, what: &str) {
-        let bytes = team.sum(&[team.take_sent()])[0];
+    pub fn step(&mut self, world: &World, name: &'static str, what: &str) {
+        let bytes = world.sum(&[world.take_sent()])[0];
         let seconds = self.since.elapsed().as_secs_f64();
         self.since = Instant::now();
         self.steps.push(Entry { name, seconds, bytes });
@@ -84,7 +84,7 @@ impl Log {
         seconds.insert("total".to_owned(), self.began.elapsed().as_secs_f64().into());
         let bytes: Map<String, Value> =
             self.steps.iter().map(|step| (step.name.to_owned(), step.bytes.into())).collect();
-        object["ranks"] = counts.triangles.len().into();
+        object["processes"] = counts.triangles.len().into();
         object["most_points"] = most.into();
         object["levels"] = levels.iter().map(|level| level_json(level, counts.points)).collect();
         object["seconds"] = seconds.into();

@@ -12,66 +12,66 @@ use crate::folder::Folder;
 use crate::nodes::nodes;
 use crate::ordering;
 use crate::report::{Counts, Log};
-use crate::share;
-use crate::team::{Halt, Team};
+use crate::slice;
+use crate::world::{Halt, World};
 
 /// Triangulates the points of all inputs, and writes the mesh.
 ///
 /// # Errors
 /// Any process failed. The reason has been printed, and the folder of the mesh does not exist.
-pub fn triangulate(team: &Team, arguments: &TriangulateArguments) -> Result<(), Halt> {
-    let number = team.gather(&[std::process::id().into()])[0][0];
+pub fn triangulate(world: &World, arguments: &TriangulateArguments) -> Result<(), Halt> {
+    let number = world.gather(&[std::process::id().into()])[0][0];
     let folder = Folder::new(&arguments.output, number);
-    team.agree(if team.is_first() { folder.make() } else { Ok(()) })?;
-    let done = fill(team, arguments, &folder);
-    if done.is_err() && team.is_first() {
+    world.agree(if world.is_first() { folder.make() } else { Ok(()) })?;
+    let done = fill(world, arguments, &folder);
+    if done.is_err() && world.is_first() {
         folder.remove();
     }
     done
 }
 
 /// Does all steps but the first and the last one of the folder.
-fn fill(team: &Team, arguments: &TriangulateArguments, folder: &Folder) -> Result<(), Halt> {
-    let mut log = Log::new(team.is_first() && !arguments.quiet);
-    let share = share::read(team, &arguments.inputs)?;
-    let points = share.total;
-    log.step(team, "read", &format!("{points} points, "));
+fn fill(world: &World, arguments: &TriangulateArguments, folder: &Folder) -> Result<(), Halt> {
+    let mut log = Log::new(world.is_first() && !arguments.quiet);
+    let slice = slice::read(world, &arguments.inputs)?;
+    let points = slice.total;
+    log.step(world, "read", &format!("{points} points, "));
 
-    let cuts = cuts::cut(team, &share, arguments.points);
-    log.step(team, "cut", &format!("{} tiles, ", cuts.owners.len()));
+    let cuts = cuts::cut(world, &slice, arguments.points);
+    log.step(world, "cut", &format!("{} tiles, ", cuts.owners.len()));
 
     let nodes = nodes(&cuts);
-    let tiles = exchange::exchange(team, share, &cuts);
-    let most = team.greatest(tiles.points);
-    log.step(team, "exchange", &format!("at most {most} points in a process, "));
+    let tiles = exchange::exchange(world, slice, &cuts);
+    let most = world.greatest(tiles.points);
+    log.step(world, "exchange", &format!("at most {most} points in a process, "));
 
-    let mut climb = team.agree(Climb::alone(team.rank(), &nodes, tiles))?;
-    log.step(team, "local", "");
+    let mut climb = world.agree(Climb::alone(world.rank(), &nodes, tiles))?;
+    log.step(world, "local", "");
 
-    climb.together(team, &nodes);
-    let (counts, levels) = summed(team, points, &climb);
-    team.agree(check(&counts))?;
-    log.step(team, "join", "");
+    climb.together(world, &nodes);
+    let (counts, levels) = summed(world, points, &climb);
+    world.agree(check(&counts))?;
+    log.step(world, "join", "");
 
-    let triangles = ordering::sort(team, climb.finals);
-    let lists = team.gather(&[triangles.len() as u64]);
+    let triangles = ordering::sort(world, climb.finals);
+    let lists = world.gather(&[triangles.len() as u64]);
     let counts = Counts { triangles: lists.concat(), ..counts };
-    log.step(team, "sort", "");
+    log.step(world, "sort", "");
 
-    team.agree(folder.write(team.rank(), &triangles))?;
-    team.agree(if team.is_first() { folder.finish(&counts.to_json()) } else { Ok(()) })?;
-    log.step(team, "write", "");
-    if team.is_first() {
+    world.agree(folder.write(world.rank(), &triangles))?;
+    world.agree(if world.is_first() { folder.finish(&counts.to_json()) } else { Ok(()) })?;
+    log.step(world, "write", "");
+    if world.is_first() {
         tell(arguments, &log, &counts, most, &levels);
     }
     Ok(())
 }
 
 /// The counts of the mesh and the levels of the tree, of all processes together.
-fn summed(team: &Team, points: u64, climb: &Climb) -> (Counts, Vec<Level>) {
+fn summed(world: &World, points: u64, climb: &Climb) -> (Counts, Vec<Level>) {
     let mut own = vec![climb.finals.len() as u64, climb.duplicates, climb.hull];
     own.extend(climb.levels.iter().flat_map(|level| [level.regions, level.border, level.open, level.bytes]));
-    let all = team.sum(&own);
+    let all = world.sum(&own);
     let (head, rest) = all.split_at(3);
     let levels =
         rest.as_chunks().0.iter().map(|&[regions, border, open, bytes]| Level { regions, border, open, bytes });

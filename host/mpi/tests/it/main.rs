@@ -58,9 +58,8 @@ impl Scratch {
 
     /// The program on some processes, in the folder of the test.
     pub fn command(&self, ranks: usize, arguments: &str) -> Command {
-        let launcher = std::env::var("MPIRUN").unwrap_or_else(|_| {
-            "mpirun --allow-run-as-root --oversubscribe --mca btl_vader_single_copy_mechanism none".to_owned()
-        });
+        let usual = "mpirun --allow-run-as-root --oversubscribe".to_owned();
+        let launcher = std::env::var("MPIRUN").unwrap_or(usual);
         let mut words = launcher.split_whitespace();
         let mut command = Command::new(words.next().expect("the name of the launcher"));
         command.args(words).args(["-n", &ranks.to_string(), env!("CARGO_BIN_EXE_incircle-mpi")]);

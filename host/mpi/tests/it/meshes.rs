@@ -30,7 +30,7 @@ fn every_number_of_processes_gives_the_mesh_of_triangulate() {
         scratch.incircle("triangulate @p.npy -o @right.npy -q");
         for ranks in [1, 2, 3, 4, 8] {
             let summary = same_mesh(&scratch, ranks, "p.npy", "--points 50");
-            assert_eq!(summary["ranks"], ranks);
+            assert_eq!(summary["processes"], ranks);
         }
     }
 }

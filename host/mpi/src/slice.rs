@@ -1,4 +1,4 @@
-//! The first step: each process reads its share of the points, a range of the indices of the whole set.
+//! The first step: each process reads its slice of the points, a range of the indices of the whole set.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -7,13 +7,13 @@ use incircle::Point;
 use incircle_cli::formats::npy::Rows;
 use incircle_cli::{Coordinates, Extent, Failure, Input};
 
-use crate::team::{Halt, Team};
+use crate::world::{Halt, World};
 
 /// The most points of a set: each index fits 32 bits, and two values stay free.
 const MOST_POINTS: u64 = u32::MAX as u64 - 1;
 
-/// The share of one process.
-pub struct Share {
+/// The points that one process reads.
+pub struct Slice {
     /// The number of points of the whole set.
     pub total: u64,
     /// The index of the first point.
@@ -22,29 +22,29 @@ pub struct Share {
     pub points: Vec<Point>,
 }
 
-/// Reads the share of this process. The sequence of the inputs numbers the points.
+/// Reads the slice of this process. The sequence of the inputs numbers the points.
 ///
 /// # Errors
 /// An input cannot be read, has no lattice of at most 32 bits in common with the others, or changes meanwhile.
-pub fn read(team: &Team, inputs: &[PathBuf]) -> Result<Share, Halt> {
-    let counts = team.agree(count(team, inputs))?;
-    let counts = in_turns(&team.gather(&counts), inputs.len());
+pub fn read(world: &World, inputs: &[PathBuf]) -> Result<Slice, Halt> {
+    let counts = world.agree(count(world, inputs))?;
+    let counts = in_turns(&world.gather(&counts), inputs.len());
     let total = counts.iter().try_fold(0u64, |sum, &count| sum.checked_add(count));
     let total = total.filter(|&total| total <= MOST_POINTS).ok_or_else(|| {
         Failure::input(format!("the inputs have more than {MOST_POINTS} points, which is the most of one set"))
     });
-    let total = team.agree(total)?;
-    let range = range_of(total, team.rank(), team.size());
-    let (pieces, own) = team.agree(pieces(inputs, &counts, &range))?;
+    let total = world.agree(total)?;
+    let range = range_of(total, world.rank(), world.size());
+    let (pieces, own) = world.agree(pieces(inputs, &counts, &range))?;
     let mut extent = Extent::default();
-    let all = team.gather(&own.to_words());
+    let all = world.gather(&own.to_words());
     let ground = all.iter().try_for_each(|words| extent.add_words(words)).and_then(|()| extent.ground());
-    let ground = team.agree(ground)?;
+    let ground = world.agree(ground)?;
     let mut points = Vec::with_capacity((range.end - range.start) as usize);
     let laid = pieces.into_iter().try_for_each(|piece| ground.lay(&piece, &mut points));
     // The lattice was made of these points, so all of them are on it.
-    team.agree(laid.ok_or_else(|| Failure::input("the lattice of the set does not have all of its points")))?;
-    Ok(Share { total, first: range.start, points })
+    world.agree(laid.ok_or_else(|| Failure::input("the lattice of the set does not have all of its points")))?;
+    Ok(Slice { total, first: range.start, points })
 }
 
 /// The indices of the points of a process, of `total`.
@@ -55,8 +55,8 @@ fn range_of(total: u64, rank: usize, size: usize) -> Range<u64> {
 
 /// The numbers of points of some inputs. Each process opens some, so that a file server is not asked for every file by
 /// every process.
-fn count(team: &Team, inputs: &[PathBuf]) -> Result<Vec<u64>, Failure> {
-    let own = inputs.iter().skip(team.rank()).step_by(team.size());
+fn count(world: &World, inputs: &[PathBuf]) -> Result<Vec<u64>, Failure> {
+    let own = inputs.iter().skip(world.rank()).step_by(world.size());
     own.map(|path| {
         let is_array = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("npy"));
         if !is_array {

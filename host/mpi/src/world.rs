@@ -1,16 +1,16 @@
-//! All processes of a run, and how they talk.
+//! All processes of a run, and what they send to each other.
 
 use std::cell::Cell;
 use std::io::Write;
 
 use incircle_cli::{Exit, Failure};
 use mpi::collective::SystemOperation;
-use mpi::datatype::{Partition, PartitionMut};
+use mpi::datatype::PartitionMut;
 use mpi::request::{scope, WaitGuard};
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, CommunicatorCollectives, Destination, Source};
 
-/// The most numbers of 32 bits that a process sends or receives in one call. MPI counts them in 31 bits.
+/// The most numbers of 32 bits of a message. MPI counts them in 31 bits.
 const MOST_WORDS: usize = i32::MAX as usize;
 
 /// The exit code of a run that failed. The reason has been printed.
@@ -18,18 +18,18 @@ pub type Halt = u8;
 
 /// The processes of a run. All of them must call the same functions in the same sequence, except where a function says
 /// otherwise.
-pub struct Team {
-    world: SimpleCommunicator,
+pub struct World {
+    comm: SimpleCommunicator,
     rank: usize,
     size: usize,
     sent: Cell<u64>,
 }
 
-impl Team {
-    /// The team of all processes that `world` connects.
-    pub fn new(world: SimpleCommunicator) -> Self {
-        let (rank, size) = (world.rank() as usize, world.size() as usize);
-        Self { world, rank, size, sent: Cell::new(0) }
+impl World {
+    /// The world of all processes that `comm` connects.
+    pub fn new(comm: SimpleCommunicator) -> Self {
+        let (rank, size) = (comm.rank() as usize, comm.size() as usize);
+        Self { comm, rank, size, sent: Cell::new(0) }
     }
 
     /// The number of this process, counted from 0.
@@ -57,7 +57,7 @@ impl Team {
     pub fn agree<T>(&self, own: Result<T, Failure>) -> Result<T, Halt> {
         let code = own.as_ref().err().map_or(0, |failure| failure.exit as u8);
         let mut codes = vec![0u8; self.size];
-        self.world.all_gather_into(&code, &mut codes[..]);
+        self.comm.all_gather_into(&code, &mut codes[..]);
         let Some(first) = codes.iter().position(|&code| code != 0) else {
             // No code is left, so this process did not fail either.
             return own.map_err(|failure| failure.exit as u8);
@@ -72,18 +72,18 @@ impl Team {
     /// Prints a failure and ends all processes at once. Any process may call this alone.
     pub fn abort(&self, failure: &Failure) -> ! {
         tell(failure);
-        self.world.abort(failure.exit as i32)
+        self.comm.abort(failure.exit as i32)
     }
 
     /// The lists of all processes, by rank.
     pub fn gather(&self, own: &[u64]) -> Vec<Vec<u64>> {
         let mut counts = vec![0i32; self.size];
-        self.world.all_gather_into(&(own.len() as i32), &mut counts[..]);
+        self.comm.all_gather_into(&(own.len() as i32), &mut counts[..]);
         let displs = sums(&counts);
         let mut all = vec![0u64; counts.iter().map(|&count| count as usize).sum()];
         {
             let mut partition = PartitionMut::new(&mut all[..], counts.as_slice(), displs.as_slice());
-            self.world.all_gather_varcount_into(own, &mut partition);
+            self.comm.all_gather_varcount_into(own, &mut partition);
         }
         self.count(own.len() * 8 * (self.size - 1));
         let mut rest = all.as_slice();
@@ -98,62 +98,51 @@ impl Team {
     /// The sums of the numbers of all processes, place by place. All lists must have the same length.
     pub fn sum(&self, own: &[u64]) -> Vec<u64> {
         let mut all = vec![0; own.len()];
-        self.world.all_reduce_into(own, &mut all[..], SystemOperation::sum());
+        self.comm.all_reduce_into(own, &mut all[..], SystemOperation::sum());
         all
     }
 
     /// The greatest of the numbers of all processes.
     pub fn greatest(&self, own: u64) -> u64 {
         let mut all = 0;
-        self.world.all_reduce_into(&own, &mut all, SystemOperation::max());
+        self.comm.all_reduce_into(&own, &mut all, SystemOperation::max());
         all
     }
 
-    /// Sends a list to each process, and returns the list of each process for this one, by rank. A list may be longer
-    /// than one call of MPI can send: it travels in several.
+    /// Sends a list to each process, and returns the list of each process for this one, by rank. A list that is longer
+    /// than a message may be travels in several messages.
     pub fn exchange(&self, mut lists: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
         lists.resize_with(self.size, Vec::new);
-        let mut received = vec![Vec::new(); self.size];
-        received[self.rank] = std::mem::take(&mut lists[self.rank]);
-        let most = MOST_WORDS / self.size;
-        let longest = lists.iter().map(Vec::len).max().unwrap_or(0);
-        let rounds = self.greatest(longest.div_ceil(most) as u64) as usize;
-        for round in 0..rounds {
-            let part = |list: &Vec<u32>| {
-                let first = list.len().min(round * most);
-                first..list.len().min(first + most)
-            };
-            let parts: Vec<&[u32]> = lists.iter().map(|list| &list[part(list)]).collect();
-            self.exchange_once(&parts, &mut received);
-        }
+        let lengths: Vec<u64> = lists.iter().map(|list| list.len() as u64).collect();
+        let mut counts = vec![0u64; self.size];
+        self.comm.all_to_all_into(&lengths[..], &mut counts[..]);
+        let own = std::mem::take(&mut lists[self.rank]);
+        // Nothing is sent from a process to itself.
+        counts[self.rank] = 0;
+        let mut received: Vec<Vec<u32>> = counts.iter().map(|&count| vec![0; count as usize]).collect();
+        self.count(lists.iter().map(Vec::len).sum::<usize>() * 4);
+        scope(|scope| {
+            let mut requests = Vec::new();
+            for (from, list) in received.iter_mut().enumerate() {
+                let process = self.comm.process_at_rank(from as i32);
+                for piece in list.chunks_mut(MOST_WORDS) {
+                    requests.push(WaitGuard::from(process.immediate_receive_into(scope, piece)));
+                }
+            }
+            let mut sends = Vec::new();
+            for (to, list) in lists.iter().enumerate() {
+                let process = self.comm.process_at_rank(to as i32);
+                for piece in list.chunks(MOST_WORDS) {
+                    sends.push(WaitGuard::from(process.immediate_send(scope, piece)));
+                }
+            }
+        });
+        received[self.rank] = own;
         received
     }
 
-    /// Sends a part of each list, and puts what comes behind what came before.
-    fn exchange_once(&self, parts: &[&[u32]], received: &mut [Vec<u32>]) {
-        let send_counts: Vec<i32> = parts.iter().map(|part| part.len() as i32).collect();
-        let mut counts = vec![0i32; self.size];
-        self.world.all_to_all_into(&send_counts[..], &mut counts[..]);
-        let send = parts.concat();
-        self.count(send.len() * 4);
-        let send_displs = sums(&send_counts);
-        let displs = sums(&counts);
-        let mut all = vec![0u32; counts.iter().map(|&count| count as usize).sum()];
-        {
-            let from = Partition::new(&send[..], send_counts.as_slice(), send_displs.as_slice());
-            let mut to = PartitionMut::new(&mut all[..], counts.as_slice(), displs.as_slice());
-            self.world.all_to_all_varcount_into(&from, &mut to);
-        }
-        let mut rest = all.as_slice();
-        for (list, &count) in received.iter_mut().zip(&counts) {
-            let (part, others) = rest.split_at(count as usize);
-            list.extend_from_slice(part);
-            rest = others;
-        }
-    }
-
     /// Sends messages to other processes, calls `work` meanwhile, and returns when all messages have left. Some
-    /// processes may call this without others, if each message is [received](Team::receive) there.
+    /// processes may call this without others, if each message is [received](World::receive) there.
     pub fn while_sending<T>(&self, messages: &[(usize, Vec<u32>)], work: impl FnOnce() -> T) -> T {
         for (_, message) in messages {
             if message.len() > MOST_WORDS {
@@ -165,12 +154,10 @@ impl Team {
             self.count(message.len() * 4);
         }
         scope(|scope| {
-            let send = |(to, message): &'_ (usize, Vec<u32>)| (*to, message.len());
-            debug_assert!(messages.iter().map(send).all(|(to, _)| to != self.rank));
             let _sent: Vec<_> = messages
                 .iter()
                 .map(|(to, message)| {
-                    WaitGuard::from(self.world.process_at_rank(*to as i32).immediate_send(scope, &message[..]))
+                    WaitGuard::from(self.comm.process_at_rank(*to as i32).immediate_send(scope, &message[..]))
                 })
                 .collect();
             work()
@@ -179,7 +166,7 @@ impl Team {
 
     /// The next message of a process. Messages of one process come in the sequence in which they were sent.
     pub fn receive(&self, from: usize) -> Vec<u32> {
-        self.world.process_at_rank(from as i32).receive_vec::<u32>().0
+        self.comm.process_at_rank(from as i32).receive_vec::<u32>().0
     }
 
     fn count(&self, bytes: usize) {
