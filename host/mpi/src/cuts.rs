@@ -58,7 +58,7 @@ mod tests {
 
     #[test]
     fn processes_get_equal_stretches_of_tiles() {
-        let sample: Vec<u64> = (0..10_000u64).map(|k| scattered(k)).collect();
+        let sample: Vec<u64> = (0..10_000u64).map(scattered).collect();
         let mut sorted = sample;
         sorted.sort_unstable();
         for size in [1, 2, 3, 7] {
