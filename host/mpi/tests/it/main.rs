@@ -8,7 +8,7 @@ use std::process::{Command, Output, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 /// A folder for one test, which is removed at its end.
-pub struct Scratch(PathBuf);
+struct Scratch(PathBuf);
 
 impl Scratch {
     pub fn new() -> Self {
@@ -80,13 +80,13 @@ impl Drop for Scratch {
 }
 
 /// The bytes behind the header of an array.
-pub fn data(path: &Path) -> Vec<u8> {
+fn data(path: &Path) -> Vec<u8> {
     let bytes = std::fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     bytes[10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]))..].to_vec()
 }
 
 /// The sentences of the program on standard error, without those of `mpirun`.
-pub fn sentences(output: &Output) -> Vec<String> {
+fn sentences(output: &Output) -> Vec<String> {
     let text = String::from_utf8_lossy(&output.stderr);
     text.lines().filter_map(|line| line.strip_prefix("incircle-mpi: ")).map(str::to_owned).collect()
 }
