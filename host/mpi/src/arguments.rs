@@ -27,7 +27,7 @@ pub struct TriangulateArguments {
     /// The folder for the mesh, a file for each process: 0.npy, 1.npy and so on. It must be new or empty
     #[arg(short, long, value_name = "DIR")]
     pub output: PathBuf,
-    /// About so many points in a tile. The mesh does not depend on it [default: 16 tiles for each process]
+    /// About so many points in a tile. The mesh does not depend on it [default: 16 to 32 tiles for each process]
     #[arg(long, value_name = "N")]
     pub points: Option<NonZeroUsize>,
     /// Print a summary as JSON on standard output

@@ -24,8 +24,12 @@ pub fn triangulate(world: &World, arguments: &TriangulateArguments) -> Result<()
     let folder = Folder::new(&arguments.output, number);
     world.agree(if world.is_first() { folder.make() } else { Ok(()) })?;
     let done = fill(world, arguments, &folder);
-    if done.is_err() && world.is_first() {
-        folder.remove();
+    if done.is_err() {
+        if world.is_first() {
+            folder.remove();
+        }
+        // A launcher may end all processes as soon as one has ended with a failure, so all wait for the folder to go.
+        world.agree(Ok(()))?;
     }
     done
 }
