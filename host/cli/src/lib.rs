@@ -1,4 +1,5 @@
-//! The command `incircle` as a library, so that tests and benchmarks can use its file formats and generators.
+//! The command `incircle` as a library, so that tests, benchmarks and `incircle-mpi` can use its file formats,
+//! generators and failures.
 //!
 //! [`formats`] reads points and writes meshes, [`generate`] makes point sets, and [`run`] is the whole command with the
 //! exit codes of [`Exit`].
@@ -46,6 +47,7 @@ pub use input::Input;
 pub use memory::Memory;
 pub use number::Coordinate;
 pub use points::{Coordinates, Place, PointTable, Unit};
+pub use tiles::{euler, scattered, Extent, Ground};
 
 use arguments::{Cli, Command};
 

@@ -4,6 +4,8 @@
 //! Integers are taken as whole numbers and floats as the doubles that they are, in either byte order and in C or
 //! Fortran order. An array of records has the fields `x`, `y` and perhaps `z`.
 
+use std::ops::Range;
+
 use crate::failure::Failure;
 use crate::formats::array::{Cells, Pieces, Source, Wanted};
 use crate::input::Input;
@@ -50,24 +52,59 @@ pub fn count_points(input: Input) -> Result<u64, Failure> {
 /// Calls `take` with the coordinates of the points, piece by piece. The memory holds one piece, however large the array
 /// is.
 pub fn read_pieces(input: Input, take: &mut dyn FnMut(&Coordinates) -> Result<(), Failure>) -> Result<(), Failure> {
-    let mut pieces = Pieces::open(input, &POINTS)?;
-    let is_whole =
-        [0, 1].iter().all(|&axis| pieces.layout().columns().any(|one| one.axis == axis && one.item.is_integer()));
-    let rows = pieces.layout().rows;
-    for first in (0..rows).step_by(PIECE) {
-        let count = PIECE.min(rows - first);
-        let (mut steps, mut points) = (Vec::new(), Vec::new());
-        pieces.read(first, count, |cells| match (cells.axis, is_whole) {
-            (2, _) => Ok(()),
-            (_, true) => keep_integers(&mut steps, cells),
-            (_, false) => keep_doubles(&mut points, cells),
-        })?;
-        take(&match is_whole {
-            true => Coordinates::Steps { steps, unit: Unit::of_digits(0) },
-            false => Coordinates::Doubles(points),
-        })?;
+    let mut rows = Rows::open(input)?;
+    rows.each(0..rows.count(), &mut |piece| take(&piece))
+}
+
+/// The points of an array that is open for reading. Any range of them can be read.
+pub struct Rows {
+    pieces: Pieces,
+    is_whole: bool,
+}
+
+impl Rows {
+    /// Reads the header of an array. A packed array is unpacked into the memory as a whole.
+    ///
+    /// # Errors
+    /// The header cannot be read, is not that of points, or promises more bytes than the file has.
+    pub fn open(input: Input) -> Result<Self, Failure> {
+        let pieces = Pieces::open(input, &POINTS)?;
+        let is_whole = |axis| pieces.layout().columns().any(|one| one.axis == axis && one.item.is_integer());
+        let is_whole = is_whole(0) && is_whole(1);
+        Ok(Self { pieces, is_whole })
     }
-    Ok(())
+
+    /// The number of points.
+    pub fn count(&self) -> usize {
+        self.pieces.layout().rows
+    }
+
+    /// Calls `take` with the coordinates of the points of a range, in pieces of up to 65,536 points. Points that are not
+    /// there are left out.
+    ///
+    /// # Errors
+    /// The file cannot be read or has a number that no point may have, or `take` fails.
+    pub fn each(
+        &mut self,
+        range: Range<usize>,
+        take: &mut dyn FnMut(Coordinates) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        let end = range.end.min(self.count());
+        for first in (range.start..end).step_by(PIECE) {
+            let (mut steps, mut points) = (Vec::new(), Vec::new());
+            let is_whole = self.is_whole;
+            self.pieces.read(first, PIECE.min(end - first), |cells| match (cells.axis, is_whole) {
+                (2, _) => Ok(()),
+                (_, true) => keep_integers(&mut steps, cells),
+                (_, false) => keep_doubles(&mut points, cells),
+            })?;
+            take(match is_whole {
+                true => Coordinates::Steps { steps, unit: Unit::of_digits(0) },
+                false => Coordinates::Doubles(points),
+            })?;
+        }
+        Ok(())
+    }
 }
 
 /// Reads the triangles of an array of integers.

@@ -8,6 +8,9 @@ use crate::points::{Coordinates, Unit};
 /// Steps of this magnitude or more are refused: about 2^63, as for one file of doubles.
 const MOST_STEPS: i128 = 9_200_000_000_000_000_000;
 
+/// The words of one kind of numbers in [`Extent::to_words`]: whether there are any, the step, and four sides of 128 bits.
+const KIND_WORDS: usize = 10;
+
 /// The length of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Length {
@@ -55,6 +58,8 @@ impl Span {
 }
 
 /// The spans of the pieces seen so far. Each kind of numbers has the shortest step that one of its pieces needs.
+///
+/// [`Extent::to_words`] and [`Extent::add_words`] carry the spans from one process to another.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Extent {
     decimal: Option<(u32, Span)>,
@@ -73,12 +78,17 @@ impl Extent {
 
     fn add_steps(&mut self, steps: &[[i64; 2]], unit: &Unit) -> Option<()> {
         let values = steps.iter().map(|&point| decimal(unit, point));
-        let span = values.map(|at| Span { low: at, high: at }).reduce(Span::with);
-        let Some(span) = span else { return Some(()) };
-        let (digits, old) = self.decimal.unwrap_or((unit.digits, span));
-        let finest = digits.max(unit.digits);
+        match values.map(|at| Span { low: at, high: at }).reduce(Span::with) {
+            Some(span) => self.add_decimal(unit.digits, span),
+            None => Some(()),
+        }
+    }
+
+    fn add_decimal(&mut self, added: u32, span: Span) -> Option<()> {
+        let (digits, old) = self.decimal.unwrap_or((added, span));
+        let finest = digits.max(added);
         let old = old.times(10i128.checked_pow(finest - digits))?;
-        self.decimal = Some((finest, old.with(span.times(10i128.checked_pow(finest - unit.digits))?)));
+        self.decimal = Some((finest, old.with(span.times(10i128.checked_pow(finest - added))?)));
         Some(())
     }
 
@@ -90,12 +100,49 @@ impl Extent {
         let most = grid.iter().fold([0; 2], |most: [u32; 2], point| [most[0].max(point.x), most[1].max(point.y)]);
         let low = lattice.offset.map(i128::from);
         let span = Span { low, high: [0, 1].map(|axis| low[axis] + i128::from(most[axis])) };
-        let exponent = exponent_of(&lattice);
+        self.add_binary(exponent_of(&lattice), span)
+    }
+
+    fn add_binary(&mut self, exponent: i32, span: Span) -> Option<()> {
         let (coarse, old) = self.binary.unwrap_or((exponent, span));
         let finest = coarse.min(exponent);
         let old = old.times(power_of_two(coarse, finest))?;
         self.binary = Some((finest, old.with(span.times(power_of_two(exponent, finest))?)));
         Some(())
+    }
+
+    /// The spans as numbers of 64 bits, for another process.
+    pub fn to_words(&self) -> Vec<u64> {
+        let mut words = Vec::with_capacity(2 * KIND_WORDS);
+        let mut add = |step: Option<u64>, span: Span| {
+            words.extend([u64::from(step.is_some()), step.unwrap_or(0)]);
+            let values = [span.low, span.high].into_iter().flatten().map(i128::cast_unsigned);
+            words.extend(values.flat_map(|value| [value as u64, (value >> u64::BITS) as u64]));
+        };
+        let nothing = Span { low: [0; 2], high: [0; 2] };
+        add(self.decimal.map(|(digits, _)| digits.into()), self.decimal.map_or(nothing, |(_, span)| span));
+        let exponent = self.binary.map(|(exponent, _)| exponent.cast_unsigned().into());
+        add(exponent, self.binary.map_or(nothing, |(_, span)| span));
+        words
+    }
+
+    /// Adds the points of another process, from its [`Extent::to_words`].
+    ///
+    /// # Errors
+    /// The points have no lattice in common with those that were added before. Missing words count as 0.
+    pub fn add_words(&mut self, words: &[u64]) -> Result<(), Failure> {
+        let word = |place: usize| words.get(place).copied().unwrap_or(0);
+        let value = |place: usize| (u128::from(word(place)) | u128::from(word(place + 1)) << u64::BITS).cast_signed();
+        let span = |first: usize| Span {
+            low: [value(first + 2), value(first + 4)],
+            high: [value(first + 6), value(first + 8)],
+        };
+        let decimal = if word(0) == 1 { self.add_decimal(word(1) as u32, span(0)) } else { Some(()) };
+        let binary = match word(KIND_WORDS) {
+            1 => self.add_binary((word(KIND_WORDS + 1) as u32).cast_signed(), span(KIND_WORDS)),
+            _ => Some(()),
+        };
+        decimal.and(binary).ok_or_else(no_lattice)
     }
 
     /// The lattice of all points. Sets whose numbers have no common step, or that span 2^32 steps or more, are refused.
@@ -201,6 +248,14 @@ mod tests {
         let mut extent = Extent::default();
         pieces.iter().try_for_each(|piece| extent.add(piece))?;
         let ground = extent.ground()?;
+        // Processes that each saw some of the pieces find the same lattice.
+        let mut together = Extent::default();
+        for piece in pieces {
+            let mut alone = Extent::default();
+            alone.add(piece)?;
+            together.add_words(&alone.to_words())?;
+        }
+        assert_eq!(together.ground()?, ground);
         let mut grid = Vec::new();
         pieces.iter().for_each(|piece| ground.lay(piece, &mut grid).expect("the points are on the lattice"));
         Ok((ground.length, ground.bits, grid.iter().map(|point| [point.x, point.y]).collect()))

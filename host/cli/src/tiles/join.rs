@@ -125,15 +125,20 @@ impl Work<'_> {
     }
 }
 
+/// The number of triangles of a mesh by Euler's formula, from the number of its vertices and of those on the hull. In a
+/// mesh without triangles all points are on the hull; if they are not, the result is the number of all others.
+pub fn euler(distinct: u64, hull: u64, has_triangles: bool) -> u64 {
+    match has_triangles {
+        true => (2 * distinct).saturating_sub(2 + hull),
+        false => distinct.saturating_sub(hull),
+    }
+}
+
 impl Joined {
     /// Euler's formula counts the triangles of a mesh, so tiles that contradict each other are found.
     fn check_counts(&self, points: u64, folder: &Path) -> Result<(), Failure> {
         let (distinct, hull) = (points.saturating_sub(self.duplicates), self.hull.len() as u64);
-        let expected = if self.triangles == 0 {
-            distinct - distinct.min(hull)
-        } else {
-            2 * distinct - (2 + hull).min(2 * distinct)
-        };
+        let expected = euler(distinct, hull, self.triangles > 0);
         if self.triangles == expected {
             return Ok(());
         }

@@ -35,9 +35,11 @@ mod write;
 mod written;
 
 pub use budget::Budget;
+pub use digest::scattered;
 pub use disk::{bytes_in, told, Needed};
+pub use ground::{Extent, Ground};
 pub use inputs::points_again;
-pub use join::{join, triangles_of, Joined, Order};
+pub use join::{euler, join, triangles_of, Joined, Order};
 pub use local::{local, Outcome, TileAt};
 pub use manifest::{points_path, Manifest};
 pub use scratch::Scratch;
