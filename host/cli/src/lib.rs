@@ -47,7 +47,7 @@ pub use input::Input;
 pub use memory::Memory;
 pub use number::Coordinate;
 pub use points::{Coordinates, Place, PointTable, Unit};
-pub use tiles::{euler, scattered, Extent, Ground};
+pub use tiles::{canonical, euler, scattered, Extent, Ground};
 
 use arguments::{Cli, Command};
 

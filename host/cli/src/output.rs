@@ -262,10 +262,21 @@ pub fn folder_of(path: &Path) -> &Path {
 /// The working name of a file: hidden, and in the same folder, so that the rename stays on one disk. The process
 /// id keeps runs apart.
 fn part_beside(path: &Path) -> PathBuf {
+    part_of_process(path, std::process::id())
+}
+
+fn part_of_process(path: &Path, process: u32) -> PathBuf {
     let mut name = std::ffi::OsString::from(".");
     name.push(path.file_name().unwrap_or_default());
-    name.push(format!(".{}.part", std::process::id()));
+    name.push(format!(".{process}.part"));
     folder_of(path).join(name)
+}
+
+/// Removes what a process left under the working name of an output because it was killed.
+pub fn remove_part(path: &Path, process: u32) {
+    // The name stands beside the file itself, behind links.
+    let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let _ = fs::remove_file(part_of_process(&path, process));
 }
 
 /// Gives the new file the permissions of the file that it replaces, as far as the system allows.

@@ -4,10 +4,9 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc;
-use std::time::Instant;
 
 use incircle::{Point, MAX_POINTS};
-use serde_json::{json, Map, Value};
+use serde_json::json;
 
 use crate::arguments::TriangulateArguments;
 use crate::backend::Choice;
@@ -19,6 +18,7 @@ use crate::memory::Memory;
 use crate::output::{self, Output};
 use crate::progress::CountMeter;
 use crate::tiles::{self, Budget, Manifest, Needed, Order, Plan, Scratch, TileAt};
+use crate::watch::{self, Watch};
 use crate::{interrupt, path, source};
 
 /// What is left free of the memory when nobody says how much the run may take.
@@ -63,17 +63,17 @@ pub fn run(arguments: &TriangulateArguments, memory: u64) -> Result<(), Failure>
     let format = source::mesh_format(&arguments.output, arguments.format)?;
     check_choices(arguments, format)?;
     let choice = Choice::of(&arguments.backend, None, if arguments.job.wants_insertion() { "model" } else { "cpu" })?;
-    let budget = Budget::of(memory, choice.cpu_threads())?;
-    let threads = choice.cpu_threads().get().div_ceil(budget.workers.get());
-    let choice = choice.with_cpu_threads(NonZeroUsize::new(threads).unwrap_or(NonZeroUsize::MIN));
+    let parent = scratch_parent(arguments)?;
     let output = Output::prepare(&arguments.output, &arguments.points)?;
     if arguments.json && output.is_standard() {
         return Err(Failure::usage(
             "the mesh and the report of --json cannot both go to standard output: give -o a file",
         ));
     }
-    let parent = scratch_parent(arguments)?;
-    let scratch = Scratch::open(Scratch::place(&parent, &arguments.output), arguments.large.resume)?;
+    let scratch = Scratch::open(&parent, &arguments.output, arguments.large.resume)?;
+    let budget = budget_of(memory, choice.cpu_threads(), &scratch)?;
+    let threads = choice.cpu_threads().get().div_ceil(budget.workers.get());
+    let choice = choice.with_cpu_threads(NonZeroUsize::new(threads).unwrap_or(NonZeroUsize::MIN));
     let run = Run { arguments, budget, format, choice, scratch: &scratch };
     let done = run.steps(output);
     let remedy = remedy(&scratch);
@@ -87,6 +87,16 @@ pub fn run(arguments: &TriangulateArguments, memory: u64) -> Result<(), Failure>
         }
         Err(failure) => Err(failure),
     }
+}
+
+/// What each step may take of the memory. A run that goes on keeps the tiles that it has, whatever memory it is given
+/// now.
+fn budget_of(memory: u64, workers: NonZeroUsize, scratch: &Scratch) -> Result<Budget, Failure> {
+    if !scratch.can_go_on() {
+        return Budget::of(memory, workers);
+    }
+    let manifest = Manifest::read(scratch.folder())?;
+    Budget::for_tiles(memory, workers, manifest.most)
 }
 
 /// How a run whose tiles are there can go on.
@@ -137,7 +147,7 @@ struct Run<'a> {
 
 impl Run<'_> {
     fn steps(&self, output: Output) -> Result<(), Failure> {
-        let mut watch = Watch::new();
+        let mut watch = Watch::start();
         let manifest = self.split()?;
         watch.ended("split");
         interrupt::set_remedy(format!("interrupted: no mesh was written; {}", remedy(self.scratch)));
@@ -169,14 +179,11 @@ impl Run<'_> {
     /// Cuts the set into tiles, or finds those of an earlier run.
     fn split(&self) -> Result<Manifest, Failure> {
         let folder = self.scratch.folder();
-        // A run that goes on keeps the tiles that it has, whatever memory it is given now.
-        let known = self.scratch.can_go_on().then(|| Manifest::read(folder)).transpose()?;
-        let most = known.and_then(|manifest| usize::try_from(manifest.most).ok()).and_then(NonZeroUsize::new);
         let mut manifest = None;
         let plan = Plan {
             inputs: &self.arguments.points,
             read: &self.arguments.read,
-            most: most.unwrap_or(self.budget.most),
+            most: self.budget.most,
             folder,
             sample: self.budget.sample,
             buffers: self.budget.buffers,
@@ -254,7 +261,7 @@ impl Run<'_> {
                 "points": points, "distinct": points - duplicates, "duplicates": duplicates, "triangles": triangles,
                 "hull": hull, "collinear": triangles == 0, "backend": self.choice.address.to_string(), "tiles": tiles,
                 "tile_points": manifest.most, "unordered": self.arguments.large.unordered,
-                "memory": self.budget.memory, "peak_memory": Memory::peak(), "seconds": watch.to_json(),
+                "memory": self.budget.memory, "peak_memory": Memory::peak(), "seconds": watch::seconds_json(&watch.stages),
             });
             return output::print(&format!("{report}\n"));
         }
@@ -265,36 +272,10 @@ impl Run<'_> {
                 counted(tiles, "tile"),
                 counted(triangles as usize, "triangle"),
                 counted(hull as usize, "point"),
-                watch.begun.elapsed().as_secs_f64(),
+                watch::total(&watch.stages).as_secs_f64(),
                 Memory::peak().map_or_else(String::new, |peak| format!(", {} of memory", tiles::told(peak)))
             ));
         }
         Ok(())
-    }
-}
-
-/// A stopwatch for the steps.
-struct Watch {
-    begun: Instant,
-    since: Instant,
-    steps: Map<String, Value>,
-}
-
-impl Watch {
-    fn new() -> Self {
-        let now = Instant::now();
-        Self { begun: now, since: now, steps: Map::new() }
-    }
-
-    fn ended(&mut self, step: &str) {
-        let now = Instant::now();
-        self.steps.insert(step.to_owned(), json!((now - self.since).as_secs_f64()));
-        self.since = now;
-    }
-
-    fn to_json(&self) -> Value {
-        let mut steps = self.steps.clone();
-        steps.insert("total".to_owned(), json!(self.begun.elapsed().as_secs_f64()));
-        Value::Object(steps)
     }
 }

@@ -42,24 +42,39 @@ impl Budget {
     /// # Errors
     /// Less than 32 MiB are too little for any set.
     pub fn of(memory: u64, workers: NonZeroUsize) -> Result<Self, Failure> {
-        if memory < LEAST {
+        let points = points_at_once(memory)?;
+        let workers = (points / LEAST_TILE).clamp(1, workers.get() as u64);
+        Ok(Self::new(memory, workers, (points / workers).min(MOST)))
+    }
+
+    /// Divides a memory for tiles of up to `most` points that are there already.
+    ///
+    /// # Errors
+    /// The memory does not hold one of these tiles.
+    pub fn for_tiles(memory: u64, workers: NonZeroUsize, most: u64) -> Result<Self, Failure> {
+        let at_once = points_at_once(memory)? / most.max(1);
+        if at_once == 0 {
             return Err(Failure::usage(format!(
-                "--memory {memory} is less than the {LEAST} bytes that tiles take at least: give 32M or more"
+                "--memory {memory} does not hold a tile of the run that is to go on, of up to {most} points: give {} \
+                 or more",
+                PROGRAM + most.saturating_mul(TILE_BYTES)
             )));
         }
+        Ok(Self::new(memory, at_once.min(workers.get() as u64), most))
+    }
+
+    fn new(memory: u64, workers: u64, most: u64) -> Self {
         let free = memory - PROGRAM;
-        let workers = (free / TILE_BYTES / LEAST_TILE).clamp(1, workers.get() as u64);
-        let most = (free / TILE_BYTES / workers).min(MOST);
         let number = |value: u64| usize::try_from(value).ok().and_then(NonZeroUsize::new).unwrap_or(NonZeroUsize::MIN);
         let (sample, bytes) = SAMPLE;
-        Ok(Self {
+        Self {
             memory,
             most: number(most),
             workers: number(workers),
             sample: sample.min(free / 4 / bytes) as usize,
             buffers: BUFFERS.min(free / 4) as usize,
             sort: free / 8 * 7,
-        })
+        }
     }
 
     /// What `tile split` takes for a tile of at most `most` points.
@@ -73,6 +88,16 @@ impl Budget {
             sort: 0,
         }
     }
+}
+
+/// The points of all tiles that a memory holds at once.
+fn points_at_once(memory: u64) -> Result<u64, Failure> {
+    if memory < LEAST {
+        return Err(Failure::usage(format!(
+            "--memory {memory} is less than the {LEAST} bytes that tiles take at least: give 32M or more"
+        )));
+    }
+    Ok((memory - PROGRAM) / TILE_BYTES)
 }
 
 #[cfg(test)]
@@ -91,6 +116,11 @@ mod tests {
             ];
             assert!(steps.iter().all(|&step| PROGRAM + step <= memory), "{budget:?}");
         }
+        let resumed = |memory| Budget::for_tiles(memory, some, 1_000_000);
+        assert_eq!(resumed(400 << 20).map(|budget| budget.workers.get()), Ok(3));
+        let refused = resumed(100 << 20).map_err(|failure| failure.message);
+        assert!(refused.is_err_and(|message| message.contains("give 144777216 or more")));
+        assert_eq!(resumed(144_777_216).map(|budget| budget.workers.get()), Ok(1));
         assert!(Budget::of(LEAST - 1, some).is_err_and(|failure| failure.message.contains("give 32M")));
     }
 }

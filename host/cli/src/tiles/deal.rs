@@ -18,7 +18,7 @@ pub const POINT_BYTES: usize = 12;
 const BUFFER: std::ops::Range<usize> = 1 << 12..1 << 18;
 
 /// The end of a working name.
-const WORKING: &str = ".points.part";
+pub const WORKING: &str = ".points.part";
 
 /// A file of points under its working name. Dropping the value removes the file.
 pub struct PointFile {
@@ -135,11 +135,13 @@ fn remove(path: &Path) {
     unfinished.retain(|kept| kept != path);
 }
 
-/// Removes the working files that earlier runs left in a folder because they were killed.
-pub fn remove_stale(folder: &Path) {
+/// Removes the hidden working files with this ending that earlier runs left in a folder because they were killed.
+pub fn remove_stale(folder: &Path, ending: &str) {
     let Ok(entries) = fs::read_dir(folder) else { return };
     for entry in entries.filter_map(Result::ok) {
-        if entry.file_name().to_string_lossy().ends_with(WORKING) {
+        let name = entry.file_name();
+        let name = name.to_string_lossy();
+        if name.starts_with('.') && name.ends_with(ending) {
             let _ = fs::remove_file(entry.path());
         }
     }

@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use incircle::tiles;
 use incircle::{Mesh, Point};
 
+use super::canonical::sorted;
 use super::head::Kind;
 use super::manifest::{local_path, points_path, Manifest};
 use super::opened::{Opened, Owner};
-use super::order::sorted;
 use super::result::{TileFile, TileResult};
 use crate::failure::Failure;
 use crate::output;
@@ -127,5 +127,5 @@ fn solve(
         .map_err(|error| Failure::input(format!("the tile does not fit its manifest, as {error}")))?;
     let index = |place: u32| ids.get(place as usize).copied().unwrap_or_default();
     let duplicates = mesh.duplicates.iter().map(|duplicate| [duplicate.index, duplicate.of].map(index)).collect();
-    Ok((sorted(tile.finals), TileResult { border: tile.border, hull: tile.hull, duplicates }))
+    Ok((sorted(&[&tile.finals]), TileResult { border: tile.border, hull: tile.hull, duplicates }))
 }

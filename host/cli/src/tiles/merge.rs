@@ -3,7 +3,7 @@
 use std::sync::mpsc::sync_channel;
 use std::vec::IntoIter;
 
-use super::order::{key, sorted};
+use super::canonical::{key, sorted};
 use super::result::Finals;
 use super::runs::Run;
 use crate::failure::Failure;
@@ -102,18 +102,19 @@ fn next(buffers: &mut [Buffer], room: usize) -> Result<Option<Vec<[u32; 3]>>, Fa
     }
     let open = buffers.iter().filter(|buffer| buffer.source.has_more());
     let bound = open.filter_map(|buffer| buffer.list.last()).map(key).min().unwrap_or(u64::MAX);
-    let mut some = Vec::new();
-    let mut lists = 0;
-    for buffer in buffers.iter_mut() {
-        let count = buffer.list.partition_point(|triangle| key(triangle) <= bound);
-        lists += usize::from(count > 0);
-        some.extend(buffer.list.drain(..count));
+    let counts: Vec<usize> =
+        buffers.iter().map(|buffer| buffer.list.partition_point(|triangle| key(triangle) <= bound)).collect();
+    let parts = buffers.iter().zip(&counts).map(|(buffer, &count)| &buffer.list[..count]);
+    let parts: Vec<&[[u32; 3]]> = parts.filter(|part| !part.is_empty()).collect();
+    let some = match &parts[..] {
+        [] => return Ok(None),
+        [only] => only.to_vec(),
+        several => sorted(several),
+    };
+    for (buffer, count) in buffers.iter_mut().zip(counts) {
+        buffer.list.drain(..count);
     }
-    Ok(match lists {
-        0 => None,
-        1 => Some(some),
-        _ => Some(sorted(some)),
-    })
+    Ok(Some(some))
 }
 
 #[cfg(test)]

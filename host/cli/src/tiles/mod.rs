@@ -14,6 +14,7 @@
 //! is complete. `docs/tile-files.md` describes the bytes.
 
 mod budget;
+pub mod canonical;
 mod deal;
 mod digest;
 mod disk;
@@ -25,7 +26,6 @@ mod local;
 mod manifest;
 mod merge;
 mod opened;
-mod order;
 mod result;
 mod runs;
 mod scratch;

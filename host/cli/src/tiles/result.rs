@@ -6,10 +6,10 @@ use std::path::Path;
 use incircle::tiles::{Border, Region};
 use incircle::Point;
 
+use super::canonical::is_ordered;
 use super::head::{damaged, Head, Kind};
 use super::manifest::local_path;
 use super::opened::{Opened, Owner};
-use super::order::is_ordered;
 use super::written::{write_checked, write_rows};
 use crate::failure::Failure;
 use crate::output::Written;

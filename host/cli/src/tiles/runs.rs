@@ -5,7 +5,7 @@ use std::io::{self, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::order::sorted;
+use super::canonical::sorted;
 use super::written::write_rows;
 use crate::failure::Failure;
 use crate::{interrupt, path};
@@ -31,8 +31,8 @@ impl Runs {
     pub fn add(&mut self, triangles: &[[u32; 3]]) -> Result<(), Failure> {
         for some in triangles.chunks(self.room) {
             if self.buffer.len() + some.len() > self.room {
-                let run = Run::write(&self.folder, sorted(std::mem::take(&mut self.buffer)))?;
-                self.files.push(run);
+                self.files.push(Run::write(&self.folder, &sorted(&[&self.buffer]))?);
+                self.buffer.clear();
             }
             self.buffer.extend_from_slice(some);
         }
@@ -41,7 +41,7 @@ impl Runs {
 
     /// The run in memory, and those in files.
     pub fn finish(self) -> (Vec<[u32; 3]>, Vec<Run>) {
-        (sorted(self.buffer), self.files)
+        (sorted(&[&self.buffer]), self.files)
     }
 }
 
@@ -53,7 +53,7 @@ pub struct Run {
 }
 
 impl Run {
-    fn write(folder: &Path, triangles: Vec<[u32; 3]>) -> Result<Self, Failure> {
+    fn write(folder: &Path, triangles: &[[u32; 3]]) -> Result<Self, Failure> {
         static NEXT: AtomicU64 = AtomicU64::new(0);
         let number = NEXT.fetch_add(1, Ordering::Relaxed);
         let path = folder.join(format!(".join.{}.{number}.part", std::process::id()));
@@ -64,7 +64,7 @@ impl Run {
         drop(unfinished);
         // The value exists before the file is written, so that a failure removes the file.
         let run = Self { path, source: None, left: triangles.len() as u64 };
-        write_rows(&triangles, &mut file)
+        write_rows(triangles, &mut file)
             .and_then(|()| file.flush())
             .map_err(|error| failed(&run.path, "written", &error))?;
         Ok(run)

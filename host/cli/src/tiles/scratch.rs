@@ -1,12 +1,13 @@
 //! The folder of a run that keeps its tiles in files, and may go on after it was killed.
 
 use std::fs::{self, File, TryLockError};
-use std::io;
+use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 
+use super::deal::remove_stale;
 use super::manifest::manifest_path;
 use crate::failure::Failure;
-use crate::{interrupt, path};
+use crate::{interrupt, output, path};
 
 /// A folder that this process alone works in. Dropping the value removes the folder if it has nothing to go on from.
 pub struct Scratch {
@@ -17,19 +18,16 @@ pub struct Scratch {
 }
 
 impl Scratch {
-    /// The folder for the mesh of this file name within `parent`.
-    pub fn place(parent: &Path, mesh: &Path) -> PathBuf {
-        let mut name = std::ffi::OsString::from(".");
-        name.push(mesh.file_name().unwrap_or("mesh".as_ref()));
-        name.push(".tiles");
-        parent.join(name)
-    }
-
-    /// Makes the folder. One that an earlier run left is taken only if the run `is_resumed`.
+    /// Makes the folder for the tiles of a mesh, within `parent`. One that an earlier run left is taken only if the run
+    /// `is_resumed`; what that run left because it was killed is removed, but for its finished tiles.
     ///
     /// # Errors
     /// The folder cannot be made, is there already, or another process works in it.
-    pub fn open(folder: PathBuf, is_resumed: bool) -> Result<Self, Failure> {
+    pub fn open(parent: &Path, mesh: &Path, is_resumed: bool) -> Result<Self, Failure> {
+        let mut name = std::ffi::OsString::from(".");
+        name.push(mesh.file_name().unwrap_or("mesh".as_ref()));
+        name.push(".tiles");
+        let folder = parent.join(name);
         if !is_resumed && manifest_path(&folder).exists() {
             return Err(Failure::input(format!(
                 "{} is there from a run that did not end: give --resume to go on with it, or remove it",
@@ -40,7 +38,8 @@ impl Scratch {
         let failed = |error: io::Error| Failure::input(format!("{} cannot be made: {error}", path::name(&folder)));
         let mut unfinished = interrupt::unfinished();
         fs::create_dir_all(&folder).map_err(failed)?;
-        let file = File::options().write(true).create(true).truncate(false).open(&lock).map_err(failed)?;
+        let mut file =
+            File::options().read(true).write(true).create(true).truncate(false).open(&lock).map_err(failed)?;
         file.try_lock().map_err(|error| match error {
             TryLockError::WouldBlock => Failure::input(format!(
                 "another process works in {}: wait for it, or choose another --scratch",
@@ -50,7 +49,15 @@ impl Scratch {
         })?;
         unfinished.extend([folder.clone(), lock.clone()]);
         drop(unfinished);
-        remove_parts(&folder);
+        remove_stale(&folder, ".part");
+        // A process that was killed has left its number here.
+        let mut process = String::new();
+        file.read_to_string(&mut process).map_err(failed)?;
+        if let Ok(process) = process.trim().parse() {
+            output::remove_part(mesh, process);
+        }
+        file.rewind().and_then(|()| file.set_len(0)).map_err(failed)?;
+        writeln!(file, "{}", std::process::id()).map_err(failed)?;
         Ok(Self { folder, lock, _file: file })
     }
 
@@ -84,17 +91,5 @@ impl Drop for Scratch {
             let _ = fs::remove_dir(&self.folder);
         }
         unfinished.retain(|kept| *kept != self.lock && *kept != self.folder);
-    }
-}
-
-/// Removes the working files of a run that was killed.
-fn remove_parts(folder: &Path) {
-    let Ok(entries) = fs::read_dir(folder) else { return };
-    for entry in entries.filter_map(Result::ok) {
-        let name = entry.file_name();
-        let name = name.to_string_lossy();
-        if name.starts_with('.') && name.ends_with(".part") {
-            let _ = fs::remove_file(entry.path());
-        }
     }
 }

@@ -8,7 +8,7 @@ use incircle::order::z_curve::position;
 use incircle::tiles::{Region, Step, Tree};
 use incircle::Point;
 
-use super::deal::{remove_stale, room_for, Placed, PointFile, POINT_BYTES};
+use super::deal::{remove_stale, room_for, Placed, PointFile, POINT_BYTES, WORKING};
 use super::digest::Digest;
 use super::ground::{Ground, Length};
 use super::head::{Head, Kind, HEAD_BYTES, VERSION};
@@ -101,7 +101,7 @@ fn split_into(
     let (placed, written) = place(plan.folder, &manifest, tiles.files)?;
     output::keep([written], || {
         placed.into_iter().for_each(Placed::keep);
-        remove_stale(plan.folder);
+        remove_stale(plan.folder, WORKING);
         last(&Summary { manifest, bytes, was_there: false })
     })
 }

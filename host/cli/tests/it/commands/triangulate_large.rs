@@ -1,17 +1,10 @@
 //! Sets larger than the memory: `triangulate --memory` in tiles over files gives the mesh of the run in memory, byte for
 //! byte, or one sentence.
 
-use std::process::Stdio;
-use std::time::Duration;
-
 use crate::common::{Run, Scratch};
 use incircle_cli::generate::Distribution;
 
-fn bytes(scratch: &Scratch, name: &str) -> Vec<u8> {
-    std::fs::read(scratch.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
-}
-
-/// Two sets in one file, and its mesh. The least memory has room for tiles of 196,608 points.
+/// A set that the least memory cannot hold as one tile, and its mesh.
 fn large() -> Scratch {
     let scratch = Scratch::new();
     scratch.run("generate uniform -n 500000 --bits 31 -o p.npy").ok();
@@ -26,7 +19,7 @@ fn every_distribution_has_the_mesh_of_the_run_in_memory() {
         scratch.run(&format!("generate {} -n 250000 -o p.npy", set.name())).ok();
         scratch.run("triangulate p.npy -o right.npy -q").ok();
         let run = scratch.run("triangulate p.npy -o mesh.npy --memory 32M --threads 1").ok();
-        assert!(bytes(&scratch, "mesh.npy") == bytes(&scratch, "right.npy"), "{}: {run:?}", set.name());
+        assert!(scratch.bytes("mesh.npy") == scratch.bytes("right.npy"), "{}: {run:?}", set.name());
     }
     assert_eq!(scratch.files(), ["mesh.npy", "p.npy", "right.npy"]);
 }
@@ -37,7 +30,7 @@ fn a_large_set_takes_the_memory_that_it_is_given() {
     for threads in [1, 3] {
         let run = scratch.run(&format!("triangulate p.npy -o m.npy --memory 32M --threads {threads} --json")).ok();
         let report: serde_json::Value = serde_json::from_str(&run.stdout).expect("an object");
-        assert!(bytes(&scratch, "m.npy") == bytes(&scratch, "right.npy"), "{report}");
+        assert!(scratch.bytes("m.npy") == scratch.bytes("right.npy"), "{report}");
         assert!(report["tiles"].as_u64() > Some(2), "{report}");
         assert_eq!((&report["points"], &report["memory"]), (&500_000.into(), &(32 << 20).into()));
         if let Some(peak) = report["peak_memory"].as_u64() {
@@ -50,12 +43,12 @@ fn a_large_set_takes_the_memory_that_it_is_given() {
 fn unordered_triangles_are_those_of_the_mesh() {
     let scratch = large();
     scratch.run("triangulate p.npy -o m.npy --memory 32M --unordered").ok();
-    assert!(bytes(&scratch, "m.npy") != bytes(&scratch, "right.npy"));
+    assert!(scratch.bytes("m.npy") != scratch.bytes("right.npy"));
     scratch.run("verify p.npy m.npy").fails(1, &["not the canonical"]);
     scratch.run("verify p.npy m.npy --unordered -q").ok();
     scratch.run("triangulate p.npy -o m.csv --memory 32M").ok();
     scratch.run("triangulate p.npy -o right.csv -q").ok();
-    assert!(bytes(&scratch, "m.csv") == bytes(&scratch, "right.csv"));
+    assert!(scratch.bytes("m.csv") == scratch.bytes("right.csv"));
 }
 
 #[test]
@@ -67,7 +60,7 @@ fn several_inputs_are_one_set_with_tiles_and_without() {
     scratch.run("triangulate all.csv -o right.npy -q").ok();
     for options in ["", "--memory 32M", "--memory 32M --backend model"] {
         scratch.run(&format!("triangulate a.csv b.csv -o m.npy {options}")).ok();
-        assert!(bytes(&scratch, "m.npy") == bytes(&scratch, "right.npy"), "{options}");
+        assert!(scratch.bytes("m.npy") == scratch.bytes("right.npy"), "{options}");
     }
     scratch.run("verify a.csv b.csv m.npy -q").ok();
     scratch.run("verify b.csv a.csv m.npy -q").fails(1, &["the set of 2 files"]);
@@ -83,33 +76,73 @@ fn several_inputs_are_one_set_with_tiles_and_without() {
     scratch.run("triangulate a.csv m.npy -o m.npy").fails(2, &["both the input and the output"]);
 }
 
+/// Runs the command under a limit of the size of a file, in blocks of 512 bytes. The first write beyond it kills the
+/// process, without a chance to tidy up.
+#[cfg(target_os = "linux")]
+fn run_until_killed(scratch: &Scratch, arguments: &str, blocks: u32) {
+    let program = env!("CARGO_BIN_EXE_incircle");
+    let line = format!("ulimit -c 0 && ulimit -f {blocks} && exec '{program}' {arguments}");
+    let run = std::process::Command::new("sh").args(["-c", &line]).current_dir(scratch.path("")).output();
+    let run = run.expect("the shell starts");
+    assert_eq!(run.status.code(), None, "not killed: {run:?}");
+}
+
+/// The files of tiles, which a run that was killed has left.
+#[cfg(target_os = "linux")]
+fn finished_tiles(scratch: &Scratch) -> Vec<(String, std::time::SystemTime)> {
+    let files = std::fs::read_dir(scratch.path(".m.npy.tiles")).expect("the tiles are there");
+    let mut found: Vec<_> = files
+        .map(|file| file.expect("an entry"))
+        .map(|file| (file.file_name().to_string_lossy().into_owned(), file.metadata().and_then(|meta| meta.modified())))
+        .filter(|(name, _)| name.ends_with(".local") && !name.starts_with('.'))
+        .map(|(name, time)| (name, time.expect("a time")))
+        .collect();
+    found.sort();
+    found
+}
+
 #[test]
+#[cfg(target_os = "linux")]
 fn a_killed_run_goes_on() {
     let scratch = large();
     let command = "triangulate p.npy -o m.npy --memory 32M --threads 1";
-    let folder = scratch.path(".m.npy.tiles");
-    // The run is killed once a tile is triangulated.
-    let mut child = scratch.command(command.split(' ')).stderr(Stdio::null()).spawn().expect("the command starts");
-    while !folder.join("0.local").exists() {
-        assert!(child.try_wait().expect("a process").is_none(), "the run ended before it was killed");
-        std::thread::sleep(Duration::from_millis(1));
+    // A file of points has 0.75 MB, one of a tile 1.5 MB, and the mesh 12 MB.
+    for (blocks, in_mesh) in [(2 << 10, false), (16 << 10, true)] {
+        run_until_killed(&scratch, command, blocks);
+        let parts = scratch.files().into_iter().filter(|name| name.ends_with(".part")).count();
+        assert_eq!(parts, usize::from(in_mesh), "{:?}", scratch.files());
+        let finished = finished_tiles(&scratch);
+        assert_eq!(!finished.is_empty(), in_mesh, "{finished:?}");
+        assert!(!scratch.path("m.npy").exists());
+        scratch.run(command).fails(3, &[".m.npy.tiles", "give --resume"]);
+        // Other points are found, and less memory makes no other tiles.
+        scratch.run("generate uniform -n 500000 --bits 30 -o q.npy").ok();
+        let other = "triangulate q.npy -o m.npy --memory 32M --resume";
+        scratch.run(other).fails(3, &["tiles of another run", "--resume goes on"]);
+        assert_eq!(finished_tiles(&scratch), finished);
+        scratch.run("triangulate p.npy -o m.npy --memory 64M --resume").ok();
+        assert!(scratch.bytes("m.npy") == scratch.bytes("right.npy"), "{blocks} blocks");
+        assert_eq!(scratch.files(), ["m.npy", "p.npy", "q.npy", "right.npy"]);
+        std::fs::remove_file(scratch.path("m.npy")).expect("it is there");
     }
-    child.kill().expect("a process");
-    child.wait().expect("a process");
-    assert!(!scratch.path("m.npy").exists());
-    scratch.run(command).fails(3, &[".m.npy.tiles", "give --resume"]);
-    // Another memory makes no other tiles, and other points are found.
-    let other = "triangulate right.npy -o m.npy --memory 32M --resume";
-    scratch.run("generate uniform -n 500000 --bits 30 -o q.npy").ok();
-    scratch.run(&other.replace("right", "q")).fails(3, &["tiles of another run", "--resume goes on"]);
-    let before = std::fs::metadata(folder.join("0.local")).and_then(|file| file.modified()).expect("a file");
-    scratch.write(".m.npy.tiles/.9.local.1.part", "left by the killed run");
-    let log = scratch.run("triangulate p.npy -o m.npy --memory 64M --resume").ok();
-    assert!(bytes(&scratch, "m.npy") == bytes(&scratch, "right.npy"), "{log:?}");
-    assert!(before.elapsed().is_ok());
-    assert_eq!(scratch.files(), ["m.npy", "p.npy", "q.npy", "right.npy"]);
     // With nothing to go on from, a run begins anew.
     scratch.run("triangulate p.npy -o m.npy --memory 32M --resume -q").ok();
+}
+
+/// Finished tiles are read, and not made again.
+#[test]
+#[cfg(target_os = "linux")]
+fn finished_tiles_are_kept() {
+    let scratch = large();
+    run_until_killed(&scratch, "triangulate p.npy -o m.npy --memory 64M --threads 1", 16 << 10);
+    let finished = finished_tiles(&scratch);
+    run_until_killed(&scratch, "triangulate p.npy -o m.npy --memory 64M --threads 1 --resume", 16 << 10);
+    assert_eq!(finished_tiles(&scratch), finished);
+    // Tiles of the run with more memory do not fit less memory.
+    let less = "triangulate p.npy -o m.npy --memory 32M --resume";
+    scratch.run(less).fails(2, &["--memory 33554432 does not hold a tile", "or more"]);
+    scratch.run("triangulate p.npy -o m.npy --memory 64M --resume").ok();
+    assert!(scratch.bytes("m.npy") == scratch.bytes("right.npy"));
 }
 
 #[test]
