@@ -109,7 +109,7 @@ impl Work<'_> {
         Ok(())
     }
 
-    /// Joins the last borders of the stack.
+    /// Joins the borders that were put onto the stack last.
     fn join(&mut self, region: Region, children: usize) -> Result<(), Failure> {
         let first = self.borders.len().saturating_sub(children);
         let Tile { finals, border, hull, .. } =
@@ -169,13 +169,12 @@ impl Joined {
         sources.extend(runs.into_iter().map(Source::Run));
         let tiles = (0..manifest.tiles().count() as u32).map(|tile| {
             let owner = Owner { run: manifest.run, tile };
-            TileFile::open(folder, owner, manifest.points())?.into_finals().map(Source::Tile)
+            Ok(Source::Tile(TileFile::open(folder, owner, manifest.points())?.into_finals()))
         });
         match order {
             Order::Canonical => {
-                for tile in tiles {
-                    sources.push(tile?);
-                }
+                let tiles: Vec<Source> = tiles.collect::<Result<_, Failure>>()?;
+                sources.extend(tiles);
                 merge(sources, memory, take)
             }
             Order::Unordered => {

@@ -1,8 +1,8 @@
 //! A file of tiles that is open for reading: lists of whole numbers, and the check sum of all of them.
 
 use std::fs::File;
-use std::io::{self, BufReader, Read};
-use std::path::Path;
+use std::io::{self, BufReader, Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
 
 use crc32fast::Hasher;
 
@@ -30,19 +30,21 @@ pub type BytesOf = fn(&[u64; 5]) -> Option<u64>;
 pub struct Opened {
     /// The head.
     pub head: Head,
-    source: BufReader<File>,
+    path: PathBuf,
+    /// The open file; `None` while it is [closed](Opened::close).
+    source: Option<BufReader<File>>,
+    /// The place of the next byte.
+    at: u64,
     check: Hasher,
     /// Bytes that were not read yet.
     left: u64,
-    name: String,
 }
 
 impl Opened {
     /// Opens a file and reads its head. `bytes_of` gives the bytes behind the head for the counts in the head, unless
     /// only the file says how many there are.
     pub fn open(path: &Path, kind: Kind, owner: Option<Owner>, bytes_of: Option<BytesOf>) -> Result<Self, Failure> {
-        let name = path::name(path);
-        let opened = Self::begin(path, &name, kind).and_then(|opened| {
+        let opened = Self::begin(path, kind).and_then(|opened| {
             opened.check_owner(owner)?;
             if bytes_of.is_some_and(|bytes_of| bytes_of(&opened.head.counts) != Some(opened.left)) {
                 let left = opened.left;
@@ -50,18 +52,19 @@ impl Opened {
             }
             Ok(opened)
         });
-        opened.map_err(|failure| failure.in_file(&name))
+        opened.map_err(|failure| failure.in_file(path::name(path)))
     }
 
-    fn begin(path: &Path, name: &str, kind: Kind) -> Result<Self, Failure> {
+    fn begin(path: &Path, kind: Kind) -> Result<Self, Failure> {
         let file = File::open(path).map_err(|error| unreadable(&error))?;
         let length = file.metadata().map_err(|error| unreadable(&error))?.len();
         let mut source = BufReader::with_capacity(PIECE, file);
         let mut bytes = [0; HEAD_BYTES];
         source.read_exact(&mut bytes).map_err(|error| ended(&error))?;
         let head = Head::of_bytes(&bytes, kind)?;
-        let left = length.saturating_sub(HEAD_BYTES as u64);
-        Ok(Self { head, source, check: Hasher::new(), left, name: name.to_owned() })
+        let at = HEAD_BYTES as u64;
+        let left = length.saturating_sub(at);
+        Ok(Self { head, path: path.to_owned(), source: Some(source), at, check: Hasher::new(), left })
     }
 
     fn check_owner(&self, owner: Option<Owner>) -> Result<(), Failure> {
@@ -89,10 +92,29 @@ impl Opened {
 
     /// Fills the bytes.
     pub fn fill(&mut self, bytes: &mut [u8]) -> Result<(), Failure> {
-        self.source.read_exact(bytes).map_err(|error| ended(&error).in_file(&self.name))?;
+        self.read(bytes).map_err(|error| self.in_file(ended(&error)))?;
         self.check.update(bytes);
-        self.left = self.left.saturating_sub(bytes.len() as u64);
+        self.pass(bytes.len() as u64);
         Ok(())
+    }
+
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<()> {
+        if let Some(source) = &mut self.source {
+            return source.read_exact(bytes);
+        }
+        let mut file = File::open(&self.path)?;
+        file.seek(SeekFrom::Start(self.at))?;
+        self.source.insert(BufReader::with_capacity(PIECE, file)).read_exact(bytes)
+    }
+
+    fn pass(&mut self, bytes: u64) {
+        self.at = self.at.saturating_add(bytes);
+        self.left = self.left.saturating_sub(bytes);
+    }
+
+    /// Closes the file until more of it is read. A process may keep fewer files open than a set has tiles.
+    pub fn close(&mut self) {
+        self.source = None;
     }
 
     /// Calls `take` with each of `count` rows of `N` numbers.
@@ -125,7 +147,7 @@ impl Opened {
         let mut list = Vec::new();
         let room = usize::try_from(count).unwrap_or(usize::MAX);
         list.try_reserve_exact(room)
-            .map_err(|_| Failure::input(format!("{count} rows do not fit the memory")).in_file(&self.name))?;
+            .map_err(|_| self.in_file(Failure::input(format!("{count} rows do not fit the memory"))))?;
         self.rows(count, |row| {
             list.push(row);
             Ok(())
@@ -134,11 +156,9 @@ impl Opened {
     }
 
     /// Passes over bytes without checking them, before anything else is read.
-    pub fn skip(&mut self, bytes: u64) -> Result<(), Failure> {
-        let step = i64::try_from(bytes).unwrap_or(i64::MAX);
-        self.source.seek_relative(step).map_err(|error| unreadable(&error).in_file(&self.name))?;
-        self.left = self.left.saturating_sub(bytes);
-        Ok(())
+    pub fn skip(&mut self, bytes: u64) {
+        self.close();
+        self.pass(bytes);
     }
 
     /// Compares the check sum of the head with that of all bytes that were read. Until then none of them is certain.
@@ -170,7 +190,11 @@ impl Opened {
     }
 
     fn wrong_sum(&self) -> Failure {
-        damaged("its check sum is wrong").in_file(&self.name)
+        self.in_file(damaged("its check sum is wrong"))
+    }
+
+    fn in_file(&self, failure: Failure) -> Failure {
+        failure.in_file(path::name(&self.path))
     }
 }
 

@@ -18,7 +18,7 @@ use crate::path;
 /// The bytes of the check sum behind the final triangles.
 const SUM_BYTES: u64 = 4;
 
-/// What is known of a tile once its points are triangulated, except for its final triangles.
+/// The triangulation of a tile, without its final triangles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TileResult {
     /// The border, with input indices as ids.
@@ -104,11 +104,11 @@ impl TileFile {
         Ok(result)
     }
 
-    /// The final triangles, for a file of which nothing was read.
-    pub fn into_finals(mut self) -> Result<Finals, Failure> {
+    /// The final triangles, for a file of which nothing was read. The file is closed until some are read.
+    pub fn into_finals(mut self) -> Finals {
         let left = self.finals();
-        self.opened.skip(self.opened.left() - left * 12 - SUM_BYTES)?;
-        Ok(Finals { file: self, left, last: None })
+        self.opened.skip(self.opened.left() - left * 12 - SUM_BYTES);
+        Finals { file: self, left, last: None }
     }
 
     /// Reads what follows the result, and checks it.
@@ -133,8 +133,8 @@ impl TileFile {
     }
 }
 
-/// The final triangles of a tile, in canonical order, which are read some at a time. They are certain once
-/// [`end`](Self::end) has checked them.
+/// The final triangles of a tile, in canonical order, which are read some at a time. None of them is certain before
+/// [`end`](Self::end) has compared the check sum.
 pub struct Finals {
     file: TileFile,
     /// Triangles that were not read yet.
@@ -148,13 +148,14 @@ impl Finals {
         self.left > 0
     }
 
-    /// Adds up to `most` triangles to a list.
+    /// Adds up to `most` triangles to a list, and closes the file.
     pub fn read(&mut self, list: &mut Vec<[u32; 3]>, most: usize) -> Result<(), Failure> {
         let (first, count) = (list.len(), self.left.min(most as u64));
         self.file.opened.rows(count, |row| {
             list.push(row);
             Ok(())
         })?;
+        self.file.opened.close();
         self.left -= count;
         let read = &list[first..];
         self.file.check_index(read.iter().flatten().copied().max())?;

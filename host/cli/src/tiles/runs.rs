@@ -1,7 +1,7 @@
 //! Triangles that come in any order, kept in sorted runs: one in memory, the others in files.
 
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, BufReader, Read, Write};
+use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -9,6 +9,9 @@ use super::canonical::sorted;
 use super::written::write_rows;
 use crate::failure::Failure;
 use crate::{interrupt, path};
+
+/// The number of bytes of a triangle in a file.
+const TRIANGLE_BYTES: usize = 12;
 
 /// Triangles in runs.
 pub struct Runs {
@@ -23,7 +26,7 @@ impl Runs {
     /// Makes an empty list, which has at most `memory` bytes in memory, and the rest in hidden files of the folder.
     pub fn new(folder: &Path, memory: u64) -> Self {
         // A sort takes the memory of a second list.
-        let room = usize::try_from(memory / 24).unwrap_or(usize::MAX).max(1 << 10);
+        let room = usize::try_from(memory / (2 * TRIANGLE_BYTES as u64)).unwrap_or(usize::MAX).max(1 << 10);
         Self { folder: folder.to_owned(), room, buffer: Vec::new(), files: Vec::new() }
     }
 
@@ -45,10 +48,11 @@ impl Runs {
     }
 }
 
-/// A sorted run in a file. Dropping the value removes the file.
+/// A sorted run in a file, which is open only while it is read. Dropping the value removes the file.
 pub struct Run {
     path: PathBuf,
-    source: Option<BufReader<File>>,
+    /// The numbers of triangles that were read, and that were not.
+    read: u64,
     left: u64,
 }
 
@@ -63,7 +67,7 @@ impl Run {
         unfinished.push(path.clone());
         drop(unfinished);
         // The value exists before the file is written, so that a failure removes the file.
-        let run = Self { path, source: None, left: triangles.len() as u64 };
+        let run = Self { path, read: 0, left: triangles.len() as u64 };
         write_rows(triangles, &mut file)
             .and_then(|()| file.flush())
             .map_err(|error| failed(&run.path, "written", &error))?;
@@ -77,19 +81,23 @@ impl Run {
 
     /// Adds up to `most` triangles to a list.
     pub fn read(&mut self, list: &mut Vec<[u32; 3]>, most: usize) -> Result<(), Failure> {
-        let failed = |error: io::Error| failed(&self.path, "read", &error);
-        let source = match &mut self.source {
-            Some(source) => source,
-            closed => closed.insert(BufReader::with_capacity(1 << 16, File::open(&self.path).map_err(failed)?)),
-        };
         let count = self.left.min(most as u64);
+        self.read_some(list, count).map_err(|error| failed(&self.path, "read", &error))?;
+        self.read += count;
+        self.left -= count;
+        Ok(())
+    }
+
+    fn read_some(&self, list: &mut Vec<[u32; 3]>, count: u64) -> io::Result<()> {
+        let mut file = File::open(&self.path)?;
+        file.seek(SeekFrom::Start(self.read * TRIANGLE_BYTES as u64))?;
+        let mut source = BufReader::with_capacity(1 << 16, file);
         for _ in 0..count {
-            let mut bytes = [0; 12];
-            source.read_exact(&mut bytes).map_err(failed)?;
+            let mut bytes = [0; TRIANGLE_BYTES];
+            source.read_exact(&mut bytes)?;
             let words = bytes.as_chunks::<4>().0;
             list.push([0, 1, 2].map(|place| u32::from_le_bytes(words[place])));
         }
-        self.left -= count;
         Ok(())
     }
 }

@@ -3,7 +3,7 @@
 mod damage;
 mod formats;
 
-use crate::common::Scratch;
+use crate::common::{Run, Scratch};
 use incircle_cli::generate::Distribution;
 
 /// An array of NumPy with these points, as integers of 64 bits.
@@ -65,6 +65,23 @@ fn a_large_set_is_joined_in_little_memory() {
         // A sample chooses the cuts of a set of this size.
         assert!(same_mesh(&scratch, "p.npy", 100_000, "right.npy") > 5);
     }
+}
+
+/// A set has more tiles than a process may keep files open.
+#[test]
+#[cfg(target_os = "linux")]
+fn more_tiles_than_open_files_are_joined() {
+    let scratch = Scratch::new();
+    scratch.run("generate uniform -n 12000 -o p.npy").ok();
+    assert!(split_and_solve(&scratch, "p.npy", 150, "tiles") > 80);
+    let program = env!("CARGO_BIN_EXE_incircle");
+    for order in ["", "--unordered"] {
+        let line = format!("ulimit -n 20 && exec '{program}' tile join tiles -o m.npy --memory 64K {order}");
+        let run = std::process::Command::new("sh").args(["-c", &line]).current_dir(scratch.path("")).output();
+        Run::of(run.expect("the shell starts")).ok();
+        scratch.run(&format!("verify p.npy m.npy -q {order}")).ok();
+    }
+    assert_eq!(scratch.files(), ["m.npy", "p.npy", "tiles"]);
 }
 
 #[test]
