@@ -1,16 +1,14 @@
 //! Points in the numbers in which the living mesh computes, with exact predicates.
 
+mod filtered;
+mod grid;
+
 use core::cmp::Ordering;
 use core::fmt::Debug;
 
-use bytemuck::Zeroable;
-
-use crate::cpu::view::{view_of_32_bits, View, Wide, Widest, Width};
-use crate::double::{acute_corners_of, incircle_of, is_within_of, nearer_of, orient2d_of, Coordinate};
-use crate::double::{incircle_seen, orient2d_seen, SizedView};
-use crate::point::Point;
-use crate::predicate;
 use crate::tie::is_inside_at_tie;
+
+pub use filtered::FilteredSite;
 
 /// A point, and an edge as seen from there.
 #[derive(Clone, Copy, Debug)]
@@ -37,7 +35,7 @@ pub trait Site: Copy + Ord + Debug + Send + Sync + 'static {
     /// The sign of incircle: `Greater` if `d` lies inside the circle of the counter-clockwise triangle.
     fn incircle(abc: [Self; 3], d: Self) -> Ordering;
 
-    /// What predicates share that look at one edge from several points.
+    /// The part of the predicates that depends on an edge and one point, so that several tests of the point share it.
     type View: Copy + Debug;
 
     /// Views an edge from a point.
@@ -113,213 +111,5 @@ pub trait Site: Copy + Ord + Debug + Send + Sync + 'static {
     fn rough_distance(self, other: Self) -> f64 {
         let ([x, y], [u, v]) = (self.rounded(), other.rounded());
         (x - u) * (x - u) + (y - v) * (y - v)
-    }
-}
-
-/// Whether all coordinates of the points are below 2^31, so that the public predicates are exact.
-#[inline(always)]
-fn are_below_31_bits<const N: usize>(points: [Point; N]) -> bool {
-    points.iter().fold(0, |all, point| all | point.x | point.y) >> 31 == 0
-}
-
-impl Site for Point {
-    fn is_finite(self) -> bool {
-        true
-    }
-
-    #[inline(always)]
-    fn orient2d(a: Self, b: Self, c: Self) -> Ordering {
-        if are_below_31_bits([a, b, c]) {
-            predicate::orient2d(a, b, c).cmp(&0)
-        } else {
-            view_of_32_bits(a, b, c).cross.cmp(&0)
-        }
-    }
-
-    #[inline(always)]
-    fn incircle([a, b, c]: [Self; 3], d: Self) -> Ordering {
-        if are_below_31_bits([a, b, c, d]) {
-            predicate::incircle(a, b, c, d).cmp(&0)
-        } else {
-            Widest::determinant(view_of_32_bits(a, b, c), view_of_32_bits(a, b, d)).cmp(&0)
-        }
-    }
-
-    /// Means nothing for coordinates from 2^31 on.
-    type View = View<i64>;
-
-    #[inline(always)]
-    fn view([a, b]: [Self; 2], p: Self) -> View<i64> {
-        if are_below_31_bits([a, b, p]) {
-            Wide::view(a.into(), b.into(), p.into())
-        } else {
-            View::default()
-        }
-    }
-
-    #[inline(always)]
-    fn side([a, b]: [Self; 2], seen: Seen<Self>) -> Ordering {
-        if are_below_31_bits([a, b, seen.site]) {
-            seen.view.cross.cmp(&0)
-        } else {
-            Self::orient2d(a, b, seen.site)
-        }
-    }
-
-    #[inline(always)]
-    fn incircle_seen([a, b]: [Self; 2], c: Seen<Self>, d: Seen<Self>) -> Ordering {
-        if are_below_31_bits([a, b, c.site, d.site]) {
-            Wide::determinant(c.view, d.view).cmp(&0)
-        } else {
-            Self::incircle([a, b, c.site], d.site)
-        }
-    }
-
-    #[inline(always)]
-    fn acute_corners([a, b, c]: [Self; 3]) -> u8 {
-        let minus =
-            |one: Self, other: Self| [i64::from(one.x) - i64::from(other.x), i64::from(one.y) - i64::from(other.y)];
-        let dot = |[x, y]: [i64; 2], [u, v]: [i64; 2]| x * u + y * v;
-        // Wider coordinates could overflow.
-        if !are_below_31_bits([a, b, c]) {
-            return 0;
-        }
-        let (ab, ac, bc) = (minus(b, a), minus(c, a), minus(c, b));
-        let [at_a, at_b, at_c] = [dot(ab, ac) > 0, dot(ab, bc) < 0, dot(ac, bc) > 0].map(u8::from);
-        at_a | at_b << 1 | at_c << 2
-    }
-
-    #[inline(always)]
-    fn compare_distances(q: Self, a: Self, b: Self) -> Ordering {
-        // Squares of differences of 32 bits, and the sum of two.
-        let square = |p: Self| {
-            let (x, y) = (u128::from(p.x.abs_diff(q.x)), u128::from(p.y.abs_diff(q.y)));
-            x * x + y * y
-        };
-        square(a).cmp(&square(b))
-    }
-
-    fn is_within(q: Self, p: Self, radius: f64) -> bool {
-        is_within_of(q.rounded(), p.rounded(), radius)
-    }
-
-    #[inline(always)]
-    fn corner(x: Self, y: Self) -> Self {
-        Self::new(x.x, y.y)
-    }
-
-    #[inline(always)]
-    fn compare_y(self, other: Self) -> Ordering {
-        self.y.cmp(&other.y)
-    }
-
-    #[inline(always)]
-    fn rounded(self) -> [f64; 2] {
-        [self.x.into(), self.y.into()]
-    }
-}
-
-/// A point whose coordinates are finite and never minus zero.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Zeroable)]
-pub struct FilteredSite<C>(pub(crate) [C; 2]);
-
-impl<C: Coordinate> FilteredSite<C> {
-    /// The site of a point with finite coordinates.
-    #[inline(always)]
-    pub(crate) fn of(point: [C; 2]) -> Self {
-        Self(point.map(C::positive_zero))
-    }
-}
-
-impl<C: Coordinate> Eq for FilteredSite<C> {}
-
-impl<C: Coordinate> PartialOrd for FilteredSite<C> {
-    #[inline(always)]
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl<C: Coordinate> Ord for FilteredSite<C> {
-    #[inline(always)]
-    fn cmp(&self, other: &Self) -> Ordering {
-        // All coordinates are finite, so all are comparable.
-        self.0.partial_cmp(&other.0).unwrap_or(Ordering::Equal)
-    }
-}
-
-impl<C: Coordinate + Debug> Site for FilteredSite<C> {
-    fn is_finite(self) -> bool {
-        self.0.iter().all(|value| value.half().is_finite())
-    }
-
-    #[inline(always)]
-    fn orient2d(a: Self, b: Self, c: Self) -> Ordering {
-        orient2d_of(a.0, b.0, c.0)
-    }
-
-    #[inline(always)]
-    fn incircle([a, b, c]: [Self; 3], d: Self) -> Ordering {
-        incircle_of(a.0, b.0, c.0, d.0)
-    }
-
-    type View = SizedView;
-
-    #[inline(always)]
-    fn view([a, b]: [Self; 2], p: Self) -> SizedView {
-        SizedView::of(a.0, b.0, p.0)
-    }
-
-    #[inline(always)]
-    fn side([a, b]: [Self; 2], seen: Seen<Self>) -> Ordering {
-        orient2d_seen([a.0, b.0], seen.site.0, seen.view)
-    }
-
-    #[inline(always)]
-    fn incircle_seen([a, b]: [Self; 2], c: Seen<Self>, d: Seen<Self>) -> Ordering {
-        incircle_seen([a.0, b.0], [c.site.0, d.site.0], [c.view, d.view])
-    }
-
-    #[inline(always)]
-    fn acute_corners([a, b, c]: [Self; 3]) -> u8 {
-        acute_corners_of(a.0, b.0, c.0)
-    }
-
-    #[inline(always)]
-    fn compare_distances(q: Self, a: Self, b: Self) -> Ordering {
-        nearer_of(q.0, a.0, b.0)
-    }
-
-    fn is_within(q: Self, p: Self, radius: f64) -> bool {
-        is_within_of(q.0, p.0, radius)
-    }
-
-    #[inline(always)]
-    fn corner(x: Self, y: Self) -> Self {
-        Self([x.0[0], y.0[1]])
-    }
-
-    #[inline(always)]
-    fn compare_y(self, other: Self) -> Ordering {
-        self.0[1].partial_cmp(&other.0[1]).unwrap_or(Ordering::Equal)
-    }
-
-    #[inline(always)]
-    fn rounded(self) -> [f64; 2] {
-        self.0.map(|value| 2.0 * value.half())
-    }
-}
-
-impl From<[i64; 2]> for FilteredSite<i64> {
-    #[inline(always)]
-    fn from(point: [i64; 2]) -> Self {
-        Self::of(point)
-    }
-}
-
-impl From<[f64; 2]> for FilteredSite<f64> {
-    #[inline(always)]
-    fn from(point: [f64; 2]) -> Self {
-        Self::of(point)
     }
 }
