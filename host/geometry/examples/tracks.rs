@@ -1,5 +1,5 @@
-//! Image features that a camera tracks: they drift, appear and vanish at 30 frames a second, and each has a depth. Every
-//! frame takes the changes in, and gives the mesh and the depth at places between the features.
+//! Image features that a camera tracks: they drift, appear and vanish at 30 frames a second, and each has a depth.
+//! Every frame carries out the changes, and gives the mesh and the depth at places between the features.
 //!
 //! ```text
 //! cargo run --release -p incircle-geometry --example tracks                # 4,000 features, 300 frames

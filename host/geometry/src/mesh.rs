@@ -11,6 +11,15 @@ use crate::verify::{self, VerifyError};
 /// Marks in [`Mesh::halfedges`] that there is no triangle on the other side: the edge lies on the hull.
 pub const EMPTY: u32 = u32::MAX;
 
+/// A triangle, turned so that the smallest of its indices or ids comes first.
+#[inline(always)]
+pub(crate) fn smallest_first<I: Copy + Ord>([a, b, c]: [I; 3]) -> [I; 3] {
+    // An index instead of branches, because no processor predicts which corner is the smallest.
+    let first = usize::from((b < a) & (b < c)) + 2 * usize::from((c < a) & (c < b));
+    let twice = [a, b, c, a, b];
+    [twice[first], twice[first + 1], twice[first + 2]]
+}
+
 /// The Delaunay triangulation of the distinct points of a set, in canonical form.
 ///
 /// A set of points has exactly one mesh: every back end and every order of insertion gives the same lists. Two meshes

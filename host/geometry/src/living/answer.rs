@@ -3,9 +3,8 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::queries::smallest_first;
 use super::triangulation::Triangulation;
-use crate::mesh::Mesh;
+use crate::mesh::{smallest_first, Mesh};
 use crate::plane_point::PlanePoint;
 use crate::point::Duplicate;
 

@@ -80,16 +80,16 @@ impl<P: PlanePoint> Triangulation<P> {
 
     /// Whether several points have the place of a vertex.
     fn is_shared(&self, vertex: u32) -> bool {
-        self.first_twin(vertex).is_some()
+        self.first_duplicate(vertex).is_some()
     }
 
     /// The lowest index at the place of a vertex, beside that which names the place.
-    fn first_twin(&self, vertex: u32) -> Option<u32> {
-        if self.twins.is_empty() {
+    fn first_duplicate(&self, vertex: u32) -> Option<u32> {
+        if self.duplicates.is_empty() {
             return None;
         }
-        let twin = self.twins.range((vertex, 0)..=(vertex, u32::MAX)).next();
-        twin.map(|&(_, index)| index)
+        let duplicate = self.duplicates.range((vertex, 0)..=(vertex, u32::MAX)).next();
+        duplicate.map(|&(_, index)| index)
     }
 
     /// Puts the point of an index into the mesh.
@@ -98,9 +98,9 @@ impl<P: PlanePoint> Triangulation<P> {
         if let Place::Vertex(vertex) = place {
             self.names.set(index, vertex);
             let name = &mut self.levels[0].vertices[vertex as usize].name;
-            let twin = index.max(*name);
+            let duplicate = index.max(*name);
             *name = index.min(*name);
-            self.twins.insert((vertex, twin));
+            self.duplicates.insert((vertex, duplicate));
             return;
         }
         let vertex = self.levels[0].add(point, index, place);
@@ -112,10 +112,10 @@ impl<P: PlanePoint> Triangulation<P> {
     /// Takes the point of an index out of the mesh. The index itself is gone already.
     fn detach(&mut self, index: u32, vertex: u32) {
         if self.name(vertex) != index {
-            self.twins.remove(&(vertex, index));
-        } else if let Some(twin) = self.first_twin(vertex) {
-            self.levels[0].vertices[vertex as usize].name = twin;
-            self.twins.remove(&(vertex, twin));
+            self.duplicates.remove(&(vertex, index));
+        } else if let Some(duplicate) = self.first_duplicate(vertex) {
+            self.levels[0].vertices[vertex as usize].name = duplicate;
+            self.duplicates.remove(&(vertex, duplicate));
         } else {
             self.demote(vertex);
             if self.hint.get() == vertex {
@@ -126,7 +126,7 @@ impl<P: PlanePoint> Triangulation<P> {
         }
     }
 
-    /// Adds a vertex of the lowest level to the levels above that its coins choose.
+    /// Adds a vertex of the lowest level to the levels above, up to the highest one that its number chooses.
     fn promote(&mut self, vertex: u32, point: P) {
         let mut below = vertex;
         for number in 1..=Self::top_of(vertex) {

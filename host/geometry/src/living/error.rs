@@ -7,10 +7,10 @@ use crate::point::MAX_POINTS;
 #[non_exhaustive]
 pub enum Error {
     /// A coordinate is infinite or not a number.
-    #[error("a coordinate of the point is infinite or not a number: leave it out, or give it a place")]
+    #[error("a coordinate of the point is infinite or not a number: give finite coordinates")]
     NotFinite,
     /// A coordinate in a list of points is infinite or not a number.
-    #[error("point {position} of the list has a coordinate that is infinite or not a number: give it a place")]
+    #[error("point {position} of the list has a coordinate that is infinite or not a number: give finite ones")]
     NotFiniteAt {
         /// The position of the point in the list.
         position: usize,

@@ -23,7 +23,7 @@ enum Ranks<'i> {
     Dense,
     /// A position for each index from the first living one to the last.
     Table(u32, Vec<u32>),
-    /// A long time has passed since some of the points were inserted.
+    /// The living indices lie so far apart that a table would be long; a position is found by binary search.
     Sparse(&'i [u32]),
 }
 
@@ -110,18 +110,18 @@ impl<P: PlanePoint> Triangulation<P> {
         true
     }
 
-    /// Inserts the points of vertices that were taken out, and those that went another way than
-    /// the point that names their place.
+    /// Inserts the points of the vertices that were taken out, and the duplicates that moved to another place than the
+    /// point that named their common place.
     fn attach_all(&mut self, taken: &[Taken], place: impl Fn(u32) -> P) {
         let mut loose: Vec<(u32, Option<u32>)> = taken.iter().map(|taken| (taken.name, taken.near)).collect();
-        if !self.twins.is_empty() {
+        if !self.duplicates.is_empty() {
             let gone: BTreeSet<u32> = taken.iter().map(|taken| taken.vertex).collect();
-            let twins = core::mem::take(&mut self.twins);
+            let duplicates = core::mem::take(&mut self.duplicates);
             let base = self.base();
             let stays =
                 |&(vertex, index): &(u32, u32)| !gone.contains(&vertex) && base.site(vertex) == place(index).site();
-            let (twins, others) = twins.into_iter().partition::<Vec<_>, _>(stays);
-            self.twins = twins.into_iter().collect();
+            let (duplicates, others) = duplicates.into_iter().partition::<Vec<_>, _>(stays);
+            self.duplicates = duplicates.into_iter().collect();
             loose.extend(others.into_iter().map(|(_, index)| (index, None)));
         }
         // The vertex that was freed last is taken first, so most points get back their own.
@@ -147,12 +147,12 @@ impl<P: PlanePoint> Triangulation<P> {
         let indices = self.indices();
         let mut names = Names::default();
         names.reserve(indices.len());
-        let twins = core::mem::take(&mut self.twins);
+        let duplicates = core::mem::take(&mut self.duplicates);
         for (new, &old) in (0u32..).zip(&indices) {
             let Some(vertex) = self.names.get(old) else { continue };
             names.set(new, vertex);
-            if twins.contains(&(vertex, old)) {
-                self.twins.insert((vertex, new));
+            if duplicates.contains(&(vertex, old)) {
+                self.duplicates.insert((vertex, new));
             } else {
                 self.levels[0].vertices[vertex as usize].name = new;
             }

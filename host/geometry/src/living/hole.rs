@@ -1,9 +1,9 @@
 //! Removing a vertex: gift wrapping fills the hole that its star leaves.
 //!
 //! The triangle on an edge of the hole is the one whose circle holds no other vertex of the hole, with the tie rule.
-//! The triangle cuts the hole in two smaller ones. All candidates look at the same edge, and each looks only once for
-//! all its tests. On even sets that takes 45 multiplications a vertex, where cutting ears or flips
-//! take 76, and an insertion of the neighbours 53 (`docs/living.md`).
+//! That triangle cuts the hole in two smaller ones. All candidates are tested against the same edge, so what the tests
+//! of a candidate share is computed once. On even sets this takes 45 multiplications for each vertex that is removed,
+//! where cutting ears or flips take 76, and an insertion of the neighbours 53 (`docs/living.md`).
 
 use alloc::vec::Vec;
 

@@ -3,8 +3,8 @@
 use super::error::Error;
 use super::level::Level;
 use super::plane::{Side, INFINITE};
-use super::queries::smallest_first;
 use super::triangulation::Triangulation;
+use crate::mesh::smallest_first;
 use crate::plane_point::PlanePoint;
 
 impl<P: PlanePoint> Triangulation<P> {

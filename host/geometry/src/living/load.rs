@@ -9,9 +9,9 @@ use super::answer::sorted;
 use super::error::Error;
 use super::level::{Level, Vertex};
 use super::plane::grow;
-use super::queries::smallest_first;
 use super::triangulation::Triangulation;
 use crate::cpu::{connect, Connectivity};
+use crate::mesh::smallest_first;
 use crate::order::hilbert;
 use crate::plane_point::PlanePoint;
 use crate::point::{Point, MAX_POINTS};
@@ -60,7 +60,7 @@ impl<P: PlanePoint> Triangulation<P> {
         for duplicate in &mesh.duplicates {
             let vertex = vertex_of[duplicate.of as usize];
             self.names.set(index(duplicate.index), vertex);
-            self.twins.insert((vertex, index(duplicate.index)));
+            self.duplicates.insert((vertex, index(duplicate.index)));
         }
         let vertices = order.iter().map(|&rank| (points[rank as usize], index(rank)));
         let base = Level::load(vertices, &mesh, |rank| vertex_of[rank as usize]);

@@ -1,7 +1,7 @@
-//! Which vertex has the point of an index: a hash table of the living indices.
+//! The vertex of each living index: a hash table.
 //!
-//! Indices are never used again, so they grow without end, and only a table whose size follows the number of living
-//! points keeps its memory.
+//! Indices are never used again, so they grow without end. A list by index would grow with them; the size of this table
+//! follows the number of living points.
 //!
 //! Eight indices in a row share a line of the processor's cache. Each has a column of its own, and a search goes down
 //! its column, from line to line. If it went along the lines, a line that is already full would make all eight indices

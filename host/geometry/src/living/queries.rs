@@ -3,10 +3,11 @@
 use super::plane::INFINITE;
 use super::triangulation::Triangulation;
 use super::walk::Place;
+use crate::mesh::smallest_first;
 use crate::plane_point::PlanePoint;
 use crate::site::Site;
 
-/// What a place is in a triangulation, by the names of its vertices.
+/// The vertex, edge or triangle at a place of a triangulation, by the indices that name the vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Location {
     /// The place has a point. The index is the lowest of the living points there.
@@ -84,16 +85,5 @@ impl<P: PlanePoint> Triangulation<P> {
         let place = self.find(q);
         let near = self.base().vertex_near(q, place)?;
         Some(self.base().nearest(q, near))
-    }
-}
-
-/// Turns a triangle so that its smallest index comes first.
-pub(super) fn smallest_first([a, b, c]: [u32; 3]) -> [u32; 3] {
-    if a < b && a < c {
-        [a, b, c]
-    } else if b < c {
-        [b, c, a]
-    } else {
-        [c, a, b]
     }
 }

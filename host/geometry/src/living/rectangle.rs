@@ -113,12 +113,11 @@ impl<P: PlanePoint> Triangulation<P> {
                 Place::Outside(_) | Place::Between(..) | Place::Nowhere => {}
             }
         }
-        let hull = base.ghosts(plane.ghost).map(|ghost| Side::new(ghost, plane.get(ghost).slot_of(INFINITE)));
+        let mut hull = base.ghosts(plane.ghost).map(|ghost| Side::new(ghost, plane.get(ghost).slot_of(INFINITE)));
         let touches = |side: &Side| {
             let [a, b] = plane.ends(*side).map(|vertex| base.site(vertex));
             rectangle.touches(a, b)
         };
-        let mut hull = hull;
         hull.find(touches).map(|side| plane.across(side).triangle())
     }
 }

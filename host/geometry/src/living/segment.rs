@@ -3,13 +3,13 @@
 use alloc::vec::Vec;
 
 use super::plane::{Side, INFINITE};
-use super::queries::smallest_first;
 use super::triangulation::Triangulation;
 use super::walk::Place;
+use crate::mesh::smallest_first;
 use crate::plane_point::PlanePoint;
 use crate::site::Site;
 
-/// Where a walk along a segment is.
+/// The position of a walk along a segment.
 #[derive(Clone, Copy)]
 enum At {
     /// At a vertex before the end of the segment.

@@ -94,7 +94,7 @@ impl<P: PlanePoint> Level<P> {
         }
     }
 
-    /// The same while all vertices lie on one line: distances fall, then rise along it.
+    /// The vertex nearest to a place, while all vertices lie on one line. Along the line distances fall and then rise.
     fn nearest_on_line(&self, q: P::Site) -> Option<u32> {
         let mut best = self.line.range(..q).next_back().or_else(|| self.line.iter().next())?;
         let is_nearer = |one: &P::Site, other: &P::Site| P::Site::compare_nearness(q, *one, *other).is_lt();

@@ -13,15 +13,16 @@ use crate::order::mix;
 use crate::plane_point::PlanePoint;
 use crate::site::Site;
 
-/// Coins that a vertex throws for each level. All must fall right, so about one vertex of a level in 2^5 is in the
-/// level above; the author of the hierarchy found one in 30 to be good. In tests half of a level is in the level above,
-/// so that small sets have several levels.
-const COINS: u32 = if cfg!(test) { 1 } else { 5 };
+/// The number of bits of the hash of a vertex for each level. If all are 0, the vertex is in the level above, so about
+/// one vertex in 2^5 of a level is there; the author of the hierarchy found one in 30 to be good. In tests it is one in
+/// two, so that small sets have several levels.
+const LEVEL_BITS: u32 = if cfg!(test) { 1 } else { 5 };
 /// A walk begins at the last vertex if that is at most the square root of this many edges away, measured by one of its
 /// edges; else at the top of the hierarchy.
 const NEAR: f64 = 64.0;
 
-/// A vertex at which the last call ended. Several threads may note one at a time: any vertex is a right one.
+/// A vertex near the place of the last call. Several threads may write it at the same time, because a walk may begin at
+/// any vertex.
 #[derive(Debug, Default)]
 pub struct Hint(AtomicU32);
 
@@ -65,7 +66,7 @@ pub struct Triangulation<P: PlanePoint> {
     pub(super) levels: Vec<Level<P>>,
     pub(super) names: Names,
     /// The points at a place that has a point of a lower index: vertex and index.
-    pub(super) twins: BTreeSet<(u32, u32)>,
+    pub(super) duplicates: BTreeSet<(u32, u32)>,
     /// The index of the next point.
     pub(super) next: u32,
     pub(super) hint: Hint,
@@ -83,7 +84,7 @@ impl<P: PlanePoint> Triangulation<P> {
         Self {
             levels: vec![Level::default()],
             names: Names::default(),
-            twins: BTreeSet::new(),
+            duplicates: BTreeSet::new(),
             next: 0,
             hint: Hint::default(),
         }
@@ -149,10 +150,10 @@ impl<P: PlanePoint> Triangulation<P> {
 
     /// The highest level that a vertex of the lowest level is in.
     pub(super) fn top_of(vertex: u32) -> usize {
-        (mix(vertex.into()).trailing_zeros() / COINS) as usize
+        (mix(vertex.into()).trailing_zeros() / LEVEL_BITS) as usize
     }
 
-    /// What a place is in the lowest level. Notes a vertex there for the next call.
+    /// Finds a place in the lowest level, and notes a vertex near it for the next call.
     #[inline]
     pub(super) fn find(&self, q: P::Site) -> Place {
         let (base, hint) = (self.base(), self.hint.get());
@@ -176,7 +177,7 @@ impl<P: PlanePoint> Triangulation<P> {
         other.is_some_and(|other| site.rough_distance(q) <= NEAR * site.rough_distance(base.site(other)))
     }
 
-    /// What a place is in some level, from the top of the hierarchy.
+    /// Finds a place in the level `floor`, from the top of the hierarchy.
     pub(super) fn find_at(&self, floor: usize, q: P::Site) -> Place {
         let mut from = None;
         for level in self.levels.iter().skip(floor + 1).rev() {

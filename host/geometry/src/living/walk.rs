@@ -12,7 +12,7 @@ use super::plane::{Side, INFINITE, LAST, NEXT};
 use crate::plane_point::PlanePoint;
 use crate::site::Site;
 
-/// What a place is in a mesh.
+/// The vertex, edge or triangle at a place of a level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// A vertex.
@@ -58,8 +58,8 @@ impl<P: PlanePoint> Level<P> {
         }
     }
 
-    /// Walks on from a triangle that was entered across the edge of `side`, whose ends are to the left and to the right
-    /// of who enters. `turn` is `Equal` if the place lies on the line of that edge.
+    /// Walks on from a triangle that was entered across the edge of `side`. `left` and `right` are the ends of that
+    /// edge, as the walk sees them on its way in. `turn` is `Equal` if the place lies on the line of that edge.
     #[inline]
     fn walk_on(&self, mut side: Side, [mut left, mut right]: [P::Site; 2], q: P::Site, mut turn: Ordering) -> Place {
         loop {

@@ -35,7 +35,9 @@ pub enum Error {
         child: usize,
     },
     /// The open triangles of a border are not in canonical order.
-    #[error("open triangle {place} of a border is not in canonical order: leave the list as it was given")]
+    #[error(
+        "open triangle {place} of a border is not in canonical order: give the border that `local` or `join` gave"
+    )]
     NotCanonical {
         /// Place of the triangle in the list.
         place: usize,

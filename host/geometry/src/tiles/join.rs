@@ -129,7 +129,7 @@ fn check_lists<P: TilePoint, I>(border: &Border<P, I>) -> Result<(), Error> {
     if let Some(&place) = border.open.as_flattened().iter().find(|&&place| place as usize >= points) {
         return Err(Error::NoSuchPoint { place, points });
     }
-    // Else triangles of this list would not be found in the mesh of the union.
+    // `settle` compares this list with the triangles of the union in one pass, and would miss triangles out of order.
     let mut before = None;
     for (place, triangle) in border.open.iter().enumerate() {
         if before >= Some(triangle) || triangle[0] > triangle[1].min(triangle[2]) {

@@ -6,9 +6,9 @@ use alloc::vec::Vec;
 use super::error::Error;
 use super::reach::{Reach, TilePoint};
 use super::region::Region;
-use crate::mesh::{Mesh, EMPTY};
+use crate::mesh::{smallest_first, Mesh, EMPTY};
 
-/// What is known of the points of one region: its final triangles, and the border with which it is joined to others.
+/// The result for the points of one region: its final triangles, and the border with which it is joined to others.
 ///
 /// Triangles name points by ids that the caller chose, each with its smallest id first.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,7 +16,7 @@ pub struct Tile<P: TilePoint, I> {
     /// The triangles that are in the mesh of all points, whatever lies beyond the region. After a join, those that the
     /// join has made final; the final triangles of its children are not repeated.
     pub finals: Vec<[I; 3]>,
-    /// What joins need.
+    /// The points and triangles that joins need.
     pub border: Border<P, I>,
     /// The hull of the points of the region, in the form of [`Mesh::hull`].
     pub hull: Vec<I>,
@@ -25,8 +25,8 @@ pub struct Tile<P: TilePoint, I> {
     pub unknown: usize,
 }
 
-/// What a region leaves for the join with its neighbours: its open triangles, and every point that a triangle across a
-/// side may have as a corner.
+/// The part of a region that a join with its neighbours needs: its open triangles, and every point that a triangle
+/// across a side may have as a corner.
 ///
 /// All fields are plain lists, so that a border can be written to a file or sent to another machine.
 #[derive(Clone, Debug, PartialEq)]
@@ -119,8 +119,8 @@ pub(super) fn settle<P: TilePoint, I: Copy + Ord>(
 /// The hull of a mesh by ids, in canonical form. All its places must have ids.
 fn named_hull<P, I: Copy + Ord>(mesh: &Mesh<P>, ids: &[I]) -> Vec<I> {
     let mut hull: Vec<I> = mesh.hull.iter().map(|&place| ids[place as usize]).collect();
-    // The hull of a mesh without triangles is a list from end to end, which has no other beginning. A mesh may have
-    // triangles of which none is left here: those of a union may all lie within the final triangles of its children.
+    // Without triangles the hull is a list from one end of the line to the other, so it must not be turned. `mesh` must
+    // say so: none of a union's triangles may count, because all lie within the final triangles of its children.
     if !mesh.is_collinear() {
         let least = hull.iter().enumerate().min_by_key(|&(_, id)| *id).map_or(0, |(place, _)| place);
         hull.rotate_left(least);
@@ -128,8 +128,8 @@ fn named_hull<P, I: Copy + Ord>(mesh: &Mesh<P>, ids: &[I]) -> Vec<I> {
     hull
 }
 
-/// The border of open triangles and a hull, whose places are in `points`. The points keep their sequence, so that
-/// triangles keep their form and theirs.
+/// The border of open triangles and a hull, whose places are in `points`. The points of the border keep their sequence,
+/// so the triangles stay sorted, each with its smallest place first.
 fn border<P: TilePoint, I: Copy>(
     points: &[P],
     ids: &[I],
@@ -154,16 +154,4 @@ fn border<P: TilePoint, I: Copy>(
     }
     border.open = open;
     border
-}
-
-/// A triangle turned so that its smallest id is first.
-#[inline(always)]
-fn smallest_first<I: Copy + Ord>([a, b, c]: [I; 3]) -> [I; 3] {
-    if a <= b && a <= c {
-        [a, b, c]
-    } else if b <= c {
-        [b, c, a]
-    } else {
-        [c, a, b]
-    }
 }

@@ -1,9 +1,9 @@
 //! The question that tiles rest on: does the circumscribed disc of a triangle reach beyond a region?
 //!
-//! **The test.** Let `a` be a corner, `2 cross` = `D` four times the area of the counter-clockwise triangle, and
-//! `U / D` the centre of its circle relative to `a`. A point beyond the east side has an x of at least `east`. No such
-//! point is in the closed disc, and none is on its circle, if the centre is more than a radius away from the line
-//! `x = east`:
+//! **The test.** Let `a` be a corner, `D` (twice the value `cross` below) four times the area of the counter-clockwise
+//! triangle, and `U / D` the centre of its circle relative to `a`. A point beyond the east side has an x of at least
+//! `east`. No such point is in the closed disc, and none is on its circle, if the centre is more than a radius away
+//! from the line `x = east`:
 //!
 //! - With `K = (east - a.x) D`, the distance times `D` is `K - Ux`, and the radius times `D` is the length of `U`.
 //! - `K - Ux > |U|` is the same as `K > 0` and `K (K - 2 Ux) > Uy²`: square both sides, and take `Ux²` away from both.
@@ -52,7 +52,7 @@ const MORE: f64 = 1.0 + 32.0 * UNIT;
 /// The squared sides of a triangle of doubles for which the filter answers: 2^-300 to 2^300.
 const SQUARES: core::ops::RangeInclusive<f64> = f64::from_bits((1023 - 300) << 52)..=f64::from_bits((1023 + 300) << 52);
 
-/// Where the closed circumscribed disc of a triangle lies.
+/// The position of the closed circumscribed disc of a triangle beside a region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Reach {
     /// The disc lies strictly within the region: no point beyond the region can be in the disc or on its circle.
@@ -272,7 +272,7 @@ impl Sides {
 }
 
 impl Rounded {
-    /// Where the disc lies beside one line, as far as rounding allows an answer. `outward` is 1 if the region lies on
+    /// The position of the disc beside one line, as far as rounding allows an answer. `outward` is 1 if the region lies on
     /// the lower side of the line, else -1.
     fn reach_line(&self, line: f64, axis: usize, outward: f64) -> Reach {
         if line == f64::INFINITY * outward {

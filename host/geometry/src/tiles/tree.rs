@@ -63,7 +63,7 @@ struct Cut {
     sides: [Side; 2],
 }
 
-/// What is on one side of a cut.
+/// The next cut or the tile on one side of a cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Side {
     /// A further cut, by its place in the list.
@@ -103,7 +103,8 @@ impl Tree {
         Builder::build(sum, bits, most.get(), &before)
     }
 
-    /// The steps, in an order that keeps few borders on the stack: along the curve, each join as soon as it can be.
+    /// The steps, in an order that keeps few borders on the stack: tiles come along the curve, and each join comes as
+    /// soon as all its children are there.
     pub fn steps(&self) -> &[Step] {
         &self.steps
     }

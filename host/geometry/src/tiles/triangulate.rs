@@ -54,8 +54,8 @@ pub fn triangulate(points: Vec<Point>, most: NonZeroUsize) -> Result<Mesh, Error
     Ok(Mesh { points, triangles, hull, duplicates })
 }
 
-/// The tree of a set, and the indices of its points along the curve. The sort is stable, so duplicates come in the order
-/// of their indices, and the first of them stands for all.
+/// The tree of a set, and the indices of its points along the curve. The sort is stable, so duplicates come in the
+/// order of their indices, and the first of them stands for all.
 fn cut(points: &[Point], most: NonZeroUsize) -> (Tree, Vec<u32>) {
     let mut entries: Vec<Wide> =
         points.iter().zip(0..).map(|(point, id)| Wide::new(position(point.x, point.y), id)).collect();
@@ -74,7 +74,7 @@ impl Keyed for Triangle {
     }
 }
 
-/// What is there after some of the steps, and memory for the next one.
+/// The results of the steps so far, and memory for the next one.
 #[derive(Default)]
 struct Work {
     triangulator: Triangulator,
@@ -100,7 +100,7 @@ impl Work {
         Ok(())
     }
 
-    /// Joins the last borders of the stack.
+    /// Joins the borders that were put onto the stack last.
     fn join(&mut self, region: Region, children: usize) -> Result<(), Error> {
         let first = self.borders.len().saturating_sub(children);
         let union = Union::of(region, self.borders.split_off(first))?;

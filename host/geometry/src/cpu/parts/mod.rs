@@ -1,8 +1,8 @@
 //! Divide and conquer with parts that somebody else triangulates: a device, another process, another machine.
 //!
 //! [`Parts`] cuts a set along the tree of cuts into parts of at most a given number of points. Any device, process or
-//! machine triangulates a part, and [`Parts::join`] joins the meshes into that of the whole set, as the CPU triangulator
-//! joins its own parts. So a device of any capacity does sets of any size.
+//! machine triangulates a part, and [`Parts::join`] joins the meshes into that of the whole set, as the CPU
+//! triangulator joins its own parts. So a device of any capacity does sets of any size.
 //!
 //! Most triangles of a part need no join. A part lies in a cell of the quadtree, and no other point of the set is in
 //! that cell. A triangle whose closed circumscribed disc lies strictly inside the cell is *final*: no point of the set

@@ -7,15 +7,15 @@ use super::super::triangulator::is_collinear;
 use super::super::view::{Integers, Site, Widest};
 use super::rings::Rings;
 use super::{Parts, Unsound};
+use crate::mesh::smallest_first;
 use crate::point::Point;
 use crate::tiles::reach::{Reach, TilePoint};
 
 /// A vertex that is not at the border.
 const INSIDE: u32 = u32::MAX;
 
-/// The mesh of one part, ready to be joined; see [`Parts::solved`].
-///
-/// It has the final triangles as they are, and half-edges for the other ones.
+/// The mesh of one part, ready to be joined; see [`Parts::solved`]. Final triangles are kept as they are, and all other
+/// triangles become half-edges.
 #[derive(Debug)]
 pub struct SolvedPart {
     pub(super) part: usize,
@@ -42,8 +42,8 @@ impl SolvedPart {
 
 impl Parts {
     /// Takes the mesh of a part: the triangles and the hull of [`Parts::points`], by the indices of these points, as in
-    /// [`Mesh`](crate::Mesh). The triangles may stand in any order. Several threads may call this at once, each for other
-    /// parts.
+    /// [`Mesh`](crate::Mesh). The triangles may stand in any order. Several threads may call this at once, each for
+    /// other parts.
     ///
     /// O(n) for a part of n points: a test for each triangle, and half-edges for about `5.5 sqrt(n)` vertices.
     ///
@@ -105,13 +105,4 @@ impl Border {
         }
         Self { vertices, numbers }
     }
-}
-
-/// The corners of a triangle, turned until the smallest stands first.
-#[inline(always)]
-fn smallest_first([a, b, c]: [u32; 3]) -> [u32; 3] {
-    // An index instead of branches, because no processor predicts which corner is the smallest.
-    let first = usize::from((b < a) & (b < c)) + 2 * usize::from((c < a) & (c < b));
-    let twice = [a, b, c, a, b];
-    [twice[first], twice[first + 1], twice[first + 2]]
 }

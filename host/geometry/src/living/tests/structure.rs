@@ -20,9 +20,9 @@ pub fn check<P: PlanePoint>(mesh: &Triangulation<P>) {
             }
         }
     }
-    assert_eq!(mesh.names.len(), mesh.base().count + mesh.twins.len());
+    assert_eq!(mesh.names.len(), mesh.base().count + mesh.duplicates.len());
     assert!(mesh
-        .twins
+        .duplicates
         .iter()
         .all(|&(vertex, index)| mesh.name(vertex) < index && mesh.names.get(index) == Some(vertex)));
 }
