@@ -37,17 +37,6 @@ impl Approach<'_> {
         self.root
     }
 
-    /// Number of arrival and coordinates of the vertex nearest to the point, among the vertices of the triangle that
-    /// holds it or of the hull edge beyond which it lies.
-    pub fn nearest(&self) -> (u32, Point) {
-        let vertices = self.mesh.records[self.root as usize].v.into_iter().filter(|&v| v != self.mesh.infinite);
-        let at = |v: u32| self.mesh.points[v as usize];
-        let square = |one: u32, other: u32| u64::from(one.abs_diff(other)).pow(2);
-        let distance = |q: Point| square(q.x, self.p.x) + square(q.y, self.p.y);
-        // Every record has at least two finite vertices, so the default is never used.
-        vertices.map(|v| (v, at(v))).min_by_key(|&(_, q)| distance(q)).unwrap_or_default()
-    }
-
     /// Inserts the point without another walk.
     pub fn insert(self) -> Insertion {
         let Self { mesh, p, root } = self;

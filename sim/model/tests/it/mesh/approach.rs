@@ -38,9 +38,6 @@ fn a_point_is_approached_and_then_inserted() {
                 assert!(place < 3 && mesh.insert(point(word)) == expected);
                 continue;
             };
-            let (vertex, at) = approach.nearest();
-            assert_eq!(at, point(&words[vertex as usize]));
-            assert_eq!(at == point(word), expected == Insertion::Duplicate);
             let record = approach.record() as usize;
             assert_eq!(approach.insert(), expected);
             let is_around = mesh.records()[record].v.contains(&place);
