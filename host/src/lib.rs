@@ -102,8 +102,8 @@
 //!
 //! # Several devices for one set
 //!
-//! A set that is too large for a device is cut into parts, and the host joins their meshes. A [`Fleet`] shares the parts
-//! among several devices.
+//! A set that is too large for a device is cut into parts, and the host joins their meshes. A [`Fleet`] shares the
+//! parts among several devices.
 //!
 //! ```
 //! use incircle::{Fleet, Options, Point};

@@ -36,7 +36,7 @@ pub enum Counter {
     Revisits = 15,
     /// Attempts that aborted because another context held a lock.
     Aborts = 16,
-    /// Roots that no longer held the point when they were locked.
+    /// Roots that no longer conflicted with the point when they were locked.
     RootRetries = 17,
     /// Times that a context acquired the priority.
     PrioritiesTaken = 18,

@@ -1,8 +1,8 @@
 //! Brings the answers of the engines together, each of them whole, and notes which engines have said `Stuck`.
 //!
 //! 1. While no answer passes, the next one is that of the first engine in turn that offers a word.
-//! 2. No output depends on an input within a clock, but for the beat of the chosen engine, which is a register of
-//!    that engine, and for `ready`, which follows `response_ready`.
+//! 2. No output depends on an input within a clock, except that the answer follows the beat of the chosen engine, which
+//!    is a register of that engine, and that `takes` follows `response_ready`.
 //! 3. `stuck` is set when the first beat of an answer with the status `Stuck` is taken, and stays until a reset.
 //!
 //! Latency: 2 clocks from a word on offer to the stream. Two clocks pass between two answers, because the choice is
@@ -19,7 +19,7 @@ pub struct AnswerCollector {
     pub clock: Signal<In, Clock>,
     /// After a reset no answer passes, and no engine counts as stuck.
     pub reset: Signal<In, Bit>,
-    /// The engine offers a beat; the beat; the beat is taken if the engine offers one.
+    /// For each engine: it offers a beat (`offers`); the beat; the beat on offer is taken at this edge (`takes`).
     pub offers: Signal<In, EngineFlags>,
     pub beat0: Signal<In, OfferedBeat>,
     pub beat1: Signal<In, OfferedBeat>,

@@ -1,7 +1,7 @@
-//! Chooses the engine for the next job, in turn.
+//! Chooses the next engine in turn: for a job, or for an answer.
 //!
-//! 1. The choice is the first engine behind `current`, in a circle, that owes no answer and has not said `Stuck`. If
-//!    all engines have said so, it is the first that owes no answer.
+//! 1. The engines form a circle. The choice is the first engine behind `current` that is free and not stuck. If all
+//!    engines are stuck, it is the first that is free.
 //!
 //! Latency: 1 clock.
 
@@ -11,14 +11,15 @@ use crate::prelude::*;
 #[derive(LogicBlock, Default)]
 pub struct EngineChoice {
     pub clock: Signal<In, Clock>,
-    /// After a reset there is no engine for the next job, until the clock after.
+    /// After a reset there is no choice until the clock after.
     pub reset: Signal<In, Bit>,
-    /// The engine of the present job.
+    /// The engine behind which the search begins: that of the present job, or of the last answer.
     pub current: Signal<In, Bits<2>>,
-    /// The engine owes no answer; the engine has said `Stuck`, or is not there.
+    /// The engine may be chosen: it owes no answer, or for the collector, it offers one (`free`). The engine has said
+    /// `Stuck`, or is not there (`stuck`).
     pub free: Signal<In, EngineFlags>,
     pub stuck: Signal<In, EngineFlags>,
-    /// The engine for the next job, if there is one.
+    /// The choice, if there is one.
     pub target: Signal<Out, Bits<2>>,
     pub has_target: Signal<Out, Bit>,
     next_engine: DFF<Bits<2>>,

@@ -1,10 +1,12 @@
-//! What stands between the two streams of words and the engines of a chip that has several.
+//! The blocks between the two streams of words and the engines of a chip that has several engines.
 //!
 //! ```text
 //! commands -> JobRouter --> CommandQueue -> Core --> AnswerCollector -> answers
 //!                      \--> CommandQueue -> Core --/
 //! ```
-//! A queue and its engine are an `EngineSlot`. `Dual` has two slots, `Quad` has four.
+//! An `EngineSlot` holds a queue and its engine, and counts the answers that the engine owes. `Dual` has two slots, and
+//! `Quad` has four. The router and the collector each choose the next engine in turn by an `EngineChoice`, and the
+//! router finds the beginnings of commands by a `WordPlace`.
 
 mod answer_collector;
 mod command_queue;

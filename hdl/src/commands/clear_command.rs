@@ -6,8 +6,8 @@
 //!    one job.
 //! 3. A number of jobs that does not divide that of the contexts is refused, and so are more contexts than there are. A
 //!    refused `Clear` changes nothing but the tag, in bits 23 to 16. After a reset there is no batch, and the tag is 0.
-//! 4. To divide, the block subtracts the number of jobs from the number of contexts, once a clock (`is_checking`), until
-//!    no more contexts are left than there are jobs. Equal numbers are granted.
+//! 4. To divide, the block subtracts the number of jobs from the number of contexts, once a clock (`is_checking`),
+//!    until no more contexts are left than there are jobs. If the two numbers are then equal, the `Clear` is granted.
 //!
 //! Latency: 2 clocks from the word to `clears`, and one more for each further context of a team in a batch; 1 more to
 //! `deal.dealt_from`.

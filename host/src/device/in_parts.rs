@@ -128,7 +128,7 @@ impl Session<'_> {
                 check()?;
                 solutions
             }
-            // The caller knows of no jobs.
+            // The parts are no jobs of the caller, so the error names none.
             Err(Error::InJob { source, .. }) => Err(*source),
             solutions => solutions,
         }

@@ -40,7 +40,7 @@ pub struct Counters {
     pub revisits: u32,
     /// Attempts aborted because another context held a lock.
     pub aborts: u32,
-    /// Roots that no longer held the point when they were locked.
+    /// Roots that no longer conflicted with the point when they were locked.
     pub root_retries: u32,
     /// Times a context took the priority.
     pub priorities_taken: u32,

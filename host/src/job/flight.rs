@@ -147,8 +147,8 @@ impl Carrier<'_> {
         }
     }
 
-    /// Answers a job that needs no device, and gives back one that does. `contexts` is the number of contexts that would
-    /// work on it, for the report.
+    /// Answers a job that needs no device, and gives back one that does. `contexts` is the number of contexts that
+    /// would work on the job, for the report.
     pub(crate) fn answer_here(&self, ordered: Ordered, contexts: u32, done: &mut Done) -> Option<Ordered> {
         if !ordered.prepared.collinear {
             return Some(ordered);

@@ -52,8 +52,8 @@ pub struct Report {
     pub latencies: Option<Latencies>,
     /// Clocks of the device for an exclusive job that was sent ahead: from the last word of the previous job, or the
     /// beginning of the batch, to the last triangle of this job. For a set in parts on one device, the clocks from the
-    /// first word of the first part to the last triangle of the last. `None` for all other jobs, for an exclusive job on a device of several engines, and where the transport
-    /// does not know the clocks.
+    /// first word of the first part to the last triangle of the last. `None` for all other jobs, for an exclusive job
+    /// on a device of several engines, and where the transport does not know the clocks.
     pub clocks: Option<u64>,
     /// The lattice of the points; `None` if they have none, and the CPU triangulator worked on their
     /// doubles or long integers.
@@ -72,11 +72,11 @@ pub struct Report {
     /// Engines that got stuck over this job before another engine did it. They get no more jobs until the device is
     /// reset.
     pub stuck_engines: Vec<u32>,
-    /// What each device of a [`Fleet`](crate::Fleet) did, in the order of the fleet; empty for a single device.
+    /// The share of each device of a [`Fleet`](crate::Fleet), in the order of the fleet; empty for a single device.
     pub shares: Vec<Share>,
 }
 
-/// What one device of a [`Fleet`](crate::Fleet) did for a set.
+/// The share of one device of a [`Fleet`](crate::Fleet) in the work on a set.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Share {
@@ -107,8 +107,8 @@ impl Report {
         (cycles > 0 && self.distinct > 0).then(|| cycles as f64 / self.distinct as f64)
     }
 
-    /// Clock cycles of the device per distinct point, with the read-out, where [`clocks`](Self::clocks) are known: for a
-    /// set in parts, and for an exclusive job of a batch.
+    /// Clock cycles of the device per distinct point, with the read-out, where [`clocks`](Self::clocks) are known: for
+    /// a set in parts, and for an exclusive job of a batch.
     pub fn clocks_per_point(&self) -> Option<f64> {
         self.clocks.filter(|_| self.distinct > 0).map(|clocks| clocks as f64 / self.distinct as f64)
     }

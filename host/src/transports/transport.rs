@@ -79,8 +79,8 @@ pub trait Transport {
         None
     }
 
-    /// Tries, after an error of the transport or a wrong answer, to bring the device back to its state after a reset, if
-    /// that may help.
+    /// Tries, after an error of the transport or a wrong answer, to bring the device back to its state after a reset,
+    /// if that may help.
     ///
     /// After `true` the session tries the job once more, from its `Clear` on, and everything that was sent ahead behind
     /// it. After `false`, the default, the error stands.

@@ -18,7 +18,7 @@ pub struct OpenTeams {
     pub clock: Signal<In, Clock>,
     /// In the first round of the pointer, a context and its team.
     pub planned: Signal<In, Planned>,
-    /// This team opens at this edge; not in the first round of the pointer.
+    /// The team `opened` opens at this edge; not allowed in the first round of the pointer.
     pub opens: Signal<In, Bit>,
     pub opened: Signal<In, ContextId>,
     /// The team that is asked about.

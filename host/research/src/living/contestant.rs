@@ -27,7 +27,7 @@ impl Block<'_> {
     }
 }
 
-/// What a block took, and its answers.
+/// The time of a block, and its answers.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Run {
     /// Seconds of the commands. Bringing the answers into the common form is not counted.

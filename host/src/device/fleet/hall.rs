@@ -1,4 +1,5 @@
-//! The place where the devices of a fleet meet: the parts that wait, the meshes that are done, and who is there.
+//! The state that the threads of a fleet share: the devices that have opened, the parts that wait, those under way, and
+//! those that are done.
 
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -12,7 +13,7 @@ use crate::error::Error;
 use crate::job::Share;
 use crate::limit::Limit;
 
-/// Time between two looks at the work, at most.
+/// The longest time between two looks at the state.
 const LOOK: Duration = Duration::from_millis(50);
 /// Most parts that a device takes at a time.
 const MOST_TAKEN: usize = 64;
@@ -26,7 +27,7 @@ pub(super) struct Greeted {
     pub(super) slow: u32,
 }
 
-/// What the leader sees of the work.
+/// The state of the work, for the leader.
 pub(super) struct Seen {
     /// Points of the parts that are done.
     pub(super) points: usize,
@@ -36,11 +37,11 @@ pub(super) struct Seen {
 }
 
 struct State {
-    /// For each device: nothing until it has greeted or failed.
+    /// The greeting of each device; `None` before it, and once the device is left out.
     greetings: Vec<Option<Greeted>>,
-    /// Devices that have neither greeted nor been left out.
+    /// The number of devices that have neither greeted nor been left out.
     silent: usize,
-    /// Devices that have greeted and have not been left out.
+    /// The number of devices that have greeted and have not been left out.
     at_work: usize,
     shares: Vec<Share>,
     /// Parts that wait for a device.
@@ -48,8 +49,9 @@ struct State {
     /// For each device, the parts that it is working on.
     taken: Vec<Vec<usize>>,
     solved: Vec<SolvedPart>,
-    /// The time limit of the set; nothing before the parts are there.
+    /// The time limit of the set; `None` before the parts are there.
     limit: Option<Limit>,
+    /// Points of the parts that are done.
     points: usize,
     /// The error of the device that was left out last.
     failure: Option<Error>,
@@ -122,8 +124,8 @@ impl Hall {
         self.changed.notify_all();
     }
 
-    /// The devices that have greeted, once every device has greeted or been left out. Waits for a change before it says
-    /// that this is not yet so.
+    /// The devices that have greeted, once every device has greeted or been left out. If some are still silent, the
+    /// call first waits for a change, at most [`LOOK`], and then returns `None` if some still are.
     pub(super) fn greetings(&self) -> Option<Vec<Greeted>> {
         let mut state = self.state();
         if state.silent > 0 {
@@ -140,8 +142,8 @@ impl Hall {
         self.changed.notify_all();
     }
 
-    /// The next parts for a device, and the time limit of the set; nothing if the work is over. Waits while other
-    /// devices have parts that might come back.
+    /// The next parts for a device, and the time limit of the set. Waits while there are none, because the parts of
+    /// another device may come back. `None` once the hall is closed.
     pub(super) fn next(&self, place: usize) -> Option<(Vec<usize>, Limit)> {
         let mut state = self.state();
         loop {

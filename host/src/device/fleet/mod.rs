@@ -24,7 +24,8 @@ use crate::job::watch::{tell, Stopwatch};
 use crate::job::{Answer, Options, Report, Solution, Stage};
 use crate::limit::Limit;
 
-/// Fewest points of a part, if the set has more. Smaller parts cost the host more than they bring.
+/// Fewest points of a part, if the set has more. With smaller parts, the host's work grows more than the time of the
+/// devices falls.
 const LEAST_PART: usize = 1024;
 /// Most points of a part. Many parts keep all devices busy to the end.
 const MOST_PART: usize = 16_384;
@@ -180,7 +181,7 @@ fn lead<P: PlanePoint>(
     Ok(Report { lattice, ..report })
 }
 
-/// What is known of a job before it is done; `None` if there is no device.
+/// The facts of a report that are known before the job is done; `None` if there is no device.
 fn report_of(greeted: &[Greeted], options: &Options<'_>) -> Option<Report> {
     let names: Vec<&str> = greeted.iter().map(|device| device.name.as_str()).collect();
     let identities = || greeted.iter().map(|device| device.identity);

@@ -27,7 +27,7 @@ impl Choices {
     }
 }
 
-/// Opens the device at this place of the fleet, and does parts until there are none.
+/// Opens the device at this place of the fleet, and does parts until the hall is closed.
 pub(super) fn work(
     place: usize,
     open: &dyn Fn() -> Result<Device, Error>,
@@ -41,7 +41,7 @@ pub(super) fn work(
     }
 }
 
-/// Does parts until there are none, or until the device fails.
+/// Does parts until the hall is closed, or until the device fails.
 fn work_on(
     session: &mut Session<'_>,
     place: usize,

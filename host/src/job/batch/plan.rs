@@ -125,8 +125,8 @@ impl Plan {
         })
     }
 
-    /// The most points of a part of a set of which an engine does `share` points at a time or in all, up to its
-    /// capacity.
+    /// The most points of a part of a set that has `share` points for each engine. A share above the capacity counts as
+    /// the capacity.
     ///
     /// Large parts cost the host little, because few of their points lie at a seam. So a part is as large as the share,
     /// unless halves of that size save more than a tenth of the clocks: two jobs side by side have room for more
@@ -201,9 +201,9 @@ impl Plan {
         fitting.filter(move |&(jobs, ..)| jobs >= least_jobs(contexts)).map(|(jobs, clocks, _)| (jobs, clocks))
     }
 
-    /// Cost that the last of so many jobs adds to a group with teams of this size: its contexts take part in a round
-    /// for each of its points and each of them. A job that is over repeats points, which are found at once and cost
-    /// next to nothing.
+    /// Cost that the last of so many jobs adds to a group with teams of this size. Its contexts share its points, so
+    /// they add to the cost of `points / contexts` rounds. A job that is over repeats points, which are found at once
+    /// and cost next to nothing.
     fn one_more_job(&self, points: usize, jobs: usize, contexts: u32) -> u64 {
         let last = jobs * contexts as usize;
         let before = (last - contexts as usize).checked_sub(1).map_or(0, |place| self.rounds[place]);

@@ -15,7 +15,7 @@ enum State {
     Points,
 }
 
-/// What the router sees of the engines.
+/// The state of the engines, for the router.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sight {
     /// The engine owes no answer.

@@ -25,8 +25,8 @@ pub trait WordStream {
 
 /// Models by commands as a word stream: one for each engine of the device.
 ///
-/// Jobs go to the engines in turn, as on a chip, without a look at whether an engine still owes answers. Answers come in
-/// the order of their commands if the caller takes all of them before it sends the next job, as
+/// Jobs go to the engines in turn, as on a chip, without a look at whether an engine still owes answers. Answers come
+/// in the order of their commands if the caller takes all of them before it sends the next job, as
 /// [`StreamModel`](super::StreamModel) does.
 #[derive(Debug)]
 pub struct ModelCore {

@@ -14,8 +14,8 @@ fn held() -> String {
     std::fs::read_to_string(file()).unwrap_or_else(|error| panic!("{}: {error}", file().display()))
 }
 
-/// Counts every table, the largest sizes included: more than a hundred million clocks of the model, half a minute on two
-/// cores.
+/// Counts every table, the largest sizes included: more than a hundred million clocks of the model, half a minute on
+/// two cores.
 #[test]
 fn all_tables_are_up_to_date() {
     let counted = document().unwrap();
