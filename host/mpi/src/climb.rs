@@ -10,7 +10,7 @@ use crate::exchange::Tiles;
 use crate::nodes::{shared_levels, Node};
 use crate::world::World;
 
-/// What all regions of a level of the tree have in common.
+/// The counts of all regions of a level of the tree.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Level {
     /// The number of regions: tiles at level 0, and joins above.
@@ -32,7 +32,7 @@ pub struct Climb {
     pub duplicates: u64,
     /// The number of points on the hull of the set, in the process of the last step, and 0 in all others.
     pub hull: u64,
-    /// What this process has found on each level of the tree.
+    /// The counts of this process for each level of the tree.
     pub levels: Vec<Level>,
     borders: BTreeMap<usize, Border<Point, u32>>,
     triangulator: Triangulator,

@@ -2,7 +2,7 @@
 //!
 //! All processes run this program. MPI numbers them from 0, and calls the number of a process its rank. [`run`] has the
 //! steps, and each step is a module: [`slice`], [`cuts`], [`exchange`], [`climb`], [`ordering`], [`folder`].
-//! What the steps compute is in [`incircle::tiles`]; here is what carries it from rank to rank.
+//! [`incircle::tiles`] has the computations of the steps; the code here carries points and borders from rank to rank.
 
 mod arguments;
 mod climb;

@@ -1,4 +1,4 @@
-//! Who does which step of the tree: a tile, or a join.
+//! The process of each step of the tree, which is a tile or a join.
 
 use incircle::tiles::{Region, Step};
 

@@ -1,7 +1,7 @@
 //! The sixth step: the canonical order of all triangles, a stretch of it in each process.
 //!
-//! This is a sample sort: all processes put keys of some of their triangles together, choose the same bounds from them,
-//! and send each triangle to the process between whose bounds it lies.
+//! The method is a sample sort: all processes put keys of some of their triangles together, choose the same bounds from
+//! them, and send each triangle to the process between whose bounds it lies.
 
 use incircle_cli::canonical::{key, sorted};
 use incircle_cli::scattered;

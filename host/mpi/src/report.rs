@@ -1,4 +1,4 @@
-//! What a run says about itself.
+//! The counts and times of a run, as JSON and as a line.
 
 use std::time::Instant;
 
@@ -42,7 +42,7 @@ impl Counts {
     }
 }
 
-/// What the run has measured so far. Only the first process prints.
+/// The measurements of the run so far. Only the first process prints.
 pub struct Log {
     progress: bool,
     began: Instant,

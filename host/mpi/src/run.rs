@@ -18,7 +18,7 @@ use crate::world::{Halt, World};
 /// Triangulates the points of all inputs, and writes the mesh.
 ///
 /// # Errors
-/// Any process failed. The reason has been printed, and the folder of the mesh does not exist.
+/// Any process failed. The reason has been printed, and no folder has the name of the mesh.
 pub fn triangulate(world: &World, arguments: &TriangulateArguments) -> Result<(), Halt> {
     let number = world.gather(&[std::process::id().into()])[0][0];
     let folder = Folder::new(&arguments.output, number);
