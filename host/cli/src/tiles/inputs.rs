@@ -12,8 +12,9 @@ use crate::path;
 use crate::points::{Coordinates, PointTable};
 use crate::source;
 
-/// Calls `take` with the coordinates of all points of a file, in pieces. The memory holds a piece of an `.npy` file that
-/// is not packed, and of any other file all points. Failures of reading name the file; those of `take` are passed on.
+/// Calls `take` with the coordinates of all points of a file, in pieces. The memory holds one piece of an `.npy` file
+/// that is not packed, and all points of any other file. Failures of reading name the file; those of `take` are passed
+/// on.
 pub fn each_piece(
     path: &Path,
     read: &ReadArguments,
@@ -22,7 +23,7 @@ pub fn each_piece(
 ) -> Result<(), Failure> {
     let in_file = |failure: Failure| failure.in_file(path::name(path));
     if path::is_standard(path) {
-        return Err(Failure::usage("the points are read twice, which standard input is not: give a file"));
+        return Err(Failure::usage("the points are read twice, and standard input can be read only once: give a file"));
     }
     let format = read.from.or_else(|| PointFormat::of_extension(path::extension(path)));
     if format == Some(PointFormat::Npy) {
@@ -38,8 +39,8 @@ pub fn each_piece(
     let is_rounded = matches!(table.coordinates(), Coordinates::Doubles(_)) && table.rounded() > 0;
     if is_rounded {
         return Err(in_file(Failure::input(format!(
-            "{} of its coordinates are no doubles and have no common step of up to 64 bits: tiles take points on a \
-             lattice of at most 32 bits, so round the numbers to fewer digits",
+            "{} of its coordinates are not exact as doubles, and there is no common step of up to 64 bits: tiles take \
+             points on a lattice of at most 32 bits, so round the numbers to fewer digits",
             table.rounded()
         ))));
     }
@@ -53,7 +54,7 @@ pub fn each_piece(
 pub fn points_again(manifest: &Manifest, read: &ReadArguments, quiet: bool) -> Result<PointTable, Failure> {
     let [input] = &manifest.inputs[..] else {
         return Err(Failure::usage(format!(
-            "the set has {} inputs, and a mesh with its points is written for one: choose npy, csv or ele",
+            "the set has {} inputs, and a format that has the points in the mesh takes one: choose npy, csv or ele",
             manifest.inputs.len()
         )));
     };
@@ -70,8 +71,8 @@ pub fn points_again(manifest: &Manifest, read: &ReadArguments, quiet: bool) -> R
 /// The failure of an input that is not the same as in an earlier pass.
 pub fn changed(path: &Path) -> Failure {
     Failure::input(format!(
-        "{} has changed since it was read first: leave the inputs alone until the tiles are joined, and split them \
-         again",
+        "{} has changed since it was first read: split the inputs again, and leave them alone until the tiles are \
+         joined",
         path::name(path)
     ))
 }

@@ -139,14 +139,15 @@ impl Joined {
     fn check_counts(&self, points: u64, folder: &Path) -> Result<(), Failure> {
         let (distinct, hull) = (points.saturating_sub(self.duplicates), self.hull.len() as u64);
         let expected = euler(distinct, hull, self.triangles > 0);
-        if self.triangles == expected {
+        if self.triangles == expected && self.duplicates <= points {
             return Ok(());
         }
         Err(Failure::input(format!(
-            "the tiles of {} contradict each other: {} triangles of {distinct} distinct points with {hull} on the hull \
-             should be {expected}; split the set again",
+            "the tiles of {} contradict each other: {} triangles of {distinct} distinct points and {} duplicates with \
+             {hull} on the hull should be {expected}; split the set again",
             path::name(folder),
-            self.triangles
+            self.triangles,
+            self.duplicates
         )))
     }
 

@@ -1,5 +1,8 @@
 //! Tests with damaged files, files of other runs, and full disks.
 
+#[cfg(unix)]
+use std::io::Write;
+
 use super::{array, split_and_solve, tiles};
 use crate::common::Scratch;
 use incircle_cli::generate::SplitMix64;
@@ -115,13 +118,11 @@ fn forged_files_never_panic() {
                 let _ = std::fs::remove_file(scratch.path("t/1.local"));
             }
             let mut forged = sound.clone();
-            let at = 76 + 4 * random.below((forged.len() as u64 - 76) / 4) as usize;
+            // The five counts of the head, and all behind the head.
+            let at = 32 + 4 * random.below((forged.len() as u64 - 32) / 4) as usize;
             let word = [0, 1, 5, u32::MAX, 1 << 31, 1 << 20][random.below(6) as usize];
             forged[at..at + 4].copy_from_slice(&u32::to_le_bytes(word));
-            let check = crc(&forged[76..]);
-            forged[28..32].copy_from_slice(&check.to_le_bytes());
-            let check = crc(&forged[..72]);
-            forged[72..76].copy_from_slice(&check.to_le_bytes());
+            make_sums_fit(&mut forged, name.ends_with(".local"));
             scratch.write(name, &forged);
             let run = scratch.run(&format!("tile {verb}"));
             assert!(matches!(run.code, Some(0 | 3)), "{name}, {word:#x} at {at}: {run:?}");
@@ -130,6 +131,38 @@ fn forged_files_never_panic() {
         let _ = std::fs::remove_file(scratch.path("t/1.local"));
         scratch.run("tile local t/1 -q").ok();
     }
+}
+
+/// Five duplicates in a set of one point.
+#[test]
+fn more_duplicates_than_points_are_refused() {
+    let scratch = Scratch::new();
+    scratch.write("p.npy", array(&[[3, 4]]));
+    split_and_solve(&scratch, "p.npy", 10, "t");
+    let mut forged = std::fs::read(scratch.path("t/0.local")).expect("it is there");
+    let end = forged.len() - 4;
+    forged.splice(end..end, [0; 5 * 8]);
+    forged[64..72].copy_from_slice(&5u64.to_le_bytes());
+    make_sums_fit(&mut forged, true);
+    scratch.write("t/0.local", forged);
+    scratch.run("tile join t -o m.npy").fails(3, &["contradict each other", "5 duplicates"]);
+}
+
+/// Puts the check sums of its content into a file. The file of a triangulation has one more at its end, that of its
+/// final triangles.
+fn make_sums_fit(bytes: &mut [u8], is_local: bool) {
+    let mut end = bytes.len();
+    if is_local {
+        let finals = u64::from_le_bytes(bytes[32..40].try_into().expect("eight bytes"));
+        let last = end - 4;
+        end = last.saturating_sub(usize::try_from(finals).unwrap_or(0).saturating_mul(12)).max(76);
+        let check = crc(&bytes[end..last]);
+        bytes[last..].copy_from_slice(&check.to_le_bytes());
+    }
+    let check = crc(&bytes[76..end]);
+    bytes[28..32].copy_from_slice(&check.to_le_bytes());
+    let check = crc(&bytes[..72]);
+    bytes[72..76].copy_from_slice(&check.to_le_bytes());
 }
 
 /// The check sum CRC-32 of ISO 3309, bit by bit.
@@ -164,20 +197,22 @@ fn folders_without_rights_are_told() {
 #[test]
 fn an_input_that_changes_between_the_passes_is_found() {
     let scratch = Scratch::new();
-    let made = std::process::Command::new("mkfifo").arg(scratch.path("p.csv")).status();
+    let gate = scratch.path("gate.csv");
+    let made = std::process::Command::new("mkfifo").arg(&gate).status();
     assert!(made.expect("mkfifo is there").success());
-    // A pipe gives each pass what is written for it.
     for second in ["0,0\n5,0\n0,6\n", "0,0\n5,0\n", "0,0\n5,0\n0,5\n1,1\n", "0,0\n5,0\n0,99\n", "0,0\n5,0\n0,0.5\n"] {
-        let mut command = scratch.command(["tile", "split", "p.csv", "--points", "2", "-o", "t"]);
+        scratch.write("p.csv", "0,0\n5,0\n0,5\n");
+        let mut command = scratch.command(["tile", "split", "p.csv", "gate.csv", "--points", "2", "-o", "t"]);
         command.stdout(std::process::Stdio::piped()).stderr(std::process::Stdio::piped());
         let child = command.spawn().expect("the command starts");
-        // The second writer waits until the first reader has closed the pipe, or its rows would be read at once.
-        std::fs::write(scratch.path("p.csv"), "0,0\n5,0\n0,5\n").expect("the command reads");
-        std::thread::sleep(std::time::Duration::from_millis(300));
-        std::fs::write(scratch.path("p.csv"), second).expect("the command reads");
+        // The pipe opens when the first pass has read the points and comes to the pipe. The pass ends with the pipe.
+        let mut pipe = std::fs::File::options().write(true).open(&gate).expect("the command reads");
+        scratch.write("p.csv", second);
+        pipe.write_all(b"1,0\n").expect("the command reads");
+        drop(pipe);
         let run = crate::common::Run::of(child.wait_with_output().expect("it ends"));
-        run.fails(3, &["incircle: p.csv has changed since it was read first", "split them again"]);
-        assert_eq!(scratch.files(), ["p.csv"]);
+        run.fails(3, &["incircle: p.csv has changed since it was first read", "split the inputs again"]);
+        assert_eq!(scratch.files(), ["gate.csv", "p.csv"]);
     }
 }
 
