@@ -1,6 +1,7 @@
 //! The points of a file, with their places in the file.
 
 mod coordinates;
+mod heights;
 mod place;
 
 use std::borrow::Cow;
@@ -11,6 +12,7 @@ use crate::number::{self, Coordinate, Decimal, Number};
 use crate::text;
 
 pub use coordinates::{chosen, Coordinates, Unit};
+use heights::Heights;
 pub use place::Place;
 use place::{Origin, Rows};
 
@@ -21,12 +23,7 @@ pub const DOUBLES: &str = "incircle: the coordinates are doubles";
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointTable {
     coordinates: Coordinates,
-    /// The z of the first points, up to the first one that has none.
-    heights: Vec<f64>,
-    /// The index of the first point that has no z, if the format can have one.
-    without_height: Option<usize>,
-    /// Whether a point has a z.
-    has_height: bool,
+    heights: Heights,
     origin: Origin,
     columns: [usize; 3],
     /// The message about the first whole number beyond 64 bits. Such a number is an error if all numbers are whole.
@@ -68,9 +65,7 @@ impl PointTable {
     fn new(coordinates: Coordinates, origin: Origin, columns: [usize; 3]) -> Self {
         Self {
             coordinates,
-            heights: Vec::new(),
-            without_height: None,
-            has_height: false,
+            heights: Heights::default(),
             origin,
             columns,
             beyond: None,
@@ -114,16 +109,9 @@ impl PointTable {
     /// # Errors
     /// The points of both do not fit the memory.
     pub fn append(mut self, other: Self) -> Result<Self, Failure> {
-        let (own, all) = (self.len(), self.len() + other.len());
-        self.memory.check_points(all as u64)?;
-        let heights = [self.heights(), other.heights()].concat();
-        let some = [&self, &other].into_iter().any(|table| table.has_height || !table.heights().is_empty());
-        if heights.len() < all && some {
-            let first = if self.heights().len() < own { 0 } else { own };
-            self.without_height = self.without_height.or(other.without_height.map(|index| own + index)).or(Some(first));
-            self.has_height = true;
-        }
-        self.heights = heights;
+        let (own, others) = (self.len(), other.len());
+        self.memory.check_points((own + others) as u64)?;
+        self.heights = self.heights.followed_by(own, &other.heights, others);
         self.rounded += other.rounded + self.coordinates.append(other.coordinates);
         Ok(self)
     }
@@ -174,26 +162,23 @@ impl PointTable {
     pub fn push_height(&mut self, z: Option<&[u8]>, row: usize) -> Result<(), Failure> {
         let index = self.len().saturating_sub(1);
         let Some(text) = z else {
-            self.without_height.get_or_insert(index);
+            self.heights.skip(index);
             return Ok(());
         };
         let height = number_at(text, || self.place_in(row, index, 2))?.nearest().value;
-        self.has_height = true;
-        if self.without_height.is_none() {
-            self.heights.push(height);
-        }
+        self.heights.push(height);
         Ok(())
     }
 
     /// The table with the z of its points, which must be finite; an empty list if they have none.
     pub fn with_heights(mut self, heights: Vec<f64>) -> Self {
-        self.heights = heights;
+        self.heights = Heights::of(heights);
         self
     }
 
     /// The sentence about a z that only some points have, and that is left out for that reason.
     pub fn left_out(&self) -> Option<String> {
-        let index = self.without_height.filter(|_| self.has_height)?;
+        let index = self.heights.missing()?;
         Some(format!("z is left out: {} has none", self.place(index, 2).item()))
     }
 
@@ -258,11 +243,7 @@ impl PointTable {
 
     /// The z of the points; empty if they have none.
     pub fn heights(&self) -> &[f64] {
-        if self.without_height.is_none() && self.heights.len() == self.len() {
-            &self.heights
-        } else {
-            &[]
-        }
+        self.heights.of_all(self.len())
     }
 
     /// The place of coordinate `axis`, 0 to 2, of the point at `index`, for messages.
