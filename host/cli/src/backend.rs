@@ -116,9 +116,9 @@ pub struct Choice {
 }
 
 impl Choice {
-    /// The back end of the arguments, of which there is at most one, or else the one at the address `default`. Coordinates have the bits of
-    /// `--coord-bits` or of the address, or else [`CORE_COORD_BITS`]. An address and an argument may not
-    /// choose the same thing.
+    /// The back end of the arguments, of which there is at most one, or else the one at the address `default`.
+    /// Coordinates have the bits of `--coord-bits` or of the address, or else [`CORE_COORD_BITS`]. An address and an
+    /// argument may not choose the same thing.
     pub fn of(arguments: &BackendArguments, coord_bits: Option<u32>, default: &str) -> Result<Self, Failure> {
         let address = arguments.or(default)?;
         let coord_bits = once(bits_in(&address), coord_bits, "coord-bits")?.unwrap_or(CORE_COORD_BITS);
@@ -236,8 +236,8 @@ fn once<T>(in_address: Option<T>, argument: Option<T>, name: &str) -> Result<Opt
 /// Opens the back end for jobs of up to `room` points, or, without that number, as large as possible.
 ///
 /// For a model all points count, for a core distinct ones. A core in simulation has the chosen configuration, or else
-/// the smallest one that holds the points, or else the largest. The waveform of the back end `sim` goes to the file `trace`. Greeting a
-/// board takes no longer than `timeout`.
+/// the smallest one that holds the points, or else the largest. The waveform of the back end `sim` goes to the file
+/// `trace`. Greeting a board takes no longer than `timeout`.
 pub fn open_with_room(
     choice: &Choice,
     room: Option<usize>,
@@ -311,8 +311,8 @@ fn open_sim(config: Config, trace: Option<&Path>) -> Result<Device, Failure> {
     crate::sim_backend::open(config, trace)
 }
 
-/// The configuration for a job of `distinct` points: the chosen one, or else the smallest that holds the points, or else
-/// the largest, which does the job in parts. Fails if no core has coordinates of so many bits.
+/// The configuration for a job of `distinct` points: the chosen one, or else the smallest that holds the points, or
+/// else the largest, which does the job in parts. Fails if no core has coordinates of so many bits.
 fn config_for(choice: &Choice, distinct: Option<usize>) -> Result<Config, Failure> {
     choice.check_bits()?;
     let holds = |config: &Config| distinct.is_some_and(|distinct| config.points as usize >= distinct);

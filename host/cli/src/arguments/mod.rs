@@ -151,7 +151,7 @@ pub struct LargeArguments {
     pub memory: Option<u64>,
     /// Folder for the files of a set in tiles (default: the folder of the mesh)
     ///
-    /// They take about 25 bytes for each point.
+    /// The files take about 25 bytes for each point of an even set.
     #[arg(long, value_name = "DIR")]
     pub scratch: Option<PathBuf>,
     /// Go on with the files of a run that did not end

@@ -44,7 +44,7 @@ pub struct SplitArguments {
     pub inputs: Vec<PathBuf>,
     /// Most points of a tile
     ///
-    /// A tile takes about 250 bytes of memory for each point while it is triangulated. Only points
+    /// A tile takes about 130 bytes of memory for each point while it is triangulated. Only points
     /// at one place may be more.
     #[arg(long, value_name = "N", value_parser = whole_number(1, 500_000_000), verbatim_doc_comment)]
     pub points: u32,

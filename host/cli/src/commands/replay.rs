@@ -171,7 +171,7 @@ impl Outputs {
     }
 }
 
-/// What the report of a run tells.
+/// The content of the report of a run.
 struct Told<'a> {
     script: &'a Script,
     laid: &'a Laid<'a>,

@@ -21,14 +21,14 @@ use crate::tiles::{self, Budget, Manifest, Needed, Order, Plan, Scratch, TileAt}
 use crate::watch::{self, Watch};
 use crate::{interrupt, path, source};
 
-/// What is left free of the memory when nobody says how much the run may take.
-const FREE: u64 = 5;
+/// If `--memory` is not given, the run leaves one in so many bytes of the free memory to other programs.
+const SPARED: u64 = 5;
 
-/// The memory for a set that is to be cut into tiles: because the arguments say so, or because the set does not fit.
-/// `None` for a set that fits, and for one whose size only reading tells.
+/// The memory for a set that is cut into tiles, because the arguments ask for it or because the set does not fit.
+/// `None` for a set that fits, and for one whose number of points is not known before all of it is read.
 pub fn memory_of(arguments: &TriangulateArguments) -> Option<u64> {
     let free = Memory::free();
-    let usual = free.bytes() - free.bytes() / FREE;
+    let usual = free.bytes() - free.bytes() / SPARED;
     if arguments.large.is_wanted() {
         return Some(arguments.large.memory.unwrap_or(usual));
     }
@@ -89,8 +89,8 @@ pub fn run(arguments: &TriangulateArguments, memory: u64) -> Result<(), Failure>
     }
 }
 
-/// What each step may take of the memory. A run that goes on keeps the tiles that it has, whatever memory it is given
-/// now.
+/// Divides the memory among the steps. A resumed run keeps the tiles that it has, even if another memory would give
+/// other tiles.
 fn budget_of(memory: u64, workers: NonZeroUsize, scratch: &Scratch) -> Result<Budget, Failure> {
     if !scratch.can_go_on() {
         return Budget::of(memory, workers);
@@ -99,7 +99,7 @@ fn budget_of(memory: u64, workers: NonZeroUsize, scratch: &Scratch) -> Result<Bu
     Budget::for_tiles(memory, workers, manifest.most)
 }
 
-/// How a run whose tiles are there can go on.
+/// The end of a message: the option that resumes a run whose tiles are there.
 fn remedy(scratch: &Scratch) -> String {
     format!("--resume goes on with the tiles in {}, which may also be removed", path::name(scratch.folder()))
 }
@@ -215,8 +215,8 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Triangulates all tiles that are not triangulated yet, as many at once as the memory has room for. The points of a
-    /// tile are removed once nobody needs them.
+    /// Triangulates all tiles that are not triangulated yet, as many at once as the memory has room for. The file of
+    /// the points of a tile is removed when the tile is triangulated.
     fn solve(&self, manifest: &Manifest) -> Result<(), Failure> {
         let tiles: Vec<u64> = manifest.tiles().map(|(_, points)| points).collect();
         let (next, is_over) = (AtomicUsize::new(0), AtomicBool::new(false));
@@ -242,7 +242,7 @@ impl Run<'_> {
         })
     }
 
-    /// Triangulates one tile.
+    /// Triangulates a tile, and removes the file of its points.
     fn solve_tile(&self, tile: u32) -> Result<(), Failure> {
         let folder = self.scratch.folder();
         let at = TileAt { folder: folder.to_owned(), tile };
@@ -261,7 +261,8 @@ impl Run<'_> {
                 "points": points, "distinct": points - duplicates, "duplicates": duplicates, "triangles": triangles,
                 "hull": hull, "collinear": triangles == 0, "backend": self.choice.address.to_string(), "tiles": tiles,
                 "tile_points": manifest.most, "unordered": self.arguments.large.unordered,
-                "memory": self.budget.memory, "peak_memory": Memory::peak(), "seconds": watch::seconds_json(&watch.stages),
+                "memory": self.budget.memory, "peak_memory": Memory::peak(),
+                "seconds": watch::seconds_json(&watch.stages),
             });
             return output::print(&format!("{report}\n"));
         }

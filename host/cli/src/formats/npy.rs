@@ -79,8 +79,8 @@ impl Rows {
         self.pieces.layout().rows
     }
 
-    /// Calls `take` with the coordinates of the points of a range, in pieces of up to 65,536 points. Points that are not
-    /// there are left out.
+    /// Calls `take` with the coordinates of the points of a range, in pieces of up to 65,536 points. The part of the
+    /// range beyond the last point is left out.
     ///
     /// # Errors
     /// The file cannot be read or has a number that no point may have, or `take` fails.

@@ -7,9 +7,9 @@ use incircle::living::Location;
 /// The answer to a question.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Answer {
-    /// What a place is.
+    /// The answer to `locate`.
     Located(Location),
-    /// The nearest point; `None` if no point lives.
+    /// The answer to `nearest`: the index of the point; `None` if no point lives.
     Nearest(Option<u32>),
 }
 

@@ -73,7 +73,7 @@ pub struct Script {
     pub most_living: usize,
 }
 
-/// What became of a point of a script.
+/// The end of a point of a script: where it lies at last, and whether it still lives.
 #[derive(Clone, Copy, Debug)]
 struct ScriptPoint {
     /// The number of its last place.

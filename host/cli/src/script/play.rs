@@ -11,22 +11,22 @@ use crate::failure::{Exit, Failure};
 use crate::interrupt;
 use crate::progress::CountMeter;
 
-/// After so many commands an interrupt is noticed and the progress is shown.
+/// The number of commands after which an interrupt is noticed and the progress is shown.
 const SLICE: usize = 1 << 10;
 
-/// What a script leaves.
+/// The results of a script.
 pub struct Played {
     /// The answers, in the order of the questions.
     pub answers: Vec<Answer>,
-    /// The mesh of the living points, which are counted from 0 in the order of their indices; empty if nobody asked for
-    /// it.
+    /// The mesh of the living points, which are counted from 0 in the order of their indices; empty if it was not
+    /// wanted.
     pub mesh: Connections,
 }
 
 /// Carries out a script. `points` are its places in the numbers in which they are triangulated.
 ///
-/// A film gets its frames, and the mesh is made only if `wants_mesh`. The insertions at the start of a script are made
-/// in one step, which takes a fraction of the time, unless there is a film.
+/// The frames of the script are added to `film`, if there is one. The mesh at the end is made only if `wants_mesh`.
+/// Without a film, the insertions at the start of a script are made in one step, which takes a fraction of the time.
 pub fn play<P: PlanePoint>(
     script: &Script,
     points: &[P],

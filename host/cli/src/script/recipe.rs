@@ -12,9 +12,9 @@ use crate::numbers::{signed, Double, NumberKind, Single, SixDigits};
 const USUAL_FRAMES: u32 = 60;
 /// Commands of `churn` for each point, unless they are chosen.
 const USUAL_CHURN: u64 = 20;
-/// Of so many features one vanishes by chance in each frame.
+/// In each frame, one in so many features vanishes by chance.
 const LIFE: u64 = 60;
-/// After so many frames a camera turns another way.
+/// The number of frames after which the camera pans in another direction.
 const TURN: u32 = 20;
 /// The most commands of a script.
 const MOST_COMMANDS: u64 = u32::MAX as u64;
@@ -43,7 +43,7 @@ impl Recipe {
         }
     }
 
-    /// What the script does, for the help.
+    /// A description of the script, for the help.
     pub fn description(self) -> &'static str {
         match self {
             Self::Drift => "a script: all points move a small step in every frame",
@@ -99,7 +99,7 @@ impl Recipe {
     }
 }
 
-/// Where a script goes, and in which numbers.
+/// The destination of a script, and the kind of numbers in which its places are written.
 pub struct ScriptWriter<'a> {
     out: &'a mut dyn Write,
     numbers: NumberKind,

@@ -1,4 +1,4 @@
-//! How a bound on the memory is divided among the steps, which run one after the other.
+//! The division of a bound on the memory among the steps, which run one after the other.
 
 use std::num::NonZeroUsize;
 
@@ -6,9 +6,10 @@ use crate::failure::Failure;
 
 /// The least memory that a set in tiles takes.
 const LEAST: u64 = 32 << 20;
-/// What the program itself takes, with the buffers of its files.
+/// The bytes that the program itself takes, with the buffers of its files.
 const PROGRAM: u64 = 16 << 20;
-/// The most bytes that a point of a tile takes until its tile is triangulated and written.
+/// The most bytes that a point of a tile takes until its tile is triangulated and written: a measured bound, which
+/// `tests/it/commands/triangulate_large.rs` holds.
 const TILE_BYTES: u64 = 128;
 /// The most points of a tile, whose half-edges have numbers of 32 bits.
 const MOST: u64 = 1 << 28;
@@ -19,7 +20,7 @@ const SAMPLE: (u64, u64) = (1 << 19, 48);
 /// The most bytes of all buffers of the files of points.
 const BUFFERS: u64 = 64 << 20;
 
-/// What each step may take of the memory.
+/// The memory of each step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
     /// The memory of the whole run, in bytes.
@@ -77,7 +78,7 @@ impl Budget {
         }
     }
 
-    /// What `tile split` takes for a tile of at most `most` points.
+    /// The memory of `tile split` for tiles of at most `most` points. The verb has no other step.
     pub fn of_tiles(most: NonZeroUsize) -> Self {
         Self {
             memory: 0,

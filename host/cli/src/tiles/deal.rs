@@ -9,6 +9,7 @@ use incircle::Point;
 
 use super::head::{Head, HEAD_BYTES};
 use crate::failure::Failure;
+use crate::input::unreadable;
 use crate::{interrupt, path};
 
 /// The number of bytes of a point in a file: its index, x and y.
@@ -30,7 +31,8 @@ pub struct PointFile {
 }
 
 impl PointFile {
-    /// Makes an empty file with room for a head. The number keeps the files of a run apart.
+    /// Makes an empty file with room for a head. `number` is part of its working name, and must be another one for each
+    /// file of a run.
     pub fn create(folder: &Path, number: usize) -> Result<Self, Failure> {
         let path = folder.join(format!(".{number}.{}{WORKING}", std::process::id()));
         let mut unfinished = interrupt::unfinished();
@@ -73,7 +75,7 @@ impl PointFile {
     pub fn rows(&mut self) -> Result<Vec<[u32; 3]>, Failure> {
         self.flush()?;
         self.buffer = Vec::new();
-        let bytes = fs::read(&self.path).map_err(|error| cannot_write(&self.path, &error))?;
+        let bytes = fs::read(&self.path).map_err(|error| unreadable(&error).in_file(path::name(&self.path)))?;
         let words = bytes.get(HEAD_BYTES..).unwrap_or_default().as_chunks::<4>().0;
         let row = |row: &[[u8; 4]; 3]| row.map(u32::from_le_bytes);
         Ok(words.as_chunks::<3>().0.iter().map(row).collect())

@@ -10,10 +10,11 @@ use crate::path;
 /// Bytes of a point in the files of points, and of its two triangles in the files of tiles.
 const POINTS: u64 = 12;
 const TRIANGLES: u64 = 24;
-/// What borders and the triangles of joins add to the files of tiles: one in so many bytes.
+/// Borders and the triangles of joins add one in so many bytes to the files of tiles. Sets with large empty circles,
+/// such as points on one circle, need more: at worst they fill the disk, and the step fails.
 const EXTRA: u64 = 20;
 
-/// The most bytes that the steps of a set have on disk at one time.
+/// The bytes that the steps of an even set have on disk at one time, at most.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Needed {
     /// The files of the tiles.
@@ -23,7 +24,7 @@ pub struct Needed {
 }
 
 impl Needed {
-    /// What a set of so many points needs.
+    /// The bytes for an even set of so many points.
     pub fn of(points: u64, format: MeshFormat) -> Self {
         let tiles = points * TRIANGLES;
         // The points of a tile go when it is triangulated.
@@ -67,7 +68,7 @@ pub fn room_for(folder: &Path, bytes: u64) -> Result<(), Failure> {
     }
 }
 
-/// A number of bytes for people.
+/// A number of bytes with a unit that suits it, for messages.
 pub fn told(bytes: u64) -> String {
     match bytes {
         0..1_000_000 => format!("{bytes} bytes"),

@@ -5,10 +5,12 @@ use incircle::{Lattice, Point, Step};
 use crate::failure::Failure;
 use crate::points::{Coordinates, Unit};
 
-/// Steps of this magnitude or more are refused: about 2^63, as for one file of doubles.
+/// Steps of this magnitude or more are refused, as in one file of doubles. The bound is below 2^63, so the steps of an
+/// offset fit 64 bits.
 const MOST_STEPS: i128 = 9_200_000_000_000_000_000;
 
-/// The words of one kind of numbers in [`Extent::to_words`]: whether there are any, the step, and four sides of 128 bits.
+/// The words of one kind of numbers in [`Extent::to_words`]: whether there are any, the step, and four sides of 128
+/// bits.
 const KIND_WORDS: usize = 10;
 
 /// The length of a step.
@@ -223,7 +225,7 @@ fn exponent_of(lattice: &Lattice) -> i32 {
     }
 }
 
-/// How many steps of `2^fine` are one step of `2^coarse`; `None` for more than 2^64.
+/// The number of steps of `2^fine` in one step of `2^coarse`; `None` if there are more than 2^64.
 fn power_of_two(coarse: i32, fine: i32) -> Option<i128> {
     let shift = u32::try_from(i64::from(coarse) - i64::from(fine)).ok().filter(|&shift| shift <= 64)?;
     Some(1 << shift)

@@ -11,7 +11,7 @@ const MAGIC: [u8; 8] = *b"ICTILES\n";
 /// The bytes before the check sum of the head.
 const CHECKED: usize = HEAD_BYTES - 4;
 
-/// What a file holds.
+/// The content of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
 pub enum Kind {
@@ -37,7 +37,7 @@ impl Kind {
 /// The head of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Head {
-    /// What the file holds.
+    /// The content of the file.
     pub kind: Kind,
     /// The run: a number made of the inputs and the cuts. Files of different runs do not fit together.
     pub run: u64,
@@ -93,7 +93,7 @@ impl Head {
     }
 }
 
-/// What to do about a file that cannot be used.
+/// The end of a message about a file that cannot be used.
 const REMEDY: &str = "remove the file, and run again the step that writes it";
 
 /// The failure of a damaged file.

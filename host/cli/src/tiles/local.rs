@@ -6,6 +6,7 @@ use incircle::tiles;
 use incircle::{Mesh, Point};
 
 use super::canonical::sorted;
+use super::deal::POINT_BYTES;
 use super::head::Kind;
 use super::manifest::{local_path, points_path, Manifest};
 use super::opened::{Opened, Owner};
@@ -40,7 +41,7 @@ impl TileAt {
     }
 }
 
-/// What was done for a tile.
+/// The counts of a tile that is triangulated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Outcome {
     /// The number of points of the tile.
@@ -57,8 +58,7 @@ pub type Triangulate<'a> = dyn FnMut(&[Point], u32) -> Result<Mesh, Failure> + '
 /// Triangulates the points of a tile and writes its file, unless that file is there and sound.
 ///
 /// `triangulate` gets the points, moved so that the lowest x and y are 0, with the bits that they need, and must give
-/// their canonical mesh. `last` is called when the file is in place; if it fails, the file is
-/// removed.
+/// their canonical mesh. `last` is called when the file is in place; if it fails, the file is removed.
 ///
 /// # Errors
 /// A file is missing, damaged or of another run, or cannot be written, or `triangulate` fails.
@@ -95,7 +95,7 @@ pub fn local(
 /// Reads the points of a tile, and their indices.
 fn read_points(folder: &Path, owner: Owner, points: u64) -> Result<(Vec<u32>, Vec<Point>), Failure> {
     let path = points_path(folder, owner.tile);
-    let bytes_of = |counts: &[u64; 5]| counts[0].checked_mul(12);
+    let bytes_of = |counts: &[u64; 5]| counts[0].checked_mul(POINT_BYTES as u64);
     let mut opened = Opened::open(&path, Kind::Points, Some(owner), Some(bytes_of))?;
     let found = opened.head.counts[0];
     if found != points {

@@ -9,9 +9,10 @@ use super::runs::Run;
 use crate::failure::Failure;
 use crate::interrupt;
 
-/// The bytes that a triangle in a buffer may take: there, while its round is sorted, and while it is written.
+/// The bytes that a triangle may take: 12 in its buffer, 12 in the list that its round is sorted into and up to 16 in
+/// the counts of that sort, 12 in the list that is being written, and some to spare.
 const BYTES: u64 = 12 * 5;
-/// The least triangles of a buffer, unless there is one list for many thousand tiles.
+/// The fewest triangles of a buffer, however many lists share the memory.
 const LEAST: usize = 64;
 
 /// Takes triangles.
@@ -56,14 +57,14 @@ impl Source {
     }
 }
 
-/// A list with those of its triangles that were read but not passed on.
+/// A list, and those of its triangles that were read and not passed on yet.
 struct Buffer {
     source: Source,
     list: Vec<[u32; 3]>,
 }
 
-/// Calls `take` with all triangles of the lists in canonical order. Another thread reads and sorts ahead. Both take about
-/// `memory` bytes, and at least 4 KiB for each list.
+/// Calls `take` with all triangles of the lists in canonical order. Another thread reads and sorts ahead. Both threads
+/// together take about `memory` bytes, and at least 4 KiB for each list. At most one file is open at a time.
 ///
 /// # Errors
 /// A list cannot be read, is damaged or not in order, or `take` fails.
@@ -91,8 +92,8 @@ pub fn merge(sources: Vec<Source>, memory: u64, take: &mut Take<'_>) -> Result<(
     })
 }
 
-/// The next triangles in canonical order: all that are not above the last one of any buffer that may get more. `None` at
-/// the end.
+/// The next triangles in canonical order; `None` at the end. A triangle that is read later comes behind the last one of
+/// its buffer, so all triangles up to the least of these last ones are certain.
 fn next(buffers: &mut [Buffer], room: usize) -> Result<Option<Vec<[u32; 3]>>, Failure> {
     for buffer in buffers.iter_mut() {
         let missing = room.saturating_sub(buffer.list.len());

@@ -20,12 +20,12 @@ use crate::failure::Failure;
 use crate::output::{self, Written};
 use crate::path;
 
-/// What is split, and how.
+/// The inputs, the folder and the limits of a split.
 #[derive(Clone, Copy)]
 pub struct Plan<'a> {
     /// The inputs, whose points are numbered in this order.
     pub inputs: &'a [PathBuf],
-    /// How the inputs are read.
+    /// The options for reading the inputs.
     pub read: &'a ReadArguments,
     /// The most points of a tile. Only points at one place may be more.
     pub most: NonZeroUsize,
@@ -41,7 +41,7 @@ pub struct Plan<'a> {
     pub quiet: bool,
 }
 
-/// What was split.
+/// The result of a split.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Summary {
     /// The manifest of the run.
@@ -117,7 +117,7 @@ fn run_of(survey: &Survey, most: NonZeroUsize) -> u64 {
         Length::Decimal(digits) => add(u64::from(digits)),
         Length::Binary(exponent) => add(1 << 32 | u64::from(exponent.cast_unsigned())),
     }
-    // Only the lower halves of the offsets are needed: nobody has two sets that differ in the upper halves alone.
+    // An offset fits 64 bits (`Extent` refuses more), so its lower half has all of it.
     offset.iter().for_each(|&steps| add(steps.cast_unsigned() as u64));
     add(u64::from(bits));
     for input in &survey.inputs {
@@ -127,7 +127,7 @@ fn run_of(survey: &Survey, most: NonZeroUsize) -> u64 {
     digest.value()
 }
 
-/// What a folder has that was split earlier. Tiles of another run are refused.
+/// The result of an earlier split in the folder. Tiles of another run are refused.
 fn known(plan: &Plan<'_>, run: u64) -> Result<Summary, Failure> {
     let manifest = Manifest::read(plan.folder)?;
     if manifest.run != run {
@@ -139,7 +139,7 @@ fn known(plan: &Plan<'_>, run: u64) -> Result<Summary, Failure> {
     }
     for (tile, _) in (0..).zip(manifest.tiles()) {
         let file = points_path(plan.folder, tile);
-        // Nobody needs the points of a tile that is triangulated.
+        // A tile that is triangulated needs no file of points any more.
         if !file.exists() && !local_path(plan.folder, tile).exists() {
             return Err(Failure::input(format!(
                 "{} is missing, which the manifest lists: remove the folder, and split again",

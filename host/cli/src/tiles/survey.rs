@@ -15,7 +15,7 @@ use crate::points::{Coordinates, Unit};
 /// The most points of a set: each index fits 32 bits, and two values stay free.
 const MOST_POINTS: u64 = u32::MAX as u64 - 1;
 
-/// What the first pass finds.
+/// The result of the first pass.
 pub struct Survey {
     /// The lattice of all points.
     pub ground: Ground,

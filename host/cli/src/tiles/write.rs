@@ -31,11 +31,7 @@ pub fn write_triangles(
 ) -> Result<Written, Failure> {
     let failed = RefCell::new(None);
     let written = output.write(|out| {
-        match format {
-            MeshFormat::Npy => npy_writer::write_mesh_head(joined.triangles, out)?,
-            MeshFormat::Ele => writeln!(out, "{} 3 0", joined.triangles)?,
-            _ => {}
-        }
+        write_head(joined.triangles, format, out)?;
         let meter = CountMeter::new(joined.triangles, "writing", "triangles", quiet);
         let mut id = 0u64;
         let mut disk = None;
@@ -56,10 +52,18 @@ pub fn write_triangles(
             }
         }
     });
-    // A file that cannot be read is told by its own sentence.
+    // If a file of the tiles cannot be read, its own sentence is better than that of the output.
     match failed.into_inner() {
         Some(failure) => Err(failure),
         None => written,
+    }
+}
+
+fn write_head(triangles: u64, format: MeshFormat, out: &mut dyn Write) -> io::Result<()> {
+    match format {
+        MeshFormat::Npy => npy_writer::write_mesh_head(triangles, out),
+        MeshFormat::Ele => writeln!(out, "{triangles} 3 0"),
+        _ => Ok(()),
     }
 }
 

@@ -1,4 +1,4 @@
-//! How files of tiles are written: rows of numbers behind a head with their check sum.
+//! Writing files of tiles: rows of numbers behind a head with their check sum.
 
 use std::io::{self, Write};
 use std::path::Path;

@@ -272,8 +272,8 @@ impl Sides {
 }
 
 impl Rounded {
-    /// The position of the disc beside one line, as far as rounding allows an answer. `outward` is 1 if the region lies on
-    /// the lower side of the line, else -1.
+    /// The position of the disc beside one line, as far as rounding allows an answer. `outward` is 1 if the region lies
+    /// on the lower side of the line, else -1.
     fn reach_line(&self, line: f64, axis: usize, outward: f64) -> Reach {
         if line == f64::INFINITY * outward {
             return Reach::Within;

@@ -1,5 +1,5 @@
-//! Sets larger than the memory: `triangulate --memory` in tiles over files gives the mesh of the run in memory, byte for
-//! byte, or one sentence.
+//! Sets larger than the memory: `triangulate --memory` in tiles over files gives the mesh of the run in memory, byte
+//! for byte, or one sentence.
 
 use crate::common::{Run, Scratch};
 use incircle_cli::generate::Distribution;
