@@ -30,4 +30,8 @@ mod transports {
         mod port;
         mod sessions;
     }
+    mod udp {
+        mod faults;
+        mod goodput;
+    }
 }

@@ -128,7 +128,7 @@ impl<D: WordDevice> UdpModel<D> {
             return;
         }
         match &self.session {
-            Some(session) if (session.owner, session.number) != (from, number) => {
+            Some(session) if (session.host, session.number) != (from, number) => {
                 return self.reply(DeviceDatagram::Busy, from, number);
             }
             Some(_) => {}
@@ -146,7 +146,7 @@ impl<D: WordDevice> UdpModel<D> {
         let Some(session) = &mut self.session else {
             return self.reply(DeviceDatagram::NoSession, from, datagram.session);
         };
-        if (session.owner, session.number) != (from, datagram.session) {
+        if (session.host, session.number) != (from, datagram.session) {
             return;
         }
         match datagram.kind {
@@ -185,18 +185,18 @@ impl<D: WordDevice> UdpModel<D> {
             return Some((to, self.datagram(kind, session, body)));
         }
         let session = self.session.as_mut()?;
-        let (owner, number) = (session.owner, session.number);
+        let (host, number) = (session.host, session.number);
         if self.ack || self.nak {
             let kind = if self.nak { DeviceDatagram::Nak } else { DeviceDatagram::Ack };
             (self.ack, self.nak) = (false, false);
             let body = [session.answers.sent(), session.taken.value()].into_iter().flat_map(u32::to_le_bytes).collect();
-            return Some((owner, self.datagram(kind, number, body)));
+            return Some((host, self.datagram(kind, number, body)));
         }
         let part = session.next_part()?;
         let kind = if part.digest.is_some() { DeviceDatagram::AnswerEnd } else { DeviceDatagram::Answer };
         let words = [part.number, part.index].into_iter().chain(part.words).chain(part.digest);
         let body = words.flat_map(u32::to_le_bytes).collect();
-        Some((owner, self.datagram(kind, number, body)))
+        Some((host, self.datagram(kind, number, body)))
     }
 
     /// A datagram to a host. The report of a dropped datagram is sent once, so building a header clears it.

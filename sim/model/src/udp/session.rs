@@ -27,7 +27,7 @@ pub(super) enum Taken {
 pub(super) struct Session {
     pub(super) number: u64,
     /// Address and port of the host.
-    pub(super) owner: SocketAddrV4,
+    pub(super) host: SocketAddrV4,
     /// Number of the `Data` datagram that is expected next.
     pub(super) expected: u32,
     /// Check sum of all words that were taken.
@@ -47,10 +47,10 @@ pub(super) struct Session {
 }
 
 impl Session {
-    pub(super) fn new(number: u64, owner: SocketAddrV4, patience: u64) -> Self {
+    pub(super) fn new(number: u64, host: SocketAddrV4, patience: u64) -> Self {
         Self {
             number,
-            owner,
+            host,
             expected: 0,
             taken: Crc32::default(),
             has_gap: false,
