@@ -33,5 +33,6 @@ mod transports {
     mod udp {
         mod faults;
         mod goodput;
+        mod socket;
     }
 }

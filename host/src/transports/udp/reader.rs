@@ -11,9 +11,11 @@ use super::unit::{Answer, State, Unit};
 
 /// Number of later datagrams after which an answer that they overtook counts as lost.
 const OVERTAKEN: u32 = 3;
-/// Share of units with a lost answer, of 256, from which on no job is sent ahead of the one before it: a lost answer
-/// would then cost a whole job.
-const LOSSY: u32 = 64;
+/// Share of units with a lost answer, of 256, from which on no job is sent ahead of the one before it, because a lost
+/// answer then costs a whole job; and the share below which jobs are sent ahead again. The two are far apart, so that
+/// chance does not switch between them.
+const LOSSY: u32 = 96;
+const CLEAN: u32 = 24;
 /// The weight of the last unit in that share is one part in so many.
 const MEMORY: u32 = 8;
 
@@ -58,6 +60,8 @@ pub(super) struct Reader {
     ready: VecDeque<Answer>,
     /// Share of units with a lost answer, of 256.
     lossy: u32,
+    /// Whether jobs are sent ahead of each other.
+    goes_ahead: bool,
     /// Number of answers asked for again, and of units sent again.
     repeated: u64,
     restarted: u64,
@@ -79,6 +83,7 @@ impl Reader {
             awaited_words: 0,
             ready: VecDeque::new(),
             lossy: 0,
+            goes_ahead: true,
             repeated: 0,
             restarted: 0,
         }
@@ -138,6 +143,7 @@ impl Reader {
             let unit = self.units.pop_front_if(is_whole)?;
             let share = if unit.had_loss { 256 } else { 0 };
             self.lossy = (self.lossy * (MEMORY - 1) + share) / MEMORY;
+            self.goes_ahead = self.lossy < if self.goes_ahead { LOSSY } else { CLEAN };
             self.ready = unit.into_answers();
         }
         self.ready.pop_front()
@@ -175,7 +181,7 @@ impl Reader {
         let others_are_done = self.units.iter().all(|other| !other.is_started || other.is_done());
         // A unit that cannot be sent again must have the device to itself until its answers are there.
         let may_overtake = |other: &Unit| !other.is_started || other.is_done() || other.begins_anew();
-        let may_go_ahead = unit.begins_anew() && self.lossy < LOSSY && self.units.iter().all(may_overtake);
+        let may_go_ahead = unit.begins_anew() && self.goes_ahead && self.units.iter().all(may_overtake);
         if !others_are_done && !may_go_ahead {
             return Ok(false);
         }

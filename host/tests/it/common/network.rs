@@ -200,7 +200,7 @@ impl Transport for VirtualTransport {
     }
 
     fn capabilities(&self) -> Capabilities {
-        Capabilities { takes_ahead: true, ..Capabilities::default() }
+        Capabilities { takes_ahead: true, jobs_ahead: 8, ..Capabilities::default() }
     }
 }
 

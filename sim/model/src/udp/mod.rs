@@ -93,13 +93,22 @@ impl<D: WordDevice> UdpModel<D> {
     /// Lets this many clocks pass: the core works, and the silence grows longer. Returns the number of clocks in which
     /// the core had something to do.
     pub fn pass(&mut self, clocks: u64) -> u64 {
-        let Some(session) = &mut self.session else { return 0 };
-        let worked = session.pass(&mut self.core, clocks);
+        let worked = self.work(clocks);
+        self.age(clocks);
+        worked
+    }
+
+    /// Lets the core work for this many clocks, in no time. Returns the number of clocks in which it had something to do.
+    pub fn work(&mut self, clocks: u64) -> u64 {
+        self.session.as_mut().map_or(0, |session| session.pass(&mut self.core, clocks))
+    }
+
+    /// Lets the silence grow by this many clocks, in which the core does nothing.
+    pub fn age(&mut self, clocks: u64) {
         self.silent = self.silent.saturating_add(clocks);
         if self.silent >= u64::from(self.link.clock_hz) * u64::from(self.link.silence_ms) / 1000 {
             self.end_session();
         }
-        worked
     }
 
     /// Takes a datagram that came from this address. `is_broadcast` tells that it was sent to all devices.
