@@ -168,7 +168,7 @@ pub use incircle_geometry::{UnknownOrder, EMPTY, MAX_POINTS};
 pub use incircle_protocol::{Config, Identity};
 pub use job::{Counters, Latencies, Options, Progress, ProgressListener, Report, Share, Solution, Stage};
 pub use quantize::{quantize, Quantization, Quantize};
-pub use transports::{pcie, serial, Transport};
+pub use transports::{pcie, serial, udp, Transport};
 
 /// Orders of insertion, for programs that compare them.
 ///

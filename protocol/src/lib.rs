@@ -11,6 +11,7 @@
 mod command;
 mod config;
 mod counters;
+mod datagram;
 mod frame;
 mod layout;
 mod status;
@@ -27,6 +28,11 @@ pub use config::{
     MAX_MODEL_POINTS, MAX_POINTS, MAX_RING, MIN_CONTEXTS, MIN_POINTS, MIN_RING, NAMED, QUAD, SMALL, TINY,
 };
 pub use counters::{latency_bucket, latency_of_bucket, Counter, COUNTER_WORDS, LATENCY_BITS, LATENCY_BUCKETS};
+pub use datagram::{
+    DeviceDatagram, DeviceHeader, HostDatagram, HostHeader, UdpGreeting, UdpLinkConfig, DATAGRAM_ANSWER_BYTES,
+    DATAGRAM_HEADER_BYTES, MAX_DATAGRAM_WORDS, MAX_DEVICE_DATAGRAM, MAX_HOST_DATAGRAM, UDP_ANSWER_WORDS,
+    UDP_GREETING_WORDS, UDP_LINK_MAGIC, UDP_LINK_VERSION, UDP_PORT,
+};
 pub use frame::{
     rate_step, DeviceFrame, Greeting, HostFrame, LinkConfig, LinkConfigError, ANSWER_HEADER_BYTES, BREAK_MS, CRC_BYTES,
     DEVICE_HEADER_BYTES, FIRST_RATE, FRAME_END, GREETING_WORDS, HOST_HEADER_BYTES, LINK_MAGIC, LINK_VERSION,

@@ -1,8 +1,9 @@
-//! `incircle-sim`: a simulated board for programs that open serial ports, and a simulated card for programs
-//! that open PCIe cards.
+//! `incircle-sim`: a simulated board for programs that open serial ports, a simulated card for programs that open PCIe
+//! cards, and a device on the network for programs that open UDP sockets.
 
 use std::error::Error;
 use std::io::Write;
+use std::net::SocketAddrV4;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -15,7 +16,8 @@ use incircle_protocol::{Config, FULL, SMALL};
 use incircle_sim::faults::FaultSpec;
 use incircle_sim::pcie::{Beats, Card, CardDirectory, CardFaultSpec, CardFigures, NullDevice, PinCard};
 use incircle_sim::serial::{board_link, Board, PinBoard, QuickBoard};
-use incircle_sim::serve::{serve, Figures, Service};
+use incircle_sim::serve::{serve, serve_network, Figures, NetworkFigures, NetworkService, Service};
+use incircle_testkit::NetworkFaults;
 
 /// Number of clocks of the trial run, which measures how slow the simulation is.
 const TRIAL: u64 = 200_000;
@@ -26,7 +28,7 @@ const LOOK: Duration = Duration::from_millis(50);
 /// Ratio of real time to simulated time of a board without bits.
 const QUICK_SLOW: u32 = 50;
 
-/// The incircle core on a simulated board or card.
+/// The incircle core on a simulated board or card, or on the network.
 #[derive(Parser)]
 #[command(version, after_help = "Example:\n  incircle-sim serve --link /tmp/board --config full")]
 struct Arguments {
@@ -78,6 +80,23 @@ enum Task {
         #[arg(long, conflicts_with = "fast")]
         null: bool,
     },
+    /// Put a device on the network, until SIGTERM or SIGINT ends the program.
+    #[command(after_help = "Example:\n  incircle-sim serve-udp --fast")]
+    ServeUdp {
+        /// IPv4 address and UDP port to listen at; with port 0 the system chooses one.
+        #[arg(long, value_name = "ADDRESS:PORT", default_value = "127.0.0.1:0")]
+        listen: SocketAddrV4,
+        /// Core of the device.
+        #[arg(long, value_enum, default_value = "small")]
+        config: Core,
+        /// Faults of the network, separated by commas: chances loss=P, double=P, swap=P, flip=P of each datagram, and
+        /// delay=MS, seed=N.
+        #[arg(long, value_name = "SPEC", default_value = "")]
+        fault: NetworkFaults,
+        /// Run the software model, which has one context and no clock. The pins cannot be simulated yet.
+        #[arg(long)]
+        fast: bool,
+    },
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -105,6 +124,7 @@ impl Core {
 
 fn main() -> ExitCode {
     let result = match Arguments::parse().command {
+        Task::ServeUdp { listen, config, fault, fast } => run_network(config.config(), listen, fault, fast),
         Task::Serve { link, config, fault, fast, slow } => run(config.config(), link, fault, fast, slow),
         Task::ServePcie { dir, config, fault, width, fast, null } => {
             let kind = if null {
@@ -124,6 +144,30 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+fn run_network(
+    config: Config,
+    listen: SocketAddrV4,
+    faults: NetworkFaults,
+    is_fast: bool,
+) -> Result<(), Box<dyn Error>> {
+    if !is_fast {
+        return Err(
+            "a device on a network cannot be simulated at its pins yet: add --fast for the software model".into()
+        );
+    }
+    let stops = stops()?;
+    let service = NetworkService { listen, config, faults };
+    let ready = |address| {
+        say_ready(&format!(
+            "an incircle device on the network, {}, the software model: open udp:{address}",
+            config.name
+        ));
+    };
+    let NetworkFigures { to_device, to_host, faults } = serve_network(&service, &stops, ready)?;
+    eprintln!("incircle-sim: {to_device} datagrams to the device, {to_host} to hosts, {faults} faults");
+    Ok(())
 }
 
 /// A flag that SIGTERM and SIGINT set.

@@ -1,12 +1,14 @@
 //! Parsers of the values of arguments. The error of a wrong value is a sentence for the user.
 
 use std::cmp::Ordering;
+use std::net::SocketAddrV4;
 use std::num::NonZeroU32;
 use std::time::Duration;
 
 use clap::ValueEnum;
 use incircle::serial::Address;
 use incircle::{DeviceAddress, Error, Order, Quantize};
+use incircle_protocol::UDP_PORT;
 use incircle_testkit::Distribution;
 
 use crate::formats::{Bounds, MeshFormat};
@@ -103,6 +105,12 @@ fn backend_from(text: &str) -> Result<DeviceAddress, String> {
 /// Parses a serial port, with or without choices behind it.
 pub fn port_from(text: &str) -> Result<Address, String> {
     Address::parse(text).unwrap_or_else(|| Address::parse_port(text))
+}
+
+/// Parses an IPv4 address with a UDP port, or without it for the usual port.
+pub fn network_from(text: &str) -> Result<SocketAddrV4, String> {
+    let alone = text.parse().map(|address| SocketAddrV4::new(address, UDP_PORT));
+    alone.or_else(|_| text.parse()).map_err(|_| "an IPv4 address is needed, such as 192.168.1.255".to_owned())
 }
 
 /// Parses the name of a format that a mesh can be read from.

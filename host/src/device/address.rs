@@ -10,6 +10,7 @@ use crate::error::Error;
 use crate::transports::choices::{Choice, Choices};
 use crate::transports::pcie::CardAddress;
 use crate::transports::serial;
+use crate::transports::udp::UdpAddress;
 
 /// The address of a device: a name and, behind a question mark, choices.
 ///
@@ -28,6 +29,7 @@ use crate::transports::serial;
 /// | `sim`, `sim?config=NAME` | the Verilog of the core in Verilator | to simulate the hardware itself |
 /// | `serial:PORT` | a board at a serial port, such as `serial:/dev/ttyUSB0` | |
 /// | `serial:PORT?baud=B&slow=S` | the same at `B` bits per second, with times stretched `S` times | |
+/// | `udp:HOST`, `udp:HOST:PORT` | a device on the network, at UDP port 26947 unless another is named | |
 /// | `pcie:N` | the card `N` in a PCIe slot, behind the driver XDMA | |
 /// | `pcie:DIR` | the card whose files `xdma0_h2c_0`, `xdma0_c2h_0` and `xdma0_user` are in a directory | |
 ///
@@ -71,15 +73,17 @@ pub enum DeviceAddress {
     },
     /// A board at a serial port.
     Serial(serial::Address),
+    /// A device on a network.
+    Udp(UdpAddress),
     /// A card in a PCIe slot.
     Pcie(CardAddress),
 }
 
 impl DeviceAddress {
     /// One form of address for each kind of device, for a list in a help text.
-    pub const FORMS: [&'static str; 6] = ["cpu", "model", "clock", "sim", "serial:PORT", "pcie:N"];
+    pub const FORMS: [&'static str; 7] = ["cpu", "model", "clock", "sim", "serial:PORT", "udp:HOST", "pcie:N"];
 
-    /// The kind of device: `cpu`, `model`, `clock`, `sim`, `serial` or `pcie`.
+    /// The kind of device: `cpu`, `model`, `clock`, `sim`, `serial`, `udp` or `pcie`.
     #[must_use]
     pub const fn name(&self) -> &'static str {
         match self {
@@ -88,6 +92,7 @@ impl DeviceAddress {
             Self::Clock { .. } => "clock",
             Self::Sim { .. } => "sim",
             Self::Serial(_) => "serial",
+            Self::Udp(_) => "udp",
             Self::Pcie(_) => "pcie",
         }
     }
@@ -96,6 +101,9 @@ impl DeviceAddress {
     fn parse(text: &str) -> Result<Self, String> {
         if let Some(serial) = serial::Address::parse(text) {
             return serial.map(Self::Serial);
+        }
+        if let Some(device) = UdpAddress::parse(text) {
+            return device.map(Self::Udp);
         }
         if let Some(card) = CardAddress::parse(text) {
             return card.map(Self::Pcie);
@@ -108,7 +116,7 @@ impl DeviceAddress {
             "sim" => Self::Sim { config: None },
             _ => {
                 let forms = "there are 'cpu', 'model', 'clock', 'sim', 'serial:PORT', such as serial:/dev/ttyUSB0, \
-                             and 'pcie:N', such as pcie:0";
+                             'udp:HOST', such as udp:192.168.1.50, and 'pcie:N', such as pcie:0";
                 return Err(forms.to_owned());
             }
         };
@@ -126,8 +134,8 @@ impl DeviceAddress {
             (Self::Model { .. }, _) => return Err(choice.unknown(&["coord-bits", "capacity"])),
             (Self::Clock { config } | Self::Sim { config }, "config") => *config = Some(config_named(choice.value)?),
             (Self::Clock { .. } | Self::Sim { .. }, _) => return Err(choice.unknown(&["config"])),
-            // `parse` has returned before this point: the parsers of these two take their own choices.
-            (Self::Serial(_) | Self::Pcie(_), _) => return Err(choice.unknown(&[])),
+            // `parse` has returned before this point: the parsers of these take their own choices.
+            (Self::Serial(_) | Self::Udp(_) | Self::Pcie(_), _) => return Err(choice.unknown(&[])),
         }
         Ok(())
     }
@@ -168,10 +176,11 @@ impl fmt::Display for DeviceAddress {
                 add("baud", (address.baud != usual.baud).then(|| address.baud.to_string()));
                 add("slow", (address.slow != usual.slow).then(|| address.slow.to_string()));
             }
-            Self::Pcie(_) => {}
+            Self::Udp(_) | Self::Pcie(_) => {}
         }
         match self {
             Self::Serial(address) => write!(f, "{address}")?,
+            Self::Udp(address) => write!(f, "{address}")?,
             Self::Pcie(address) => write!(f, "{address}")?,
             named => f.write_str(named.name())?,
         }
@@ -203,6 +212,8 @@ mod tests {
             ("sim?config=full", DeviceAddress::Sim { config: Some(FULL) }),
             ("serial:/dev/x", DeviceAddress::Serial(serial::Address::of_port("/dev/x"))),
             ("serial:COM3?baud=12000000&slow=40", DeviceAddress::Serial(serial)),
+            ("udp:192.168.1.50", DeviceAddress::Udp(UdpAddress::of_host("192.168.1.50"))),
+            ("udp:board:9", DeviceAddress::Udp(UdpAddress { host: "board".to_owned(), port: 9 })),
             ("pcie:1", DeviceAddress::Pcie(CardAddress::of_number(1))),
             ("pcie:/tmp/card", DeviceAddress::Pcie(CardAddress::in_directory("/tmp/card"))),
         ] {
@@ -223,6 +234,9 @@ mod tests {
             "serial:",
             "serial:/dev/x?baud=1",
             "pcie:",
+            "udp:",
+            "udp:[::1]:9",
+            "udp:board:none",
             "pcie:1000",
             "model?bits=3",
             "model?capacity=many",

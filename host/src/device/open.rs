@@ -14,6 +14,7 @@ use crate::error::Error;
 use crate::limit::{check_coord_bits, Limit};
 use crate::transports::pcie::PcieTransport;
 use crate::transports::serial::{SerialTransport, LONGEST};
+use crate::transports::udp::UdpTransport;
 use crate::transports::{ClockTransport, ModelTransport, Transport};
 
 /// Time limit for the greeting unless the caller sets another.
@@ -77,6 +78,7 @@ impl Device {
                         .to_owned(),
             }),
             DeviceAddress::Serial(address) => Ok(Self::from_transport(Box::new(SerialTransport::open(address)?))),
+            DeviceAddress::Udp(address) => Ok(Self::from_transport(Box::new(UdpTransport::open(address)?))),
             DeviceAddress::Pcie(address) => Ok(Self::from_transport(Box::new(PcieTransport::open(address)?))),
         }
     }

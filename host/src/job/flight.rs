@@ -20,8 +20,8 @@ use crate::error::{DeviceFault, Error};
 use crate::limit::Limit;
 use incircle_geometry::Point;
 
-/// Most loads under way for each engine where commands may be sent ahead: one in the engine, one behind it. A device
-/// of several engines has one more under way, since a job waits at the device until some engine is free.
+/// Most loads under way for each engine of several: one in the engine, one behind it. The device has one more under way,
+/// since a job waits at the device until some engine is free.
 const MOST_SENT: usize = 2;
 /// Most loads under way on a device that gives answers in any order: half of the tags.
 const MOST_TAGGED: usize = 128;
@@ -140,7 +140,7 @@ impl Carrier<'_> {
     fn most_sent(&self) -> usize {
         match self.identity.engines {
             _ if !self.channel.capabilities().takes_ahead => 1,
-            1 => MOST_SENT,
+            1 => self.channel.capabilities().jobs_ahead.clamp(1, MOST_TAGGED),
             // A byte has the tags, and loads that were dropped keep theirs for a while.
             engines if self.channel.takes_any_order() => (MOST_SENT * engines as usize + 1).min(MOST_TAGGED),
             _ => 1,

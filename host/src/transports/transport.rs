@@ -100,9 +100,12 @@ pub trait Transport {
 pub struct Capabilities {
     /// Whether commands may be submitted before the answers to earlier ones are received. Set it only if
     /// [`submit`](Transport::submit) never waits until answers are received: the transport must keep what comes
-    /// meanwhile: the answers of two jobs, and on a device of several engines those of two jobs for each and of one
+    /// meanwhile: the answers of [`jobs_ahead`](Self::jobs_ahead) jobs, and on a device of several engines those of two jobs for each and of one
     /// more.
     pub takes_ahead: bool,
+    /// Most jobs under way at a time on a device of one engine, if commands may be sent ahead: 2 on a bus. More hide the
+    /// round trip of a network; the transport must keep the answers of so many.
+    pub jobs_ahead: usize,
     /// Whether answers are taken in the order in which they come, by [`receive_next`](Transport::receive_next). Without
     /// it a device of several engines gets one job at a time.
     pub any_order: bool,
@@ -115,7 +118,7 @@ pub struct Capabilities {
 
 impl Default for Capabilities {
     fn default() -> Self {
-        Self { takes_ahead: false, any_order: false, packs_records: true, pace: Pace::default() }
+        Self { takes_ahead: false, jobs_ahead: 2, any_order: false, packs_records: true, pace: Pace::default() }
     }
 }
 

@@ -30,4 +30,9 @@ mod transports {
         mod port;
         mod sessions;
     }
+    mod udp {
+        mod faults;
+        mod goodput;
+        mod socket;
+    }
 }

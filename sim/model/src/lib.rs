@@ -17,6 +17,7 @@ mod mesh;
 pub mod predicate;
 pub mod serial;
 pub mod stream;
+pub mod udp;
 
 pub use chip::ChipModel;
 pub use clock::{ClockModel, Defect, Inputs, Outputs, Write};

@@ -4,6 +4,7 @@
 //! idle and the board is at rest (no session open, first rate set), passing time would change nothing, so simulated
 //! time stops until a byte comes.
 
+mod network;
 mod pace;
 mod terminal;
 
@@ -15,6 +16,7 @@ use std::time::{Duration, Instant};
 use crate::faults::{FaultSpec, Proxy};
 use crate::serial::Board;
 
+pub use network::{serve_network, NetworkError, NetworkFigures, NetworkService};
 use pace::Pace;
 pub use terminal::LinkError;
 use terminal::Terminal;

@@ -8,7 +8,8 @@
 //! - [`disc_is_between`]: whether the circumscribed disc of a triangle lies between lines, in the same integers.
 //! - [`words`] and [`Batch`]: point sets as a device takes them, with [`Random32`], whose seeds tests know.
 //! - [`canonical`]: the check of a mesh from a device, and its form without ids.
-//! - [`exchange_steps`]: the exchange that the page of the serial protocol shows.
+//! - [`exchange_steps`] and [`exchange_datagrams`]: the exchanges that the pages of the serial and the UDP link show.
+//! - [`Network`]: one direction of a network with faults, in virtual or real time.
 //!
 //! A point is a pair of coordinates, `[u32; 2]`, or a type that turns into one.
 #![warn(missing_docs)]
@@ -17,6 +18,7 @@ mod batch;
 mod canonical;
 mod compiled;
 mod exchange;
+mod network;
 mod oracle;
 mod oracle_of_doubles;
 mod random;
@@ -27,7 +29,8 @@ pub mod words;
 pub use batch::Batch;
 pub use canonical::{canonical, Canonical, StoredRecord};
 pub use compiled::Compiled;
-pub use exchange::exchange_steps;
+pub use exchange::{exchange_datagrams, exchange_steps, Datagram};
+pub use network::{Network, NetworkFaults};
 pub use oracle::{conflicts, delaunay, orient2d};
 pub use oracle_of_doubles::{
     delaunay_of_doubles, disc_is_between, hull_of_doubles, incircle_of_doubles, orient2d_of_doubles,

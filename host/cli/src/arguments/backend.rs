@@ -18,6 +18,7 @@ pub struct BackendArguments {
     /// - clock: the model of the core, clock by clock
     /// - sim: the core's Verilog in Verilator; needs a build with `--features sim`
     /// - serial:PORT: a board at a serial port, such as serial:/dev/ttyUSB0
+    /// - udp:HOST: a device on the network, such as udp:192.168.1.50; udp:HOST:PORT names its port
     /// - pcie:N: the card N in a PCIe slot; pcie:DIR is a card by the directory of its files
     ///
     /// Choices follow a question mark, as in cpu?threads=2, model?coord-bits=20&capacity=5000,

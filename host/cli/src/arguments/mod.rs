@@ -7,6 +7,7 @@ mod points;
 mod replay;
 mod tile;
 
+use std::net::SocketAddrV4;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand};
@@ -16,7 +17,9 @@ use incircle_testkit::Distribution;
 use crate::failure::Failure;
 use crate::formats::MeshFormat;
 use crate::help;
-use crate::values::{bytes_from, distribution_parser, mhz_from, port_from, readable_format_parser, whole_number};
+use crate::values::{
+    bytes_from, distribution_parser, mhz_from, network_from, port_from, readable_format_parser, whole_number,
+};
 
 pub use backend::{BackendArguments, ConfigName};
 pub use generate::GenerateArguments;
@@ -86,7 +89,7 @@ pub enum Command {
     /// Describe a back end: version, coordinates, capacity, contexts
     #[command(after_help = help::INFO, after_long_help = help::INFO_LONG)]
     Info(InfoArguments),
-    /// List the serial ports and the PCIe cards of this machine
+    /// List the serial ports and the PCIe cards of this machine, or the devices on the network
     #[command(after_help = help::DEVICES)]
     Devices(DevicesArguments),
     /// Print a completion script for a shell
@@ -273,6 +276,20 @@ pub struct DevicesArguments {
     /// for each port, and resets a card that nobody uses.
     #[arg(short, long, verbatim_doc_comment)]
     pub greet: bool,
+    /// List the devices on the network instead: those that answer a greeting to all
+    ///
+    /// The greeting goes to 255.255.255.255, or to the address that is given: the broadcast address of another
+    /// network, or a single device. It takes a second.
+    #[arg(
+        long,
+        value_name = "ADDRESS[:PORT]",
+        value_parser = network_from,
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "255.255.255.255",
+        conflicts_with = "greet"
+    )]
+    pub network: Option<SocketAddrV4>,
 }
 
 /// The arguments of `incircle completions`.

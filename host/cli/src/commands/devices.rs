@@ -1,9 +1,11 @@
-//! `incircle devices`: lists the serial ports and the PCIe cards of this machine.
+//! `incircle devices`: lists the serial ports and the PCIe cards of this machine, or the devices on the network.
 
+use std::net::SocketAddrV4;
 use std::time::Duration;
 
 use incircle::pcie::{self, CardInfo, PcieTransport};
 use incircle::serial::{self, Address, PortInfo};
+use incircle::udp;
 
 use crate::arguments::DevicesArguments;
 use crate::failure::{printable, Exit, Failure};
@@ -12,9 +14,15 @@ use crate::output;
 /// Time for the answer at a port. A device that a killed program left at a high rate answers after two seconds.
 const GREET_TIMEOUT: Duration = Duration::from_secs(4);
 
+/// Time for the answers of devices on the network.
+const DISCOVER_TIME: Duration = Duration::from_secs(1);
+
 /// Runs the subcommand. Each port and card has a line with its description by the system, and with `--greet`
 /// also with its answer.
 pub fn run(arguments: &DevicesArguments) -> Result<(), Failure> {
+    if let Some(to) = arguments.network {
+        return list_network(to);
+    }
     let ports = serial::ports()
         .map_err(|fault| Failure::new(Exit::NoDevice, format!("the serial ports cannot be listed: {fault}")))?;
     let cards = pcie::cards();
@@ -29,6 +37,26 @@ pub fn run(arguments: &DevicesArguments) -> Result<(), Failure> {
     for port in ports {
         let there = if arguments.greet { format!(": {}", greet(&port)) } else { String::new() };
         output::print(&printable(&format!("{} ({}){there}", port.name, port.what)))?;
+        output::print("\n")?;
+    }
+    Ok(())
+}
+
+/// Lists the devices that answer a greeting to this address.
+fn list_network(to: SocketAddrV4) -> Result<(), Failure> {
+    let found = udp::discover(&[to], DISCOVER_TIME);
+    let found = found.map_err(|fault| Failure::new(Exit::NoDevice, fault.to_string()))?;
+    if found.is_empty() {
+        output::note(&format!("no device answers a greeting to {to}: a device in another network needs its address"));
+    }
+    for device in found {
+        let (identity, mac) =
+            (device.greeting.identity, device.greeting.mac.map(|byte| format!("{byte:02x}")).join(":"));
+        let state = if device.is_busy { ", busy" } else { "" };
+        output::print(&printable(&format!(
+            "{} ({mac}): incircle, {} points of {} bits, {} insertions at once{state}",
+            device.address, identity.capacity, identity.coord_bits, identity.contexts
+        )))?;
         output::print("\n")?;
     }
     Ok(())

@@ -6,6 +6,7 @@ pub mod card;
 pub mod heap;
 pub mod liar;
 pub mod mock;
+pub mod network;
 pub mod rig;
 
 use incircle::{Device, Point, Solution};

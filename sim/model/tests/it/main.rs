@@ -24,3 +24,7 @@ mod mesh {
 mod serial {
     mod page;
 }
+
+mod udp {
+    mod page;
+}

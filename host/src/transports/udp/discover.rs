@@ -1,0 +1,97 @@
+//! Looking for devices on a network, by a greeting to all.
+
+use std::io::ErrorKind as IoKind;
+use std::net::{Ipv4Addr, SocketAddr, SocketAddrV4, UdpSocket};
+use std::time::{Duration, Instant};
+
+use incircle_protocol::{
+    DeviceDatagram, HostDatagram, UdpGreeting, MAX_DEVICE_DATAGRAM, STATUS_OPEN, UDP_GREETING_WORDS, UDP_PORT,
+};
+
+use super::address::UdpAddress;
+use super::codec::{encode, Message};
+use super::fault::UdpFault;
+use super::protocol::checked_greeting;
+use super::transport::random;
+
+/// Number of greetings that are sent, since each may be lost.
+const GREETINGS: u32 = 3;
+
+/// A device that answered.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Discovered {
+    /// Address to open it with.
+    pub address: UdpAddress,
+    /// Its greeting, checked.
+    pub greeting: UdpGreeting,
+    /// Whether a session with it is open.
+    pub is_busy: bool,
+}
+
+/// Greets all devices of the network at the usual port, and returns those that answer within `time`, in the order of
+/// their addresses. Two devices with one address both appear: their Ethernet addresses differ.
+///
+/// The greeting goes to 255.255.255.255, which systems send out of the network that leads to the internet. `to` names
+/// other addresses to greet: the broadcast addresses of other networks, or single devices. Answers that are not those of
+/// a sound device are left out.
+///
+/// # Errors
+/// [`UdpFault::Network`] if the system refuses a socket, or to send to every one of the addresses.
+pub fn discover(to: &[SocketAddrV4], time: Duration) -> Result<Vec<Discovered>, UdpFault> {
+    let refused = |error: std::io::Error| UdpFault::Network { what: "greet all devices", reason: error.to_string() };
+    let socket = UdpSocket::bind((Ipv4Addr::UNSPECIFIED, 0)).map_err(refused)?;
+    socket.set_broadcast(true).map_err(refused)?;
+    let everyone = [SocketAddrV4::new(Ipv4Addr::BROADCAST, UDP_PORT)];
+    let to = if to.is_empty() { &everyone } else { to };
+    let number = random();
+    let mut found: Vec<Discovered> = Vec::new();
+    for _ in 0..GREETINGS {
+        let hello = encode(HostDatagram::Hello, 0, number, &[0; 4 * UDP_GREETING_WORDS]);
+        let mut refusal = None;
+        let sent = to.iter().filter(|to| socket.send_to(&hello, to).map_err(|error| refusal = Some(error)).is_ok());
+        if let (0, Some(error)) = (sent.count(), refusal) {
+            return Err(refused(error));
+        }
+        let until = Instant::now() + time / GREETINGS;
+        while let Some((from, bytes)) = next(&socket, until).map_err(refused)? {
+            let device = answer(from, number, &bytes).filter(|device| {
+                !found.iter().any(|known| known.address == device.address && known.greeting.mac == device.greeting.mac)
+            });
+            found.extend(device);
+        }
+    }
+    found.sort_by_key(|device| (device.address.to_string(), device.greeting.mac));
+    Ok(found)
+}
+
+/// The next datagram, and where it comes from.
+fn next(socket: &UdpSocket, until: Instant) -> std::io::Result<Option<(SocketAddr, Vec<u8>)>> {
+    let mut bytes = [0; MAX_DEVICE_DATAGRAM + 1];
+    loop {
+        let wait = until.saturating_duration_since(Instant::now());
+        if wait.is_zero() {
+            return Ok(None);
+        }
+        socket.set_read_timeout(Some(wait))?;
+        match socket.recv_from(&mut bytes) {
+            Ok((length, from)) => return Ok(Some((from, bytes[..length].to_vec()))),
+            Err(error) => match error.kind() {
+                IoKind::WouldBlock | IoKind::TimedOut => return Ok(None),
+                // A machine refuses the greeting, or a signal came: others may answer.
+                IoKind::Interrupted | IoKind::ConnectionRefused | IoKind::ConnectionReset => {}
+                _ => return Err(error),
+            },
+        }
+    }
+}
+
+/// The device that sent this datagram, if it is the answer of a sound device to the greeting of this number.
+fn answer(from: SocketAddr, number: u64, bytes: &[u8]) -> Option<Discovered> {
+    let message = Message::decode(bytes)?;
+    if message.header.kind != DeviceDatagram::Hello || message.header.session != number {
+        return None;
+    }
+    let greeting = checked_greeting(&message).ok()?;
+    let address = UdpAddress { host: from.ip().to_string(), port: from.port() };
+    Some(Discovered { address, greeting, is_busy: message.header.status & STATUS_OPEN != 0 })
+}

@@ -1,0 +1,246 @@
+//! A device on a network, for any program that opens UDP sockets: the software model of the link and of the core.
+//!
+//! The core needs no time of its own here: it works as fast as this machine. The silence of the session passes in real
+//! time.
+
+use std::io::{self, ErrorKind};
+use std::net::{SocketAddr, SocketAddrV4, UdpSocket};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use incircle_model::serial::Instantly;
+use incircle_model::udp::UdpModel;
+use incircle_model::ModelError;
+use incircle_protocol::{Config, UdpLinkConfig, MAX_HOST_DATAGRAM, SILENCE_MS};
+use incircle_testkit::{Network, NetworkFaults};
+
+/// Clock of the core that the greeting names.
+const CLOCK_HZ: u32 = 120_000_000;
+/// Bytes of the FIFO.
+const FIFO_BYTES: u32 = 16_384;
+/// Most datagrams that are taken before the core works, and that the core gives before others are taken.
+const BURST: usize = 64;
+/// Number of clocks of the core between two looks at its answers.
+const SLICE: u64 = 4096;
+/// Longest wait for a datagram. A signal to end may have to wait this long.
+const NAP: Duration = Duration::from_millis(50);
+/// Shortest wait: a timeout of 0 would mean none.
+const SHORTEST_NAP: Duration = Duration::from_micros(50);
+
+/// The options of a service.
+#[derive(Clone, Debug)]
+pub struct NetworkService {
+    /// Address and port to listen at. With port 0 the system chooses one.
+    pub listen: SocketAddrV4,
+    /// Core of the device.
+    pub config: Config,
+    /// Faults between host and device.
+    pub faults: NetworkFaults,
+}
+
+/// The figures of a service that has ended.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NetworkFigures {
+    /// Number of datagrams to the device, those that were lost on the way left out.
+    pub to_device: u64,
+    /// Number of datagrams to hosts, with those that were lost on the way.
+    pub to_host: u64,
+    /// Number of faults.
+    pub faults: u64,
+}
+
+/// The reason why a device cannot be served on a network.
+#[derive(Debug, thiserror::Error)]
+pub enum NetworkError {
+    /// The system refuses a socket.
+    #[error(
+        "the system refuses a socket at {listen} ({source}): is the port in use, or the address not of this machine?"
+    )]
+    Socket {
+        /// Address to listen at.
+        listen: SocketAddrV4,
+        /// The reason.
+        source: io::Error,
+    },
+    /// The system refuses to send or to receive.
+    #[error("the network fails: {0}")]
+    Io(#[from] io::Error),
+    /// The core cannot be modelled.
+    #[error("{0}")]
+    Model(#[from] ModelError),
+}
+
+/// Serves a device until `stops` is set, and calls `ready` with its address as soon as it listens.
+///
+/// # Errors
+/// The system refuses the socket or a call.
+pub fn serve_network(
+    service: &NetworkService,
+    stops: &AtomicBool,
+    ready: impl FnOnce(SocketAddr),
+) -> Result<NetworkFigures, NetworkError> {
+    let refused = |source| NetworkError::Socket { listen: service.listen, source };
+    let socket = UdpSocket::bind(service.listen).map_err(refused)?;
+    socket.set_nonblocking(true)?;
+    let address = socket.local_addr()?;
+    let core = Instantly::of(service.config)?;
+    let [high, low] = address.port().to_be_bytes();
+    let mac = [2, 0, 0x69, 0x43, high, low];
+    let link = UdpLinkConfig { clock_hz: CLOCK_HZ, fifo_bytes: FIFO_BYTES, silence_ms: SILENCE_MS, mac };
+    let has_faults = service.faults != NetworkFaults { seed: service.faults.seed, ..NetworkFaults::default() };
+    let mut server = Server {
+        socket,
+        device: UdpModel::new(link, core.identity(), core),
+        network: has_faults.then(|| [0, 1].map(|direction| Network::new(&service.faults, 0, direction))),
+        origin: Instant::now(),
+        aged: 0,
+        figures: NetworkFigures::default(),
+    };
+    ready(address);
+    while !stops.load(Ordering::Relaxed) {
+        server.turn()?;
+    }
+    let faults = server.network.map_or(0, |[down, up]| down.met() + up.met());
+    Ok(NetworkFigures { faults, ..server.figures })
+}
+
+/// The state of a running service.
+struct Server {
+    socket: UdpSocket,
+    device: UdpModel<Instantly>,
+    /// The ways to the device and back, if they have faults.
+    network: Option<[Network<SocketAddrV4>; 2]>,
+    origin: Instant,
+    /// Clocks by which the silence has grown.
+    aged: u64,
+    figures: NetworkFigures,
+}
+
+impl Server {
+    /// Takes what has come, lets the core work, and sends its answers, or waits.
+    fn turn(&mut self) -> io::Result<()> {
+        let clocks = self.now() * u64::from(CLOCK_HZ / 1_000_000) / 1000;
+        self.device.age(clocks - self.aged);
+        self.aged = clocks;
+        let mut is_idle = true;
+        for _ in 0..BURST {
+            if !self.take_one()? {
+                break;
+            }
+            is_idle = false;
+        }
+        self.arrive();
+        for _ in 0..BURST {
+            self.device.work(SLICE);
+            while let Some((to, datagram)) = self.device.give() {
+                self.figures.to_host += 1;
+                self.hand_out(to, &datagram)?;
+            }
+            if !self.device.is_at_work() {
+                break;
+            }
+        }
+        self.deliver()?;
+        if is_idle && !self.device.is_at_work() {
+            return self.wait();
+        }
+        Ok(())
+    }
+
+    /// Nanoseconds since the start.
+    fn now(&self) -> u64 {
+        u64::try_from(self.origin.elapsed().as_nanos()).unwrap_or(u64::MAX)
+    }
+
+    /// Takes a datagram from the socket, if one has come.
+    fn take_one(&mut self) -> io::Result<bool> {
+        let mut bytes = [0; MAX_HOST_DATAGRAM + 1];
+        match self.socket.recv_from(&mut bytes) {
+            Ok((length, SocketAddr::V4(from))) => {
+                let now = self.now();
+                match &mut self.network {
+                    Some([down, _]) => down.send(now, from, &bytes[..length]),
+                    None => {
+                        self.figures.to_device += 1;
+                        self.device.take(from, false, &bytes[..length]);
+                    }
+                }
+                Ok(true)
+            }
+            Ok((_, SocketAddr::V6(_))) => Ok(true),
+            Err(error) if is_passing(&error) => Ok(false),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// Hands the datagrams that have arrived to the device. Each is answered before the next one comes, as on a wire.
+    fn arrive(&mut self) {
+        let now = self.now();
+        let Some([down, up]) = &mut self.network else { return };
+        while let Some((from, datagram)) = down.next(now) {
+            self.figures.to_device += 1;
+            self.device.take(from, false, &datagram);
+            while let Some((to, datagram)) = self.device.give() {
+                self.figures.to_host += 1;
+                up.send(now, to, &datagram);
+            }
+        }
+    }
+
+    /// Puts a datagram on its way to a host.
+    fn hand_out(&mut self, to: SocketAddrV4, datagram: &[u8]) -> io::Result<()> {
+        let now = self.now();
+        match &mut self.network {
+            Some([_, up]) => {
+                up.send(now, to, datagram);
+                Ok(())
+            }
+            None => self.send(to, datagram),
+        }
+    }
+
+    /// Sends the datagrams whose way is over.
+    fn deliver(&mut self) -> io::Result<()> {
+        let now = self.now();
+        while let Some((to, datagram)) = self.network.as_mut().and_then(|[_, up]| up.next(now)) {
+            self.send(to, &datagram)?;
+        }
+        Ok(())
+    }
+
+    /// Sends a datagram. One that the system does not take now is lost, as on a network.
+    fn send(&self, to: SocketAddrV4, datagram: &[u8]) -> io::Result<()> {
+        match self.socket.send_to(datagram, to) {
+            Ok(_) => Ok(()),
+            Err(error) if is_passing(&error) => Ok(()),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// Waits until a datagram comes from a host or has passed the network.
+    fn wait(&mut self) -> io::Result<()> {
+        let ways = self.network.iter().flatten();
+        let next = ways.filter_map(Network::next_at).min();
+        let nap = next.map_or(NAP, |at| Duration::from_nanos(at.saturating_sub(self.now())));
+        self.socket.set_read_timeout(Some(nap.clamp(SHORTEST_NAP, NAP)))?;
+        self.socket.set_nonblocking(false)?;
+        let taken = self.take_one();
+        self.socket.set_nonblocking(true)?;
+        taken.map(|_| ())
+    }
+}
+
+/// Whether an error of the socket means no more than that nothing has come, or that one datagram is lost.
+fn is_passing(error: &io::Error) -> bool {
+    matches!(
+        error.kind(),
+        ErrorKind::WouldBlock
+            | ErrorKind::TimedOut
+            | ErrorKind::Interrupted
+            | ErrorKind::ConnectionRefused
+            | ErrorKind::ConnectionReset
+            | ErrorKind::HostUnreachable
+            | ErrorKind::NetworkUnreachable
+            | ErrorKind::PermissionDenied
+    )
+}
