@@ -69,6 +69,7 @@ module acorn_cle_215 (
     wire answer_valid;
     wire answer_ready;
     wire [31:0] write_address;
+    wire [2:0] write_protection;
     wire write_address_valid;
     wire write_address_ready;
     wire [31:0] write_data;
@@ -79,6 +80,7 @@ module acorn_cle_215 (
     wire write_response_valid;
     wire write_response_ready;
     wire [31:0] read_address;
+    wire [2:0] read_protection;
     wire read_address_valid;
     wire read_address_ready;
     wire [31:0] read_data;
@@ -111,7 +113,7 @@ module acorn_cle_215 (
         .s_axis_c2h_tvalid_0(answer_valid),
         .s_axis_c2h_tready_0(answer_ready),
         .m_axil_awaddr(write_address),
-        .m_axil_awprot(),
+        .m_axil_awprot(write_protection),
         .m_axil_awvalid(write_address_valid),
         .m_axil_awready(write_address_ready),
         .m_axil_wdata(write_data),
@@ -122,7 +124,7 @@ module acorn_cle_215 (
         .m_axil_bvalid(write_response_valid),
         .m_axil_bready(write_response_ready),
         .m_axil_araddr(read_address),
-        .m_axil_arprot(),
+        .m_axil_arprot(read_protection),
         .m_axil_arvalid(read_address_valid),
         .m_axil_arready(read_address_ready),
         .m_axil_rdata(read_data),
@@ -146,6 +148,7 @@ module acorn_cle_215 (
         .m_axis_tready(answer_ready),
         .m_axis_tlast(answer_last),
         .s_axi_awaddr(write_address[11:0]),
+        .s_axi_awprot(write_protection),
         .s_axi_awvalid(write_address_valid),
         .s_axi_awready(write_address_ready),
         .s_axi_wdata(write_data),
@@ -156,6 +159,7 @@ module acorn_cle_215 (
         .s_axi_bvalid(write_response_valid),
         .s_axi_bready(write_response_ready),
         .s_axi_araddr(read_address[11:0]),
+        .s_axi_arprot(read_protection),
         .s_axi_arvalid(read_address_valid),
         .s_axi_arready(read_address_ready),
         .s_axi_rdata(read_data),

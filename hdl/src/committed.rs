@@ -7,8 +7,20 @@ use std::fmt;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// The configurations whose Verilog is in the repository.
-pub const COMMITTED: [Config; 4] = [SMALL, FULL, DUAL, QUAD];
+/// Bits of a beat in the committed files of cores behind a stream link. An export makes the other width.
+const COMMITTED_BEAT: u32 = 64;
+
+/// The modules and configurations whose Verilog is in the repository.
+pub const COMMITTED: [(Config, Top); 8] = [
+    (SMALL, Top::Core),
+    (FULL, Top::Core),
+    (DUAL, Top::Core),
+    (QUAD, Top::Core),
+    (SMALL, Top::Stream(COMMITTED_BEAT)),
+    (FULL, Top::Stream(COMMITTED_BEAT)),
+    (DUAL, Top::Stream(COMMITTED_BEAT)),
+    (QUAD, Top::Stream(COMMITTED_BEAT)),
+];
 
 /// The module that an export describes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,21 +58,22 @@ pub fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("verilog")
 }
 
-/// The committed Verilog file of a configuration.
-pub fn file(config: Config) -> PathBuf {
-    folder().join(format!("incircle_{}.v", config.name))
-}
-
-/// The text that the committed file of a configuration must hold.
-///
-/// # Errors
-/// If the design is not fit for export.
-pub fn text(config: Config, with_probe: bool) -> Result<String, ExportError> {
-    top_text(config, Top::Core, with_probe)
+/// The committed Verilog file of a configuration, such as `incircle_small.v` for the core alone and
+/// `incircle_small_stream.v` for the core behind a stream link.
+pub fn file((config, top): (Config, Top)) -> PathBuf {
+    let link = match top {
+        Top::Core => "",
+        Top::Serial(_) => "_serial",
+        Top::Stream(_) => "_stream",
+    };
+    folder().join(format!("incircle_{}{link}.v", config.name))
 }
 
 /// The Verilog of a configuration, below a head that names the design and the configuration.
-fn top_text(config: Config, top: Top, with_probe: bool) -> Result<String, ExportError> {
+///
+/// # Errors
+/// If the design is not fit for export.
+pub fn text(config: Config, top: Top, with_probe: bool) -> Result<String, ExportError> {
     let Config { name, points, ring, contexts, engines } = config;
     let (what, verilog) = match top {
         Top::Core => ("incircle core", export::core(config, with_probe)?),
@@ -85,9 +98,9 @@ fn top_text(config: Config, top: Top, with_probe: bool) -> Result<String, Export
 /// If the design is not fit for export, or a file cannot be written.
 pub fn renew() -> Result<Vec<PathBuf>, WriteError> {
     let mut files = Vec::new();
-    for config in COMMITTED {
-        let path = file(config);
-        write(config, Top::Core, false, Some(path.clone()))?;
+    for (config, top) in COMMITTED {
+        let path = file((config, top));
+        write(config, top, false, Some(path.clone()))?;
         files.push(path);
     }
     Ok(files)
@@ -100,7 +113,7 @@ pub fn renew() -> Result<Vec<PathBuf>, WriteError> {
 /// # Errors
 /// If the design is not fit for export, or the file cannot be written.
 pub fn write(config: Config, top: Top, with_probe: bool, path: Option<PathBuf>) -> Result<(), WriteError> {
-    let text = top_text(config, top, with_probe).map_err(WriteError::Export)?;
+    let text = text(config, top, with_probe).map_err(WriteError::Export)?;
     match path.filter(|path| path.as_os_str() != "-") {
         None => {
             let written = io::stdout().lock().write_all(text.as_bytes());

@@ -29,6 +29,7 @@
 //! | `m_axis_tdata`, `_tkeep` | out | W, W/8 | answers |
 //! | `m_axis_tvalid`, `_tready`, `_tlast` | out, in, out | 1 | their handshake, and the mark of an answer's last beat |
 //! | `s_axi_aw...`, `_w...`, `_b...`, `_ar...`, `_r...` | | | AXI4-Lite, addresses of 12 bits, data of 32 |
+//! | `s_axi_awprot`, `s_axi_arprot` | in | 3 | mean nothing |
 //! | `core_clock` | in | 1 | clock of the core |
 //!
 //! With the probe each module has the write port of the triangle memory as well, field by field: `PROBE`. On a chip of
@@ -94,8 +95,9 @@ fn stream_ports(beat_bits: usize) -> [(&'static str, &'static str, usize); 29] {
         ("input", "core_clock", 1),
     ]
 }
-/// The port that a bus has but the device does not use.
-const STREAM_UNUSED: [(&str, &str, usize); 1] = [("input", "s_axis_tlast", 1)];
+/// The ports that a bus has but the device ignores: registers are the same for every kind of access.
+const STREAM_UNUSED: [(&str, &str, usize); 3] =
+    [("input", "s_axis_tlast", 1), ("input", "s_axi_awprot", 3), ("input", "s_axi_arprot", 3)];
 
 /// The fields of the write port with their widths, lowest bit first, in the order of [`Write`](crate::engine::Write).
 const PROBE: [(&str, usize); 10] = [

@@ -8,10 +8,10 @@ fn committed_verilog_is_up_to_date() {
         let files = renew().unwrap();
         panic!("blessed: {files:?} are written anew and nothing was compared; run again without INCIRCLE_BLESS");
     }
-    for config in COMMITTED {
-        let path = file(config);
+    for (config, top) in COMMITTED {
+        let path = file((config, top));
         let held = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-        let exported = text(config, false).unwrap();
+        let exported = text(config, top, false).unwrap();
         let first = held.lines().zip(exported.lines()).position(|(held, exported)| held != exported);
         assert!(
             held == exported,
