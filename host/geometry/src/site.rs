@@ -6,7 +6,7 @@ use core::fmt::Debug;
 use bytemuck::Zeroable;
 
 use crate::cpu::view::{view_of_32_bits, View, Wide, Widest, Width};
-use crate::double::{acute_corners_of, incircle_of, is_within_of, nearer_of, orient2d_of, Coordinate};
+use crate::double::{cotangents, cotangents_of, incircle_of, is_within_of, nearer_of, orient2d_of, Coordinate};
 use crate::double::{incircle_seen, orient2d_seen, SizedView};
 use crate::point::Point;
 use crate::predicate;
@@ -90,11 +90,12 @@ pub trait Site: Copy + Ord + Debug + Send + Sync + 'static {
         }
     }
 
-    /// The corners of a triangle that have acute angles: bit 0 for `a`, and so on. Rounding may leave out a corner, and
-    /// none is named that is not acute.
+    /// The cotangents of the angles of a triangle in multiples of 1/128, rounded, or `None` if the triangle is slender,
+    /// or may not be counter-clockwise.
     ///
-    /// If both corners opposite an edge are acute, each lies outside the circle of the other triangle.
-    fn acute_corners(abc: [Self; 3]) -> u8;
+    /// If the cotangents opposite an edge add up to [`LEAST_SUM`](crate::double::LEAST_SUM) or more, neither corner
+    /// lies in or on the circle of the other triangle. If they add up to minus that or less, both lie inside.
+    fn cotangents(abc: [Self; 3]) -> Option<[i16; 3]>;
 
     /// Compares two points by their distance from `q`, and points at the same distance by x, then y.
     #[inline]
@@ -176,17 +177,11 @@ impl Site for Point {
     }
 
     #[inline(always)]
-    fn acute_corners([a, b, c]: [Self; 3]) -> u8 {
+    fn cotangents([a, b, c]: [Self; 3]) -> Option<[i16; 3]> {
+        // Differences of 32 bits are exact.
         let minus =
-            |one: Self, other: Self| [i64::from(one.x) - i64::from(other.x), i64::from(one.y) - i64::from(other.y)];
-        let dot = |[x, y]: [i64; 2], [u, v]: [i64; 2]| x * u + y * v;
-        // Wider coordinates could overflow.
-        if !are_below_31_bits([a, b, c]) {
-            return 0;
-        }
-        let (ab, ac, bc) = (minus(b, a), minus(c, a), minus(c, b));
-        let [at_a, at_b, at_c] = [dot(ab, ac) > 0, dot(ab, bc) < 0, dot(ac, bc) > 0].map(u8::from);
-        at_a | at_b << 1 | at_c << 2
+            |one: Self, other: Self| [f64::from(one.x) - f64::from(other.x), f64::from(one.y) - f64::from(other.y)];
+        cotangents([minus(c, b), minus(a, c), minus(b, a)])
     }
 
     #[inline(always)]
@@ -281,8 +276,8 @@ impl<C: Coordinate + Debug> Site for FilteredSite<C> {
     }
 
     #[inline(always)]
-    fn acute_corners([a, b, c]: [Self; 3]) -> u8 {
-        acute_corners_of(a.0, b.0, c.0)
+    fn cotangents([a, b, c]: [Self; 3]) -> Option<[i16; 3]> {
+        cotangents_of(a.0, b.0, c.0)
     }
 
     #[inline(always)]
