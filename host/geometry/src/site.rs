@@ -88,11 +88,12 @@ pub trait Site: Copy + Ord + Debug + Send + Sync + 'static {
         }
     }
 
-    /// The corners of a triangle that have acute angles: bit 0 for `a`, and so on. Rounding may leave out a corner, and
-    /// none is named that is not acute.
+    /// The cotangents of the angles of a triangle in multiples of 1/128, rounded, or `None` if the triangle is slender,
+    /// or may not be counter-clockwise.
     ///
-    /// If both corners opposite an edge are acute, each lies outside the circle of the other triangle.
-    fn acute_corners(abc: [Self; 3]) -> u8;
+    /// If the cotangents opposite an edge add up to [`LEAST_SUM`](crate::double::LEAST_SUM) or more, neither corner
+    /// lies in or on the circle of the other triangle. If they add up to minus that or less, both lie inside.
+    fn cotangents(abc: [Self; 3]) -> Option<[i16; 3]>;
 
     /// Compares two points by their distance from `q`, and points at the same distance by x, then y.
     #[inline]

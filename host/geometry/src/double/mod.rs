@@ -20,6 +20,7 @@
 mod big;
 mod bounds;
 mod coordinate;
+mod cotangents;
 mod exact;
 mod view;
 
@@ -27,6 +28,7 @@ use core::cmp::Ordering;
 
 pub(crate) use bounds::Bounds;
 pub(crate) use coordinate::Coordinate;
+pub(crate) use cotangents::{cotangents, cotangents_of, LEAST_SUM, MOST};
 pub(crate) use view::View;
 use view::{sign, UNIT};
 
@@ -118,25 +120,6 @@ pub(crate) fn nearer_of<C: Coordinate>(q: [C; 2], a: [C; 2], b: [C; 2]) -> Order
         return sign(difference);
     }
     exact::nearer(q, a, b)
-}
-
-/// The corners of a triangle whose angles the filter knows to be acute: bit 0 for `a`, and so on.
-#[inline(always)]
-pub(crate) fn acute_corners_of<C: Coordinate>(a: [C; 2], b: [C; 2], c: [C; 2]) -> u8 {
-    let minus = |one: [C; 2], other: [C; 2]| [one[0].minus(other[0]), one[1].minus(other[1])];
-    // A dot product that is larger than its error, and 0 otherwise; see the head of the file.
-    let sign = |[x, y]: [f64; 2], [u, v]: [f64; 2]| {
-        let (dot, size) = (x * u + y * v, (x * u).abs() + (y * v).abs());
-        let is_sure = size >= LEAST_SIZE && dot.abs() > PRODUCT_BOUND * size;
-        if is_sure {
-            dot
-        } else {
-            0.0
-        }
-    };
-    let (ab, ac, bc) = (minus(b, a), minus(c, a), minus(c, b));
-    let [at_a, at_b, at_c] = [sign(ab, ac) > 0.0, sign(ab, bc) < 0.0, sign(ac, bc) > 0.0].map(u8::from);
-    at_a | at_b << 1 | at_c << 2
 }
 
 /// Whether `p` lies at most `radius` from `q`. No point lies within a radius that is negative or not a number.

@@ -74,9 +74,9 @@ impl<P: PlanePoint> Level<P> {
         for (inside, outside) in around.into_iter().zip([aq, pa, bp, qb]) {
             self.plane.link(inside, outside);
         }
-        for (vertex, triangle) in [(a, one), (p, one), (q, one), (b, two)] {
-            self.note(vertex, triangle);
-        }
+        // Both apexes are still in the triangle that they had.
+        self.note(a, one);
+        self.note(b, two);
         self.stack.extend(around);
     }
 }

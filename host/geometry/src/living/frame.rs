@@ -97,16 +97,47 @@ impl<P: PlanePoint> Triangulation<P> {
         // The point that names a place takes the vertex along. What stands here for a free vertex is never used.
         let place = |vertex: &Vertex<P>| places.get(ranks.rank(vertex.name)).copied().unwrap_or(vertex.point);
         let moved: Vec<P> = self.base().vertices.iter().map(place).collect();
-        self.levels.truncate(1);
         let most = self.base().count / MOST;
-        let acute = alloc::vec![0; self.base().plane.end() as usize];
-        let mut sweep = Sweep { level: &mut self.levels[0], places: &moved, taken: Vec::new(), acute, most };
-        if !sweep.run() {
+        let Some(taken) = Sweep::run(&mut self.levels[0], &moved, most) else { return false };
+        self.sweep_levels();
+        self.attach_all(&taken, |index| places[ranks.rank(index)]);
+        true
+    }
+
+    /// Moves the vertices of all levels above the lowest to the places that they have in the lowest.
+    fn sweep_levels(&mut self) {
+        if let Some(number) = (1..self.levels.len()).find(|&number| !self.sweep_level(number)) {
+            self.levels.truncate(number);
+        }
+        self.load_levels();
+    }
+
+    /// Moves the vertices of a level to the places that they have in the level below, and takes out those that are no
+    /// longer there. Says whether that was possible; if not, the level is of no use.
+    fn sweep_level(&mut self, number: usize) -> bool {
+        let (lower, upper) = self.levels.split_at_mut(number);
+        let (Some(below), Some(level)) = (lower.last(), upper.first_mut()) else { return false };
+        for vertex in 0..level.vertices.len() as u32 {
+            let is_gone = level.is_vertex(vertex) && !below.is_vertex(level.vertices[vertex as usize].name);
+            if is_gone && level.is_plane() {
+                level.remove(vertex);
+            }
+        }
+        if !level.is_plane() {
             return false;
         }
-        let taken = sweep.taken;
-        self.load_levels();
-        self.attach_all(&taken, |index| places[ranks.rank(index)]);
+        // What stands here for a free vertex is never used.
+        let place = |vertex: &Vertex<P>| below.vertices.get(vertex.name as usize).map_or(vertex.point, |own| own.point);
+        let moved: Vec<P> = level.vertices.iter().map(place).collect();
+        let most = level.count / MOST;
+        let Some(taken) = Sweep::run(level, &moved, most) else { return false };
+        // The vertex that was freed last is taken first, so all get back their own, and the level above need not be
+        // told.
+        for Taken { vertex, name, near } in taken.into_iter().rev() {
+            let point = moved[vertex as usize];
+            let place = level.find(point.site(), near);
+            level.add(point, name, place);
+        }
         true
     }
 

@@ -69,12 +69,14 @@ impl<P: PlanePoint> Triangulation<P> {
         Ok(())
     }
 
-    /// Makes the levels above the lowest.
+    /// Makes the levels above the highest that there is.
     pub(super) fn load_levels(&mut self) {
+        let highest = self.levels.len() - 1;
+        let vertices = self.levels[highest].vertices.len() as u32;
         // Vertices of the level below that are in the next one, and the vertex of the lowest level of each.
-        let all = (0..self.base().vertices.len() as u32).map(|vertex| (vertex, vertex));
-        let mut chosen: Vec<(u32, u32)> =
-            all.filter(|&(_, lowest)| self.base().is_vertex(lowest) && Self::top_of(lowest) > 0).collect();
+        let all = (0..vertices).filter(|&vertex| self.levels[highest].is_vertex(vertex));
+        let all = all.map(|vertex| (vertex, self.lowest(highest, vertex)));
+        let mut chosen: Vec<(u32, u32)> = all.filter(|&(_, lowest)| Self::top_of(lowest) > highest).collect();
         while !chosen.is_empty() {
             let below = &self.levels[self.levels.len() - 1];
             let points: Vec<P> = chosen.iter().map(|&(vertex, _)| below.vertices[vertex as usize].point).collect();
@@ -85,6 +87,11 @@ impl<P: PlanePoint> Triangulation<P> {
             let next = (0u32..).zip(&chosen).map(|(vertex, &(_, lowest))| (vertex, lowest));
             chosen = next.filter(|&(_, lowest)| Self::top_of(lowest) > top).collect();
         }
+    }
+
+    /// The vertex of the lowest level that has the place of a vertex of some level.
+    fn lowest(&self, number: usize, vertex: u32) -> u32 {
+        self.levels[1..=number].iter().rev().fold(vertex, |vertex, level| level.vertices[vertex as usize].name)
     }
 }
 

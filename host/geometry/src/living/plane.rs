@@ -34,6 +34,12 @@ impl Side {
         (self.0 & 3) as usize % 3
     }
 
+    /// The number of the side: four times that of the triangle, plus the slot.
+    #[inline(always)]
+    pub fn number(self) -> usize {
+        self.0 as usize
+    }
+
     /// The next side of the same triangle, counter-clockwise.
     #[inline(always)]
     pub fn next(self) -> Self {

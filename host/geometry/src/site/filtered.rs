@@ -6,7 +6,7 @@ use core::fmt::Debug;
 use bytemuck::Zeroable;
 
 use super::{Seen, Site};
-use crate::double::{acute_corners_of, incircle_of, is_within_of, nearer_of, orient2d_of, Coordinate};
+use crate::double::{cotangents_of, incircle_of, is_within_of, nearer_of, orient2d_of, Coordinate};
 use crate::double::{incircle_seen, orient2d_seen, SizedView};
 
 /// A point whose coordinates are finite and never minus zero.
@@ -71,8 +71,8 @@ impl<C: Coordinate + Debug> Site for FilteredSite<C> {
     }
 
     #[inline(always)]
-    fn acute_corners([a, b, c]: [Self; 3]) -> u8 {
-        acute_corners_of(a.0, b.0, c.0)
+    fn cotangents([a, b, c]: [Self; 3]) -> Option<[i16; 3]> {
+        cotangents_of(a.0, b.0, c.0)
     }
 
     #[inline(always)]

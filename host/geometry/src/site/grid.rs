@@ -4,7 +4,7 @@ use core::cmp::Ordering;
 
 use super::{Seen, Site};
 use crate::cpu::view::{view_of_32_bits, View, Wide, Widest, Width};
-use crate::double::is_within_of;
+use crate::double::{cotangents, is_within_of};
 use crate::point::Point;
 use crate::predicate;
 
@@ -68,17 +68,11 @@ impl Site for Point {
     }
 
     #[inline(always)]
-    fn acute_corners([a, b, c]: [Self; 3]) -> u8 {
+    fn cotangents([a, b, c]: [Self; 3]) -> Option<[i16; 3]> {
+        // Differences of 32 bits are exact.
         let minus =
-            |one: Self, other: Self| [i64::from(one.x) - i64::from(other.x), i64::from(one.y) - i64::from(other.y)];
-        let dot = |[x, y]: [i64; 2], [u, v]: [i64; 2]| x * u + y * v;
-        // Wider coordinates could overflow.
-        if !are_below_31_bits([a, b, c]) {
-            return 0;
-        }
-        let (ab, ac, bc) = (minus(b, a), minus(c, a), minus(c, b));
-        let [at_a, at_b, at_c] = [dot(ab, ac) > 0, dot(ab, bc) < 0, dot(ac, bc) > 0].map(u8::from);
-        at_a | at_b << 1 | at_c << 2
+            |one: Self, other: Self| [f64::from(one.x) - f64::from(other.x), f64::from(one.y) - f64::from(other.y)];
+        cotangents([minus(c, b), minus(a, c), minus(b, a)])
     }
 
     #[inline(always)]

@@ -2,6 +2,7 @@
 
 mod brute;
 mod changes;
+mod frames;
 mod reports;
 mod scripts;
 mod structure;

@@ -9,6 +9,8 @@ use crate::plane_point::PlanePoint;
 pub fn check<P: PlanePoint>(mesh: &Triangulation<P>) {
     for (number, level) in mesh.levels.iter().enumerate() {
         check_level(level);
+        let chosen = vertices(mesh.base()).into_iter().filter(|&vertex| Triangulation::<P>::top_of(vertex) >= number);
+        assert_eq!(level.count, chosen.count(), "level {number}");
         for vertex in vertices(level) {
             let name = level.vertices[vertex as usize].name;
             if number > 0 {
