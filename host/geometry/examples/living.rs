@@ -6,8 +6,8 @@
 //! ```
 //!
 //! Every operation runs in a random order and in the order of a Hilbert curve. The times are the smallest of the
-//! rounds, in nanoseconds an operation, and each is the median over blocks of 2,000 operations. The table has the kinds
-//! of coordinates side by side.
+//! rounds, in nanoseconds an operation, and each is the median over blocks of 2,000 operations. The last rows delete a
+//! vertex with many neighbours. The table has the kinds of coordinates side by side.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -22,6 +22,9 @@ const BITS: u32 = 31;
 
 /// Operations that are timed together.
 const BLOCK: usize = 2000;
+/// Neighbours of the hubs of wheels, and deletions of each hub, of which the quickest counts.
+const WHEELS: [u32; 5] = [64, 127, 128, 256, 8192];
+const TURNS: usize = 20;
 
 /// Nanoseconds an operation on each item: the median over blocks of items, which other work on the machine disturbs
 /// less than the sum.
@@ -84,6 +87,22 @@ fn measure<P: PlanePoint>(times: &mut Times, random: &mut SplitMix64, grid: &[Po
     }
 }
 
+/// Deletes the hub of a wheel, whose neighbours are all on a circle, and inserts it again.
+fn measure_wheels<P: PlanePoint>(times: &mut Times, to_point: fn(Point) -> P) {
+    const HUB: u32 = 1 << (BITS - 1);
+    let at = |value: f64| (f64::from(HUB) * (1.0 + 0.9 * value)) as u32;
+    for neighbors in WHEELS {
+        let angle = |k: u32| std::f64::consts::TAU * f64::from(k) / f64::from(neighbors);
+        let rim = (0..neighbors).map(|k| Point::new(at(angle(k).cos()), at(angle(k).sin())));
+        let mut mesh = Triangulation::from(rim.map(to_point)).expect("finite points");
+        for _ in 0..TURNS {
+            let hub = mesh.insert(to_point(Point::new(HUB, HUB))).expect("finite points");
+            let name = format!("delete a hub of {neighbors}");
+            times.note(&name, timed(1, || mesh.delete(hub)).0);
+        }
+    }
+}
+
 /// Moves all points by up to a part of the mean distance between neighbours on each axis, and triangulates the same
 /// places anew.
 fn measure_frames<P: PlanePoint>(
@@ -123,6 +142,8 @@ fn main() {
         measure(&mut integers, &mut random.clone(), &grid, |point| point);
         measure(&mut doubles, &mut random, &grid, |p| [f64::from(p.x) * 0.1, f64::from(p.y) * 0.1]);
     }
+    measure_wheels(&mut integers, |point| point);
+    measure_wheels(&mut doubles, |p| [f64::from(p.x) * 0.1, f64::from(p.y) * 0.1]);
     println!("{count} points, ns an operation          grid of {BITS} bits     doubles");
     for ((name, integer), (_, double)) in integers.0.iter().zip(&doubles.0) {
         println!("{name:36} {integer:12.0} {double:12.0}");
