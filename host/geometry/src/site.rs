@@ -6,7 +6,7 @@ use core::fmt::Debug;
 use bytemuck::Zeroable;
 
 use crate::cpu::view::{view_of_32_bits, View, Wide, Widest, Width};
-use crate::double::{cotangents, cotangents_of, incircle_of, is_within_of, nearer_of, orient2d_of, Coordinate};
+use crate::double::{cotangents, incircle_of, is_within_of, nearer_of, orient2d_of, Coordinate};
 use crate::double::{incircle_seen, orient2d_seen, SizedView};
 use crate::point::Point;
 use crate::predicate;
@@ -95,7 +95,13 @@ pub trait Site: Copy + Ord + Debug + Send + Sync + 'static {
     ///
     /// If the cotangents opposite an edge add up to [`LEAST_SUM`](crate::double::LEAST_SUM) or more, neither corner
     /// lies in or on the circle of the other triangle. If they add up to minus that or less, both lie inside.
-    fn cotangents(abc: [Self; 3]) -> Option<[i16; 3]>;
+    #[inline(always)]
+    fn cotangents([a, b, c]: [Self; 3]) -> Option<[i16; 3]> {
+        cotangents([Self::vector(b, c), Self::vector(c, a), Self::vector(a, b)])
+    }
+
+    /// The vector from one point to another. Each coordinate is the exact difference, rounded once.
+    fn vector(from: Self, to: Self) -> [f64; 2];
 
     /// Compares two points by their distance from `q`, and points at the same distance by x, then y.
     #[inline]
@@ -177,11 +183,9 @@ impl Site for Point {
     }
 
     #[inline(always)]
-    fn cotangents([a, b, c]: [Self; 3]) -> Option<[i16; 3]> {
+    fn vector(from: Self, to: Self) -> [f64; 2] {
         // Differences of 32 bits are exact.
-        let minus =
-            |one: Self, other: Self| [f64::from(one.x) - f64::from(other.x), f64::from(one.y) - f64::from(other.y)];
-        cotangents([minus(c, b), minus(a, c), minus(b, a)])
+        [f64::from(to.x) - f64::from(from.x), f64::from(to.y) - f64::from(from.y)]
     }
 
     #[inline(always)]
@@ -276,8 +280,8 @@ impl<C: Coordinate + Debug> Site for FilteredSite<C> {
     }
 
     #[inline(always)]
-    fn cotangents([a, b, c]: [Self; 3]) -> Option<[i16; 3]> {
-        cotangents_of(a.0, b.0, c.0)
+    fn vector(from: Self, to: Self) -> [f64; 2] {
+        [to.0[0].minus(from.0[0]), to.0[1].minus(from.0[1])]
     }
 
     #[inline(always)]
