@@ -6,6 +6,7 @@ mod grid;
 use core::cmp::Ordering;
 use core::fmt::Debug;
 
+use crate::double::cotangents;
 use crate::tie::is_inside_at_tie;
 
 pub use filtered::FilteredSite;
@@ -93,7 +94,13 @@ pub trait Site: Copy + Ord + Debug + Send + Sync + 'static {
     ///
     /// If the cotangents opposite an edge add up to [`LEAST_SUM`](crate::double::LEAST_SUM) or more, neither corner
     /// lies in or on the circle of the other triangle. If they add up to minus that or less, both lie inside.
-    fn cotangents(abc: [Self; 3]) -> Option<[i16; 3]>;
+    #[inline(always)]
+    fn cotangents([a, b, c]: [Self; 3]) -> Option<[i16; 3]> {
+        cotangents([Self::vector(b, c), Self::vector(c, a), Self::vector(a, b)])
+    }
+
+    /// The vector from one point to another. Each coordinate is the exact difference, rounded once.
+    fn vector(from: Self, to: Self) -> [f64; 2];
 
     /// Compares two points by their distance from `q`, and points at the same distance by x, then y.
     #[inline]

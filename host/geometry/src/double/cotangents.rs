@@ -14,7 +14,6 @@
 //! **Overflow** makes `l` infinite, and **underflow** is less than `2^-115` of an `l` of `2^-960` or more, as in the
 //! head of `double`. Outside that range a triangle has no cotangents.
 
-use super::coordinate::Coordinate;
 use super::LEAST_SIZE;
 
 /// A sum of two cotangents of this size or larger has the right sign.
@@ -28,15 +27,8 @@ const MOST_SLENDER: f64 = 128.0;
 const ROUNDING: f64 = 1.5 * (1u64 << 52) as f64;
 
 /// The cotangents of the angles of a triangle in multiples of 1/128, or `None` if it is slender, or may not be
-/// counter-clockwise.
-#[inline(always)]
-pub(crate) fn cotangents_of<C: Coordinate>(a: [C; 2], b: [C; 2], c: [C; 2]) -> Option<[i16; 3]> {
-    let minus = |one: [C; 2], other: [C; 2]| [one[0].minus(other[0]), one[1].minus(other[1])];
-    cotangents([minus(c, b), minus(a, c), minus(b, a)])
-}
-
-/// The same for the angles opposite three edges, which go once around a triangle. The coordinates of the edges are
-/// rounded differences of coordinates.
+/// counter-clockwise. The vectors are the edges opposite the three corners, which go once around the triangle. Their
+/// coordinates are rounded differences.
 #[inline(always)]
 pub(crate) fn cotangents([a, b, c]: [[f64; 2]; 3]) -> Option<[i16; 3]> {
     let square = |[x, y]: [f64; 2]| x * x + y * y;
@@ -50,17 +42,22 @@ pub(crate) fn cotangents([a, b, c]: [[f64; 2]; 3]) -> Option<[i16; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::double::{incircle, orient2d};
+    use crate::double::{incircle, orient2d, Coordinate};
     use incircle_testkit::SplitMix64;
+
+    fn cotangents_of<C: Coordinate>(a: [C; 2], b: [C; 2], c: [C; 2]) -> Option<[i16; 3]> {
+        let minus = |one: [C; 2], other: [C; 2]| [one[0].minus(other[0]), one[1].minus(other[1])];
+        cotangents([minus(c, b), minus(a, c), minus(b, a)])
+    }
 
     #[test]
     fn sums_beyond_the_bound_tell_the_side_of_the_circle() {
         let mut random = SplitMix64::new(25);
         let (mut sure, mut near) = (0, 0);
-        for round in 0..60_000 {
+        for round in 0..60_000i32 {
             // Four corners of a square that is turned and scaled, each moved by as little as one part in 2^16.
             let scale = 2f64.powi(random.below(1200) as i32 - 600);
-            let part = 2f64.powi(-((round % 17) as i32));
+            let part = 2f64.powi(-(round % 17));
             let [p, q] = [(); 2].map(|()| random.below(1 << 20) as f64 / 1048576.0 - 0.5);
             let [a, b, c, d] = [[p, q], [-q, p], [-p, -q], [q, -p]].map(|corner| {
                 corner.map(|value| scale * (1.0 + value + part * (random.below(1 << 20) as f64 / 1048576.0 - 0.5)))

@@ -22,13 +22,15 @@ mod bounds;
 mod coordinate;
 mod cotangents;
 mod exact;
+mod inverse;
 mod view;
 
 use core::cmp::Ordering;
 
 pub(crate) use bounds::Bounds;
 pub(crate) use coordinate::Coordinate;
-pub(crate) use cotangents::{cotangents, cotangents_of, LEAST_SUM, MOST};
+pub(crate) use cotangents::{cotangents, LEAST_SUM, MOST};
+pub(crate) use inverse::{height, HEIGHT_BOUND};
 pub(crate) use view::View;
 use view::{sign, UNIT};
 

@@ -34,7 +34,8 @@
 //! [`hull`]: Triangulation::hull
 //!
 //! **How it works, file by file.** `level` holds the vertices of a mesh and `plane` its triangles and ghost triangles;
-//! points on one line are a state without triangles (`line`). `walk` finds a place. `cavity` adds a vertex, `hole` and
+//! points on one line are a state without triangles (`line`). `walk` finds a place, and
+//! `climb` the nearest vertex. `cavity` adds a vertex, `hole` and
 //! `large_hole` remove one, `flips` moves one, and `sweep` moves all. `triangulation` is a Delaunay hierarchy of such
 //! levels, in which about one vertex in 32 is also in the level above, chosen by a hash of its number. `names` keeps
 //! which vertex has the point of an index. `load` and `link` take the mesh of the CPU triangulator over, and `answer`
@@ -43,6 +44,7 @@
 mod answer;
 mod cavity;
 mod change;
+mod climb;
 mod error;
 mod flips;
 mod frame;

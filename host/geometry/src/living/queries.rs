@@ -1,6 +1,6 @@
 //! Questions about places.
 
-use super::plane::INFINITE;
+use super::plane::{Side, INFINITE};
 use super::triangulation::Triangulation;
 use super::walk::Place;
 use crate::mesh::smallest_first;
@@ -82,8 +82,14 @@ impl<P: PlanePoint> Triangulation<P> {
         if !q.is_finite() {
             return None;
         }
-        let place = self.find(q);
-        let near = self.base().vertex_near(q, place)?;
-        Some(self.base().nearest(q, near))
+        let (place, near) = self.find_with_vertex(q);
+        let (base, near) = (self.base(), near?);
+        let start = match place {
+            Place::Vertex(_) => return Some(near),
+            Place::Triangle(triangle) => Side::new(triangle, base.plane.get(triangle).slot_of(near)),
+            _ if base.is_plane() => base.side_opposite(near),
+            _ => return Some(base.nearest(q, near)),
+        };
+        base.climb(q, start).or_else(|| Some(base.nearest(q, near)))
     }
 }

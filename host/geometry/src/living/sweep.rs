@@ -22,8 +22,8 @@ use crate::pages;
 use crate::plane_point::PlanePoint;
 use crate::site::Site;
 
-/// Stands for the cotangents of a triangle that has no edges to decide: one that has not been looked at, a free triangle
-/// or a ghost triangle. Its sum with any cotangent is large.
+/// Stands for the cotangents of a triangle that has no edges to decide: a triangle that has not been looked at, a free
+/// triangle or a ghost triangle. Its sum with any cotangent is large.
 const NO_CORNER: i16 = i16::MAX;
 /// Stands for a cotangent that is not known. Its sum with a cotangent is smaller than that of any two cotangents, and
 /// with `NO_CORNER` it is -1, so exact predicates decide.

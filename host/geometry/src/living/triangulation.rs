@@ -156,14 +156,21 @@ impl<P: PlanePoint> Triangulation<P> {
     /// Finds a place in the lowest level, and notes a vertex near it for the next call.
     #[inline]
     pub(super) fn find(&self, q: P::Site) -> Place {
+        self.find_with_vertex(q).0
+    }
+
+    /// What a place is in the lowest level, and a vertex near it, which is noted for the next call.
+    #[inline]
+    pub(super) fn find_with_vertex(&self, q: P::Site) -> (Place, Option<u32>) {
         let (base, hint) = (self.base(), self.hint.get());
         let place = if self.is_near(q, hint) { base.find(q, Some(hint)) } else { self.find_at(0, q) };
-        if let Some(vertex) = base.vertex_near(q, place) {
+        let near = base.vertex_near(q, place);
+        if let Some(vertex) = near {
             if vertex != hint {
                 self.hint.set(vertex);
             }
         }
-        place
+        (place, near)
     }
 
     /// Whether a walk from the vertex is expected to be short.

@@ -6,7 +6,7 @@ use core::fmt::Debug;
 use bytemuck::Zeroable;
 
 use super::{Seen, Site};
-use crate::double::{cotangents_of, incircle_of, is_within_of, nearer_of, orient2d_of, Coordinate};
+use crate::double::{incircle_of, is_within_of, nearer_of, orient2d_of, Coordinate};
 use crate::double::{incircle_seen, orient2d_seen, SizedView};
 
 /// A point whose coordinates are finite and never minus zero.
@@ -71,8 +71,8 @@ impl<C: Coordinate + Debug> Site for FilteredSite<C> {
     }
 
     #[inline(always)]
-    fn cotangents([a, b, c]: [Self; 3]) -> Option<[i16; 3]> {
-        cotangents_of(a.0, b.0, c.0)
+    fn vector(from: Self, to: Self) -> [f64; 2] {
+        [to.0[0].minus(from.0[0]), to.0[1].minus(from.0[1])]
     }
 
     #[inline(always)]

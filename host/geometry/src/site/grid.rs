@@ -4,7 +4,7 @@ use core::cmp::Ordering;
 
 use super::{Seen, Site};
 use crate::cpu::view::{view_of_32_bits, View, Wide, Widest, Width};
-use crate::double::{cotangents, is_within_of};
+use crate::double::is_within_of;
 use crate::point::Point;
 use crate::predicate;
 
@@ -68,11 +68,9 @@ impl Site for Point {
     }
 
     #[inline(always)]
-    fn cotangents([a, b, c]: [Self; 3]) -> Option<[i16; 3]> {
+    fn vector(from: Self, to: Self) -> [f64; 2] {
         // Differences of 32 bits are exact.
-        let minus =
-            |one: Self, other: Self| [f64::from(one.x) - f64::from(other.x), f64::from(one.y) - f64::from(other.y)];
-        cotangents([minus(c, b), minus(a, c), minus(b, a)])
+        [f64::from(to.x) - f64::from(from.x), f64::from(to.y) - f64::from(from.y)]
     }
 
     #[inline(always)]
