@@ -167,9 +167,9 @@ impl Joined {
         let memory = memory / 2;
         let mut sources = vec![Source::Memory(in_memory.into_iter())];
         sources.extend(runs.into_iter().map(Source::Run));
-        let tiles = (0..manifest.tiles().count() as u32).map(|tile| {
+        let tiles = (0..manifest.tiles().count() as u32).map(|tile| -> Result<Source, Failure> {
             let owner = Owner { run: manifest.run, tile };
-            TileFile::open(folder, owner, manifest.points())?.into_finals().map(Source::Tile)
+            Ok(Source::Tile(Box::new(TileFile::open(folder, owner, manifest.points())?.into_finals())))
         });
         match order {
             Order::Canonical => {

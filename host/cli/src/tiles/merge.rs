@@ -24,7 +24,7 @@ pub enum Source {
     /// A run of the joins.
     Run(Run),
     /// The final triangles of a tile.
-    Tile(Finals),
+    Tile(Box<Finals>),
 }
 
 impl Source {

@@ -1,8 +1,8 @@
-//! A file of tiles that is open for reading: lists of whole numbers, and the check sum of all of them.
+//! A file of tiles that is being read: lists of whole numbers, and the check sum of all of them.
 
 use std::fs::File;
-use std::io::{self, BufReader, Read};
-use std::path::Path;
+use std::io::{self, BufReader, Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
 
 use crc32fast::Hasher;
 
@@ -30,7 +30,10 @@ pub type BytesOf = fn(&[u64; 5]) -> Option<u64>;
 pub struct Opened {
     /// The head.
     pub head: Head,
-    source: BufReader<File>,
+    path: PathBuf,
+    /// The open file; `None` while it is closed.
+    source: Option<BufReader<File>>,
+    length: u64,
     check: Hasher,
     /// Bytes that were not read yet.
     left: u64,
@@ -61,7 +64,8 @@ impl Opened {
         source.read_exact(&mut bytes).map_err(|error| ended(&error))?;
         let head = Head::of_bytes(&bytes, kind)?;
         let left = length.saturating_sub(HEAD_BYTES as u64);
-        Ok(Self { head, source, check: Hasher::new(), left, name: name.to_owned() })
+        let (path, source, name) = (path.to_owned(), Some(source), name.to_owned());
+        Ok(Self { head, path, source, length, check: Hasher::new(), left, name })
     }
 
     fn check_owner(&self, owner: Option<Owner>) -> Result<(), Failure> {
@@ -87,9 +91,28 @@ impl Opened {
         self.left
     }
 
+    /// Closes the file until more of it is read. There may be more tiles than a process may have open files.
+    pub fn close(&mut self) {
+        self.source = None;
+    }
+
+    /// The file, at the first byte that was not read yet.
+    fn source(&mut self) -> io::Result<&mut BufReader<File>> {
+        match &mut self.source {
+            Some(source) => Ok(source),
+            closed => {
+                let mut file = File::open(&self.path)?;
+                file.seek(SeekFrom::Start(self.length - self.left))?;
+                // Whoever closes a file reads large pieces, which need no buffer.
+                Ok(closed.insert(BufReader::with_capacity(0, file)))
+            }
+        }
+    }
+
     /// Fills the bytes.
     pub fn fill(&mut self, bytes: &mut [u8]) -> Result<(), Failure> {
-        self.source.read_exact(bytes).map_err(|error| ended(&error).in_file(&self.name))?;
+        let read = self.source().and_then(|source| source.read_exact(bytes));
+        read.map_err(|error| ended(&error).in_file(&self.name))?;
         self.check.update(bytes);
         self.left = self.left.saturating_sub(bytes.len() as u64);
         Ok(())
@@ -101,7 +124,7 @@ impl Opened {
         count: u64,
         mut take: impl FnMut([u32; N]) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
-        let rows_of_piece = PIECE / (4 * N);
+        let rows_of_piece = usize::try_from(count).unwrap_or(usize::MAX).min(PIECE / (4 * N));
         let mut piece = vec![0; rows_of_piece * 4 * N];
         let mut left = count;
         while left > 0 {
@@ -133,12 +156,10 @@ impl Opened {
         Ok(list)
     }
 
-    /// Passes over bytes without checking them, before anything else is read.
-    pub fn skip(&mut self, bytes: u64) -> Result<(), Failure> {
-        let step = i64::try_from(bytes).unwrap_or(i64::MAX);
-        self.source.seek_relative(step).map_err(|error| unreadable(&error).in_file(&self.name))?;
+    /// Passes over bytes without checking them, before anything else is read, and closes the file.
+    pub fn skip(&mut self, bytes: u64) {
+        self.close();
         self.left = self.left.saturating_sub(bytes);
-        Ok(())
     }
 
     /// Compares the check sum of the head with that of all bytes that were read. Until then none of them is certain.

@@ -105,10 +105,10 @@ impl TileFile {
     }
 
     /// The final triangles, for a file of which nothing was read.
-    pub fn into_finals(mut self) -> Result<Finals, Failure> {
+    pub fn into_finals(mut self) -> Finals {
         let left = self.finals();
-        self.opened.skip(self.opened.left() - left * 12 - SUM_BYTES)?;
-        Ok(Finals { file: self, left, last: None })
+        self.opened.skip(self.opened.left() - left * 12 - SUM_BYTES);
+        Finals { file: self, left, last: None }
     }
 
     /// Reads what follows the result, and checks it.
@@ -133,8 +133,8 @@ impl TileFile {
     }
 }
 
-/// The final triangles of a tile, in canonical order, which are read some at a time. They are certain once
-/// [`end`](Self::end) has checked them.
+/// The final triangles of a tile, in canonical order, which are read some at a time. Between two reads the file is
+/// closed. The triangles are certain once [`end`](Self::end) has checked them.
 pub struct Finals {
     file: TileFile,
     /// Triangles that were not read yet.
@@ -155,6 +155,7 @@ impl Finals {
             list.push(row);
             Ok(())
         })?;
+        self.file.opened.close();
         self.left -= count;
         let read = &list[first..];
         self.file.check_index(read.iter().flatten().copied().max())?;

@@ -1,7 +1,7 @@
 //! Triangles that come in any order, kept in sorted runs: one in memory, the others in files.
 
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, BufReader, Read, Write};
+use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -45,10 +45,15 @@ impl Runs {
     }
 }
 
-/// A sorted run in a file. Dropping the value removes the file.
+/// The number of triangles that are read at a time.
+const PIECE: usize = 1 << 12;
+
+/// A sorted run in a file, which is open only while it is read: there may be more runs than a process may have open
+/// files. Dropping the value removes the file.
 pub struct Run {
     path: PathBuf,
-    source: Option<BufReader<File>>,
+    /// The triangles that were read.
+    done: u64,
     left: u64,
 }
 
@@ -63,7 +68,7 @@ impl Run {
         unfinished.push(path.clone());
         drop(unfinished);
         // The value exists before the file is written, so that a failure removes the file.
-        let run = Self { path, source: None, left: triangles.len() as u64 };
+        let run = Self { path, done: 0, left: triangles.len() as u64 };
         write_rows(triangles, &mut file)
             .and_then(|()| file.flush())
             .map_err(|error| failed(&run.path, "written", &error))?;
@@ -77,19 +82,25 @@ impl Run {
 
     /// Adds up to `most` triangles to a list.
     pub fn read(&mut self, list: &mut Vec<[u32; 3]>, most: usize) -> Result<(), Failure> {
-        let failed = |error: io::Error| failed(&self.path, "read", &error);
-        let source = match &mut self.source {
-            Some(source) => source,
-            closed => closed.insert(BufReader::with_capacity(1 << 16, File::open(&self.path).map_err(failed)?)),
-        };
         let count = self.left.min(most as u64);
-        for _ in 0..count {
-            let mut bytes = [0; 12];
-            source.read_exact(&mut bytes).map_err(failed)?;
-            let words = bytes.as_chunks::<4>().0;
-            list.push([0, 1, 2].map(|place| u32::from_le_bytes(words[place])));
-        }
+        self.read_rows(list, count).map_err(|error| failed(&self.path, "read", &error))?;
+        self.done += count;
         self.left -= count;
+        Ok(())
+    }
+
+    fn read_rows(&self, list: &mut Vec<[u32; 3]>, count: u64) -> io::Result<()> {
+        let mut file = File::open(&self.path)?;
+        file.seek(SeekFrom::Start(self.done * 12))?;
+        let mut left = usize::try_from(count).unwrap_or(usize::MAX);
+        let mut piece = vec![0; left.min(PIECE) * 12];
+        while left > 0 {
+            let bytes = &mut piece[..left.min(PIECE) * 12];
+            file.read_exact(bytes)?;
+            let words = bytes.as_chunks::<4>().0.as_chunks::<3>().0;
+            list.extend(words.iter().map(|row| row.map(u32::from_le_bytes)));
+            left -= words.len();
+        }
         Ok(())
     }
 }

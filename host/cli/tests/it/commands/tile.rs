@@ -184,3 +184,24 @@ fn any_back_end_does_a_tile() {
     scratch.run("tile split p.npy --points 3000 -o whole -q").ok();
     scratch.run("tile local whole/0 --backend clock").fails(3, &["whole/0", "20 bits", "16", "--backend cpu"]);
 }
+
+/// Most systems let a process have 256 or 1,024 open files, which is less than a large set has tiles.
+#[cfg(unix)]
+#[test]
+fn more_tiles_than_files_that_may_be_open_are_joined() {
+    let scratch = Scratch::new();
+    // The triangles of the circle come from the joins, and lie in runs in files.
+    for (set, points, most) in [("uniform", 4_000, 80), ("circle", 40_000, 1_500)] {
+        scratch.run(&format!("generate {set} -n {points} --bits 24 -o p.npy")).ok();
+        let count = split_and_solve(&scratch, "p.npy", most, "t");
+        assert!(count > 24, "{count} tiles");
+        for order in ["", " --unordered"] {
+            let program = env!("CARGO_BIN_EXE_incircle");
+            let line = format!("ulimit -n 24 && exec '{program}' tile join t -o m.npy --memory 64K -q{order}");
+            let run = std::process::Command::new("sh").args(["-c", &line]).current_dir(scratch.path("")).output();
+            crate::common::Run::of(run.expect("the shell starts")).ok();
+            scratch.run(&format!("verify p.npy m.npy -q{order}")).ok();
+        }
+        std::fs::remove_dir_all(scratch.path("t")).expect("the folder is there");
+    }
+}
