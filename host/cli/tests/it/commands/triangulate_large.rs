@@ -39,6 +39,19 @@ fn a_large_set_takes_the_memory_that_it_is_given() {
     }
 }
 
+/// With these numbers the tiles are nearly as large as they may be, and each of two threads does several.
+#[cfg(target_os = "linux")]
+#[test]
+fn tiles_of_the_largest_size_take_the_memory_that_they_are_given() {
+    let scratch = Scratch::new();
+    for points in [2_130_000, 2_800_000] {
+        scratch.run(&format!("generate uniform -n {points} --bits 31 -o p.npy")).ok();
+        let run = scratch.run("triangulate p.npy -o m.npy --memory 64M --threads 2 --json").ok();
+        let report: serde_json::Value = serde_json::from_str(&run.stdout).expect("an object");
+        assert!(report["peak_memory"].as_u64() < Some((64 << 20) * 105 / 100), "{report}");
+    }
+}
+
 #[test]
 fn unordered_triangles_are_those_of_the_mesh() {
     let scratch = large();
