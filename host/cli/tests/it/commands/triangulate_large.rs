@@ -188,6 +188,22 @@ fn a_mesh_on_standard_output_needs_a_scratch_folder() {
     assert_eq!(scratch.files(), ["p.csv"]);
 }
 
+/// Only the files of the run are removed, also from a folder behind a link.
+#[cfg(unix)]
+#[test]
+fn files_of_others_stay_in_the_folder_of_the_tiles() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", "0,0\n9,0\n0,9\n9,9\n");
+    std::fs::create_dir(scratch.path("mine")).expect("a folder can be made");
+    std::os::unix::fs::symlink("mine", scratch.path(".m.npy.tiles")).expect("a link can be made");
+    let others = ["a.points", "letter.txt", ".hidden"];
+    others.iter().for_each(|name| drop(scratch.write(&format!("mine/{name}"), "mine")));
+    scratch.run("triangulate p.csv -o m.npy --memory 32M -q").ok();
+    let left = std::fs::read_dir(scratch.path("mine")).expect("it is there").count();
+    assert_eq!(left, others.len());
+    assert!(others.iter().all(|name| scratch.read(&format!("mine/{name}")) == "mine"));
+}
+
 /// Another process that works in the folder is told, and not disturbed.
 #[test]
 fn two_runs_do_not_share_a_folder() {
@@ -197,6 +213,10 @@ fn two_runs_do_not_share_a_folder() {
     let lock = std::fs::File::create(scratch.path(".m.npy.tiles/lock")).expect("a file");
     lock.lock().expect("nobody else has it");
     scratch.run("triangulate p.csv -o m.npy --memory 32M").fails(3, &["another process works in"]);
+    // Its tiles are no ones to go on with or to remove, either.
+    scratch.write(".m.npy.tiles/manifest", "of a run");
+    scratch.run("triangulate p.csv -o m.npy --memory 32M").fails(3, &["another process works in"]);
+    std::fs::remove_file(scratch.path(".m.npy.tiles/manifest")).expect("it is there");
     assert!(scratch.path(".m.npy.tiles/lock").exists());
     drop(lock);
     let run: Run = scratch.run("triangulate p.csv -o m.npy --memory 32M -q").ok();
