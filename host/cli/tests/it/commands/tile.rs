@@ -205,3 +205,17 @@ fn more_tiles_than_files_that_may_be_open_are_joined() {
         std::fs::remove_dir_all(scratch.path("t")).expect("the folder is there");
     }
 }
+
+#[test]
+fn a_mesh_replaces_neither_tiles_nor_points() {
+    let scratch = Scratch::new();
+    scratch.run("generate uniform -n 50 -o p.npy").ok();
+    split_and_solve(&scratch, "p.npy", 20, "t");
+    for file in ["p.npy", "t/0.local", "t/0.points", "t/manifest"] {
+        let before = scratch.bytes(file);
+        scratch.run(&format!("tile join t -o {file} --format npy")).fails(2, &[file, "choose another output"]);
+        assert!(scratch.bytes(file) == before, "{file}");
+    }
+    scratch.run("tile split p.npy --points 20 -o -").fails(2, &["give -o a folder"]);
+    assert_eq!(scratch.files(), ["p.npy", "t"]);
+}

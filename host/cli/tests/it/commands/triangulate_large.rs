@@ -173,6 +173,12 @@ fn what_cannot_be_done_in_tiles_is_refused() {
     refused("-o m.npy --unordered --scratch gone", 3, &["gone cannot be used"]);
     refused("-o m.npy --scratch p.csv", 3, &["p.csv is no folder"]);
     refused("-o - --format csv --memory 32M", 2, &["--scratch"]);
+    refused("-o gone/ --format npy --memory 32M", 3, &["gone/ cannot be written", "a folder"]);
+    refused("-o gone/. --format npy", 3, &["gone/. cannot be written", "a folder"]);
+    // A back end that cannot do the work ends the run before the set is cut.
+    refused("-o m.npy --memory 32M --backend model --contexts 3", 2, &["3 contexts"]);
+    refused("-o m.npy --memory 32M --backend clock?config=quad --contexts 40", 2, &["40 contexts", "choose fewer"]);
+    refused("-o m.npy --memory 32M --backend serial:/dev/gone", 4, &["/dev/gone"]);
 
     scratch.write("d.csv", "0,0\n0.1,1e-300\n3,1e300\n");
     scratch.run("triangulate d.csv -o m.npy --memory 32M").fails(3, &["lattice"]);
@@ -185,6 +191,18 @@ fn a_mesh_on_standard_output_needs_a_scratch_folder() {
     scratch.write("p.csv", "0,0\n9,0\n0,9\n9,9\n");
     let run = scratch.run("triangulate p.csv -o - --format csv --memory 32M --scratch . -q").ok();
     assert_eq!(run.stdout, "0,1,3\n0,3,2\n");
+    assert_eq!(scratch.files(), ["p.csv"]);
+}
+
+/// Tiles do not lie beside a device, where no folder belongs.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_mesh_on_a_device_needs_a_scratch_folder() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", "0,0\n9,0\n0,9\n9,9\n");
+    let command = "triangulate p.csv -o /dev/null --format csv --memory 32M -q";
+    scratch.run(command).fails(2, &["/dev/null is no file", "give --scratch"]);
+    scratch.run(&format!("{command} --scratch .")).ok();
     assert_eq!(scratch.files(), ["p.csv"]);
 }
 
