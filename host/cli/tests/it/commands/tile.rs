@@ -2,6 +2,7 @@
 
 mod damage;
 mod formats;
+mod many;
 
 use crate::common::Scratch;
 use incircle_cli::generate::Distribution;
