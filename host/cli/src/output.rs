@@ -13,6 +13,9 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::path::{self, is_standard, Compression};
 
+/// The most working names that are tried for an output.
+const TRIES: u32 = 100;
+
 /// The destination of an output.
 #[derive(Debug)]
 enum Target {
@@ -20,6 +23,37 @@ enum Target {
     /// A device or a pipe, which a rename would replace.
     Special(PathBuf),
     Ordinary(PathBuf),
+}
+
+impl Target {
+    /// The destination that a path names. The name is for messages.
+    fn of(path: &Path, name: &str) -> Result<Self, Failure> {
+        match fs::metadata(path) {
+            Ok(found) if found.is_dir() => Err(Failure::input(format!("{name} cannot be written: it is a folder"))),
+            Ok(found) if found.is_file() => {
+                let writable = OpenOptions::new().write(true).open(path);
+                writable.map_err(|error| cannot_write(name, &error))?;
+                // The path behind links is used, so that the rename replaces the file and not the link.
+                path.canonicalize().map(Self::Ordinary).map_err(|error| cannot_write(name, &error))
+            }
+            Ok(_) => Ok(Self::Special(path.to_owned())),
+            Err(error) if error.kind() == ErrorKind::NotFound => {
+                if fs::symlink_metadata(path).is_ok() {
+                    return Err(Failure::input(format!(
+                        "{name} cannot be written: it is a link to a file that does not exist"
+                    )));
+                }
+                if !names_a_file(path) {
+                    return Err(Failure::input(format!(
+                        "{name} cannot be written: the name is one of a folder, which does not exist"
+                    )));
+                }
+                fs::metadata(folder_of(path)).map_err(|error| cannot_write(name, &error))?;
+                Ok(Self::Ordinary(path.to_owned()))
+            }
+            Err(error) => Err(cannot_write(name, &error)),
+        }
+    }
 }
 
 /// An output that has been checked but not yet written.
@@ -41,8 +75,8 @@ pub struct Written {
 }
 
 impl Output {
-    /// Checks an output before the work: the output must be none of the inputs, its folder must exist, and an existing
-    /// file must be writable.
+    /// Checks an output before the work: the output must be none of the inputs, its folder must exist and take new
+    /// files, and an existing file must be writable.
     pub fn prepare(path: &Path, inputs: &[PathBuf]) -> Result<Self, Failure> {
         if is_standard(path) {
             return Ok(Self {
@@ -55,28 +89,10 @@ impl Output {
         if inputs.iter().any(|input| is_same(input, path)) {
             return Err(Failure::usage(format!("{name} is both the input and the output: choose another output")));
         }
-        let target = match fs::metadata(path) {
-            Ok(found) if found.is_dir() => {
-                return Err(Failure::input(format!("{name} cannot be written: it is a folder")));
-            }
-            Ok(found) if found.is_file() => {
-                let writable = OpenOptions::new().write(true).open(path);
-                writable.map_err(|error| cannot_write(&name, &error))?;
-                // The path behind links is used, so that the rename replaces the file and not the link.
-                Target::Ordinary(path.canonicalize().map_err(|error| cannot_write(&name, &error))?)
-            }
-            Ok(_) => Target::Special(path.to_owned()),
-            Err(error) if error.kind() == ErrorKind::NotFound => {
-                if fs::symlink_metadata(path).is_ok() {
-                    return Err(Failure::input(format!(
-                        "{name} cannot be written: it is a link to a file that does not exist"
-                    )));
-                }
-                fs::metadata(folder_of(path)).map_err(|error| cannot_write(&name, &error))?;
-                Target::Ordinary(path.to_owned())
-            }
-            Err(error) => return Err(cannot_write(&name, &error)),
-        };
+        let target = Target::of(path, &name)?;
+        if let Target::Ordinary(path) = &target {
+            check_folder(path).map_err(|error| cannot_write(&name, &error))?;
+        }
         Ok(Self { target, compression: Compression::of(path), name })
     }
 
@@ -118,8 +134,7 @@ impl Output {
                 opened.and_then(|file| ignore_closed(fill(file, compression, content))).map(|()| done(None))
             }
             Target::Ordinary(path) => {
-                let part = part_beside(&path);
-                begin(&part).and_then(|file| {
+                begin(&path).and_then(|(file, part)| {
                     // `written` exists before the content is written, so any later failure removes the part.
                     let written = done(Some((part, path)));
                     fill(file, compression, content).map(|()| written)
@@ -209,11 +224,36 @@ pub fn note(line: &str) {
     let _ = writeln!(io::stderr(), "{line}");
 }
 
-fn begin(part: &Path) -> io::Result<File> {
+/// Makes the working file of an output, and removes it again. No interrupt comes between.
+fn check_folder(path: &Path) -> io::Result<()> {
+    let _unfinished = interrupt::unfinished();
+    let (_, part) = create_part(path)?;
+    fs::remove_file(part)
+}
+
+/// Makes the working file of an output, which an interrupt removes.
+fn begin(path: &Path) -> io::Result<(File, PathBuf)> {
     let mut unfinished = interrupt::unfinished();
-    let file = OpenOptions::new().write(true).create_new(true).open(part)?;
-    unfinished.push(part.to_owned());
-    Ok(file)
+    let (file, part) = create_part(path)?;
+    unfinished.push(part.clone());
+    Ok((file, part))
+}
+
+/// Makes a file beside an output: hidden, and in the same folder, so that the rename stays on one disk. The process id
+/// keeps runs apart. In a container a killed process may have had the same id, and left its file: then the name gets a
+/// number.
+fn create_part(path: &Path) -> io::Result<(File, PathBuf)> {
+    let process = std::process::id();
+    let others = (1..TRIES).map(|number| part_named(path, &format!("{process}.{number}")));
+    let mut last = io::Error::from(ErrorKind::AlreadyExists);
+    for part in std::iter::once(part_of_process(path, process)).chain(others) {
+        match OpenOptions::new().write(true).create_new(true).open(&part) {
+            Ok(file) => return Ok((file, part)),
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => last = error,
+            Err(error) => return Err(error),
+        }
+    }
+    Err(last)
 }
 
 /// Writes the content into a file, packed by `compression`.
@@ -251,6 +291,12 @@ fn cannot_write(name: &str, error: &io::Error) -> Failure {
     Failure::input(format!("{name} cannot be written: {error}"))
 }
 
+/// Whether a path ends in the name of a file, and not in `/`, `.` or `..`.
+fn names_a_file(path: &Path) -> bool {
+    let whole = path.as_os_str().as_encoded_bytes();
+    path.file_name().is_some_and(|name| whole.ends_with(name.as_encoded_bytes()))
+}
+
 /// The folder of a file.
 pub fn folder_of(path: &Path) -> &Path {
     match path.parent() {
@@ -259,16 +305,15 @@ pub fn folder_of(path: &Path) -> &Path {
     }
 }
 
-/// The working name of a file: hidden, and in the same folder, so that the rename stays on one disk. The process
-/// id keeps runs apart.
-fn part_beside(path: &Path) -> PathBuf {
-    part_of_process(path, std::process::id())
+/// The working name that a process chooses first for an output.
+fn part_of_process(path: &Path, process: u32) -> PathBuf {
+    part_named(path, &process.to_string())
 }
 
-fn part_of_process(path: &Path, process: u32) -> PathBuf {
+fn part_named(path: &Path, run: &str) -> PathBuf {
     let mut name = std::ffi::OsString::from(".");
     name.push(path.file_name().unwrap_or_default());
-    name.push(format!(".{process}.part"));
+    name.push(format!(".{run}.part"));
     folder_of(path).join(name)
 }
 

@@ -1,8 +1,9 @@
 //! `incircle tile`: a set in tiles over files. The work is in [`crate::tiles`].
 
 use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
 
-use incircle::{Mesh, Point};
+use incircle::{Mesh, Options, Point};
 use serde_json::json;
 
 use crate::arguments::{JobArguments, JoinArguments, LocalArguments, SplitArguments, TileArguments, TileCommand};
@@ -24,6 +25,9 @@ pub fn run(arguments: &TileArguments) -> Result<(), Failure> {
 }
 
 fn split(arguments: &SplitArguments) -> Result<(), Failure> {
+    if path::is_standard(&arguments.output) {
+        return Err(Failure::usage("tiles are files, which do not go to standard output: give -o a folder"));
+    }
     let budget = Budget::of_tiles(NonZeroUsize::new(arguments.points as usize).unwrap_or(NonZeroUsize::MIN));
     let plan = Plan {
         inputs: &arguments.inputs,
@@ -80,6 +84,20 @@ fn local(arguments: &LocalArguments) -> Result<(), Failure> {
     })
 }
 
+/// Does a job of three points, so that a back end that is absent or cannot do what is asked ends the run before the set
+/// is read.
+pub fn check_backend(choice: &Choice, job: &JobArguments) -> Result<(), Failure> {
+    let points = [[0, 0], [1, 0], [0, 1]].map(|[x, y]| Point::new(x, y));
+    let mut backend = backend::open_with_room(choice, None, None, job.timeout)?;
+    backend.check_job(job)?;
+    let solution = interrupt::working(|| {
+        let mut session = backend.device.session()?;
+        session.triangulate_with(&points, &Options::default().timeout(job.timeout).contexts(job.contexts))
+    });
+    interrupt::check()?;
+    solution.map(drop).map_err(|error| failure_of(&error))
+}
+
 /// Triangulates the points of a tile, which need so many bits, with the back end.
 pub fn triangulate_tile(
     points: &[Point],
@@ -134,7 +152,8 @@ fn tell_local(at: &TileAt, outcome: &Outcome, arguments: &LocalArguments) -> Res
 
 fn join(arguments: &JoinArguments) -> Result<(), Failure> {
     let format = source::mesh_format(&arguments.output, arguments.format)?;
-    let output = Output::prepare(&arguments.output, &[])?;
+    let manifest = Manifest::read(&arguments.folder)?;
+    let output = Output::prepare(&arguments.output, &files_of(&arguments.folder, &manifest))?;
     if arguments.json && output.is_standard() {
         return Err(Failure::usage(
             "the mesh and the report of --json cannot both go to standard output: give -o a file",
@@ -143,7 +162,6 @@ fn join(arguments: &JoinArguments) -> Result<(), Failure> {
     if arguments.unordered && !tiles::is_streamed(format) {
         return Err(Failure::usage("--unordered is for npy, csv and ele only: leave it out, or choose one of them"));
     }
-    let manifest = Manifest::read(&arguments.folder)?;
     let order = if arguments.unordered { Order::Unordered } else { Order::Canonical };
     let (folder, keeps_pairs) = (&arguments.folder, !tiles::is_streamed(format));
     let joined = tiles::join(folder, &manifest, arguments.memory, keeps_pairs, arguments.quiet)?;
@@ -154,6 +172,14 @@ fn join(arguments: &JoinArguments) -> Result<(), Failure> {
         write_whole(joined, &manifest, format, output, arguments)?
     };
     output::finish([written], || tell_join(counts, manifest.tiles().count(), arguments))
+}
+
+/// The files that a mesh must not replace: those of the tiles, and those of the points.
+fn files_of(folder: &Path, manifest: &Manifest) -> Vec<PathBuf> {
+    let tiles = 0..manifest.tiles().count() as u32;
+    let own = tiles.flat_map(|tile| [tiles::points_path(folder, tile), tiles::local_path(folder, tile)]);
+    let inputs = manifest.inputs.iter().map(|input| input.path.clone());
+    own.chain(inputs).chain([tiles::manifest_path(folder)]).collect()
 }
 
 /// Writes a mesh with its points, which are read again.

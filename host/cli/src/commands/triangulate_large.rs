@@ -1,5 +1,6 @@
 //! `incircle triangulate` for a set that is larger than the memory: in tiles over files, in one process.
 
+use std::fs;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -10,7 +11,7 @@ use serde_json::json;
 
 use crate::arguments::TriangulateArguments;
 use crate::backend::Choice;
-use crate::commands::tile::triangulate_tile;
+use crate::commands::tile::{check_backend, triangulate_tile};
 use crate::failure::{counted, Exit, Failure};
 use crate::formats::{npy, MeshFormat, PointFormat};
 use crate::input::Input;
@@ -70,6 +71,7 @@ pub fn run(arguments: &TriangulateArguments, memory: u64) -> Result<(), Failure>
             "the mesh and the report of --json cannot both go to standard output: give -o a file",
         ));
     }
+    check_backend(&choice, &arguments.job)?;
     let scratch = Scratch::open(&parent, &arguments.output, arguments.large.resume)?;
     let budget = budget_of(memory, choice.cpu_threads(), &scratch)?;
     let threads = choice.cpu_threads().get().div_ceil(budget.workers.get());
@@ -127,9 +129,15 @@ fn scratch_parent(arguments: &TriangulateArguments) -> Result<PathBuf, Failure> 
         None if path::is_standard(&arguments.output) => {
             return Err(Failure::usage("a mesh on standard output has no folder: give --scratch a folder"));
         }
+        None if fs::metadata(&arguments.output).is_ok_and(|found| !found.is_file()) => {
+            return Err(Failure::usage(format!(
+                "{} is no file, so the tiles have no folder beside it: give --scratch a folder",
+                path::name(&arguments.output)
+            )));
+        }
         None => output::folder_of(&arguments.output).to_owned(),
     };
-    match std::fs::metadata(&parent) {
+    match fs::metadata(&parent) {
         Ok(found) if found.is_dir() => Ok(parent),
         Ok(_) => Err(Failure::input(format!("{} is no folder: give --scratch a folder", path::name(&parent)))),
         Err(error) => Err(Failure::input(format!("{} cannot be used: {error}", path::name(&parent)))),
@@ -249,7 +257,7 @@ impl Run<'_> {
         let mut triangulate =
             |points: &[Point], bits: u32| triangulate_tile(points, bits, &self.choice, &self.arguments.job, true);
         tiles::local(&at, &mut triangulate, |_| Ok(()))?;
-        let _ = std::fs::remove_file(tiles::points_path(folder, tile));
+        let _ = fs::remove_file(tiles::points_path(folder, tile));
         Ok(())
     }
 

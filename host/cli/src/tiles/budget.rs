@@ -8,9 +8,9 @@ use crate::failure::Failure;
 const LEAST: u64 = 32 << 20;
 /// The bytes that the program itself takes, with the buffers of its files.
 const PROGRAM: u64 = 16 << 20;
-/// The most bytes that a point of a tile takes until its tile is triangulated and written: a measured bound, which
-/// `tests/it/commands/triangulate_large.rs` holds.
-const TILE_BYTES: u64 = 128;
+/// The most bytes that a point of a tile takes until its tile is triangulated and written. Measured: 139 for a tile
+/// alone, and 162 where threads do one tile after the other, because the system keeps some of what they free.
+const TILE_BYTES: u64 = 168;
 /// The most points of a tile, whose half-edges have numbers of 32 bits.
 const MOST: u64 = 1 << 28;
 /// A tile of fewer points is not worth a worker of its own.
@@ -118,10 +118,10 @@ mod tests {
             assert!(steps.iter().all(|&step| PROGRAM + step <= memory), "{budget:?}");
         }
         let resumed = |memory| Budget::for_tiles(memory, some, 1_000_000);
-        assert_eq!(resumed(400 << 20).map(|budget| budget.workers.get()), Ok(3));
+        assert_eq!(resumed(500 << 20).map(|budget| budget.workers.get()), Ok(3));
         let refused = resumed(100 << 20).map_err(|failure| failure.message);
-        assert!(refused.is_err_and(|message| message.contains("give 144777216 or more")));
-        assert_eq!(resumed(144_777_216).map(|budget| budget.workers.get()), Ok(1));
+        assert!(refused.is_err_and(|message| message.contains("give 184777216 or more")));
+        assert_eq!(resumed(184_777_216).map(|budget| budget.workers.get()), Ok(1));
         assert!(Budget::of(LEAST - 1, some).is_err_and(|failure| failure.message.contains("give 32M")));
     }
 }

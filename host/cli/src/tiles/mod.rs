@@ -41,7 +41,7 @@ pub use ground::{Extent, Ground};
 pub use inputs::points_again;
 pub use join::{euler, join, triangles_of, Joined, Order};
 pub use local::{local, Outcome, TileAt};
-pub use manifest::{points_path, Manifest};
+pub use manifest::{local_path, manifest_path, points_path, Manifest};
 pub use scratch::Scratch;
 pub use split::{split, Plan, Summary};
 pub use write::{is_streamed, write_triangles};

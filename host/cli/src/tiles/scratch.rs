@@ -9,6 +9,9 @@ use super::manifest::manifest_path;
 use crate::failure::Failure;
 use crate::{interrupt, output, path};
 
+/// So often a folder is made again that another process removes at the same time.
+const TRIES: usize = 100;
+
 /// A folder that this process alone works in. Dropping the value removes the folder if it has nothing to go on from.
 pub struct Scratch {
     folder: PathBuf,
@@ -28,27 +31,18 @@ impl Scratch {
         name.push(mesh.file_name().unwrap_or("mesh".as_ref()));
         name.push(".tiles");
         let folder = parent.join(name);
+        let lock = folder.join("lock");
         if !is_resumed && manifest_path(&folder).exists() {
+            if let Ok(file) = File::open(&lock) {
+                lock_now(&file, &folder)?;
+            }
             return Err(Failure::input(format!(
                 "{} is there from a run that did not end: give --resume to go on with it, or remove it",
                 path::name(&folder)
             )));
         }
-        let lock = folder.join("lock");
         let failed = |error: io::Error| Failure::input(format!("{} cannot be made: {error}", path::name(&folder)));
-        let mut unfinished = interrupt::unfinished();
-        fs::create_dir_all(&folder).map_err(failed)?;
-        let mut file =
-            File::options().read(true).write(true).create(true).truncate(false).open(&lock).map_err(failed)?;
-        file.try_lock().map_err(|error| match error {
-            TryLockError::WouldBlock => Failure::input(format!(
-                "another process works in {}: wait for it, or choose another --scratch",
-                path::name(&folder)
-            )),
-            TryLockError::Error(error) => failed(error),
-        })?;
-        unfinished.extend([folder.clone(), lock.clone()]);
-        drop(unfinished);
+        let mut file = make_and_lock(&folder, &lock)?;
         remove_stale(&folder, ".part");
         // A process that was killed has left its number here.
         let mut process = String::new();
@@ -71,15 +65,85 @@ impl Scratch {
         manifest_path(&self.folder).exists()
     }
 
-    /// Removes the folder with all tiles.
+    /// Removes the tiles, and the folder unless it has files of others. The lock goes last, so that no other process
+    /// begins before.
     pub fn remove(self) -> io::Result<()> {
-        let folder = self.folder.clone();
-        drop(self);
-        match fs::remove_dir_all(folder) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
-            other => other,
+        // Without its manifest a folder has nothing to go on from, also if this process is killed now.
+        gone(fs::remove_file(manifest_path(&self.folder)))?;
+        let Ok(entries) = fs::read_dir(&self.folder) else { return Ok(()) };
+        for entry in entries {
+            let entry = entry?;
+            if is_of_tiles(&entry.file_name().to_string_lossy()) {
+                gone(fs::remove_file(entry.path()))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether a file of this name is one that a run in tiles writes.
+fn is_of_tiles(name: &str) -> bool {
+    let number = name.strip_suffix(".points").or_else(|| name.strip_suffix(".local"));
+    let is_tile = number.is_some_and(|number| !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit()));
+    is_tile || name.starts_with('.') && name.ends_with(".part")
+}
+
+/// What is gone already need not be removed.
+fn gone(removed: io::Result<()>) -> io::Result<()> {
+    match removed {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+        other => other,
+    }
+}
+
+/// Makes a folder with a locked file in it. An interrupt removes both.
+fn make_and_lock(folder: &Path, lock: &Path) -> Result<File, Failure> {
+    let failed = |error: io::Error| Failure::input(format!("{} cannot be made: {error}", path::name(folder)));
+    let mut tries = 0;
+    loop {
+        tries += 1;
+        let is_last = tries == TRIES;
+        let mut unfinished = interrupt::unfinished();
+        fs::create_dir_all(folder).map_err(failed)?;
+        let opened = File::options().read(true).write(true).create(true).truncate(false).open(lock);
+        let file = match opened {
+            // A process that ended has just removed the folder.
+            Err(error) if error.kind() == io::ErrorKind::NotFound && !is_last => continue,
+            other => other.map_err(failed)?,
+        };
+        lock_now(&file, folder)?;
+        // The lock of a process that ended meanwhile is gone with its folder, and others make a new one.
+        if is_last || is_file(&file, lock) {
+            unfinished.extend([folder.to_owned(), lock.to_owned()]);
+            return Ok(file);
         }
     }
+}
+
+/// Locks the file of a folder, or says that another process has it.
+fn lock_now(file: &File, folder: &Path) -> Result<(), Failure> {
+    let name = path::name(folder);
+    file.try_lock().map_err(|error| match error {
+        TryLockError::WouldBlock => {
+            Failure::input(format!("another process works in {name}: wait for it, or choose another --scratch"))
+        }
+        TryLockError::Error(error) => Failure::input(format!("{name} cannot be locked: {error}")),
+    })
+}
+
+/// Whether an open file is the one with this path.
+#[cfg(unix)]
+fn is_file(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let identity = |found: fs::Metadata| (found.dev(), found.ino());
+    let own = file.metadata().ok().map(identity);
+    own.is_some() && own == fs::metadata(path).ok().map(identity)
+}
+
+/// Other systems do not remove an open file.
+#[cfg(not(unix))]
+fn is_file(_: &File, path: &Path) -> bool {
+    path.exists()
 }
 
 impl Drop for Scratch {

@@ -237,3 +237,30 @@ fn an_interrupt_leaves_a_sentence_and_no_file() {
         assert_eq!(scratch.files(), ["big.csv", "none.ele"], "{arguments}");
     }
 }
+
+/// In a container the next process may have the id of one that was killed and left its working file.
+#[cfg(unix)]
+#[test]
+fn a_file_of_a_killed_process_with_the_same_id_is_no_hindrance() {
+    let scratch = Scratch::new();
+    let program = env!("CARGO_BIN_EXE_incircle");
+    let line = format!("echo half > .p.csv.$$.part && exec '{program}' generate uniform -n 5 -o p.csv");
+    let run = std::process::Command::new("sh").args(["-c", &line]).current_dir(scratch.path("")).output();
+    crate::common::Run::of(run.expect("the shell starts")).ok();
+    assert_eq!(scratch.read("p.csv").lines().count(), 5);
+    assert_eq!(scratch.files().len(), 2);
+}
+
+/// A folder that takes no new file is told before the work. The kernel's folder takes none from anybody.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_folder_that_takes_no_file_is_told_before_the_work() {
+    let scratch = Scratch::new();
+    // These points are wrong, which the command would tell if it read them first.
+    scratch.write("p.csv", "0,0\n1,x\n");
+    for options in ["", " --memory 32M --scratch ."] {
+        let run = scratch.run(&format!("triangulate p.csv -o /proc/self/m.npy{options}"));
+        run.fails(3, &["/proc/self/m.npy cannot be written"]);
+        assert_eq!(scratch.files(), ["p.csv"]);
+    }
+}

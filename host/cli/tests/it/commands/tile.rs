@@ -2,6 +2,7 @@
 
 mod damage;
 mod formats;
+mod many;
 
 use crate::common::{Run, Scratch};
 use incircle_cli::generate::Distribution;
@@ -65,23 +66,6 @@ fn a_large_set_is_joined_in_little_memory() {
         // A sample chooses the cuts of a set of this size.
         assert!(same_mesh(&scratch, "p.npy", 100_000, "right.npy") > 5);
     }
-}
-
-/// A set has more tiles than a process may keep files open.
-#[test]
-#[cfg(target_os = "linux")]
-fn more_tiles_than_open_files_are_joined() {
-    let scratch = Scratch::new();
-    scratch.run("generate uniform -n 12000 -o p.npy").ok();
-    assert!(split_and_solve(&scratch, "p.npy", 150, "tiles") > 80);
-    let program = env!("CARGO_BIN_EXE_incircle");
-    for order in ["", "--unordered"] {
-        let line = format!("ulimit -n 20 && exec '{program}' tile join tiles -o m.npy --memory 64K {order}");
-        let run = std::process::Command::new("sh").args(["-c", &line]).current_dir(scratch.path("")).output();
-        Run::of(run.expect("the shell starts")).ok();
-        scratch.run(&format!("verify p.npy m.npy -q {order}")).ok();
-    }
-    assert_eq!(scratch.files(), ["m.npy", "p.npy", "tiles"]);
 }
 
 #[test]
@@ -200,4 +184,39 @@ fn any_back_end_does_a_tile() {
     assert_eq!(std::fs::read(scratch.path("m.npy")).ok(), std::fs::read(scratch.path("right.npy")).ok());
     scratch.run("tile split p.npy --points 3000 -o whole -q").ok();
     scratch.run("tile local whole/0 --backend clock").fails(3, &["whole/0", "20 bits", "16", "--backend cpu"]);
+}
+
+/// Most systems let a process have 256 or 1,024 open files, which is less than a large set has tiles.
+#[cfg(unix)]
+#[test]
+fn more_tiles_than_files_that_may_be_open_are_joined() {
+    let scratch = Scratch::new();
+    // The triangles of the circle come from the joins, and lie in runs in files.
+    for (set, points, most) in [("uniform", 4_000, 80), ("circle", 40_000, 1_500)] {
+        scratch.run(&format!("generate {set} -n {points} --bits 24 -o p.npy")).ok();
+        let count = split_and_solve(&scratch, "p.npy", most, "t");
+        assert!(count > 24, "{count} tiles");
+        for order in ["", " --unordered"] {
+            let program = env!("CARGO_BIN_EXE_incircle");
+            let line = format!("ulimit -n 24 && exec '{program}' tile join t -o m.npy --memory 64K -q{order}");
+            let run = std::process::Command::new("sh").args(["-c", &line]).current_dir(scratch.path("")).output();
+            crate::common::Run::of(run.expect("the shell starts")).ok();
+            scratch.run(&format!("verify p.npy m.npy -q{order}")).ok();
+        }
+        std::fs::remove_dir_all(scratch.path("t")).expect("the folder is there");
+    }
+}
+
+#[test]
+fn a_mesh_replaces_neither_tiles_nor_points() {
+    let scratch = Scratch::new();
+    scratch.run("generate uniform -n 50 -o p.npy").ok();
+    split_and_solve(&scratch, "p.npy", 20, "t");
+    for file in ["p.npy", "t/0.local", "t/0.points", "t/manifest"] {
+        let before = scratch.bytes(file);
+        scratch.run(&format!("tile join t -o {file} --format npy")).fails(2, &[file, "choose another output"]);
+        assert!(scratch.bytes(file) == before, "{file}");
+    }
+    scratch.run("tile split p.npy --points 20 -o -").fails(2, &["give -o a folder"]);
+    assert_eq!(scratch.files(), ["p.npy", "t"]);
 }

@@ -39,6 +39,19 @@ fn a_large_set_takes_the_memory_that_it_is_given() {
     }
 }
 
+/// With these numbers the tiles are nearly as large as they may be, and each of two threads does several.
+#[cfg(target_os = "linux")]
+#[test]
+fn tiles_of_the_largest_size_take_the_memory_that_they_are_given() {
+    let scratch = Scratch::new();
+    for points in [2_130_000, 2_800_000] {
+        scratch.run(&format!("generate uniform -n {points} --bits 31 -o p.npy")).ok();
+        let run = scratch.run("triangulate p.npy -o m.npy --memory 64M --threads 2 --json").ok();
+        let report: serde_json::Value = serde_json::from_str(&run.stdout).expect("an object");
+        assert!(report["peak_memory"].as_u64() < Some((64 << 20) * 105 / 100), "{report}");
+    }
+}
+
 #[test]
 fn unordered_triangles_are_those_of_the_mesh() {
     let scratch = large();
@@ -160,6 +173,12 @@ fn what_cannot_be_done_in_tiles_is_refused() {
     refused("-o m.npy --unordered --scratch gone", 3, &["gone cannot be used"]);
     refused("-o m.npy --scratch p.csv", 3, &["p.csv is no folder"]);
     refused("-o - --format csv --memory 32M", 2, &["--scratch"]);
+    refused("-o gone/ --format npy --memory 32M", 3, &["gone/ cannot be written", "a folder"]);
+    refused("-o gone/. --format npy", 3, &["gone/. cannot be written", "a folder"]);
+    // A back end that cannot do the work ends the run before the set is cut.
+    refused("-o m.npy --memory 32M --backend model --contexts 3", 2, &["3 contexts"]);
+    refused("-o m.npy --memory 32M --backend clock?config=quad --contexts 40", 2, &["40 contexts", "choose fewer"]);
+    refused("-o m.npy --memory 32M --backend serial:/dev/gone", 4, &["/dev/gone"]);
 
     scratch.write("d.csv", "0,0\n0.1,1e-300\n3,1e300\n");
     scratch.run("triangulate d.csv -o m.npy --memory 32M").fails(3, &["lattice"]);
@@ -175,6 +194,34 @@ fn a_mesh_on_standard_output_needs_a_scratch_folder() {
     assert_eq!(scratch.files(), ["p.csv"]);
 }
 
+/// Tiles do not lie beside a device, where no folder belongs.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_mesh_on_a_device_needs_a_scratch_folder() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", "0,0\n9,0\n0,9\n9,9\n");
+    let command = "triangulate p.csv -o /dev/null --format csv --memory 32M -q";
+    scratch.run(command).fails(2, &["/dev/null is no file", "give --scratch"]);
+    scratch.run(&format!("{command} --scratch .")).ok();
+    assert_eq!(scratch.files(), ["p.csv"]);
+}
+
+/// Only the files of the run are removed, also from a folder behind a link.
+#[cfg(unix)]
+#[test]
+fn files_of_others_stay_in_the_folder_of_the_tiles() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", "0,0\n9,0\n0,9\n9,9\n");
+    std::fs::create_dir(scratch.path("mine")).expect("a folder can be made");
+    std::os::unix::fs::symlink("mine", scratch.path(".m.npy.tiles")).expect("a link can be made");
+    let others = ["a.points", "letter.txt", ".hidden"];
+    others.iter().for_each(|name| drop(scratch.write(&format!("mine/{name}"), "mine")));
+    scratch.run("triangulate p.csv -o m.npy --memory 32M -q").ok();
+    let left = std::fs::read_dir(scratch.path("mine")).expect("it is there").count();
+    assert_eq!(left, others.len());
+    assert!(others.iter().all(|name| scratch.read(&format!("mine/{name}")) == "mine"));
+}
+
 /// Another process that works in the folder is told, and not disturbed.
 #[test]
 fn two_runs_do_not_share_a_folder() {
@@ -184,6 +231,10 @@ fn two_runs_do_not_share_a_folder() {
     let lock = std::fs::File::create(scratch.path(".m.npy.tiles/lock")).expect("a file");
     lock.lock().expect("nobody else has it");
     scratch.run("triangulate p.csv -o m.npy --memory 32M").fails(3, &["another process works in"]);
+    // Its tiles are no ones to go on with or to remove, either.
+    scratch.write(".m.npy.tiles/manifest", "of a run");
+    scratch.run("triangulate p.csv -o m.npy --memory 32M").fails(3, &["another process works in"]);
+    std::fs::remove_file(scratch.path(".m.npy.tiles/manifest")).expect("it is there");
     assert!(scratch.path(".m.npy.tiles/lock").exists());
     drop(lock);
     let run: Run = scratch.run("triangulate p.csv -o m.npy --memory 32M -q").ok();
