@@ -4,7 +4,7 @@ mod damage;
 mod formats;
 mod many;
 
-use crate::common::{Run, Scratch};
+use crate::common::Scratch;
 use incircle_cli::generate::Distribution;
 
 /// An array of NumPy with these points, as integers of 64 bits.
