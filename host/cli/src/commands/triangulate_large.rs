@@ -129,7 +129,7 @@ fn scratch_parent(arguments: &TriangulateArguments) -> Result<PathBuf, Failure> 
         None if path::is_standard(&arguments.output) => {
             return Err(Failure::usage("a mesh on standard output has no folder: give --scratch a folder"));
         }
-        None if fs::metadata(&arguments.output).is_ok_and(|found| !found.is_file()) => {
+        None if fs::metadata(&arguments.output).is_ok_and(|found| !found.is_file() && !found.is_dir()) => {
             return Err(Failure::usage(format!(
                 "{} is no file, so the tiles have no folder beside it: give --scratch a folder",
                 path::name(&arguments.output)

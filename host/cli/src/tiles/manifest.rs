@@ -61,7 +61,8 @@ impl Manifest {
     /// Reads the manifest of a folder.
     pub fn read(folder: &Path) -> Result<Self, Failure> {
         let path = manifest_path(folder);
-        if !path.exists() {
+        // A folder that may not be read says so itself.
+        if path.try_exists().is_ok_and(|is_there| !is_there) {
             return Err(Failure::input(format!(
                 "{} has no manifest, so it is no folder of tiles or 'tile split' has not ended: run 'incircle tile \
                  split' first",

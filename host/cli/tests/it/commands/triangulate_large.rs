@@ -173,6 +173,7 @@ fn what_cannot_be_done_in_tiles_is_refused() {
     refused("-o m.npy --unordered --scratch gone", 3, &["gone cannot be used"]);
     refused("-o m.npy --scratch p.csv", 3, &["p.csv is no folder"]);
     refused("-o - --format csv --memory 32M", 2, &["--scratch"]);
+    refused("-o . --format npy --memory 32M", 3, &[". cannot be written", "a folder"]);
     refused("-o gone/ --format npy --memory 32M", 3, &["gone/ cannot be written", "a folder"]);
     refused("-o gone/. --format npy", 3, &["gone/. cannot be written", "a folder"]);
     // A back end that cannot do the work ends the run before the set is cut.

@@ -181,6 +181,8 @@ fn folders_without_rights_are_told() {
     scratch.run("tile split p.npy --points 9 -o file").fails(3, &["file", "cannot be made"]);
     scratch.run("tile split p.npy --points 9 -o /proc/none").fails(3, &["/proc/none", "cannot be made"]);
     scratch.run("tile join t -o gone/m.npy").fails(3, &["gone/m.npy cannot be written"]);
+    std::os::unix::fs::symlink("loop", scratch.path("loop")).expect("a link can be made");
+    scratch.run("tile join loop -o m.npy").fails(3, &["loop/manifest", "cannot be read"]);
     // Root may write everywhere, so the test holds for other users alone.
     let folder = scratch.path("locked");
     std::fs::create_dir(&folder).expect("a folder can be made");
