@@ -23,8 +23,10 @@ const BITS: u32 = 31;
 /// Operations that are timed together.
 const BLOCK: usize = 2000;
 /// Neighbours of the hubs of wheels, and deletions of each hub, of which the quickest counts.
-const WHEELS: [u32; 5] = [64, 127, 128, 256, 8192];
-const TURNS: usize = 20;
+const WHEELS: [usize; 5] = [64, 128, 129, 256, 512];
+const TURNS: usize = 50;
+/// The radius of the wheels. Its primes are of the form 4 k + 1, so that many grid points lie on the circle.
+const RADIUS: u32 = 5 * 13 * 17 * 29 * 37;
 
 /// Nanoseconds an operation on each item: the median over blocks of items, which other work on the machine disturbs
 /// less than the sum.
@@ -87,20 +89,34 @@ fn measure<P: PlanePoint>(times: &mut Times, random: &mut SplitMix64, grid: &[Po
     }
 }
 
-/// Deletes the hub of a wheel, whose neighbours are all on a circle, and inserts it again.
+/// Deletes the hub of a wheel and inserts it again. All neighbours lie on one circle exactly, so every test of four of
+/// them is a tie.
 fn measure_wheels<P: PlanePoint>(times: &mut Times, to_point: fn(Point) -> P) {
-    const HUB: u32 = 1 << (BITS - 1);
-    let at = |value: f64| (f64::from(HUB) * (1.0 + 0.9 * value)) as u32;
+    let rim = circle();
     for neighbors in WHEELS {
-        let angle = |k: u32| std::f64::consts::TAU * f64::from(k) / f64::from(neighbors);
-        let rim = (0..neighbors).map(|k| Point::new(at(angle(k).cos()), at(angle(k).sin())));
-        let mut mesh = Triangulation::from(rim.map(to_point)).expect("finite points");
+        let chosen = (0..neighbors).map(|k| to_point(rim[k * rim.len() / neighbors]));
+        let mut mesh = Triangulation::from(chosen).expect("finite points");
         for _ in 0..TURNS {
-            let hub = mesh.insert(to_point(Point::new(HUB, HUB))).expect("finite points");
-            let name = format!("delete a hub of {neighbors}");
-            times.note(&name, timed(1, || mesh.delete(hub)).0);
+            let hub = mesh.insert(to_point(Point::new(RADIUS, RADIUS))).expect("finite points");
+            times.note(&format!("delete a hub of {neighbors}"), timed(1, || mesh.delete(hub)).0);
         }
     }
+}
+
+/// All grid points on the circle around the hub, counter-clockwise.
+fn circle() -> Vec<Point> {
+    let square = |value: u32| u64::from(value) * u64::from(value);
+    let on_circle = |x: u32| {
+        let y = (square(RADIUS) - square(x)).isqrt() as u32;
+        (square(x) + square(y) == square(RADIUS)).then_some((x, y))
+    };
+    let first: Vec<(u32, u32)> = (1..=RADIUS).rev().filter_map(on_circle).collect();
+    // The end on the axis is the first point of the lower half.
+    let second = first.iter().rev().filter(|&&(_, y)| y > 0).map(|&(x, y)| [-f64::from(x), f64::from(y)]);
+    let upper: Vec<[f64; 2]> = first.iter().map(|&(x, y)| [f64::from(x), f64::from(y)]).chain(second).collect();
+    let lower = upper.iter().map(|&[x, y]| [-x, -y]);
+    let all = upper.iter().copied().chain(lower);
+    all.map(|place| place.map(|value| (f64::from(RADIUS) + value) as u32)).map(|[x, y]| Point::new(x, y)).collect()
 }
 
 /// Moves all points by up to a part of the mean distance between neighbours on each axis, and triangulates the same
@@ -143,7 +159,7 @@ fn main() {
         measure(&mut doubles, &mut random, &grid, |p| [f64::from(p.x) * 0.1, f64::from(p.y) * 0.1]);
     }
     measure_wheels(&mut integers, |point| point);
-    measure_wheels(&mut doubles, |p| [f64::from(p.x) * 0.1, f64::from(p.y) * 0.1]);
+    measure_wheels(&mut doubles, |p| [f64::from(p.x), f64::from(p.y)]);
     println!("{count} points, ns an operation          grid of {BITS} bits     doubles");
     for ((name, integer), (_, double)) in integers.0.iter().zip(&doubles.0) {
         println!("{name:36} {integer:12.0} {double:12.0}");
