@@ -33,6 +33,7 @@ mod transports {
     mod udp {
         mod faults;
         mod goodput;
+        mod pace;
         mod socket;
     }
 }

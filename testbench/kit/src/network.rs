@@ -123,7 +123,7 @@ impl<A: Clone> Network<A> {
             if self.happens(self.faults.swap) {
                 arrives += SWAP_NS;
             }
-            if self.faults.delay_ms > 0 && self.random.next_u64() % DELAYED == 0 {
+            if self.faults.delay_ms > 0 && self.random.next_u64().is_multiple_of(DELAYED) {
                 self.met += 1;
                 arrives += self.random.next_u64() % (self.faults.delay_ms * 1_000_000 + 1);
             }

@@ -42,6 +42,9 @@ impl WordDevice for Paced {
     }
 }
 
+/// Makes the datagrams of a stranger, one after another.
+pub type Stranger = Box<dyn FnMut() -> Vec<u8>>;
+
 /// A host, a network and a device.
 pub struct VirtualNetwork {
     pub protocol: UdpProtocol,
@@ -54,7 +57,7 @@ pub struct VirtualNetwork {
     out: Vec<Vec<u8>>,
     host: SocketAddrV4,
     /// Datagrams of others that reach the device while the host works.
-    pub stranger: Option<Box<dyn FnMut(u64) -> Option<Vec<u8>>>>,
+    pub stranger: Option<Stranger>,
     /// Number of datagrams that strangers got.
     pub to_strangers: u64,
     /// Whether the cable is pulled.
@@ -132,7 +135,7 @@ impl VirtualNetwork {
                 self.down.send(self.now, self.host, &datagram);
             }
         }
-        if let Some(datagram) = self.stranger.as_mut().and_then(|stranger| stranger(self.now)) {
+        if let Some(datagram) = self.stranger.as_mut().map(|stranger| stranger()) {
             self.board.take(SocketAddrV4::new(Ipv4Addr::new(10, 0, 0, 9), 40_000), false, &datagram);
         }
         self.run_board();
@@ -147,12 +150,15 @@ impl VirtualNetwork {
                 self.up.send(self.now, to, &datagram);
             }
         }
+        let mut has_come = false;
         while let Some((to, datagram)) = self.up.next(self.now) {
+            has_come = true;
             if to == self.host {
                 self.protocol.receive(&datagram, Duration::from_nanos(self.now));
             }
         }
-        let wake = self.protocol.next_wake().map(|wake| wake.as_nanos() as u64);
+        // What came may have made something due.
+        let wake = if has_come { Some(self.now) } else { self.protocol.next_wake().map(|wake| wake.as_nanos() as u64) };
         let work = self.board.is_at_work().then_some(self.now + SLICE_NS);
         let wire = Some(self.up.free_at()).filter(|&at| at > self.now);
         let next = [wake, self.down.next_at(), self.up.next_at(), work, wire].into_iter().flatten().min();

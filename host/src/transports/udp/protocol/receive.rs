@@ -134,7 +134,7 @@ impl UdpProtocol {
     /// Takes an answer. The host only asks for answers that fit a datagram.
     fn hear_answer(&mut self, message: &Message<'_>) -> Result<(), UdpFault> {
         let mut words: Vec<u32> = message.words().collect();
-        let is_whole = message.header.kind == DeviceDatagram::AnswerEnd && message.body.len() % 4 == 0;
+        let is_whole = message.header.kind == DeviceDatagram::AnswerEnd && message.body.len().is_multiple_of(4);
         if words.len() < 4 || !is_whole || words[1] != 0 {
             let announced = words.get(3).copied().unwrap_or(0);
             return Err(UdpFault::AnswerLength { announced, came: words.len().saturating_sub(4) });

@@ -21,11 +21,10 @@ fn seconds(points: usize, jobs: usize, loss: f64, seed: u64) -> f64 {
     let begun = network.borrow().now();
     session.triangulate_batch(&sets, &Options::default()).expect("meshes");
     let end = network.borrow().now();
-    eprintln!("{:?}", network.borrow().statistics());
     (end - begun).as_secs_f64()
 }
 
-/// The command of the table in `testbench/goodput.md`:
+/// The command of the table in `testbench/goodput-udp.md`:
 /// `cargo test --release -p incircle --test it udp::goodput -- --nocapture`.
 #[test]
 fn loss_costs_no_more_than_it_should() {
