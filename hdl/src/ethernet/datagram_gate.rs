@@ -6,8 +6,8 @@
 //!    datagram counts: if not, the reader forgets its bytes, which may be any number from 1. In bit 1 the end says that
 //!    the datagram came to all devices.
 //! 3. A frame of which no byte passed has no end.
-//! 4. If the FIFO is full, the datagram loses the rest of its bytes and does not count. Its end waits for room, and what
-//!    comes before there is room is lost as a whole.
+//! 4. If the FIFO is full, the datagram loses the rest of its bytes and does not count. Its end waits for room, and
+//!    what comes before there is room is lost as a whole.
 //!
 //! Latency: none from a byte to its entry; 1 clock from the end of a frame to the entry that ends it.
 

@@ -11,8 +11,8 @@
 //! before the addresses that it covers, then to send it. The first run takes 20 clocks, and `MacOut` needs as many for
 //! check sum and gap of the frame before.
 
+use super::header_bytes::HeaderBytes;
 use super::ones_sum::OnesSum;
-use super::own_bytes::OwnBytes;
 use super::types::{Byte, HeaderRow, Place, Station};
 use crate::leaf::LookupTable;
 use crate::prelude::*;
@@ -49,7 +49,7 @@ pub struct DatagramSender {
     pub byte_data: Signal<Out, Byte>,
     pub byte_is_last: Signal<Out, Bit>,
     rows: LookupTable<6, HeaderRow>,
-    own: OwnBytes,
+    bytes: HeaderBytes,
     sum: OnesSum,
     phase: DFF<DatagramPhase>,
     at: DFF<Place>,
@@ -69,9 +69,7 @@ pub struct DatagramSender {
     is_last1: DFF<Bit>,
     is_last2: DFF<Bit>,
     is_last3: DFF<Bit>,
-    chosen: DFF<Byte>,
     row: Signal<Local, HeaderRow>,
-    row_kept: Signal<Local, HeaderRow>,
     is_at_last: Signal<Local, Bit>,
     runs: Signal<Local, Bit>,
     memory_source: Signal<Local, Bits<3>>,
@@ -82,8 +80,6 @@ pub struct DatagramSender {
     udp_less: Signal<Local, Place>,
     ip_more: Signal<Local, Place>,
     header_end: Signal<Local, Place>,
-    all: Signal<Local, Byte>,
-    sum_byte: Signal<Local, Byte>,
 }
 
 /// The row of a place; row 63 is for all places from 63 on.
@@ -122,7 +118,7 @@ impl Default for DatagramSender {
             byte_data: Signal::default(),
             byte_is_last: Signal::default(),
             rows: LookupTable::new(row),
-            own: OwnBytes::default(),
+            bytes: HeaderBytes::default(),
             sum: OnesSum::default(),
             phase: DFF::default(),
             at: DFF::default(),
@@ -141,9 +137,7 @@ impl Default for DatagramSender {
             is_last1: DFF::default(),
             is_last2: DFF::default(),
             is_last3: DFF::default(),
-            chosen: DFF::default(),
             row: Signal::default(),
-            row_kept: Signal::default(),
             is_at_last: Signal::default(),
             runs: Signal::default(),
             memory_source: Signal::default(),
@@ -153,8 +147,6 @@ impl Default for DatagramSender {
             udp_less: Signal::default(),
             ip_more: Signal::default(),
             header_end: Signal::default(),
-            all: Signal::default(),
-            sum_byte: Signal::default(),
         }
     }
 }
@@ -163,8 +155,8 @@ impl Logic for DatagramSender {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, phase, at, next_index, last, ip_length, udp_length, row1, row2);
-        dff_setup!(self, clock, is_low1, is_low2, is_low3, sums1, sums2, sums3, is_last1, is_last2, is_last3, chosen);
-        clock!(self, clock, sum);
+        dff_setup!(self, clock, is_low1, is_low2, is_low3, sums1, sums2, sums3, is_last1, is_last2, is_last3);
+        clock!(self, clock, sum, bytes);
         self.memory_source.next = 2.into();
         self.beyond.next = self.at.q.val().get_bits::<5>(6);
         self.one.next = 1.into();
@@ -172,10 +164,9 @@ impl Logic for DatagramSender {
         self.udp_less.next = 4.into();
         self.ip_more.next = 16.into();
         self.header_end.next = 33.into();
-        self.all.next = 0xff.into();
         self.read_index.next = self.next_index.q.val();
         self.waits.next = self.phase.q.val() == DatagramPhase::Offer;
-        self.byte_data.next = self.chosen.q.val();
+        self.byte_data.next = self.bytes.byte_data.val();
         self.byte_is_last.next = self.is_last3.q.val();
 
         // The 12 bytes of the receiver are part of `length`.
@@ -226,7 +217,6 @@ impl Logic for DatagramSender {
 
         self.row1.d.next = self.row.val();
         self.row2.d.next = self.row1.q.val();
-        self.row_kept.next = self.row2.q.val();
         self.is_low1.d.next = self.at.q.val().get_bit(0);
         self.is_low2.d.next = self.is_low1.q.val();
         self.is_low3.d.next = self.is_low2.q.val();
@@ -240,42 +230,13 @@ impl Logic for DatagramSender {
         self.sum.start.next = 0.into();
         self.sum.takes.next = self.sums3.q.val();
         self.sum.is_low.next = self.is_low3.q.val();
-        self.sum.byte_data.next = self.chosen.q.val();
-        self.own.station.next = self.station.val();
-        self.own.index.next = bit_cast::<4, 8>(self.row_kept.val().literal);
-        self.sum_byte.next = self.sum.sum.val().get_bits::<8>(8);
-        if self.row_kept.val().literal.any() {
-            self.sum_byte.next = self.sum.sum.val().get_bits::<8>(0);
-        }
-        self.chosen.d.next = self.row_kept.val().literal;
-        match self.row_kept.val().source.index() {
-            1 => {
-                self.chosen.d.next = self.own.byte_data.val();
-            }
-            2 => {
-                self.chosen.d.next = self.read_data.val();
-            }
-            3 => {
-                self.chosen.d.next = bit_cast::<8, 3>(self.ip_length.q.val().get_bits::<3>(8));
-            }
-            4 => {
-                self.chosen.d.next = self.ip_length.q.val().get_bits::<8>(0);
-            }
-            5 => {
-                self.chosen.d.next = bit_cast::<8, 3>(self.udp_length.q.val().get_bits::<3>(8));
-            }
-            6 => {
-                self.chosen.d.next = self.udp_length.q.val().get_bits::<8>(0);
-            }
-            7 => {
-                self.chosen.d.next = self.sum_byte.val() ^ self.all.val();
-                if self.sums2.q.val() {
-                    self.chosen.d.next = 0.into();
-                }
-            }
-            _ => {
-                self.chosen.d.next = self.row_kept.val().literal;
-            }
-        }
+        self.sum.byte_data.next = self.bytes.byte_data.val();
+        self.bytes.station.next = self.station.val();
+        self.bytes.row.next = self.row2.q.val();
+        self.bytes.datagram_byte.next = self.read_data.val();
+        self.bytes.ip_length.next = self.ip_length.q.val();
+        self.bytes.udp_length.next = self.udp_length.q.val();
+        self.bytes.sum.next = self.sum.sum.val();
+        self.bytes.sum_is_open.next = self.sums2.q.val();
     }
 }

@@ -3,12 +3,12 @@
 //! 1. A datagram is 12 bytes of its receiver (Ethernet address, IPv4 address, UDP port, each highest byte first) and 0
 //!    to 1,472 bytes of payload. The block does not check the length.
 //! 2. `byte_ready` depends on registers only. The byte with `byte_is_last` ends the datagram.
-//! 3. While `holds` is high, `length` and the bytes of the oldest datagram stay. `lets_go` at an edge frees its slot; it
-//!    may be high only while `holds` is.
+//! 3. While `holds` is high, `length` and the bytes of the oldest datagram stay. `lets_go` at an edge frees its slot;
+//!    it may be high only while `holds` is.
 //! 4. Both resets are held together, at least for three clocks of either.
 //!
-//! Latency: 2 clocks from `read_index` to `read_data`; 3 clocks of the reader from the last byte to `holds`, and 3 of the
-//! writer from `lets_go` to `byte_ready`, each perhaps one more.
+//! Latency: 2 clocks from `read_index` to `read_data`; 3 clocks of the reader from the last byte to `holds`, and 3 of
+//! the writer from `lets_go` to `byte_ready`, each perhaps one more.
 //!
 //! Source: each side has a flag for each slot that changes when the slot is filled or freed, and sees the other's flags
 //! through a synchroniser. The slot is filled while they differ. Flags, the bytes in the memory and the two lengths are

@@ -30,8 +30,8 @@ pub struct MdioWriter {
     /// All registers have been written.
     pub is_done: Signal<Out, Bit>,
     bits: LookupTable<8, Bit>,
-    /// Clocks since the reset, or since the first write began: 6 bits for a period of `mdc`, 6 for a bit of a write, and
-    /// then the number of the write.
+    /// Clocks since the reset, or since the first write began: 6 bits for a period of `mdc`, 6 for a bit of a write,
+    /// and then the number of the write.
     count: DFF<Bits<22>>,
     writes: DFF<Bit>,
     done: DFF<Bit>,

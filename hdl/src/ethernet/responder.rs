@@ -1,7 +1,7 @@
 //! Answers ARP requests and echo requests: it keeps the frame that asks, and sends it back with some bytes changed.
 //!
-//! 1. A frame is kept from its first byte if no answer is under way at that time. So a question that comes while the one
-//!    before is not answered gets no answer.
+//! 1. A frame is kept from its first byte if no answer is under way at that time. So a question that comes while the
+//!    one before is not answered gets no answer.
 //! 2. An answer to ARP carries the device's addresses as the sender's; its target is the one who asked. An answer to an
 //!    echo request has the addresses swapped, type 0, and a check sum that is larger by 0x0800 in ones' complement. All
 //!    other bytes come back as they were, the time to live and the padding among them, up to the longest frame.
@@ -10,8 +10,8 @@
 //!
 //! Latency: 4 clocks from `begins` to the first byte.
 //!
-//! Source: RFC 826 and 792; RFC 1624 for the check sum. The check sum of the header of IPv4 stays, because swapped words
-//! have the same sum.
+//! Source: RFC 826 and 792; RFC 1624 for the check sum. The check sum of the header of IPv4 stays, because swapped
+//! words have the same sum.
 
 use super::ones_sum::OnesSum;
 use super::own_bytes::OwnBytes;

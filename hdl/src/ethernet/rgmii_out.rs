@@ -1,7 +1,7 @@
 //! The sending pins of RGMII: puts the bytes of GMII on the pins at both edges of the clock.
 //!
-//! 1. The low half of a byte is on the pins while the clock is high, the high half while the clock is low. The pin of the
-//!    clock follows the clock itself, so the PHY, or the board, must delay it by about 2 ns.
+//! 1. The low half of a byte is on the pins while the clock is high, the high half while the clock is low. The pin of
+//!    the clock follows the clock itself, so the PHY, or the board, must delay it by about 2 ns.
 //!
 //! Latency: a byte that is valid before an edge is on the pins behind the next edge.
 //!

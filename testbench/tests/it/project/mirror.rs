@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 /// Blocks without a test file of their own: the test that runs the block, by its path from `tests/it`,
 /// and why that test is enough.
-const ELSEWHERE: [(&str, &str, &str); 39] = [
+const ELSEWHERE: [(&str, &str, &str); 40] = [
     ("cluster/dual", "cores/chip", "wires between router, slots and collector"),
     ("cluster/engine_slot", "cores/chip", "a core with its queue and a count, at every clock"),
     ("cluster/quad", "cores/chip", "wires between router, slots and collector"),
@@ -36,6 +36,7 @@ const ELSEWHERE: [(&str, &str, &str); 39] = [
     ("ethernet/datagram_sender", "blocks/ethernet/udp_port", "the headers of the frames that go out"),
     ("ethernet/datagram_slots", "blocks/ethernet/udp_port", "the datagrams that go out, at any ratio of the clocks"),
     ("ethernet/frame_match", "blocks/ethernet/udp_port", "the headers of frames, right and wrong"),
+    ("ethernet/header_bytes", "blocks/ethernet/udp_port", "the headers of the frames that go out"),
     ("ethernet/own_bytes", "blocks/ethernet/udp_port", "the addresses in the frames that go out"),
     ("ethernet/responder", "blocks/ethernet/udp_port", "the answers to ARP and echo requests"),
     ("ethernet/send_choice", "blocks/ethernet/udp_port", "answers and datagrams that share the line"),
