@@ -5,6 +5,7 @@ pub mod cluster;
 pub mod commands;
 pub mod committed;
 pub mod engine;
+pub mod ethernet;
 pub mod export;
 mod files;
 pub mod leaf;

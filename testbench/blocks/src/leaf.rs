@@ -1,14 +1,15 @@
 //! The leaves and the predicates.
 
 use incircle_hdl::leaf::{
-    BankedMemory, BlockMemory, DeepFifo, DelayLine, Fifo, FlagDelay, LockMemory, LutMemory, Multiplier, PacedMemory,
-    SharedMemory,
+    BankedMemory, BlockMemory, DeepFifo, DelayLine, Fifo, FlagDelay, LockMemory, LookupTable, LutMemory, Multiplier,
+    PacedMemory, SharedMemory,
 };
 use incircle_hdl::predicate::{
     CrossProduct, DotProduct, EdgeSigns, PointDifference, VertexOrder, VisitPredicates, WideProduct,
 };
 
 use crate::exported::block;
+use rust_hdl_core::prelude::*;
 
 /// Name of the root module and Verilog of each block.
 pub(crate) fn blocks() -> Vec<(String, String)> {
@@ -24,6 +25,7 @@ pub(crate) fn blocks() -> Vec<(String, String)> {
         block(PacedMemory::<10, 36>::new(6, 33), "paced_memory_6x33"),
         block(LutMemory::<4, 8>::new(4, 8), "lut_memory_4x8"),
         block(LutMemory::<6, 40>::new(5, 37), "lut_memory_5x37"),
+        block(LookupTable::<4, Bits<40>>::new(|row| (0x7_0302_0177 * row as u64).into()), "lookup_table_4x40"),
         block(BankedMemory::<6, 3, 4, 8>::new(6, 4, 8), "banked_memory_6x4x8"),
         block(BankedMemory::<24, 5, 6, 7>::new(3, 2, 5), "banked_memory_3x2x5"),
         block(LockMemory::<14>::new(14), "lock_memory_14"),

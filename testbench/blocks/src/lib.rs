@@ -3,6 +3,7 @@
 //! The build script of the test bench translates this list, and the tests look blocks up in it.
 
 mod control;
+mod ethernet;
 mod exported;
 mod leaf;
 mod links;
@@ -10,6 +11,7 @@ mod serial;
 mod stream;
 mod visit;
 
+pub use ethernet::PHY_WRITES;
 pub use links::{HASTY_LINK, QUICK_LINK};
 
 /// Returns the name of the root module and the Verilog of every block that is tested by itself.
@@ -17,5 +19,6 @@ pub use links::{HASTY_LINK, QUICK_LINK};
 /// # Panics
 /// Panics if a block is not fit for export, which is a fault in its source.
 pub fn blocks() -> Vec<(String, String)> {
-    [leaf::blocks(), visit::blocks(), control::blocks(), serial::blocks(), stream::blocks()].concat()
+    [leaf::blocks(), visit::blocks(), control::blocks(), serial::blocks(), stream::blocks(), ethernet::blocks()]
+        .concat()
 }

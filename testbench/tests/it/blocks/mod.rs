@@ -3,6 +3,7 @@
 mod cluster;
 mod commands;
 mod engine;
+mod ethernet;
 mod leaf;
 mod mesh;
 mod predicate;

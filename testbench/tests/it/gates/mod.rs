@@ -4,6 +4,7 @@
 mod blocks;
 mod core;
 mod crossings;
+mod ethernet;
 mod proofs;
 mod refusals;
 mod serial;

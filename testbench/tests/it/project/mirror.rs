@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 /// Blocks without a test file of their own: the test that runs the block, by its path from `tests/it`,
 /// and why that test is enough.
-const ELSEWHERE: [(&str, &str, &str); 30] = [
+const ELSEWHERE: [(&str, &str, &str); 40] = [
     ("cluster/dual", "cores/chip", "wires between router, slots and collector"),
     ("cluster/engine_slot", "cores/chip", "a core with its queue and a count, at every clock"),
     ("cluster/quad", "cores/chip", "wires between router, slots and collector"),
@@ -30,6 +30,16 @@ const ELSEWHERE: [(&str, &str, &str); 30] = [
     ("engine/insertions", "cores/lockstep", "wires between the rooms"),
     ("engine/solo/solo_star", "blocks/engine/solo/solo", "a part of solo that only solo's states drive"),
     ("engine/solo/solo_steps", "blocks/engine/solo/solo", "the states of solo, which alone uses them"),
+    ("ethernet/byte_roles", "blocks/ethernet/udp_port", "a table of the headers, seen in what each kind of frame does"),
+    ("ethernet/datagram_check", "blocks/ethernet/udp_port", "lengths and check sums of frames, right and wrong"),
+    ("ethernet/datagram_gate", "blocks/ethernet/udp_port", "the entries, also to a reader that is too slow"),
+    ("ethernet/datagram_sender", "blocks/ethernet/udp_port", "the headers of the frames that go out"),
+    ("ethernet/datagram_slots", "blocks/ethernet/udp_port", "the datagrams that go out, at any ratio of the clocks"),
+    ("ethernet/frame_match", "blocks/ethernet/udp_port", "the headers of frames, right and wrong"),
+    ("ethernet/header_bytes", "blocks/ethernet/udp_port", "the headers of the frames that go out"),
+    ("ethernet/own_bytes", "blocks/ethernet/udp_port", "the addresses in the frames that go out"),
+    ("ethernet/responder", "blocks/ethernet/udp_port", "the answers to ARP and echo requests"),
+    ("ethernet/send_choice", "blocks/ethernet/udp_port", "answers and datagrams that share the line"),
     ("commands/payload_words", "blocks/commands/responder", "the payload that only the responder asks for"),
     ("leaf/spill_ring", "blocks/leaf/deep_fifo", "the memory behind the deep buffer"),
     ("leaf/unpack", "blocks/engine/visit/issue", "the fields of a structure as wires, in most blocks"),

@@ -14,6 +14,7 @@ use incircle_hdl::engine::{
     SoloPhase, SoloProgress, SoloStart, SoloTurn, StarTriangle, Start, Step, Turned, Upcoming, Verdict, Visit,
     VisitEvents, Write, WriteEnables,
 };
+use incircle_hdl::ethernet::types::Station;
 use incircle_hdl::leaf::Unpacked;
 use incircle_hdl::mesh::{ReadRecord, Record};
 use incircle_hdl::predicate::{Corners, EdgeFlags, OrderFlags, Signs};
@@ -188,6 +189,7 @@ packed_values!(
     RingHead,
     SeedProgress,
     Signs,
+    Station,
     SoloPhase,
     SoloProgress,
     SoloStart,

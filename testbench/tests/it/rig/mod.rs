@@ -8,6 +8,7 @@ pub mod cavity_growth;
 pub mod cells;
 pub mod command_reference;
 pub mod drawing;
+pub mod ethernet_frames;
 pub mod flip_mesh;
 pub mod ids;
 pub mod lockstep;

@@ -9,6 +9,7 @@ mod dual_clock_memory;
 mod fifo;
 mod flag_delay;
 mod lock_memory;
+mod lookup_table;
 mod lut_memory;
 mod multiplier;
 mod paced_memory;

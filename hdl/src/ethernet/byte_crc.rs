@@ -1,0 +1,86 @@
+//! A running CRC-32 over bytes, one byte a clock.
+//!
+//! 1. `sets` forgets the bytes before. A byte that is taken at the same edge does not count.
+//!
+//! Latency: 1 clock from a byte to the state.
+//!
+//! Source: polynomial 04C11DB7, reflected, as `serial/crc32.rs`, which takes a bit a clock in a quarter of the logic.
+//! The state is linear: a byte of eight bits adds one constant for each bit that is 1.
+
+use super::types::Byte;
+use crate::commands::types::Word;
+use crate::prelude::*;
+
+#[derive(LogicBlock, Default)]
+pub struct ByteCrc {
+    pub clock: Signal<In, Clock>,
+    /// Set the state to all ones at this edge.
+    pub sets: Signal<In, Bit>,
+    /// Take `byte_data` at this edge.
+    pub takes: Signal<In, Bit>,
+    pub byte_data: Signal<In, Byte>,
+    /// State of the check sum; the check sum is its complement, low byte first.
+    pub state: Signal<Out, Word>,
+    remainder: DFF<Word>,
+    mixed: Signal<Local, Byte>,
+    eight: Signal<Local, Word>,
+    upper: Signal<Local, Word>,
+    terms: [Signal<Local, Word>; 8],
+}
+
+impl ByteCrc {
+    /// The state after a frame that ends with its own check sum, if the check sum is right.
+    pub const SOUND: u64 = crate::serial::Crc32::SOUND;
+}
+
+impl Logic for ByteCrc {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, remainder);
+        self.state.next = self.remainder.q.val();
+        self.eight.next = 8.into();
+        self.upper.next = self.remainder.q.val() >> self.eight.val();
+        self.mixed.next = self.remainder.q.val().get_bits::<8>(0) ^ self.byte_data.val();
+        for i in 0..8 {
+            self.terms[i].next = 0.into();
+        }
+        if self.mixed.val().get_bit(0) {
+            self.terms[0].next = 0x7707_3096.into();
+        }
+        if self.mixed.val().get_bit(1) {
+            self.terms[1].next = 0xee0e_612cu64.into();
+        }
+        if self.mixed.val().get_bit(2) {
+            self.terms[2].next = 0x076d_c419.into();
+        }
+        if self.mixed.val().get_bit(3) {
+            self.terms[3].next = 0x0edb_8832.into();
+        }
+        if self.mixed.val().get_bit(4) {
+            self.terms[4].next = 0x1db7_1064.into();
+        }
+        if self.mixed.val().get_bit(5) {
+            self.terms[5].next = 0x3b6e_20c8.into();
+        }
+        if self.mixed.val().get_bit(6) {
+            self.terms[6].next = 0x76dc_4190.into();
+        }
+        if self.mixed.val().get_bit(7) {
+            self.terms[7].next = 0xedb8_8320u64.into();
+        }
+        if self.takes.val() {
+            self.remainder.d.next = self.upper.val()
+                ^ self.terms[0].val()
+                ^ self.terms[1].val()
+                ^ self.terms[2].val()
+                ^ self.terms[3].val()
+                ^ self.terms[4].val()
+                ^ self.terms[5].val()
+                ^ self.terms[6].val()
+                ^ self.terms[7].val();
+        }
+        if self.sets.val() {
+            self.remainder.d.next = 0xffff_ffffu64.into();
+        }
+    }
+}
