@@ -19,7 +19,7 @@ const MOST: usize = if cfg!(test) { 1 } else { 16 };
 
 /// The positions of living indices in the list of all.
 enum Ranks<'i> {
-    /// All indices from 0 on are living.
+    /// All indices below the number of points are living.
     Dense,
     /// A position for each index from the first living one to the last.
     Table(u32, Vec<u32>),
@@ -78,22 +78,24 @@ impl<P: PlanePoint> Triangulation<P> {
         if let Some(position) = places.iter().position(|place| !place.site().is_finite()) {
             return Err(Error::NotFiniteAt { position });
         }
-        let indices = self.indices();
-        if !self.sweep(&indices, places) {
+        let all_live = self.next as usize == places.len();
+        let indices = if all_live { Vec::new() } else { self.indices() };
+        let index = |position: u32| if all_live { position } else { indices[position as usize] };
+        let ranks = if all_live { Ranks::Dense } else { Ranks::of(&indices) };
+        if !self.sweep(&ranks, places) {
             let next = self.next;
             *self = Self::new();
             self.next = next;
-            self.load(places, |position| indices[position as usize])?;
+            self.load(places, index)?;
         }
         Ok(())
     }
 
     /// Moves the points by a sweep; says whether that was possible. If not, the mesh is of no use.
-    fn sweep(&mut self, indices: &[u32], places: &[P]) -> bool {
+    fn sweep(&mut self, ranks: &Ranks, places: &[P]) -> bool {
         if !self.base().is_plane() {
             return false;
         }
-        let ranks = Ranks::of(indices);
         // The point that names a place takes the vertex along. What stands here for a free vertex is never used.
         let place = |vertex: &Vertex<P>| places.get(ranks.rank(vertex.name)).copied().unwrap_or(vertex.point);
         let moved: Vec<P> = self.base().vertices.iter().map(place).collect();
