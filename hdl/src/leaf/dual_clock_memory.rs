@@ -12,7 +12,7 @@
 //! the next such edge.
 //!
 //! Source: block RAM with two clocks, which every family of FPGAs has. The Verilog is plain for all of them, because no
-//! board with primitives of its own has two clocks.
+//! device with primitives of its own has two clocks yet.
 
 use super::memory_shape::{assert_shape, low_part, unused_part, zero_extended};
 use rust_hdl_core::prelude::*;

@@ -36,7 +36,7 @@ fn sums_are_those_of_whole_words_modulo_65535() {
         block.edge();
         block.settle();
         wraps += usize::from(total > 0xffff);
-        block.expect("sum", if total > 0 && total % 0xffff == 0 { 0xffff } else { total % 0xffff });
+        block.expect("sum", if total > 0 && total.is_multiple_of(0xffff) { 0xffff } else { total % 0xffff });
     }
     assert!(wraps > 100, "{wraps} sums had a carry");
 }
