@@ -11,7 +11,7 @@ use incircle_protocol::{
 use super::address::UdpAddress;
 use super::codec::{encode, Message};
 use super::fault::UdpFault;
-use super::protocol::checked_greeting;
+use super::greeting::checked_greeting;
 use super::transport::random;
 
 /// Number of greetings that are sent, since each may be lost.
@@ -32,8 +32,8 @@ pub struct Discovered {
 /// their addresses. Two devices with one address both appear: their Ethernet addresses differ.
 ///
 /// The greeting goes to 255.255.255.255, which systems send out of the network that leads to the internet. `to` names
-/// other addresses to greet: the broadcast addresses of other networks, or single devices. Answers that are not those of
-/// a sound device are left out.
+/// other addresses to greet: the broadcast addresses of other networks, or single devices. Answers that are not those
+/// of a sound device are left out.
 ///
 /// # Errors
 /// [`UdpFault::Network`] if the system refuses a socket, or to send to every one of the addresses.

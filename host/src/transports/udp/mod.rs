@@ -15,6 +15,7 @@ mod address;
 mod codec;
 mod discover;
 mod fault;
+mod greeting;
 pub(super) mod protocol;
 mod reader;
 mod sender;

@@ -1,20 +1,19 @@
-//! The host's half of the UDP link, without a socket and without a clock: datagrams and times go in, datagrams and times
-//! come out.
+//! The host's half of the UDP link, without a socket and without a clock: datagrams and times go in, datagrams and
+//! times come out.
 
 mod receive;
 mod transmit;
 
 use std::time::Duration;
 
-use incircle_protocol::{Command, UdpGreeting};
-
-pub(super) use receive::checked_greeting;
+use incircle_protocol::{answer_head, Command, Identity, Opcode, UdpGreeting, IDENTITY_WORDS};
 
 use super::fault::UdpFault;
 use super::reader::Reader;
 use super::sender::Sender;
 use super::timing::RoundTrip;
 use super::unit::Answer;
+use crate::transports::is_begun_as;
 
 /// Bytes of answers that are awaited at a time unless the socket says how much it keeps.
 const WINDOW_BYTES: usize = 64 * 1024;
@@ -83,8 +82,9 @@ struct Polled {
 /// The host's half of the UDP link.
 ///
 /// The driver hands over each datagram that came ([`UdpProtocol::receive`]) and sends those that are due
-/// ([`UdpProtocol::transmit`]), whenever a datagram came and at the time of [`UdpProtocol::next_wake`]. Times count from
-/// any origin, never go back, and may be virtual. Commands have no deadline here: a driver stops waiting when it wants to.
+/// ([`UdpProtocol::transmit`]), whenever a datagram came and at the time of [`UdpProtocol::next_wake`]. Times count
+/// from any origin, never go back, and may be virtual. Commands have no deadline here: a driver stops waiting when it
+/// wants to.
 #[derive(Debug)]
 pub struct UdpProtocol {
     random: u64,
@@ -202,7 +202,7 @@ impl UdpProtocol {
             return None;
         }
         let answer = self.reader.take_answer(&self.sender)?;
-        self.fault = self.greeting.and_then(|greeting| receive::contradiction(&answer, &greeting));
+        self.fault = self.greeting.and_then(|greeting| contradiction(&answer, &greeting));
         self.fault.is_none().then_some(answer)
     }
 
@@ -241,4 +241,14 @@ impl UdpProtocol {
         let (repeated, restarted) = self.reader.repeats();
         UdpStatistics { resent: self.resent_before + self.sender.resent(), repeated, restarted, ..self.statistics }
     }
+}
+
+/// The fault of an identity that differs from the one in the greeting, if the answer is an identity. The link knows the
+/// length of points and records from the greeting, so the two must agree.
+fn contradiction((head, payload): &Answer, greeting: &UdpGreeting) -> Option<UdpFault> {
+    let is_identity = is_begun_as(*head, answer_head(Opcode::Hello, IDENTITY_WORDS as u32));
+    let identity = Identity::from_words(*payload.first_chunk().filter(|_| is_identity)?);
+    let mut words = identity.to_words().into_iter().zip(greeting.identity.to_words()).zip(0..);
+    let ((found, expected), word) = words.find(|((found, expected), _)| found != expected)?;
+    Some(UdpFault::Contradiction { word, found, expected })
 }

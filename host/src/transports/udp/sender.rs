@@ -173,7 +173,8 @@ impl Sender {
         self.sent.front().filter(|sent| self.out > 0 && sent.times > 1).map(|sent| sent.left_at)
     }
 
-    /// Sends all datagrams under way again. They are not cut anew, since the device may yet take one that is on its way.
+    /// Sends all datagrams under way again. They are not cut anew, since the device may yet take one that is on its
+    /// way.
     pub fn go_back(&mut self) {
         self.out = 0;
     }

@@ -1,9 +1,9 @@
 //! The device's end of the UDP link, datagram by datagram, as `protocol/UDP.md` describes it.
 //!
 //! [`UdpModel`] stands between a network and a [`WordDevice`]. The caller decides when datagrams come and go and when
-//! clocks pass, so the same model serves tests in virtual time and devices in real time. Ethernet, ARP, IPv4 and UDP are
-//! not modelled: the caller says from which address a datagram comes. The model shares nothing with the hardware or with
-//! a host but the numbers of the protocol.
+//! clocks pass, so the same model serves tests in virtual time and devices in real time. Ethernet, ARP, IPv4 and UDP
+//! are not modelled: the caller says from which address a datagram comes. The model shares nothing with the hardware or
+//! with a host but the numbers of the protocol.
 //!
 //! ```
 //! use std::net::{Ipv4Addr, SocketAddrV4};
@@ -98,7 +98,8 @@ impl<D: WordDevice> UdpModel<D> {
         worked
     }
 
-    /// Lets the core work for this many clocks, in no time. Returns the number of clocks in which it had something to do.
+    /// Lets the core work for this many clocks, in no time. Returns the number of clocks in which it had something to
+    /// do.
     pub fn work(&mut self, clocks: u64) -> u64 {
         self.session.as_mut().map_or(0, |session| session.pass(&mut self.core, clocks))
     }

@@ -2,21 +2,13 @@
 
 use std::time::Duration;
 
-use incircle_protocol::{
-    answer_head, DeviceDatagram, Identity, Layout, Opcode, UdpGreeting, IDENTITY_WORDS, MAX_FIFO_BYTES, MAX_SILENCE_MS,
-    MIN_FIFO_BYTES, UDP_LINK_MAGIC, UDP_LINK_VERSION,
-};
+use incircle_protocol::{DeviceDatagram, Layout};
 
 use super::{Stage, UdpProtocol};
-use crate::transports::identity::check_identity;
-use crate::transports::is_begun_as;
 use crate::transports::udp::codec::Message;
 use crate::transports::udp::fault::UdpFault;
+use crate::transports::udp::greeting::checked_greeting;
 use crate::transports::udp::sender::Sender;
-use crate::transports::udp::unit::Answer;
-
-/// Shortest silence, in milliseconds, that a device is believed to have.
-const LEAST_SILENCE_MS: u32 = 20;
 
 impl UdpProtocol {
     /// Takes a datagram that came from the address of the device.
@@ -168,42 +160,4 @@ impl UdpProtocol {
             self.sender.go_back();
         }
     }
-}
-
-/// The greeting in a message.
-///
-/// # Errors
-/// The greeting is not one of a sound device.
-pub(in crate::transports::udp) fn checked_greeting(message: &Message<'_>) -> Result<UdpGreeting, UdpFault> {
-    let mut words = message.words();
-    let words = std::array::from_fn(|_| words.next().unwrap_or(0));
-    let greeting = UdpGreeting::from_words(words);
-    let UdpGreeting { magic, link_version: found, fifo_bytes, silence_ms, .. } = greeting;
-    if magic != UDP_LINK_MAGIC {
-        return Err(UdpFault::Magic { found: magic, expected: UDP_LINK_MAGIC });
-    }
-    let expected = UDP_LINK_VERSION;
-    if found >> 16 != expected >> 16 || found < expected {
-        return Err(UdpFault::Version { found, expected });
-    }
-    for (what, found, least, most) in [
-        ("bytes of FIFO", fifo_bytes, MIN_FIFO_BYTES, MAX_FIFO_BYTES),
-        ("milliseconds of silence", silence_ms, LEAST_SILENCE_MS, MAX_SILENCE_MS),
-    ] {
-        if !(least..=most).contains(&found) {
-            return Err(UdpFault::Greeting { what, found, least, most });
-        }
-    }
-    check_identity(&greeting.identity)?;
-    Ok(greeting)
-}
-
-/// The fault of an identity that differs from the one in the greeting, if the answer is an identity. The link knows the
-/// length of points and records from the greeting, so the two must agree.
-pub(super) fn contradiction((head, payload): &Answer, greeting: &UdpGreeting) -> Option<UdpFault> {
-    let is_identity = is_begun_as(*head, answer_head(Opcode::Hello, IDENTITY_WORDS as u32));
-    let identity = Identity::from_words(*payload.first_chunk().filter(|_| is_identity)?);
-    let mut words = identity.to_words().into_iter().zip(greeting.identity.to_words()).zip(0..);
-    let ((found, expected), word) = words.find(|((found, expected), _)| found != expected)?;
-    Some(UdpFault::Contradiction { word, found, expected })
 }

@@ -113,8 +113,10 @@ const CLASSES: [(&str, usize); 7] = [
     ("loss=0.3,flip=0.1,delay=100", 20),
 ];
 
+/// Does `jobs` jobs of each class, and a quarter of that of the last and slowest class.
 fn soak_all(jobs: usize, seed: u64) {
     for (class, (faults, most)) in CLASSES.into_iter().enumerate() {
+        let jobs = if class + 1 == CLASSES.len() { jobs / 4 } else { jobs };
         let outcome = soak(faults, jobs, seed + class as u64);
         println!("{faults}: none wrong; {outcome:?}");
         assert!(outcome.failed * 100 <= most * jobs, "{faults}: {outcome:?}");
@@ -133,7 +135,7 @@ fn jobs_over_a_bad_network_end_with_the_right_mesh() {
 #[test]
 #[ignore = "takes minutes"]
 fn ten_thousand_jobs_over_a_bad_network() {
-    soak_all(1500, 1000);
+    soak_all(1600, 1000);
 }
 
 #[test]

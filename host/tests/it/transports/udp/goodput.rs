@@ -1,4 +1,5 @@
-//! The goodput of the UDP link in virtual time: how fast jobs pass with faults, as a share of how fast they pass without.
+//! The goodput of the UDP link in virtual time: how fast jobs pass with faults, as a share of how fast they pass
+//! without.
 
 use std::cell::RefCell;
 use std::rc::Rc;

@@ -115,31 +115,35 @@ fn one_thread_carries_many_datagrams() {
                 }
             }
         });
-        let address = UdpAddress { host: address.ip().to_string(), port: address.port() };
-        let mut transport = UdpTransport::open(&address).expect("a socket");
-        let range = RecordRange { first: 0, count: 16_000 };
-        let job = [Command::Clear(Clear::one_mesh(0)), Command::Triangles(range)];
-        let heads = job.each_ref().map(|command: &Command<&[u32]>| {
-            answer_head(command.opcode(), command.payload_words(Layout::of(16, FULL.points)) as u32)
-        });
-        let mut payload = vec![0; heads[1][1] as usize];
-        let deadline = Instant::now() + Duration::from_secs(60);
-        transport.submit(&job, deadline).expect("sent");
-        let mut begun = Instant::now();
-        for run in 0..1000 {
-            transport.submit(&job, deadline).expect("sent");
-            transport.receive(heads[0], &mut [], deadline).expect("an answer");
-            assert_eq!(transport.receive(heads[1], &mut payload, deadline).expect("an answer")[1], heads[1][1]);
-            if run == 0 {
-                begun = Instant::now();
-            }
-        }
-        let (took, counts) = (begun.elapsed().as_secs_f64(), transport.statistics());
-        let rate = (counts.sent + counts.received) as f64 / took;
-        println!(
-            "{rate:.0} datagrams/s, {:.0} MB/s of answers; {counts:?}",
-            1000.0 * 4.0 * payload.len() as f64 / took / 1e6
-        );
+        measure(&UdpAddress { host: address.ip().to_string(), port: address.port() });
         stops.store(true, Ordering::Relaxed);
     });
+}
+
+/// Does a thousand read-outs, and prints how many datagrams passed in a second.
+fn measure(address: &UdpAddress) {
+    let mut transport = UdpTransport::open(address).expect("a socket");
+    let range = RecordRange { first: 0, count: 16_000 };
+    let job = [Command::Clear(Clear::one_mesh(0)), Command::Triangles(range)];
+    let heads = job.each_ref().map(|command: &Command<&[u32]>| {
+        answer_head(command.opcode(), command.payload_words(Layout::of(16, FULL.points)) as u32)
+    });
+    let mut payload = vec![0; heads[1][1] as usize];
+    let deadline = Instant::now() + Duration::from_secs(60);
+    transport.submit(&job, deadline).expect("sent");
+    let mut begun = Instant::now();
+    for run in 0..1000 {
+        transport.submit(&job, deadline).expect("sent");
+        transport.receive(heads[0], &mut [], deadline).expect("an answer");
+        assert_eq!(transport.receive(heads[1], &mut payload, deadline).expect("an answer")[1], heads[1][1]);
+        if run == 0 {
+            begun = Instant::now();
+        }
+    }
+    let (took, counts) = (begun.elapsed().as_secs_f64(), transport.statistics());
+    let rate = (counts.sent + counts.received) as f64 / took;
+    println!(
+        "{rate:.0} datagrams/s, {:.0} MB/s of answers; {counts:?}",
+        1000.0 * 4.0 * payload.len() as f64 / took / 1e6
+    );
 }
