@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::SplitMix64;
+use crate::random::SplitMix64;
 
 /// Nanoseconds that a swapped datagram comes late, so that others overtake it.
 const SWAP_NS: u64 = 50_000;
