@@ -73,7 +73,7 @@ fn measure<P: PlanePoint>(times: &mut Times, random: &mut SplitMix64, grid: &[Po
     times.note("from", time);
     times.note("bytes a point", mesh.bytes() as f64 / count as f64);
     times.note("mesh", timed(count, || mesh.mesh()).0);
-    for part in [10, 50] {
+    for part in [10, 50, 3, 2] {
         measure_frames(times, random, &mut mesh.clone(), grid, part, to_point);
     }
     let queries: Vec<Point> = random.points(count, 1 << BITS);

@@ -9,9 +9,11 @@ pub(crate) mod clock;
 pub(crate) mod identity;
 pub(crate) mod model;
 pub mod pcie;
+mod round_trip;
 pub mod serial;
 mod transport;
 pub mod udp;
+mod words;
 
 pub use clock::ClockTransport;
 pub use model::ModelTransport;
@@ -23,7 +25,8 @@ pub use transport::{
 /// Parts of the transports to boards and cards, for tests and measurements of a link. Sessions need none of them.
 ///
 /// [`SerialProtocol`](parts::SerialProtocol) is the serial protocol without a port and without a clock, so that it can
-/// run in virtual time; [`UdpProtocol`](parts::UdpProtocol) is that of a network. [`CardFiles`](parts::CardFiles) are the files of a card, which may as well be in memory.
+/// run in virtual time; [`UdpProtocol`](parts::UdpProtocol) is that of a network. [`CardFiles`](parts::CardFiles) are
+/// the files of a card, which may as well be in memory.
 pub mod parts {
     pub use super::pcie::files::{CardFiles, RegisterFile};
     pub use super::pcie::left_behind::calls_left_behind;

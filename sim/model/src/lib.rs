@@ -13,6 +13,7 @@
 mod chip;
 mod clock;
 mod command;
+mod link;
 mod mesh;
 pub mod predicate;
 pub mod serial;

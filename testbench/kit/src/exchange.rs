@@ -33,7 +33,7 @@ pub struct Datagram {
     pub host: char,
     /// Whether it goes to the device.
     pub goes_to_device: bool,
-    /// Its bytes.
+    /// The payload of UDP: header, words and check sum.
     pub bytes: Vec<u8>,
 }
 

@@ -6,6 +6,7 @@ use incircle_protocol::{
 };
 
 use super::cobs;
+use crate::transports::words::words_of;
 
 /// Most bytes of an encoded frame from the device, without the closing zero.
 const MAX_ENCODED: usize = MAX_DEVICE_FRAME + MAX_DEVICE_FRAME / 254 + 1;
@@ -96,11 +97,6 @@ pub(super) struct AnswerPart<'b> {
     pub bytes: &'b [u8],
     /// Check sum over all words of the answer. Only the last part has it.
     pub digest: Option<u32>,
-}
-
-/// Reads bytes as words, low byte first.
-pub(super) fn words_of(bytes: &[u8]) -> impl Iterator<Item = u32> + '_ {
-    bytes.chunks_exact(4).map(|bytes| u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]))
 }
 
 /// Finds frames in the bytes from the line. A decoder holds the bytes of one frame at most, whatever comes.

@@ -15,8 +15,9 @@ use super::connect::Connect;
 use super::fault::SerialFault;
 use super::reader::Reader;
 use super::sender::Sender;
-use super::timing::{Line, RoundTrip};
+use super::timing::{Line, TRIP_BOUNDS};
 use crate::transports::is_begun_as;
+use crate::transports::round_trip::RoundTrip;
 
 /// Rate to ask for unless the caller chooses another, in bits per second. Every newer USB adapter reaches it.
 pub const DEFAULT_RATE: u32 = 3_000_000;
@@ -138,7 +139,7 @@ impl SerialProtocol {
             fault: None,
             decoder: Decoder::default(),
             line: Line::new(FIRST_RATE),
-            trips: RoundTrip::default(),
+            trips: RoundTrip::new(TRIP_BOUNDS),
             sender: Sender::new(),
             reader: Reader::new(Layout { point_words: 1, record_words: 3 }),
             greeting: None,

@@ -7,10 +7,11 @@ use incircle_protocol::{
     INSERT_REPORT_WORDS, LATENCY_BUCKETS,
 };
 
-use super::codec::{words_of, AnswerPart};
+use super::codec::AnswerPart;
 use super::fault::SerialFault;
 use super::sender::Sender;
 use crate::transports::is_begun_as;
+use crate::transports::words::words_of;
 
 /// Most words of payload of a range: with the header they fill three frames.
 const RANGE_WORDS: usize = 3 * 256 - HEADER;

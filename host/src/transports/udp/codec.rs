@@ -1,9 +1,8 @@
 //! The datagrams of the UDP link, as the host writes and reads them.
 
-use incircle_protocol::{DeviceHeader, HostDatagram, HostHeader, DATAGRAM_HEADER_BYTES};
+use incircle_protocol::{DeviceHeader, HostDatagram, HostHeader, CRC_BYTES, DATAGRAM_HEADER_BYTES};
 
-/// Number of bytes of a check sum.
-const CRC_BYTES: usize = 4;
+use crate::transports::words::words_of;
 
 /// A datagram to the device with these bytes of words.
 pub(super) fn encode(kind: HostDatagram, number: u32, session: u64, words: &[u8]) -> Vec<u8> {
@@ -37,9 +36,4 @@ impl<'a> Message<'a> {
     pub fn words(&self) -> impl Iterator<Item = u32> + use<'a> {
         words_of(self.body)
     }
-}
-
-/// The words in these bytes, without bytes that are left over.
-pub(super) fn words_of(bytes: &[u8]) -> impl Iterator<Item = u32> + use<'_> {
-    bytes.chunks_exact(4).map(|bytes| bytes.iter().rev().fold(0, |word, &byte| (word << 8) | u32::from(byte)))
 }

@@ -19,7 +19,6 @@ mod greeting;
 pub(super) mod protocol;
 mod reader;
 mod sender;
-mod timing;
 mod transport;
 mod unit;
 

@@ -11,14 +11,20 @@ use incircle_protocol::{answer_head, Command, Identity, Opcode, UdpGreeting, IDE
 use super::fault::UdpFault;
 use super::reader::Reader;
 use super::sender::Sender;
-use super::timing::RoundTrip;
 use super::unit::Answer;
 use crate::transports::is_begun_as;
+use crate::transports::round_trip::{RoundTrip, TripBounds};
 
 /// Bytes of answers that are awaited at a time unless the socket says how much it keeps.
 const WINDOW_BYTES: usize = 64 * 1024;
 /// Fewest bytes of answers that are awaited at a time: two datagrams.
 const LEAST_WINDOW_BYTES: usize = 3 * 1024;
+/// How long the host waits, on a local network.
+const TRIP_BOUNDS: TripBounds = TripBounds {
+    first_trip: Duration::from_millis(2),
+    least_slack: Duration::from_micros(500),
+    poll_every: Duration::from_millis(100),
+};
 
 /// Choices for a [`UdpProtocol`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -112,7 +118,7 @@ impl UdpProtocol {
             random: params.random,
             stage: Stage::Idle,
             fault: None,
-            trips: RoundTrip::default(),
+            trips: RoundTrip::new(TRIP_BOUNDS),
             sender: Sender::default(),
             reader: Reader::new(window),
             greeting: None,

@@ -5,7 +5,7 @@ use incircle_protocol::{
 };
 
 use super::cobs::{decode_reverse, encode, encode_reverse, CobsDecoder};
-use super::crc::Crc32;
+use crate::link::Crc32;
 
 /// Largest number of bytes of a frame to the device, decoded.
 const MAX_HOST_FRAME: usize = HOST_HEADER_BYTES + MAX_PAYLOAD + CRC_BYTES;

@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use incircle_protocol::FRAME_END;
 
 use super::cobs::ReverseEncoder;
-use super::crc::Crc32;
+use crate::link::Crc32;
 
 /// The sending side of the line.
 #[derive(Clone, Debug, Default)]

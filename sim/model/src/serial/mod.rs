@@ -21,10 +21,7 @@
 //! # Ok::<(), incircle_model::ModelError>(())
 //! ```
 
-mod answers;
 pub mod cobs;
-mod crc;
-mod device;
 mod frame;
 mod line;
 mod session;
@@ -36,12 +33,11 @@ use incircle_protocol::{
     MAX_POINTS, MAX_STEP, STATUS_BAD_RATE, STATUS_BUSY, STATUS_DROPPED, STATUS_OPEN,
 };
 
-use answers::Part;
+use crate::link::Taken;
 use line::SendingLine;
-use session::{Session, Taken};
+use session::{Part, Session};
 
-pub use crc::Crc32;
-pub use device::{core_identity, Instantly, Passed, WordDevice};
+pub use crate::link::{core_identity, Crc32, Instantly, Passed, WordDevice};
 pub use frame::{FrameReceiver, FromDevice, FromHost, Received};
 
 /// The replies that must be sent, each once.
@@ -131,7 +127,7 @@ impl<D: WordDevice> SerialModel<D> {
 
     /// Whether the core is working on a command, or its answer has not been sent.
     pub fn is_busy(&self) -> bool {
-        self.session.as_ref().is_some_and(|session| session.is_busy || session.waiting_bytes() > 0)
+        self.session.as_ref().is_some_and(|session| session.flow.is_busy() || session.flow.waiting_bytes() > 0)
     }
 
     /// Whether passing time changes nothing until a byte comes: no session, nothing to send, first rate.
@@ -144,7 +140,7 @@ impl<D: WordDevice> SerialModel<D> {
     /// Lets this many clocks pass: the core works, and the silence grows longer.
     pub fn pass(&mut self, clocks: u64) {
         if let Some(session) = &mut self.session {
-            session.pass(&mut self.core, clocks);
+            session.flow.pass(&mut self.core, clocks);
         }
         self.silent = self.silent.saturating_add(clocks);
         if self.silent >= u64::from(self.link.clock_hz) * u64::from(self.link.silence_ms) / 1000 {
@@ -188,11 +184,11 @@ impl<D: WordDevice> SerialModel<D> {
             }
             (_, None) => self.due.no_session = true,
             (_, Some(session)) if session.number != frame.session => {}
-            (HostFrame::Poll, Some(session)) if session.has_gap() => self.due.nak = true,
+            (HostFrame::Poll, Some(session)) if session.flow.has_gap() => self.due.nak = true,
             (HostFrame::Poll, Some(_)) => self.due.ack = true,
             (HostFrame::Rate, Some(_)) => self.take_rate(&frame.payload),
             (HostFrame::Data, Some(session)) => {
-                let is_room = session.waiting_bytes() + frame.payload.len() <= self.link.fifo_bytes as usize;
+                let is_room = session.flow.waiting_bytes() + frame.payload.len() <= self.link.fifo_bytes as usize;
                 match session.take_data(&frame, is_room) {
                     Taken::Here => (self.due.ack, self.due.nak) = (true, false),
                     Taken::Before => self.due.ack = true,
@@ -252,13 +248,13 @@ impl<D: WordDevice> SerialModel<D> {
         let Some(session) = &mut self.session else {
             return;
         };
-        if let Some(word) = session.answers.word() {
+        if let Some(word) = session.flow.answers.take() {
             part.words -= 1;
             self.line.add(&word.to_le_bytes());
         }
         if part.words == 0 {
             if part.is_last {
-                self.line.add(&session.answers.crc().to_le_bytes());
+                self.line.add(&session.flow.answers.crc().to_le_bytes());
                 self.then = Then::AnswerEnds;
             }
             self.part = None;
@@ -283,9 +279,9 @@ impl<D: WordDevice> SerialModel<D> {
             let kind = if due.nak { DeviceFrame::Nak } else { DeviceFrame::Ack };
             (due.ack, due.nak) = (false, false);
             self.then = self.new_step.take().map_or(Then::Nothing, Then::Step);
-            let taken = self.session.as_ref().map_or(0, |session| session.taken.value());
+            let taken = self.session.as_ref().map_or(0, |session| session.flow.taken());
             self.send(kind, &taken.to_le_bytes());
-        } else if let Some(part) = self.session.as_mut().and_then(|session| session.answers.begin_part()) {
+        } else if let Some(part) = self.session.as_mut().and_then(Session::begin_part) {
             let kind = if part.is_last { DeviceFrame::AnswerEnd } else { DeviceFrame::Answer };
             let header = self.header(kind);
             self.line.add(&header);
@@ -305,18 +301,18 @@ impl<D: WordDevice> SerialModel<D> {
     /// The header of a frame. The report of a dropped frame is sent once, so building a header clears it.
     fn header(&mut self, kind: DeviceFrame) -> [u8; incircle_protocol::DEVICE_HEADER_BYTES] {
         let session = self.session.as_ref();
-        let waiting = session.map_or(0, |session| session.waiting_bytes() as u32);
+        let waiting = session.map_or(0, |session| session.flow.waiting_bytes() as u32);
         let flags = [
             (session.is_some(), STATUS_OPEN),
             (self.was_bad_rate, STATUS_BAD_RATE),
             (std::mem::take(&mut self.was_dropped), STATUS_DROPPED),
-            (session.is_some_and(|session| session.is_busy), STATUS_BUSY),
+            (session.is_some_and(|session| session.flow.is_busy()), STATUS_BUSY),
         ];
         let frame = FromDevice {
             session: session.map_or(0, |session| session.number),
             kind,
             expected: session.map_or(0, |session| session.expected),
-            answers: session.map_or(0, |session| session.answers.sent()),
+            answers: session.map_or(0, |session| session.flow.answers.sent() as u8),
             free: (self.link.fifo_bytes.saturating_sub(waiting)).min(u32::from(u16::MAX)) as u16,
             status: flags.iter().filter(|(is_set, _)| *is_set).map(|(_, bit)| bit).sum(),
             body: Vec::new(),
@@ -329,7 +325,7 @@ impl<D: WordDevice> SerialModel<D> {
         match (std::mem::replace(&mut self.then, Then::Nothing), &mut self.session) {
             (Then::Step(step), _) => self.step = step,
             (Then::AnswerEnds, Some(session)) => {
-                session.end_answer();
+                session.flow.end_answer();
             }
             _ => {}
         }

@@ -2,7 +2,7 @@
 
 use incircle_protocol::{command_opcode, Config, Identity, Opcode, CORE_COORD_BITS, PADDING};
 
-use crate::serial::core_identity;
+use crate::link::core_identity;
 use crate::{CommandModel, ModelError};
 
 /// A device with a stream of command words and a stream of answer words, without a clock.

@@ -2,7 +2,7 @@
 
 use incircle_protocol::{DeviceDatagram, DeviceHeader, HostDatagram, HostHeader, DATAGRAM_HEADER_BYTES};
 
-use crate::serial::Crc32;
+use crate::link::Crc32;
 
 /// Number of bytes of a check sum.
 const CRC_BYTES: usize = 4;

@@ -22,7 +22,6 @@
 //! # Ok::<(), incircle_model::ModelError>(())
 //! ```
 
-mod answers;
 mod datagram;
 mod session;
 #[cfg(test)]
@@ -35,8 +34,8 @@ use incircle_protocol::{
     STATUS_BUSY, STATUS_DROPPED, STATUS_OPEN, UDP_LINK_MAGIC, UDP_LINK_VERSION,
 };
 
-use crate::serial::WordDevice;
-use session::{Session, Taken};
+use crate::link::{Taken, WordDevice};
+use session::Session;
 
 pub use datagram::{ToDevice, ToHost};
 
@@ -87,7 +86,7 @@ impl<D: WordDevice> UdpModel<D> {
 
     /// Whether the core has something to do and can do it.
     pub fn is_at_work(&self) -> bool {
-        self.session.as_ref().is_some_and(|session| !session.is_stalled())
+        self.session.as_ref().is_some_and(|session| !session.flow.is_stalled())
     }
 
     /// Lets this many clocks pass: the core works, and the silence grows longer. Returns the number of clocks in which
@@ -101,7 +100,7 @@ impl<D: WordDevice> UdpModel<D> {
     /// Lets the core work for this many clocks, in no time. Returns the number of clocks in which it had something to
     /// do.
     pub fn work(&mut self, clocks: u64) -> u64 {
-        self.session.as_mut().map_or(0, |session| session.pass(&mut self.core, clocks))
+        self.session.as_mut().map_or(0, |session| session.flow.pass(&mut self.core, clocks))
     }
 
     /// Lets the silence grow by this many clocks, in which the core does nothing.
@@ -171,7 +170,7 @@ impl<D: WordDevice> UdpModel<D> {
                 Taken::NotYet => self.nak = true,
                 Taken::NotYetToldBefore => {}
             },
-            _ if session.has_gap => self.nak = true,
+            _ if session.flow.has_gap() => self.nak = true,
             _ => self.ack = true,
         }
         self.silent = 0;
@@ -199,7 +198,8 @@ impl<D: WordDevice> UdpModel<D> {
         if self.ack || self.nak {
             let kind = if self.nak { DeviceDatagram::Nak } else { DeviceDatagram::Ack };
             (self.ack, self.nak) = (false, false);
-            let body = [session.answers.sent(), session.taken.value()].into_iter().flat_map(u32::to_le_bytes).collect();
+            let body =
+                [session.flow.answers.sent(), session.flow.taken()].into_iter().flat_map(u32::to_le_bytes).collect();
             return Some((host, self.datagram(kind, number, body)));
         }
         let part = session.next_part()?;
@@ -212,11 +212,11 @@ impl<D: WordDevice> UdpModel<D> {
     /// A datagram to a host. The report of a dropped datagram is sent once, so building a header clears it.
     fn datagram(&mut self, kind: DeviceDatagram, number: u64, body: Vec<u8>) -> Vec<u8> {
         let session = self.session.as_ref();
-        let waiting = session.map_or(0, |session| session.waiting_bytes() as u32);
+        let waiting = session.map_or(0, |session| session.flow.waiting_bytes() as u32);
         let flags = [
             (session.is_some(), STATUS_OPEN),
             (std::mem::take(&mut self.was_dropped), STATUS_DROPPED),
-            (session.is_some_and(|session| session.is_busy), STATUS_BUSY),
+            (session.is_some_and(|session| session.flow.is_busy()), STATUS_BUSY),
         ];
         let header = DeviceHeader {
             kind,

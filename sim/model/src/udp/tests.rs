@@ -1,7 +1,7 @@
 //! The model of the UDP link, rule by rule.
 
 use super::*;
-use crate::serial::{Crc32, Instantly};
+use crate::link::{Crc32, Instantly};
 use incircle_protocol::{clear_word, command_word, Opcode, SMALL};
 use std::net::Ipv4Addr;
 

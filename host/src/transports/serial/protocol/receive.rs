@@ -5,10 +5,11 @@ use std::time::Duration;
 use incircle_protocol::{DeviceFrame, Layout, FIRST_RATE, STATUS_OPEN};
 
 use super::{Polled, SerialProtocol, Stage};
-use crate::transports::serial::codec::{words_of, Decoded, Message};
+use crate::transports::serial::codec::{Decoded, Message};
 use crate::transports::serial::fault::SerialFault;
 use crate::transports::serial::reader::Reader;
 use crate::transports::serial::sender::Sender;
+use crate::transports::words::words_of;
 
 /// Frames of one kind that prove that the session is gone. A single one may have been on its way since before.
 const PROOF: u32 = 2;

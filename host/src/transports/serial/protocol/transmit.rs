@@ -7,7 +7,7 @@ use incircle_protocol::{HostFrame, CRC_BYTES, FIRST_RATE, FRAME_END, HOST_HEADER
 use super::{Polled, SerialProtocol, Stage};
 use crate::transports::serial::codec::{encode, MOST_OVERHEAD};
 use crate::transports::serial::fault::SerialFault;
-use crate::transports::serial::timing::POLL_EVERY;
+use crate::transports::serial::timing::TRIP_BOUNDS;
 
 /// Time by which bytes are handed out ahead of the line: enough to keep it busy, but little to wait for when frames
 /// must be sent again.
@@ -82,7 +82,7 @@ impl SerialProtocol {
 
     /// Time at which the next `Poll` is due.
     fn poll_at(&self) -> Duration {
-        let every = POLL_EVERY.min(self.silence / 4);
+        let every = TRIP_BOUNDS.poll_every.min(self.silence / 4);
         let keep = self.last_said + every;
         let is_waiting = self.reader.is_waiting() || !self.sender.is_done() || !self.sender.is_proved();
         if !is_waiting || self.sender.has_due() {

@@ -66,7 +66,7 @@ impl UdpProtocol {
 
     /// Time at which the next `Poll` is due.
     fn poll_at(&self) -> Duration {
-        self.last_heard.max(self.last_said) + self.trips.patience(self.silence)
+        self.last_heard.max(self.last_said) + self.trips.patience(Duration::ZERO).min(self.silence / 8)
     }
 
     fn say_hello(&mut self, since: Duration, due: Duration, opens: bool, now: Duration, out: &mut Vec<Vec<u8>>) {

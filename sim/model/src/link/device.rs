@@ -1,4 +1,4 @@
-//! The device behind the serial link: it takes and gives words, one clock at a time.
+//! The device behind a link: it takes and gives words, one clock at a time.
 
 use incircle_protocol::{Config, Identity, CORE_COORD_BITS, CORE_VERSION, MAGIC, PROTOCOL_VERSION};
 
