@@ -38,8 +38,8 @@ pub struct FrameSender {
     /// covered the byte before.
     pub byte_data: Signal<In, Byte>,
     pub sum_is_busy: Signal<In, Bit>,
-    /// The next byte of the words is there; `word_byte_is_last` says that the byte is the last one of the
-    /// words in this frame.
+    /// The next byte of the words is there, and stays until it is loaded or the frame is cut; `word_byte_is_last`
+    /// says that the byte is the last one of the words in this frame.
     pub word_byte_valid: Signal<In, Bit>,
     pub word_byte_is_last: Signal<In, Bit>,
     /// The sender loads a byte that the check sum of the frame covers; with `loads_word` the byte belongs to the words.
@@ -104,8 +104,10 @@ impl Logic for FrameSender {
         self.has_byte.next =
             (self.state.q.val() == SendState::Parts) & ((!self.is_words.val()) | self.word_byte_valid.val());
         self.asked_once.d.next = self.has_byte.val() & (!self.is_loaded.q.val()) & (!self.sum_is_busy.val());
-        self.asked_twice.d.next = self.asked_once.q.val();
-        self.takes.next = self.asked_twice.q.val() & self.has_byte.val();
+        // Once both clocks have passed, the byte is still there unless the frame is cut, so `takes` is a register: it
+        // reaches the whole way of the answers, which is too long for a clock behind a decision.
+        self.asked_twice.d.next = self.asked_once.q.val() & self.has_byte.val();
+        self.takes.next = self.asked_twice.q.val();
         self.finishes.next = self.takes.val() & self.part_end.is_last.val();
         self.loads.next = self.takes.val() & (!self.is_sum.val());
         self.loads_word.next = self.takes.val() & self.is_words.val();
@@ -163,6 +165,8 @@ impl Logic for FrameSender {
         if self.cuts.val() & self.contents.val().has_answer & (self.state.q.val() != SendState::Idle) {
             self.was_cut.d.next = true;
             self.is_loaded.d.next = false;
+            self.asked_once.d.next = false;
+            self.asked_twice.d.next = false;
             if self.state.q.val() == SendState::Parts {
                 self.state.d.next = SendState::End;
             }
@@ -170,6 +174,8 @@ impl Logic for FrameSender {
         if self.reset.val() {
             self.state.d.next = SendState::Idle;
             self.is_loaded.d.next = false;
+            self.asked_once.d.next = false;
+            self.asked_twice.d.next = false;
         }
     }
 }

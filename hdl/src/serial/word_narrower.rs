@@ -1,17 +1,19 @@
 //! Passes on the words of answer beats one by one, because the serial link sends bytes and the core answers up to
 //! two words a beat.
 //!
-//! 1. A beat is taken together with its last word. Until then the beat, and every word on offer, must stay.
+//! 1. A beat is taken when no word of the one before is left. `pair_ready` comes from a register, so that the core
+//!    does not wait for what happens on the line within a clock.
 //!
-//! Latency: none (combinational) from a beat to its words.
+//! Latency: 1 clock from a beat to its first word.
 //!
 //! A beat of two words and a beat of one word:
 //! ```text
-//! pair_valid      /^^^^^^^^^^^\__
-//! both            /^^^^^^^^\_____
-//! pair_ready      ______/^^^^^^^^
-//! word              5  6  6  7  .
-//! word_ready      /^^\__/^^^^^^^^
+//! pair_valid      /^^^^^^^^^^^^^^\________
+//! both            /^^\____________________
+//! pair_ready      /^^\________/^^\__/^^^^^
+//! word              .  5  5  6  .  7  .  .
+//! word_valid      ___/^^^^^^^^\__/^^\_____
+//! word_ready      /^^\__/^^^^^^^^^^^^^^^^^
 //! ```
 
 use crate::commands::types::Word;
@@ -20,7 +22,7 @@ use crate::prelude::*;
 #[derive(LogicBlock, Default)]
 pub struct WordNarrower {
     pub clock: Signal<In, Clock>,
-    /// A reset begins with the first word of a beat.
+    /// A reset drops the words that are held.
     pub reset: Signal<In, Bit>,
     /// A beat of one or two words, the first word in the low half.
     pub pair_valid: Signal<In, Bit>,
@@ -32,27 +34,34 @@ pub struct WordNarrower {
     pub word_valid: Signal<Out, Bit>,
     pub word_ready: Signal<In, Bit>,
     pub word: Signal<Out, Word>,
-    /// The first word of the beat has been taken.
-    is_second: DFF<Bit>,
-    is_first_of_two: Signal<Local, Bit>,
+    is_held: DFF<Bit>,
+    /// A second word follows the one on offer.
+    is_first_of_two: DFF<Bit>,
+    first: DFF<Word>,
+    second: DFF<Word>,
 }
 
 impl Logic for WordNarrower {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, is_second);
-        self.is_first_of_two.next = self.both.val() & (!self.is_second.q.val());
-        self.word_valid.next = self.pair_valid.val();
-        self.pair_ready.next = self.word_ready.val() & (!self.is_first_of_two.val());
-        self.word.next = self.pair.val().get_bits::<32>(0);
-        if self.is_second.q.val() {
-            self.word.next = self.pair.val().get_bits::<32>(32);
-        }
-        if self.pair_valid.val() & self.word_ready.val() {
-            self.is_second.d.next = self.is_first_of_two.val();
+        dff_setup!(self, clock, is_held, is_first_of_two, first, second);
+        self.word_valid.next = self.is_held.q.val();
+        self.word.next = self.first.q.val();
+        self.pair_ready.next = !self.is_held.q.val();
+        if self.is_held.q.val() {
+            if self.word_ready.val() {
+                self.is_held.d.next = self.is_first_of_two.q.val();
+                self.is_first_of_two.d.next = false;
+                self.first.d.next = self.second.q.val();
+            }
+        } else {
+            self.is_held.d.next = self.pair_valid.val();
+            self.is_first_of_two.d.next = self.both.val();
+            self.first.d.next = self.pair.val().get_bits::<32>(0);
+            self.second.d.next = self.pair.val().get_bits::<32>(32);
         }
         if self.reset.val() {
-            self.is_second.d.next = false;
+            self.is_held.d.next = false;
         }
     }
 }

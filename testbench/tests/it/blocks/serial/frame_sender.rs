@@ -57,11 +57,13 @@ fn sender_asks_for_the_bytes_of_a_frame_in_order() {
         // The byte of a place comes two clocks later, and is a number made from the place.
         let mut pipe: VecDeque<u64> = VecDeque::from([0, 0]);
         let mut busy = 0u64;
-        let mut is_cut = false;
+        let (mut is_cut, mut has_come) = (false, false);
         loop {
             let cuts = cut_at == Some(taken) && !is_cut && random.below(8) == 0;
             let ready = random.below([1, 6][run % 2]) == 0;
-            let has_word = words_left > 0 && (words_left < words || random.below(3) > 0);
+            // A word that is there stays, as the packer's words do.
+            has_come |= words > 0 && random.below(3) > 0;
+            let has_word = words_left > 0 && has_come;
             for (port, bit) in [
                 ("cuts", cuts),
                 ("data_ready", ready),
