@@ -1,6 +1,6 @@
 //! The mesh that lives, for each of the five types of numbers.
 
-use incircle::living::{Location, Triangulation};
+use incircle::living::{Error, Location, Triangulation};
 use incircle::PlanePoint;
 use numpy::PyArray1;
 use pyo3::exceptions::PyTypeError;
@@ -60,13 +60,17 @@ fn numbered(location: Location) -> (u8, [i64; 3]) {
     }
 }
 
-/// Makes a change for each item, and looks for signals from time to time. What was done stays done if one comes.
-fn each<I, T>(py: Python<'_>, items: &[I], change: impl FnMut(&I) -> PyResult<T>) -> PyResult<Vec<T>> {
-    let (mut change, mut done) = (change, Vec::with_capacity(items.len()));
+/// Makes a change for each item, and looks for signals from time to time. What was done stays done if one comes, or if
+/// an item is refused. Other threads of Python go on meanwhile.
+fn each<I: Sync, T: Send>(
+    py: Python<'_>,
+    items: &[I],
+    mut change: impl FnMut(&I) -> Result<T, Error> + Send,
+) -> PyResult<Vec<T>> {
+    let mut done = Vec::with_capacity(items.len());
     for some in items.chunks(LOOK) {
-        for item in some {
-            done.push(change(item)?);
-        }
+        let changed = py.detach(|| some.iter().try_for_each(|item| change(item).map(|made| done.push(made))));
+        changed.map_err(|error| of_living(py, error))?;
         py.check_signals()?;
     }
     Ok(done)
@@ -110,8 +114,7 @@ impl Living {
     fn insert_all<'py>(&mut self, points: &Bound<'py, PyAny>) -> Any<'py> {
         let py = points.py();
         of_same_type!(&mut self.0, points, |mesh, list| {
-            let insert = |point: &_| mesh.insert(*point).map_err(|error| of_living(py, error));
-            Ok(PyArray1::from_vec(py, each(py, &list, insert)?).into_any())
+            Ok(PyArray1::from_vec(py, each(py, &list, |&point| mesh.insert(point))?).into_any())
         })
     }
 
@@ -121,8 +124,7 @@ impl Living {
 
     fn delete_all(&mut self, py: Python<'_>, indices: Vec<u32>) -> PyResult<()> {
         of_any_type!(Mesh, &mut self.0, mesh => {
-            each(py, &indices, |&index| mesh.delete(index).map_err(|error| of_living(py, error)))?;
-            Ok(())
+            each(py, &indices, |&index| mesh.delete(index)).map(|_: Vec<()>| ())
         })
     }
 

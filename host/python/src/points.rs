@@ -61,12 +61,10 @@ pub fn list<T: Element + Copy, const N: usize>(array: &Bound<'_, PyAny>) -> PyRe
     }
     let array = array.try_readonly()?;
     let mut list = pages::with_room(array.shape()[0]);
-    if let Ok(items) = array.as_slice() {
-        list.extend_from_slice(items.as_chunks().0);
-    } else {
-        let view = array.as_array();
-        let mut rows = view.rows().into_iter();
-        list.extend(rows.by_ref().map(|row| std::array::from_fn(|column| row[column])));
+    match array.as_slice() {
+        // A slice may also have the columns one after the other.
+        Ok(items) if array.is_c_contiguous() => list.extend_from_slice(items.as_chunks().0),
+        _ => list.extend(array.as_array().rows().into_iter().map(|row| std::array::from_fn(|column| row[column]))),
     }
     Ok(Some(list))
 }
