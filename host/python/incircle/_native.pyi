@@ -3,7 +3,7 @@ from typing import Any, Callable, final
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Living", "halfedges", "neighbors", "triangulate", "verify"]
+__all__ = ["Living", "halfedges", "library", "neighbors", "triangulate", "verify"]
 
 def triangulate(
     points: NDArray[Any],
@@ -11,6 +11,7 @@ def triangulate(
     threads: int | None,
     progress: Callable[[str, int, int], Any] | None,
 ) -> tuple[NDArray[Any], NDArray[np.uint32], NDArray[np.uint32], NDArray[np.uint32], dict[str, Any]]: ...
+def library(points: NDArray[Any], threads: int | None) -> tuple[float, NDArray[np.uint32]]: ...
 def halfedges(triangles: NDArray[np.uint32]) -> NDArray[Any]: ...
 def neighbors(triangles: NDArray[np.uint32]) -> NDArray[np.int32]: ...
 def verify(

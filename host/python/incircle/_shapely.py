@@ -37,7 +37,7 @@ def _geometries(points: Any, shapely: Any) -> NDArray[Any] | None:
     """The geometries of a list, an array or a table, as an array; `None` if there are none."""
     if type(points).__module__.startswith("geopandas"):
         return np.asarray(getattr(points, "geometry", points), dtype=object)
-    is_list = isinstance(points, Sequence) and not isinstance(points, (str, bytes))
+    is_list = isinstance(points, Sequence) and not isinstance(points, (str, bytes, memoryview))
     if not is_list and not (isinstance(points, np.ndarray) and points.dtype == object and points.ndim == 1):
         return None
     if len(points) == 0 or not any(isinstance(point, shapely.Geometry) for point in points[:2]):

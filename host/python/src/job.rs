@@ -1,6 +1,7 @@
 //! Triangulating a set, and what is computed from a finished mesh.
 
 use std::num::NonZeroU32;
+use std::time::Instant;
 
 use incircle::{Device, Duplicate, Error, Fleet, Mesh, Options, PlanePoint, Report, Solution, EMPTY};
 use numpy::{Element, PyArray1};
@@ -17,6 +18,20 @@ const CHUNK: usize = 4096;
 
 /// Points, triangles, hull, duplicates and report of a mesh.
 type Lists<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyDict>);
+
+/// The seconds that the library takes for a mesh by itself, and the triangles. The bench compares them with what Python
+/// takes.
+#[pyfunction]
+pub fn library<'py>(points: &Bound<'py, PyAny>, threads: Option<NonZeroU32>) -> PyResult<(f64, Bound<'py, PyAny>)> {
+    let py = points.py();
+    of_any_type!(Points, Points::read(points)?, points => {
+        let start = Instant::now();
+        let found = Device::cpu(threads).session().and_then(|mut session| session.triangulate(&points));
+        let seconds = start.elapsed().as_secs_f64();
+        let mesh = found.map_err(|error| of_job(py, &error))?.mesh;
+        Ok((seconds, array(py, mesh.triangles)?))
+    })
+}
 
 /// Why there is no mesh.
 enum Failure {

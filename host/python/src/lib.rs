@@ -16,7 +16,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _native {
     #[pymodule_export]
-    use super::job::{halfedges, neighbors, triangulate, verify};
+    use super::job::{halfedges, library, neighbors, triangulate, verify};
     #[pymodule_export]
     use super::living::Living;
 }
