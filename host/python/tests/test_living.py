@@ -1,6 +1,7 @@
 """`incircle.Triangulation`: the mesh that lives, its answers, and its errors."""
 
 import copy
+import threading
 
 import numpy as np
 import pytest
@@ -162,6 +163,27 @@ def test_places_that_are_no_numbers_are_refused():
     with pytest.raises(incircle.ChoiceError, match="-1 points cannot be the nearest"):
         mesh.k_nearest((0, 0), -1)
     assert len(mesh) == 3
+
+
+def test_a_second_thread_cannot_change_a_triangulation_meanwhile():
+    mesh = incircle.Triangulation(np.random.default_rng(0).random((200_000, 2)))
+    refused = []
+
+    def ask():
+        while not refused and thread.is_alive():
+            try:
+                len(mesh)
+            except RuntimeError as error:
+                refused.append(str(error))
+
+    places = mesh.points[::-1].copy()
+    thread = threading.Thread(target=mesh.move_all, args=(places,))
+    thread.start()
+    ask()
+    thread.join()
+    assert len(mesh) == 200_000
+    np.testing.assert_array_equal(mesh.points, places)
+    assert all("borrowed" in text for text in refused)
 
 
 def test_a_copy_has_a_life_of_its_own():

@@ -71,6 +71,14 @@ def test_a_function_may_triangulate_itself():
     assert found and len(set(found)) == 1
 
 
+@pytest.fixture
+def handler():
+    """Python's own handler of Ctrl-C, which is not there in a process that a shell started in the background."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 def interrupted(call, after):
     """The seconds until a call ends that gets a signal after some seconds."""
     timer = threading.Timer(after, lambda: os.kill(os.getpid(), signal.SIGINT))
@@ -84,7 +92,7 @@ def interrupted(call, after):
     return time.monotonic() - start
 
 
-def test_ctrl_c_ends_a_job():
+def test_ctrl_c_ends_a_job(handler):
     points = np.random.default_rng(1).random((2_000_000, 2))
     start = time.monotonic()
     incircle.triangulate(points, threads=1)
@@ -94,7 +102,7 @@ def test_ctrl_c_ends_a_job():
     assert interrupted(lambda: incircle.triangulate(slow, backend="clock"), 0.2) < 20
 
 
-def test_ctrl_c_ends_changes_of_a_mesh_that_lives():
+def test_ctrl_c_ends_changes_of_a_mesh_that_lives(handler):
     mesh = incircle.Triangulation()
     points = np.random.default_rng(1).random((3_000_000, 2))
     interrupted(lambda: mesh.insert_all(points), 0.5)
