@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Measures the package beside the library itself and beside SciPy, in interleaved pairs, and compares the answers.
 
 Run it with the Python of an environment that has the package and SciPy. For each row it prints the medians of the times
