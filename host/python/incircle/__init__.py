@@ -11,8 +11,8 @@ No coordinate is rounded, and a set of points has exactly one mesh, on every mac
 >>> mesh.duplicates.tolist()
 [[4, 1]]
 
-`triangulate` makes the mesh of a set, and `Triangulation` is a mesh whose points come, go and move. `Delaunay` stands in
-for `scipy.spatial.Delaunay` in two dimensions and needs SciPy, and `tri` makes a `matplotlib.tri.Triangulation`.
+`triangulate` makes the mesh of a set, and `Triangulation` is a mesh whose points come, go and move. `Delaunay` stands
+in for `scipy.spatial.Delaunay` in two dimensions and needs SciPy, and `tri` makes a `matplotlib.tri.Triangulation`.
 """
 
 from __future__ import annotations

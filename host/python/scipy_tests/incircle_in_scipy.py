@@ -1,7 +1,7 @@
 """A plug-in of pytest that runs SciPy's own tests with `incircle.Delaunay` in the place of `scipy.spatial.Delaunay`.
 
-SciPy's tests make triangulations through the module `scipy.spatial._qhull`, and so do the interpolators, so the class is
-exchanged there. Tests of other classes and of other dimensions are left out. The tests that cannot pass are listed
+SciPy's tests make triangulations through the module `scipy.spatial._qhull`, and so do the interpolators, so the class
+is exchanged there. Tests of other classes and of other dimensions are left out. The tests that cannot pass are listed
 with their reasons; one of them that passes is a failure, too.
 """
 

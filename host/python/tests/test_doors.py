@@ -46,7 +46,14 @@ def test_plot_draws_into_axes():
 
 @pytest.mark.parametrize(
     "points",
-    [POINTS, [], [(1, 1)], [(0, 0), (5, 5)], [(-1.7e308, 0), (1.7e308, 1), (0, 1.7e308)], np.array([(-(2**62), 0)] * 2)],
+    [
+        POINTS,
+        [],
+        [(1, 1)],
+        [(0, 0), (5, 5)],
+        [(-1.7e308, 0), (1.7e308, 1), (0, 1.7e308)],
+        np.array([(-(2**62), 0)] * 2),
+    ],
 )
 def test_svg_is_well_formed(points):
     text = incircle.triangulate(points)._repr_svg_()
