@@ -1,0 +1,100 @@
+"""Points as callers give them, as arrays in one of the five types of numbers that the library takes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _shapely
+from ._errors import InputError, NumberTypeError
+
+Points = NDArray[Any]
+
+NATIVE = tuple(np.dtype(name) for name in ("float64", "float32", "int64", "int32", "uint32"))
+"""The types that the library takes as they are."""
+
+_WIDER = {"float16": "float32", "int8": "int32", "int16": "int32", "uint8": "uint32", "uint16": "uint32"}
+"""Smaller types, and the type that holds all their numbers."""
+
+
+def as_points(points: Any) -> Points:
+    """An array of two columns in a type that the library takes, with the same numbers. Copies only what it must."""
+    if isinstance(points, np.ma.MaskedArray):
+        masked = int(np.ma.getmaskarray(points).sum())
+        raise InputError(
+            f"the points are a masked array, with {masked} of {points.size} coordinates masked: "
+            "leave masked points out, and give the rest as a plain array"
+        )
+    coordinates = _shapely.coordinates(points)
+    array = _array(points) if coordinates is None else coordinates
+    if array.shape == (0,):
+        array = array.reshape(0, 2)
+    if array.ndim != 2 or array.shape[1] != 2:
+        raise InputError(f"the points have the shape {array.shape}: give an array of two columns, x and y")
+    return np.require(exact(array), requirements="A")
+
+
+def _array(points: Any) -> NDArray[Any]:
+    try:
+        return np.asarray(points)
+    except ValueError as error:
+        raise InputError(f"the points are no array of two columns, because numpy says: {error}") from error
+
+
+def exact(array: NDArray[Any]) -> NDArray[Any]:
+    """The array in a type that the library takes, with the same numbers."""
+    dtype = array.dtype.newbyteorder("=")
+    if dtype in NATIVE:
+        return array.astype(dtype, copy=False)
+    if dtype.name in _WIDER:
+        return array.astype(_WIDER[dtype.name])
+    if dtype.kind == "u":
+        return _converted(array, np.dtype("int64"))
+    if dtype.kind == "f":
+        return _converted(array, np.dtype("float64"))
+    if dtype.kind == "i":
+        return array.astype(np.int64, copy=False)
+    raise NumberTypeError(
+        f"the points have the type {array.dtype}: give float64, float32, int64, int32 or uint32, "
+        "which are taken exactly"
+    )
+
+
+def as_type(points: Any, dtype: np.dtype[Any]) -> Points:
+    """Points as an array of a given type, which must hold all their numbers."""
+    return _converted(as_points(points), dtype)
+
+
+def _converted(array: NDArray[Any], dtype: np.dtype[Any]) -> NDArray[Any]:
+    """The array in another type. The first number that the type cannot hold is an error."""
+    if array.dtype == dtype:
+        return array
+    with np.errstate(all="ignore"):
+        converted = array.astype(dtype)
+        back = converted.astype(array.dtype)
+    # A float at the end of a range of integers rounds on both ways, and is equal though it is not the same number.
+    limit = np.iinfo(dtype).max if dtype.kind in "iu" and array.dtype.kind == "f" else None
+    same = (back == array) if limit is None else (back == array) & (array <= limit) & (array < 2.0**63)
+    # Of the same sign: an unsigned number beyond the range of a signed one comes back from below zero.
+    same &= (converted < 0) == (array < 0)
+    if array.dtype.kind == "f" and dtype.kind == "f":
+        same |= np.isnan(array)
+    if not same.all():
+        row, column = (int(place) for place in np.argwhere(~same)[0])
+        value = array[row, column]
+        raise InputError(f"the {'xy'[column]} of point {row} is {value}, which {dtype} cannot hold")
+    return converted
+
+
+def check_finite(points: Points) -> Points:
+    """The points, all of which must be finite."""
+    finite = np.isfinite(points)
+    if not finite.all():
+        row, column = (int(place) for place in np.argwhere(~finite)[0])
+        value = points[row, column]
+        raise InputError(
+            f"the {'xy'[column]} of point {row} is {value}, which is not a finite number: remove or correct the point"
+        )
+    return points
