@@ -27,7 +27,7 @@ fn main() {
         if is_wanted(&name) {
             let verilog = exported(&name, export::core(config, false));
             let source = ModelSource::new(&name, TOP, verilog).trace(true);
-            builder = builder.model(source.optimisation(Optimisation::Fast));
+            builder = builder.model(source.optimisation(Optimisation::Fast).fast_clocks(true));
         }
     }
     for config in [SMALL, FULL] {
