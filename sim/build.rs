@@ -3,6 +3,11 @@
 
 #[path = "src/serial/board.rs"]
 mod board;
+#[path = "build/states.rs"]
+mod states;
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
 
 use incircle_hdl::export;
 use incircle_protocol::{Config, FULL, SMALL};
@@ -22,12 +27,16 @@ fn main() {
     let only = std::env::var("INCIRCLE_ONLY").unwrap_or_default();
     let is_wanted = |name: &str| only.is_empty() || only.split(',').any(|prefix| name.starts_with(prefix));
     let mut builder = Builder::new();
+    let mut enumerations = BTreeSet::new();
     for config in incircle_protocol::NAMED {
         let name = format!("core_{}", config.name);
         if is_wanted(&name) {
             let verilog = exported(&name, export::core(config, false));
-            let source = ModelSource::new(&name, TOP, verilog).trace(true);
-            builder = builder.model(source.optimisation(Optimisation::Fast));
+            enumerations.extend(states::named_states(&verilog));
+            let source = ModelSource::new(&name, TOP, verilog.as_str()).fast_clocks(true);
+            // What a model needs for waveforms costs a third of its speed, also while it writes none.
+            let traced = ModelSource::new(&format!("traced_{name}"), TOP, verilog.as_str()).fast_clocks(true);
+            builder = builder.model(source.optimisation(Optimisation::Fast)).model(traced.trace(true));
         }
     }
     for config in [SMALL, FULL] {
@@ -44,11 +53,20 @@ fn main() {
             builder = builder.model(ModelSource::new(&name, STREAM_TOP, verilog).optimisation(Optimisation::Fast));
         }
     }
+    write_states(&enumerations);
     // A small model for the tests of `SimDevice`, which need the two streams but no core.
     match ModelSource::file("echo", "echo", "tests/echo.v") {
         Ok(echo) => builder.model(echo.trace(true)).compile(),
         Err(error) => panic!("{error}"),
     }
+}
+
+/// Writes the named states of all cores into a file that the crate includes.
+fn write_states(states: &BTreeSet<String>) {
+    let text: String = states.iter().flat_map(|state| [state, "\n"]).collect();
+    let folder = std::env::var_os("OUT_DIR").map(PathBuf::from).unwrap_or_default();
+    let path = folder.join("states.txt");
+    std::fs::write(&path, text).unwrap_or_else(|error| panic!("cannot write {}: {error}", path.display()));
 }
 
 fn exported(name: &str, verilog: Result<String, export::ExportError>) -> String {

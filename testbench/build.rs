@@ -51,7 +51,8 @@ fn main() {
             ModelSource::new(name, incircle_hdl::top::CORE_NAME, without_initial_values(&verilog))
                 .trace(true)
                 .random_initial_state(true)
-                .optimisation(Optimisation::Fast),
+                .optimisation(Optimisation::Fast)
+                .fast_clocks(name == cores::FAST_CLOCKS),
         );
     }
     let netlists = if only.is_empty() || only.contains("netlist") { netlists::all() } else { Vec::new() };

@@ -4,7 +4,8 @@
 //! translates it. [`SimDevice`] drives the two streams of the core: `command_{valid,ready,data}` and
 //! `response_{valid,ready,data,both}`. [`serial`] has whole boards with such a core behind a serial line; [`faults`]
 //! disturbs that line, and [`serve`] puts a board behind a pseudo-terminal. [`pcie`] has cards behind the files of
-//! their driver, in a directory. The program `incircle-sim` serves boards and cards.
+//! their driver, in a directory. The program `incircle-sim` serves boards and cards. [`open`] and [`SimTransport`] make
+//! a core a device of the library `incircle`, and [`waves`] lays out waveforms.
 //!
 //! The software twin of the simulated core is `incircle_model`, which this crate uses where no pins are needed.
 //!
@@ -21,14 +22,18 @@
 mod device;
 mod error;
 pub mod faults;
+mod job_watch;
 pub mod pcie;
 pub mod serial;
 pub mod serve;
 #[cfg(test)]
 mod tests;
+mod transport;
+pub mod waves;
 
 pub use device::SimDevice;
 pub use error::{Awaited, SimError};
+pub use transport::{open, SimTransport};
 
 /// The models that the build script translated and compiled.
 mod models {

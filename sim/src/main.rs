@@ -1,5 +1,5 @@
 //! `incircle-sim`: a simulated board for programs that open serial ports, a simulated card for programs that open PCIe
-//! cards, and a device on the network for programs that open UDP sockets.
+//! cards, and a device on the network for programs that open UDP sockets. The program also lays out waveforms.
 
 use std::error::Error;
 use std::io::Write;
@@ -80,6 +80,13 @@ enum Task {
         #[arg(long, conflicts_with = "fast")]
         null: bool,
     },
+    /// Write a layout for the viewer GTKWave beside a waveform of a core, with the names of states.
+    #[command(after_help = "Example:\n  incircle-sim layout job.vcd && gtkwave job.gtkw")]
+    Layout {
+        /// Waveform, such as `incircle triangulate ... --backend sim --trace job.vcd` writes.
+        #[arg(value_name = "FILE.vcd")]
+        waveform: PathBuf,
+    },
     /// Put a device on the network, until SIGTERM or SIGINT ends the program.
     #[command(after_help = "Example:\n  incircle-sim serve-udp --fast")]
     ServeUdp {
@@ -124,6 +131,7 @@ impl Core {
 
 fn main() -> ExitCode {
     let result = match Arguments::parse().command {
+        Task::Layout { waveform } => write_layout(&waveform),
         Task::ServeUdp { listen, config, fault, fast } => run_network(config.config(), listen, fault, fast),
         Task::Serve { link, config, fault, fast, slow } => run(config.config(), link, fault, fast, slow),
         Task::ServePcie { dir, config, fault, width, fast, null } => {
@@ -167,6 +175,13 @@ fn run_network(
     };
     let NetworkFigures { to_device, to_host, faults } = serve_network(&service, &stops, ready)?;
     eprintln!("incircle-sim: {to_device} datagrams to the device, {to_host} to hosts, {faults} faults");
+    Ok(())
+}
+
+fn write_layout(waveform: &Path) -> Result<(), Box<dyn Error>> {
+    for path in incircle_sim::waves::write_layout(waveform)? {
+        eprintln!("incircle-sim: wrote {}", path.display());
+    }
     Ok(())
 }
 

@@ -23,7 +23,12 @@ fn compile() -> Result<(), BuildError> {
     let tests = "tests/models.v";
     let adder = ModelSource::file("wide_adder", "wide_adder", tests)?;
     let counter = ModelSource::file("counter", "counter", tests)?;
-    Builder::new().model(adder).model(counter.trace(true).random_initial_state(true)).compile();
+    let fast = ModelSource::file("fast_counter", "fast_counter", tests)?.fast_clocks(true);
+    Builder::new()
+        .model(adder)
+        .model(counter.trace(true).random_initial_state(true))
+        .model(fast.trace(true).optimisation(build::Optimisation::Fast))
+        .compile();
     // The runtime comes after the models, since a linker looks for symbols only in what follows.
     build::compile_runtime(&Verilator::locate()?)
 }

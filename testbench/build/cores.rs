@@ -15,6 +15,9 @@ pub const DUAL_TINY: Config = Config { engines: 2, ..TINY };
 const QUAD_TINY: Config = Config { points: 16, engines: 4, ..TINY };
 const DUAL_OF_64: Config = Config { points: 64, ring: 9, engines: 2, ..TINY };
 
+/// The core whose text is rewritten for fast clocks, as the cores of `incircle-sim` are.
+pub const FAST_CLOCKS: &str = "core_fast_clocks";
+
 /// Name and Verilog of every core; each has the probe.
 pub fn all() -> Vec<(&'static str, String)> {
     let ring9 = Config { ring: 9, ..SMALL };
@@ -24,6 +27,7 @@ pub fn all() -> Vec<(&'static str, String)> {
         ("core_least", core(least)),
         ("core_tiny", core(TINY)),
         ("core_small", core(SMALL)),
+        (FAST_CLOCKS, core(SMALL)),
         ("core_small_ring9", core(ring9)),
         ("core_small_ring64", core(ring64)),
         ("core_small_one", core(ONE_CONTEXT)),

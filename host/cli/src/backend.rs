@@ -233,15 +233,23 @@ fn once<T>(in_address: Option<T>, argument: Option<T>, name: &str) -> Result<Opt
     Ok(in_address.or(argument))
 }
 
+/// A waveform to write.
+#[derive(Clone, Copy, Debug)]
+pub struct Trace<'a> {
+    /// File for the waveform.
+    pub path: &'a Path,
+    /// Number of the job that the waveform shows, from 1; without it the waveform shows all of them.
+    pub job: Option<u64>,
+}
+
 /// Opens the back end for jobs of up to `room` points, or, without that number, as large as possible.
 ///
 /// For a model all points count, for a core distinct ones. A core in simulation has the chosen configuration, or else
-/// the smallest one that holds the points, or else the largest. The waveform of the back end `sim` goes to the file
-/// `trace`. Greeting a board takes no longer than `timeout`.
+/// the smallest one that holds the points, or else the largest. The waveform `trace` is of the back end `sim`. Greeting a board takes no longer than `timeout`.
 pub fn open_with_room(
     choice: &Choice,
     room: Option<usize>,
-    trace: Option<&Path>,
+    trace: Option<Trace<'_>>,
     timeout: Option<Duration>,
 ) -> Result<Backend, Failure> {
     let (device, config) = match &choice.address {
@@ -302,12 +310,12 @@ pub fn check_sim() -> Result<(), Failure> {
 }
 
 #[cfg(not(feature = "sim"))]
-fn open_sim(_: Config, _: Option<&Path>) -> Result<Device, Failure> {
+fn open_sim(_: Config, _: Option<Trace<'_>>) -> Result<Device, Failure> {
     check_sim().and(Err(Failure::usage("there is no simulated core in this build")))
 }
 
 #[cfg(feature = "sim")]
-fn open_sim(config: Config, trace: Option<&Path>) -> Result<Device, Failure> {
+fn open_sim(config: Config, trace: Option<Trace<'_>>) -> Result<Device, Failure> {
     crate::sim_backend::open(config, trace)
 }
 

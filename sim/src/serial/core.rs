@@ -4,7 +4,7 @@ use incircle_model::serial::{Passed, WordDevice};
 use incircle_protocol::Config;
 use verilated::{Model, PortId};
 
-use crate::device::description;
+use crate::device::{description, CORE};
 use crate::error::SimError;
 
 /// A Verilated core and its two streams.
@@ -24,7 +24,7 @@ pub(super) struct StreamCore {
 impl StreamCore {
     /// A core of this configuration, after its reset.
     pub(super) fn new(config: Config) -> Result<Self, SimError> {
-        let model = Model::new(description(config)?);
+        let model = Model::new(description(CORE, config)?);
         let mut core = Self {
             reset: model.port("reset")?,
             command_valid: model.port("command_valid")?,

@@ -1,5 +1,6 @@
 //! The tests of the program `incircle-sim`, in one test program whose modules mirror the sources.
 
+mod own_test;
 mod serve {
     mod network;
     mod pcie;

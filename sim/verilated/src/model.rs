@@ -11,6 +11,9 @@ use crate::description::{Direction, ModelDescription, PortError, PortId};
 /// a time, so that equal seeds give equal states.
 static CONSTRUCTION: Mutex<()> = Mutex::new(());
 
+/// Name of the input that passes the others on, in models that were built with `fast_clocks`.
+const APPLY: &str = "inputs$apply";
+
 /// Half a clock in nanoseconds of the waveform.
 const HALF_CLOCK: u64 = 5;
 
@@ -24,6 +27,10 @@ pub struct Model {
     handle: NonNull<c_void>,
     addresses: Vec<*mut c_void>,
     clock: Option<PortId>,
+    /// The input [`APPLY`], if the model has it.
+    apply: Option<PortId>,
+    /// Whether an input was set since the last evaluation.
+    is_changed: bool,
     time: u64,
     pub(crate) tracing: bool,
 }
@@ -59,12 +66,17 @@ impl Model {
         let handle = unsafe { (description.create)(seed, addresses.as_mut_ptr()) };
         // C++ `new` ends the program rather than return null, as the functions of the shim let no exception out.
         let handle = NonNull::new(handle).expect("C++ gives an instance or ends the program");
+        let [clock, apply] = ["clock", APPLY].map(|name| description.port(name).ok());
         let mut model =
-            Self { description, handle, addresses, clock: description.port("clock").ok(), time: 0, tracing: false };
+            Self { description, handle, addresses, clock, apply, is_changed: true, time: 0, tracing: false };
+        if apply.is_some() {
+            // The first evaluation of a model sees no edges, so the inputs can pass in the second only.
+            model.settle();
+        }
         for port in description.ports() {
             // The random generator has filled the inputs as well.
             if let (Direction::Input, Ok(id)) = (port.direction, model.port(port.name)) {
-                model.set_wide(id, &vec![0; words_of(port.width)]);
+                model.write_wide(id, &vec![0; words_of(port.width)]);
             }
         }
         model.eval();
@@ -88,9 +100,25 @@ impl Model {
     ///
     /// # Panics
     /// The port belongs to another kind of model, is an output, or is wider than 64 bits, or `value` needs more bits
-    /// than the port has.
+    /// than the port has; or the port is the clock of a model with `fast_clocks`.
     #[inline]
     pub fn set(&mut self, port: PortId, value: u64) {
+        self.check_set(port);
+        self.is_changed |= self.get(port) != value;
+        self.write(port, value);
+    }
+
+    /// Refuses the ports that a model with `fast_clocks` drives itself.
+    #[inline]
+    fn check_set(&self, port: PortId) {
+        if let (Some(apply), Some(clock)) = (self.apply, self.clock) {
+            let is_driven = port.index == apply.index || port.index == clock.index;
+            assert!(!is_driven, "port {} of a model with fast clocks: only Model::clock drives it", port.name());
+        }
+    }
+
+    #[inline]
+    fn write(&mut self, port: PortId, value: u64) {
         let address = self.input(port);
         assert!(
             port.width <= 64 && (port.width == 64 || value >> port.width == 0),
@@ -134,6 +162,12 @@ impl Model {
     /// # Panics
     /// The conditions of [`Model::set`], and `words` of another length than the port's bits fill.
     pub fn set_wide(&mut self, port: PortId, words: &[u32]) {
+        self.check_set(port);
+        self.is_changed = true;
+        self.write_wide(port, words);
+    }
+
+    fn write_wide(&mut self, port: PortId, words: &[u32]) {
         assert!(
             words.len() == words_of(port.width),
             "port {} has {} bits, {} words, not {}",
@@ -145,7 +179,7 @@ impl Model {
         if port.width <= 64 {
             let high = words.get(1).map_or(0, |&word| u64::from(word) << 32);
             let low = words.first().map_or(0, |&word| u64::from(word));
-            return self.set(port, high | low);
+            return self.write(port, high | low);
         }
         let address = self.input(port).cast::<u32>();
         let spare = words.len() as u32 * 32 - port.width;
@@ -187,6 +221,18 @@ impl Model {
     /// Updates all outputs from the current inputs. No time passes.
     #[inline]
     pub fn eval(&mut self) {
+        if let Some(apply) = self.apply {
+            if !self.is_changed {
+                return;
+            }
+            self.write(apply, 1 - self.get(apply));
+        }
+        self.is_changed = false;
+        self.settle();
+    }
+
+    #[inline]
+    fn settle(&mut self) {
         // SAFETY: the handle is a live instance of this description.
         unsafe { (self.description.eval)(self.handle.as_ptr()) }
     }
@@ -207,7 +253,8 @@ impl Model {
     /// Simulates one clock on this input; see [`Model::clock`].
     ///
     /// # Panics
-    /// The conditions of [`Model::set`].
+    /// The port belongs to another kind of model, or is no input of one bit. A model with `fast_clocks` has no clock but
+    /// `clock`.
     #[inline]
     pub fn clock_on(&mut self, clock: PortId) {
         if self.tracing {
@@ -215,11 +262,14 @@ impl Model {
             self.eval();
             self.dump_at(self.time + 1);
         }
-        self.set(clock, 1);
-        self.eval();
+        if self.apply.is_some() {
+            self.eval();
+        }
+        self.write(clock, 1);
+        self.settle();
         self.dump_at(self.time + HALF_CLOCK);
-        self.set(clock, 0);
-        self.eval();
+        self.write(clock, 0);
+        self.settle();
         self.time += 2 * HALF_CLOCK;
         self.dump_at(self.time);
     }

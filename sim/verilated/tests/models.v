@@ -23,3 +23,22 @@ module wide_adder(a, b, sum, carry);
     output wire carry;
     assign {carry, sum} = {1'b0, a} + {1'b0, b};
 endmodule
+
+// Built with fast clocks: counts by `step`, and shows what the next count will be.
+module fast_counter (
+    input wire clock,
+    input wire reset,
+    input wire [7:0] step,
+    output reg [39:0] count,
+    output reg [39:0] next
+);
+    reg [39:0] wide;
+    always @(*) begin
+        wide = {32'd0, step};
+        next = count + wide;
+        if (reset) begin
+            next = 40'd0;
+        end
+    end
+    always @(posedge clock) count <= next;
+endmodule

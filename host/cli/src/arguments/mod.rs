@@ -131,6 +131,9 @@ pub struct TriangulateArguments {
     /// write.
     #[arg(long, value_name = "FILE.vcd", verbatim_doc_comment)]
     pub trace: Option<PathBuf>,
+    /// Record this job alone, the first being 1; a set in parts has several
+    #[arg(long, value_name = "K", requires = "trace", value_parser = clap::value_parser!(u64).range(1..))]
+    pub trace_job: Option<u64>,
     /// Print a report of the run as one JSON object on standard output
     #[arg(long)]
     pub json: bool,

@@ -6,7 +6,7 @@ use std::time::Instant;
 use incircle::{DeviceAddress, Fleet, Report};
 
 use crate::arguments::TriangulateArguments;
-use crate::backend::{self, Backend, Choice};
+use crate::backend::{self, Backend, Choice, Trace};
 use crate::commands::triangulate_large;
 use crate::connections::Connections;
 use crate::failure::{counted, failure_of, Failure};
@@ -45,7 +45,8 @@ fn run_in_memory(arguments: &TriangulateArguments) -> Result<(), Failure> {
     watch.ended("quantise");
     let trace = trace.map(Output::reserve).transpose()?;
     let trace_part = trace.as_ref().and_then(Written::part);
-    let (mesh, about, backend) = solve(chosen, &laid, trace_part, arguments, &mut watch)?;
+    let wanted = trace_part.map(|path| Trace { path, job: arguments.trace_job });
+    let (mesh, about, backend) = solve(chosen, &laid, wanted, arguments, &mut watch)?;
     watch.stages.extend(&about.stages);
     let mut report = match &backend {
         Some(backend) => RunReport::new(&about, backend, &laid),
@@ -54,6 +55,7 @@ fn run_in_memory(arguments: &TriangulateArguments) -> Result<(), Failure> {
     report.left_out = table.left_out();
     // Dropping the back end ends a simulation, which completes its waveform.
     drop(backend);
+    check_traced(trace_part, arguments)?;
     watch.since = Instant::now();
     let written = output.write(|out| mesh.write(&table, format, out))?;
     watch.ended("write");
@@ -65,7 +67,7 @@ fn run_in_memory(arguments: &TriangulateArguments) -> Result<(), Failure> {
 fn solve(
     chosen: Chosen,
     laid: &Laid<'_>,
-    trace: Option<&Path>,
+    trace: Option<Trace<'_>>,
     arguments: &TriangulateArguments,
     watch: &mut Watch,
 ) -> Result<(Connections, Report, Option<Backend>), Failure> {
@@ -128,6 +130,17 @@ fn prepare_mesh(arguments: &TriangulateArguments) -> Result<Output, Failure> {
         ));
     }
     Ok(output)
+}
+
+/// Fails if the run had no job of the number that `--trace-job` names, so that the waveform is empty.
+fn check_traced(part: Option<&Path>, arguments: &TriangulateArguments) -> Result<(), Failure> {
+    let (Some(part), Some(job)) = (part, arguments.trace_job) else {
+        return Ok(());
+    };
+    match std::fs::metadata(part) {
+        Ok(file) if file.len() > 0 => Ok(()),
+        _ => Err(Failure::usage(format!("--trace-job {job}: the run had fewer jobs; choose a smaller number"))),
+    }
 }
 
 /// The output for the waveform of `--trace`, checked before the work.

@@ -7,7 +7,7 @@ use super::error::BuildError;
 use super::file::write;
 use super::source::{ModelSource, Optimisation};
 use super::verilator::Verilator;
-use super::{runtime, shim, verilator};
+use super::{rewrite, runtime, shim, verilator};
 
 /// The object files of the model. The folder's objects are taken if they were made from the same text with the same
 /// tools and options; otherwise the folder is emptied and the model is built in it.
@@ -18,6 +18,7 @@ pub(super) fn objects_of(
     folder: &Path,
     package: &str,
 ) -> Result<Vec<PathBuf>, BuildError> {
+    let model = &ModelSource { verilog: rewrite::rewritten(model)?, ..model.clone() };
     let class = shim::class_name(package, &model.name);
     let key = key(model, verilator, compiler, &class);
     let key_file = folder.join("key");
@@ -46,7 +47,7 @@ pub(super) fn objects_of(
 /// Everything on which the objects depend, in full: equal keys mean equal objects.
 fn key(model: &ModelSource, verilator: &Verilator, compiler: &str, class: &str) -> String {
     let arguments = verilator::arguments(model, class).join(" ");
-    let optimisation = format!("{:?}", model.optimisation);
+    let optimisation = format!("{:?} {}", model.optimisation, model.fast_clocks);
     [verilator.version(), compiler, &arguments, &optimisation, shim::HEADER, &model.verilog].join("\n")
 }
 
@@ -75,7 +76,8 @@ fn compile(model: &ModelSource, verilator: &Verilator, class: &str, folder: &Pat
         Optimisation::Quick => unit("all", 1, &files.iter().collect::<Vec<_>>(), &shim),
         Optimisation::Fast => {
             let (seldom, often): (Vec<_>, Vec<_>) = files.iter().partition(|file| is_seldom(file));
-            let mut objects = unit("often", 2, &often, &shim)?;
+            let level = if model.fast_clocks { 3 } else { 2 };
+            let mut objects = unit("often", level, &often, &shim)?;
             objects.extend(unit("seldom", 0, &seldom, "")?);
             Ok(objects)
         }

@@ -41,6 +41,16 @@ pub enum BuildError {
         /// The line in Verilator's header.
         declaration: String,
     },
+    /// The inputs of the module cannot be held, as `ModelSource::fast_clocks` asks.
+    #[error(
+        "model {model}: module {top} needs an input `clock`, and each port on a line such as `input wire [31:0] name,`"
+    )]
+    Inputs {
+        /// Name of the model.
+        model: String,
+        /// Name of the root module.
+        top: String,
+    },
     /// The name cannot become the name of a function.
     #[error(
         "a model cannot be called {name:?}: use lower-case letters, digits and single underscores, begin with a \

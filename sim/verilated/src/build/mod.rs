@@ -3,6 +3,7 @@
 mod cache;
 mod error;
 mod file;
+mod rewrite;
 mod runtime;
 mod shim;
 mod source;

@@ -74,7 +74,7 @@ fn knows_its_ports() {
         ("step", 8, Direction::Input),
     ];
     assert_eq!(ports, expected);
-    assert_eq!(models::NAMES, ["wide_adder", "counter"]);
+    assert_eq!(models::NAMES, ["wide_adder", "counter", "fast_counter"]);
     assert!(models::find("nothing").is_none());
     assert_eq!(models::find("counter").unwrap().name(), "counter");
 }
@@ -196,4 +196,35 @@ fn instances_are_independent_and_move_between_threads() {
         handles.into_iter().map(|handle| handle.join().unwrap()).collect()
     });
     assert_eq!(counts, [100, 200, 300, 400]);
+}
+
+#[test]
+fn fast_clocks_change_no_output() {
+    let mut model = Model::new(models::fast_counter());
+    set(&mut model, "step", 3);
+    model.eval();
+    assert_eq!((get(&model, "count"), get(&model, "next")), (0, 3), "no time has passed");
+    model.eval();
+    model.clock();
+    assert_eq!((get(&model, "count"), get(&model, "next")), (3, 6));
+    set(&mut model, "step", 200);
+    model.clock();
+    model.clock();
+    assert_eq!(get(&model, "count"), 403, "an edge sees the inputs as they are set");
+    set(&mut model, "reset", 1);
+    model.clock();
+    assert_eq!(get(&model, "count"), 0);
+    let path = fresh_file("fast_clocks.vcd");
+    model.trace_to(&path).unwrap();
+    model.clock();
+    drop(model);
+    let waveform = std::fs::read_to_string(&path).unwrap();
+    assert!(waveform.contains(" step "), "{waveform}");
+    assert!(!waveform.contains("held_") && !waveform.contains("apply"), "{waveform}");
+}
+
+#[test]
+#[should_panic(expected = "only Model::clock drives it")]
+fn the_clock_of_fast_clocks_is_not_set() {
+    set(&mut Model::new(models::fast_counter()), "clock", 1);
 }

@@ -66,6 +66,18 @@ fn every_distribution_to_the_brim() {
     rig.expect_clocks(3_000_000);
 }
 
+/// The cores of `incircle-sim` are translated from a text that was rewritten for speed, which must change no port.
+#[test]
+fn fast_clocks_change_no_port() {
+    let mut rig = Rig::new("core_fast_clocks", SMALL, 5);
+    for (k, &distribution) in Distribution::all().iter().enumerate() {
+        rig.start_anew(k as u32);
+        rig.run(&ordered(distribution, 1000, 16, k as u64, 16), 1000, 0, Stalls::ALL[k % 9]);
+        rig.run(&ordered(distribution, 400, 8, k as u64, 1), 100, 1, Stalls::ALL[(k + 4) % 9]);
+    }
+    rig.expect_clocks(500_000);
+}
+
 #[test]
 fn the_full_core() {
     let mut rig = Rig::new("core_full", FULL, 4);

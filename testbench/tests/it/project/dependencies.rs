@@ -25,7 +25,10 @@ const ALLOWED: [(&str, &[&str]); 12] = [
     ("incircle-hdl", &["incircle-protocol", "incircle-testkit"]),
     ("incircle-blocks", &["incircle-protocol", "incircle-hdl"]),
     ("verilated", &[]),
-    ("incircle-sim", &["incircle-protocol", "incircle-model", "incircle-hdl", "verilated", "incircle-testkit"]),
+    (
+        "incircle-sim",
+        &["incircle-protocol", "incircle-model", "incircle", "incircle-hdl", "verilated", "incircle-testkit"],
+    ),
     ("incircle-geometry", &["incircle-testkit"]),
     ("incircle", &["incircle-protocol", "incircle-geometry", "incircle-model", "incircle-testkit"]),
     ("incircle-cli", &["incircle-protocol", "incircle", "incircle-sim", "incircle-testkit"]),

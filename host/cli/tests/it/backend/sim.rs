@@ -199,6 +199,22 @@ fn a_trace_is_a_waveform_of_the_whole_job() {
 }
 
 #[test]
+fn a_trace_of_one_job_has_no_other_jobs() {
+    let scratch = Scratch::new();
+    scratch.run("generate uniform -n 20 --bits 16 -o p.csv").ok();
+    let run = "triangulate p.csv -o m.ele --backend sim --config tiny --trace t.vcd";
+    let clocks = |options: &str| {
+        scratch.run(&format!("{run} {options}")).ok();
+        scratch.read("t.vcd").lines().filter(|line| line.starts_with('#')).count()
+    };
+    let [all, first, second] = ["", "--trace-job 1", "--trace-job 2"].map(clocks);
+    assert!(first > 300 && second > 300 && first + second < all, "{all} {first} {second}");
+    scratch.run(&format!("{run} --trace-job 1000")).fails(2, &["fewer jobs"]);
+    scratch.run(&format!("{run} --trace-job 0")).fails(2, &["--trace-job"]);
+    scratch.run("triangulate p.csv -o m.ele --backend sim --trace-job 1").fails(2, &["--trace"]);
+}
+
+#[test]
 fn a_run_that_fails_leaves_no_trace() {
     let scratch = Scratch::new();
     scratch.run("generate uniform -n 1000 -o p.csv").ok();
