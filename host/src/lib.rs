@@ -159,6 +159,7 @@ pub mod transports;
 
 pub use device::{Device, DeviceAddress, Fleet, Session};
 pub use error::{DeviceFault, Error, ErrorKind, Shown, TransportError};
+pub use incircle_geometry::constraints;
 pub use incircle_geometry::cpu::{Error as TriangulatorError, Triangulator};
 pub use incircle_geometry::lattice::{Lattice, Step};
 pub use incircle_geometry::living::{self, Triangulation};

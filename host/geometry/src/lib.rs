@@ -53,6 +53,7 @@ pub mod living;
 mod mesh;
 pub mod order;
 pub mod pages;
+mod plan;
 mod plane_point;
 mod point;
 pub mod predicate;

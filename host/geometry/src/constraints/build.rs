@@ -6,15 +6,15 @@ use alloc::vec::Vec;
 use super::constrained::Constrained;
 use super::crossing::Place;
 use super::domain::{Boundary, Parts};
-use super::error::{Error, Mark};
+use super::error::Error;
 use super::force::Stop;
 use super::network::Network;
 use super::pieces::Pieces;
-use super::plan::{Domain, Plan};
 use crate::cpu::view::view_of_32_bits;
 use crate::double::Coordinate;
 use crate::lattice::Numbers;
 use crate::mesh::smallest_first;
+use crate::plan::{Domain, Mark, Plan};
 use crate::point::{Duplicate, Point, MAX_POINTS};
 use crate::site::{FilteredSite, Site};
 

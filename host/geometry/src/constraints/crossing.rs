@@ -15,8 +15,11 @@ pub struct Fraction {
 }
 
 impl Fraction {
-    /// The fraction of two numbers, of which the second is not zero. `None` if a sign cannot be changed.
+    /// The fraction of two numbers. `None` if the second is zero, or if a sign cannot be changed.
     fn new(numerator: i128, denominator: i128) -> Option<Self> {
+        if denominator == 0 {
+            return None;
+        }
         let divisor = i128::try_from(greatest_divisor(numerator.unsigned_abs(), denominator.unsigned_abs())).ok()?;
         let (numerator, denominator) = (numerator.checked_div(divisor)?, denominator.checked_div(divisor)?);
         if denominator < 0 {
@@ -100,25 +103,38 @@ impl Place {
         }
     }
 
+    /// The crossing of the lines through two pairs of points, whose coordinates are whole numbers divided by `parts`.
+    /// `None` if the lines are parallel, `parts` is zero, or numbers of 128 bits do not hold the crossing.
+    ///
+    /// ```
+    /// use incircle_geometry::constraints::Place;
+    ///
+    /// let place = Place::of_lines([[[0, 0], [30, 30]], [[0, 20], [40, -10]]], 10);
+    /// assert_eq!(place.map(|place| place.to_string()), Some("(8/7, 8/7)".to_owned()));
+    /// ```
+    pub fn of_lines([[a, b], [c, d]]: [[[i128; 2]; 2]; 2], parts: i128) -> Option<Self> {
+        let [x, y] = exact([a, b, c, d])?;
+        let part = |of: Fraction| Fraction::new(of.numerator, of.denominator.checked_mul(parts)?);
+        Some(Self::Exact([part(x)?, part(y)?]))
+    }
+
     /// The crossing of the lines through two pairs of points that are not parallel, given as whole numbers where they
     /// are, and as doubles.
     pub(super) fn of(ends: [[Option<[i64; 2]>; 2]; 2], rounded: [[[f64; 2]; 2]; 2]) -> Self {
         match ends {
-            [[Some(a), Some(b)], [Some(c), Some(d)]] => {
-                exact([a, b, c, d]).map_or_else(|| Self::About(about(rounded)), Self::Exact)
-            }
+            [[Some(a), Some(b)], [Some(c), Some(d)]] => exact([a, b, c, d].map(|point| point.map(i128::from)))
+                .map_or_else(|| Self::About(about(rounded)), Self::Exact),
             _ => Self::About(about(rounded)),
         }
     }
 }
 
 /// The crossing of the lines through `a` and `b` and through `c` and `d`.
-fn exact(points: [[i64; 2]; 4]) -> Option<[Fraction; 2]> {
-    let [a, b, c, d] = points.map(|point| point.map(i128::from));
-    let vector = |from: [i128; 2], to: [i128; 2]| [to[0] - from[0], to[1] - from[1]];
+fn exact([a, b, c, d]: [[i128; 2]; 4]) -> Option<[Fraction; 2]> {
+    let vector = |from: [i128; 2], to: [i128; 2]| Some([to[0].checked_sub(from[0])?, to[1].checked_sub(from[1])?]);
     let cross = |u: [i128; 2], v: [i128; 2]| u[0].checked_mul(v[1])?.checked_sub(u[1].checked_mul(v[0])?);
-    let (along, other) = (vector(a, b), vector(c, d));
-    let (share, whole) = (cross(vector(a, c), other)?, cross(along, other)?);
+    let (along, other) = (vector(a, b)?, vector(c, d)?);
+    let (share, whole) = (cross(vector(a, c)?, other)?, cross(along, other)?);
     let coordinate = |axis: usize| {
         let numerator = a[axis].checked_mul(whole)?.checked_add(share.checked_mul(along[axis])?)?;
         Fraction::new(numerator, whole)

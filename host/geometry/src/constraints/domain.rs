@@ -8,12 +8,12 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::error::{Error, Mark};
+use super::error::Error;
 use super::locate::Found;
 use super::network::Network;
 use super::pieces::Pieces;
-use super::plan::{Domain, Plan};
 use crate::living::plane::Side;
+use crate::plan::{Domain, Mark, Plan};
 use crate::site::Site;
 
 /// Marks a triangle that no flood has met.

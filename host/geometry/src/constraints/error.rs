@@ -1,6 +1,7 @@
 //! What keeps constraints from being forced into a mesh.
 
 use super::crossing::Place;
+use crate::plan::Mark;
 
 /// Why constraints and a domain have no mesh. Constraints, points, holes and regions are counted from 0.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -100,22 +101,4 @@ pub enum Error {
     /// The triangles that the constraints were to be forced into are not the canonical mesh of the points.
     #[error("the triangles are not the mesh of these points: triangulate the points, and force constraints into that")]
     NoMesh,
-}
-
-/// What a place inside a domain stands for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mark {
-    /// A hole: the part of the hull around the place does not belong to the domain.
-    Hole,
-    /// A region: the part of the domain around the place gets the number of the region.
-    Region,
-}
-
-impl core::fmt::Display for Mark {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.write_str(match self {
-            Self::Hole => "hole",
-            Self::Region => "region",
-        })
-    }
 }

@@ -17,6 +17,7 @@
 //! out where two of them cross; `domain` floods the parts between them, and `locate` finds holes and regions.
 
 mod build;
+mod constrain;
 mod constrained;
 mod crossing;
 mod domain;
@@ -25,12 +26,13 @@ mod force;
 mod locate;
 mod network;
 mod pieces;
-mod plan;
 #[cfg(test)]
 mod tests;
 
-pub use constrained::{constrain, constrain_numbers, Constrained};
+pub use constrain::{constrain, constrain_numbers};
+pub use constrained::Constrained;
 pub use crossing::{Fraction, Place};
-pub use error::{Error, Mark};
+pub use error::Error;
 pub use pieces::Pieces;
-pub use plan::{Domain, Plan, UnknownDomain};
+
+pub use crate::plan::{Domain, Mark, Plan, UnknownDomain};

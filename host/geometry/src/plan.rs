@@ -84,7 +84,25 @@ impl<'a, M> Plan<'a, M> {
     }
 
     /// The number of constraints that bound the domain, which come before all lines.
-    pub(super) fn boundary(&self) -> usize {
+    pub(crate) fn boundary(&self) -> usize {
         self.constraints.len().saturating_sub(self.lines)
+    }
+}
+
+/// What a place inside a domain stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// A hole: the part of the hull around the place does not belong to the domain.
+    Hole,
+    /// A region: the part of the domain around the place gets the number of the region.
+    Region,
+}
+
+impl fmt::Display for Mark {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Hole => "hole",
+            Self::Region => "region",
+        })
     }
 }
