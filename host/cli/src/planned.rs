@@ -39,7 +39,7 @@ impl Planned {
         )
     }
 
-    /// The report as a JSON object. The doubled area is a text, because it may have more bits than a JSON number.
+    /// The report as a JSON object. Twice the area is a text, because it may have more bits than a JSON number.
     pub fn to_json(&self) -> Value {
         let made = &self.made;
         json!({
@@ -48,7 +48,7 @@ impl Planned {
             "domain": self.domain.name(),
             "triangles": made.triangles.len(),
             "regions": made.region_count,
-            "doubled_area": made.doubled_area.map(|area| area.to_string()),
+            "twice_area": made.twice_area.map(|area| area.to_string()),
         })
     }
 }

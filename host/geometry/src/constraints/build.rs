@@ -37,7 +37,7 @@ pub(super) fn of_numbers(
         Numbers::Grid(places) => {
             let whole = |site: Point| Some([site.x.into(), site.y.into()]);
             let mut made = of_sites(places, points, mesh, plan, whole)?;
-            made.doubled_area = Some(doubled_area(places, &made.triangles));
+            made.twice_area = Some(twice_area(places, &made.triangles));
             Ok(made)
         }
         Numbers::Whole(places) => of_sites(&filtered(places), points, mesh, plan, |site| Some(site.0)),
@@ -50,7 +50,7 @@ fn filtered<C: Coordinate>(places: &[[C; 2]]) -> Vec<FilteredSite<C>> {
 }
 
 /// Twice the sum of the areas. Each is below 2^65, and there are fewer than 2^30, so 128 bits hold the sum.
-fn doubled_area(places: &[Point], triangles: &[[u32; 3]]) -> i128 {
+fn twice_area(places: &[Point], triangles: &[[u32; 3]]) -> i128 {
     let area = |corners: &[u32; 3]| {
         let [a, b, c] = corners.map(|corner| places[corner as usize]);
         view_of_32_bits(a, b, c).cross
@@ -81,7 +81,8 @@ fn of_sites<S: Site>(
     })?;
     let boundary = Boundary { pieces: &pieces, ends: &ends, count: plan.boundary(), domain: plan.domain };
     boundary.check(points)?;
-    let parts = Parts::of(&network, &boundary);
+    let is_whole = plan.domain == Domain::All && plan.regions.is_empty();
+    let parts = if is_whole { Parts::one(&network) } else { Parts::of(&network, &boundary) };
     let chosen = parts.chosen(&network, plan)?;
     let (mut made, regions) = numbered(&network, mesh.triangles.len(), &parts, &chosen);
     if made.triangles.is_empty() {
@@ -207,12 +208,13 @@ fn numbered<S: Site>(
         }
     };
     // The triangles that no step has changed are sorted as they stand, so only the others are sorted, and both merged.
-    let (changed, kept): (Vec<u32>, Vec<u32>) = (0..count as u32).partition(|&number| network.is_changed(number));
     let corners = |triangle: u32| smallest_first(network.plane.get(triangle).vertices);
-    let mut changed: Vec<([u32; 3], u32)> = changed.into_iter().map(|number| (corners(number), number)).collect();
+    let numbers = || 0..count as u32;
+    let changed = numbers().filter(|&number| network.is_changed(number));
+    let mut changed: Vec<([u32; 3], u32)> = changed.map(|number| (corners(number), number)).collect();
     changed.sort_unstable();
     let mut changed = changed.into_iter().peekable();
-    for number in kept {
+    for number in numbers().filter(|&number| !network.is_changed(number)) {
         let own = corners(number);
         while let Some((corners, number)) = changed.next_if(|(other, _)| *other < own) {
             add(corners, number);

@@ -34,7 +34,7 @@ use crate::site::Site;
 /// let plan = Plan { domain: Domain::EvenOdd, ..Plan::new(&outline) };
 /// let made = constrain(&mesh, &plan)?;
 /// assert_eq!(made.triangles, [[0, 1, 4], [0, 4, 3], [1, 2, 4]]);
-/// assert_eq!(made.doubled_area, Some(2 * (64 - 20)));
+/// assert_eq!(made.twice_area, Some(2 * (64 - 20)));
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 ///

@@ -13,6 +13,7 @@ use super::locate::Found;
 use super::network::Network;
 use super::pieces::Pieces;
 use crate::living::plane::Side;
+use crate::pages::zeros;
 use crate::plan::{Domain, Mark, Plan};
 use crate::site::Site;
 
@@ -73,6 +74,11 @@ impl Boundary<'_> {
 }
 
 impl Parts {
+    /// Gives all triangles to one part, whatever cuts them.
+    pub fn one<S: Site>(network: &Network<'_, S>) -> Self {
+        Self { of: zeros(network.plane.end() as usize), turns: vec![0] }
+    }
+
     /// Labels all triangles. With [`Domain::All`] the outside of the hull is no part of its own: floods do not go
     /// through ghost triangles. O(n + p log p) for `p` pieces.
     pub fn of<S: Site>(network: &Network<'_, S>, boundary: &Boundary<'_>) -> Self {

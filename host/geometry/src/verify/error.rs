@@ -195,8 +195,8 @@ pub enum VerifyError {
     },
     /// A piece of a constraint has triangles on the wrong sides.
     #[error(
-        "the piece of a constraint from point {} to point {} has {found} triangles, but the domain lies on {due} of its \
-         sides, or on the other one", edge[0], edge[1]
+        "the piece of a constraint from point {} to point {} has {found} triangles, but the domain lies on {due} of \
+         its sides, or on the other one", edge[0], edge[1]
     )]
     SidesOfPiece {
         /// The piece by its two points.

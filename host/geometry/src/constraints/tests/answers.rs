@@ -36,10 +36,10 @@ fn edges_hang_into_the_triangles_that_a_constraint_crosses() {
     }
     let made = constrain(&mesh_of(&points), &Plan::new(&[[0, 1], [2, 154], [3, 155]])).expect("no crossing");
     assert_eq!(made.pieces.len(), 1 + 38 + 38);
-    let all: i128 = made.doubled_area.expect("a lattice");
+    let all: i128 = made.twice_area.expect("a lattice");
     let hull = mesh_of(&points);
     let whole = constrain(&hull, &Plan::new(&[])).expect("no constraint");
-    assert_eq!(Some(all), whole.doubled_area);
+    assert_eq!(Some(all), whole.twice_area);
     assert_eq!(made.triangles.len(), hull.triangles.len());
     assert_ne!(made.triangles, hull.triangles);
 }

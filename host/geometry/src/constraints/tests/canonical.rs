@@ -84,7 +84,7 @@ fn every_start_and_every_order_of_flips_ends_at_the_mesh() {
     assert!(meshes >= 2000 && crossings >= 800, "{meshes} {crossings}");
 }
 
-/// The same for more than 100,000 graphs: `cargo test --release -p incircle-geometry --lib every_start -- --ignored`.
+/// The same for more than 100,000 graphs: `cargo test -p incircle-geometry --lib every_start -- --ignored`.
 #[test]
 #[ignore = "takes minutes"]
 fn every_start_and_every_order_of_flips_ends_at_the_mesh_of_many_graphs() {

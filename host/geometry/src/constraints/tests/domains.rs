@@ -77,7 +77,7 @@ fn rings_bound_the_triangles_whose_centres_they_surround() {
                 Ok(made) => {
                     assert_eq!(made.triangles, expected, "{domain} {:?} {:?}", graph.points, graph.constraints);
                     let sum: i128 = expected.iter().map(|&triangle| area(&graph, triangle)).sum();
-                    assert_eq!(made.doubled_area, Some(sum));
+                    assert_eq!(made.twice_area, Some(sum));
                     check_regions(&made);
                 }
                 Err(error) => {
@@ -92,7 +92,6 @@ fn rings_bound_the_triangles_whose_centres_they_surround() {
         let origin = [0, 0];
         let of_rings: i128 = rings.iter().map(|&[a, b]| orient2d(origin, graph.at(a), graph.at(b))).sum();
         assert_eq!(counted, of_rings);
-        check_regions(&all);
         meshes += 1;
     }
 }
