@@ -80,6 +80,22 @@
 //! # Ok::<(), incircle::living::Error>(())
 //! ```
 //!
+//! # Edges that must be there
+//!
+//! Roads, coastlines and outlines are edges of a mesh, whose triangles may be those of a domain alone; see
+//! [`constraints`].
+//!
+//! ```
+//! use incircle::constraints::{constrain, Domain, Plan};
+//!
+//! // A square with a notch: point 4 lies inside the hull.
+//! let mesh = incircle::triangulate(&[(0, 0), (8, 0), (8, 8), (0, 8), (4, 3)])?;
+//! let outline = [[0, 1], [1, 2], [2, 4], [4, 3], [3, 0]];
+//! let made = constrain(&mesh, &Plan { domain: Domain::EvenOdd, ..Plan::new(&outline) })?;
+//! assert_eq!(made.triangles, [[0, 1, 4], [0, 4, 3], [1, 2, 4]]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! # With a device
 //!
 //! Open a [`Device`] when you want hardware, a model of it, another number of threads, or figures about the job. A
@@ -126,6 +142,7 @@
 //! | a time limit, a progress bar, a cancel button | [`Options`] with [`Session::triangulate_with`] |
 //! | small sets one after the other, such as points that move | [`Triangulator`], which keeps its memory |
 //! | points that come, go or move, or questions about places | [`Triangulation`], which changes with them |
+//! | edges that must be in the mesh, or triangles inside polygons | [`constraints::constrain`] |
 //! | many small sets at once | [`Session::triangulate_batch`]: a device works on them side by side |
 //! | several devices for one set | [`Fleet`], which leaves out a device that dies |
 //! | a `Vec` of points that you can hand over | [`Session::triangulate_owned`], which does not copy it |
@@ -138,8 +155,7 @@
 //! points of 16 bits it takes at most 200 bytes a point beyond the points themselves. The CPU triangulator takes whole
 //! numbers of up to 64 bits and all finite doubles; a device has its own number of bits, 16 for the standard cores, and
 //! takes points whose [`Lattice`] fits them. A job may have up to [`MAX_POINTS`] points. A device holds as many
-//! distinct ones as its [`Identity`] says, and does larger sets in parts. There are no constrained edges and no Voronoi
-//! cells.
+//! distinct ones as its [`Identity`] says, and does larger sets in parts. There are no Voronoi cells.
 //!
 //! No set of points and no faulty device makes a call panic: every failure is an [`Error`], whose [`ErrorKind`] says
 //! whose fault it is. Only the predicates of integers, called by themselves, need coordinates below 2^31.
@@ -159,6 +175,7 @@ pub mod transports;
 
 pub use device::{Device, DeviceAddress, Fleet, Session};
 pub use error::{DeviceFault, Error, ErrorKind, Shown, TransportError};
+pub use incircle_geometry::constraints;
 pub use incircle_geometry::cpu::{Error as TriangulatorError, Triangulator};
 pub use incircle_geometry::lattice::{Lattice, Step};
 pub use incircle_geometry::living::{self, Triangulation};

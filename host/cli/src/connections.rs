@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use incircle::Mesh;
 
 use crate::formats::{MeshFormat, MeshView};
+use crate::planned::Planned;
 use crate::points::PointTable;
 
 /// A mesh without its points, which are in the table of a file.
@@ -16,13 +17,15 @@ pub struct Connections {
     pub hull: Vec<u32>,
     /// Pairs of a duplicate and the lowest index at the same place.
     pub duplicates: Vec<[u32; 2]>,
+    /// What constraints made of the mesh, if there are any.
+    pub planned: Option<Planned>,
 }
 
 impl Connections {
     /// A mesh without its points.
     pub fn of_mesh<P>(mesh: Mesh<P>) -> Self {
         let duplicates = mesh.duplicates.iter().map(|duplicate| [duplicate.index, duplicate.of]).collect();
-        Self { triangles: mesh.triangles, hull: mesh.hull, duplicates }
+        Self { triangles: mesh.triangles, hull: mesh.hull, duplicates, planned: None }
     }
 
     /// The mesh with other indices: `names` has the new one of each.
@@ -32,12 +35,13 @@ impl Connections {
             triangles: self.triangles.iter().map(|triangle| triangle.map(name)).collect(),
             hull: self.hull.iter().map(|&vertex| name(vertex)).collect(),
             duplicates: self.duplicates.iter().map(|pair| pair.map(name)).collect(),
+            planned: None,
         }
     }
 
     /// Writes the mesh with the coordinates of the input file, not with those of the lattice.
     pub fn write(&self, points: &PointTable, format: MeshFormat, out: &mut dyn Write) -> io::Result<()> {
-        let Self { triangles, hull, duplicates } = self;
-        format.write(&MeshView { points, triangles, hull, duplicates }, out)
+        let Self { triangles, hull, duplicates, planned } = self;
+        format.write(&MeshView { points, triangles, hull, duplicates, planned: planned.as_ref() }, out)
     }
 }

@@ -70,6 +70,13 @@ pub enum Kind {
 }
 
 impl Laid<'_> {
+    /// The first `count` points alone, in the same numbers.
+    pub fn first(&self, count: usize) -> Laid<'static> {
+        let indices: Vec<u32> = (0..count as u32).collect();
+        let (kind, offset) = (self.kind.clone(), self.offset.clone());
+        Laid { numbers: self.numbers.select(&indices), kind, bits: self.bits, offset }
+    }
+
     /// The quantisation that was done, if the user asked for one.
     pub fn quantization(&self) -> Option<&Quantization> {
         match &self.kind {

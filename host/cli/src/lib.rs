@@ -23,6 +23,8 @@ mod number;
 mod numbers;
 mod output;
 mod path;
+mod plan;
+mod planned;
 mod points;
 mod progress;
 mod report;

@@ -8,6 +8,7 @@ use serde_json::{json, Value};
 use crate::backend::Backend;
 use crate::failure::counted;
 use crate::lattice::Laid;
+use crate::planned::Planned;
 use crate::watch::{seconds_json, total};
 
 /// The report of one triangulation by the command.
@@ -22,6 +23,8 @@ pub struct RunReport<'a> {
     pub laid: &'a Laid<'a>,
     /// The sentence about what was left out of the points, if anything was.
     pub left_out: Option<String>,
+    /// What constraints made of the mesh, if there are any.
+    pub planned: Option<&'a Planned>,
     /// Seconds of the stages of the command, in the order in which they ran.
     pub stages: Vec<(&'static str, Duration)>,
 }
@@ -35,13 +38,15 @@ impl<'a> RunReport<'a> {
             has_clock: backend.has_clock(),
             laid,
             left_out: None,
+            planned: None,
             stages: Vec::new(),
         }
     }
 
     /// Makes the report of a job that several back ends shared, with the list of stages still empty.
     pub fn of_several(job: &'a Report, laid: &'a Laid<'a>) -> Self {
-        Self { job, backend: (&job.backend, None), has_clock: false, laid, left_out: None, stages: Vec::new() }
+        let backend = (&*job.backend, None);
+        Self { job, backend, has_clock: false, laid, left_out: None, planned: None, stages: Vec::new() }
     }
 
     /// The JSON object that `--json` prints. Cycles are part of the object if the back end has a clock.
@@ -70,6 +75,9 @@ impl<'a> RunReport<'a> {
             "counters": job.counters.as_ref().map(counters_json),
             "latency": job.latencies.as_ref().map(latencies_json),
         });
+        if let Some(planned) = self.planned {
+            object["plan"] = planned.to_json();
+        }
         if self.has_clock {
             add_cycles(&mut object, job);
         }
@@ -89,6 +97,7 @@ impl<'a> RunReport<'a> {
             let why = if job.distinct < 3 { "fewer than three distinct points" } else { "all points lie on one line" };
             lines.push(format!("no triangles: {why}"));
         }
+        lines.extend(self.planned.map(|planned| planned.line(job.triangles)));
         for engine in &job.stuck_engines {
             lines.push(format!("engine {engine} of the device is stuck: another engine did its job"));
         }

@@ -6,6 +6,7 @@ use std::num::NonZeroU32;
 use std::time::Duration;
 
 use clap::ValueEnum;
+use incircle::constraints::Domain;
 use incircle::serial::Address;
 use incircle::{DeviceAddress, Error, Order, Quantize};
 use incircle_protocol::UDP_PORT;
@@ -47,6 +48,20 @@ pub fn distribution_parser() -> impl clap::builder::TypedValueParser<Value = Dis
     use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
     let named = |set: Distribution| PossibleValue::new(set.name()).help(set.description());
     PossibleValuesParser::new(Distribution::ALL.map(named)).try_map(|name| name.parse::<Distribution>())
+}
+
+/// Parses the name of a domain. Help shows the names with a description of each.
+pub fn domain_parser() -> impl clap::builder::TypedValueParser<Value = Domain> {
+    use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+    let named = |domain: Domain| {
+        PossibleValue::new(domain.name()).help(match domain {
+            Domain::All => "All triangles of the hull",
+            Domain::Holes => "Those that constraints separate from the outside and from all holes",
+            Domain::EvenOdd => "Those that an odd number of rings surround",
+            Domain::NonZero => "Those around which rings run, clockwise against counter-clockwise",
+        })
+    };
+    PossibleValuesParser::new(Domain::ALL.map(named)).try_map(|name| name.parse::<Domain>())
 }
 
 /// What `incircle generate` makes.

@@ -11,6 +11,7 @@
 //! | the same of many small sets | [`cpu::Triangulator`] | about 0.11 µs a point, without any allocation |
 //! | the mesh of a set that is too large for one memory | [`tiles`] | about 0.2 µs a point on one thread |
 //! | a mesh that can be asked and changed | [`Triangulation`] | 0.1 to 0.3 µs near the last place, some µs elsewhere |
+//! | a mesh with edges that must be there | [`constraints::constrain`] | O(n) beside the triangulation |
 //! | the triangles beside a triangle | [`Mesh::neighbors`], [`Mesh::halfedges`] | O(n) for the whole mesh |
 //! | proof that a mesh is right | [`verify()`], [`Mesh::verify`] | O(n log n) |
 //! | the side of a line that a point is on | [`orient2d`] | two multiplications |
@@ -43,6 +44,7 @@
 
 extern crate alloc;
 
+pub mod constraints;
 pub mod cpu;
 pub mod double;
 mod edges;
@@ -51,6 +53,7 @@ pub mod living;
 mod mesh;
 pub mod order;
 pub mod pages;
+mod plan;
 mod plane_point;
 mod point;
 pub mod predicate;

@@ -4,8 +4,8 @@
 //! has all orders that were tried: twelve [curves](order::Curve), alone and in rounds of three sizes, rounds with
 //! [guides](order::brio_dc()). All are measured on the software model, and in cycles of the largest core.
 //!
-//! The package also compares the mesh that lives with those of other libraries, and ways to fill the hole of a vertex
-//! that is deleted.
+//! The package also compares the mesh that lives and constrained meshes with those of other libraries, and ways to fill
+//! the hole of a vertex that is deleted.
 //!
 //! Nothing here ships with the product. `cargo run --release -p incircle-research -- figures` makes
 //! all published figures again.
@@ -21,6 +21,7 @@ mod living;
 pub mod order;
 mod orders;
 mod picture;
+mod plans;
 pub mod prepare;
 
 pub use figures::{figures, FiguresArguments};
@@ -29,3 +30,4 @@ pub use holes::{holes, HolesArguments};
 pub use living::{living, LivingArguments};
 pub use orders::{orders, Failure, OrdersArguments};
 pub use picture::{picture, PictureArguments};
+pub use plans::{plans, PlansArguments};

@@ -3,8 +3,9 @@
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use incircle_research::{figures, holes, living, orders, picture};
-use incircle_research::{FiguresArguments, HolesArguments, LivingArguments, OrdersArguments, PictureArguments};
+use incircle_research::{figures, holes, living, orders, picture, plans};
+use incircle_research::{FiguresArguments, HolesArguments, LivingArguments};
+use incircle_research::{OrdersArguments, PictureArguments, PlansArguments};
 
 /// Measure and draw the orders of insertion of the literature
 #[derive(Debug, Parser)]
@@ -34,6 +35,9 @@ enum Command {
     /// Count the tests of four ways to fill the hole of a deleted vertex, by its number of neighbours
     #[command(after_help = "Example:\n  incircle-research holes -n 20000")]
     Holes(HolesArguments),
+    /// Compare constrained triangulation with spade and, where it is installed, CGAL
+    #[command(after_help = "Example:\n  incircle-research plans -n 100000")]
+    Plans(PlansArguments),
 }
 
 fn main() -> ExitCode {
@@ -43,6 +47,7 @@ fn main() -> ExitCode {
         Command::Figures(arguments) => figures(arguments),
         Command::Living(arguments) => living(arguments),
         Command::Holes(arguments) => holes(arguments),
+        Command::Plans(arguments) => plans(arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

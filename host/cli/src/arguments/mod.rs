@@ -3,6 +3,7 @@
 mod backend;
 mod generate;
 mod job;
+mod plan;
 mod points;
 mod replay;
 mod tile;
@@ -24,6 +25,7 @@ use crate::values::{
 pub use backend::{BackendArguments, ConfigName};
 pub use generate::GenerateArguments;
 pub use job::JobArguments;
+pub use plan::PlanArguments;
 pub use points::{GridArguments, ReadArguments};
 pub use replay::ReplayArguments;
 pub use tile::{JoinArguments, LocalArguments, SplitArguments, TileArguments, TileCommand};
@@ -42,7 +44,7 @@ pub struct Cli {
 pub enum Command {
     /// Triangulate a file of points
     #[command(after_help = help::TRIANGULATE, after_long_help = help::TRIANGULATE_LONG)]
-    Triangulate(TriangulateArguments),
+    Triangulate(Box<TriangulateArguments>),
     /// Check that a mesh is the canonical Delaunay triangulation of its points
     ///
     /// Only the triangles are checked, as indices into POINTS. Everything else in the mesh file is
@@ -124,6 +126,16 @@ pub struct TriangulateArguments {
     #[command(flatten)]
     pub job: JobArguments,
     #[command(flatten)]
+    pub plan: PlanArguments,
+    /// Write the edges of the mesh into this file as well, in the format .edge of Shewchuk's Triangle
+    ///
+    /// The marker of an edge is 0, or one more than the number of a constraint that it is a piece of.
+    #[arg(long, value_name = "FILE.edge")]
+    pub edges: Option<PathBuf>,
+    /// Write the neighbours of the triangles into this file as well, in the format .neigh
+    #[arg(long, value_name = "FILE.neigh")]
+    pub neighbors: Option<PathBuf>,
+    #[command(flatten)]
     pub large: LargeArguments,
     /// Record a waveform of the back end 'sim' in this file, for small sets
     ///
@@ -143,6 +155,13 @@ pub struct TriangulateArguments {
     /// Print times and counters as well
     #[arg(short, long)]
     pub verbose: bool,
+}
+
+impl TriangulateArguments {
+    /// Whether an option asks for constraints, a domain, or lists of edges or neighbours.
+    pub fn asks_for_plan(&self) -> bool {
+        self.plan.is_given() || self.edges.is_some() || self.neighbors.is_some()
+    }
 }
 
 /// The choices for a set that is larger than the memory.
@@ -189,6 +208,8 @@ pub struct VerifyArguments {
     pub script: bool,
     #[command(flatten)]
     pub read: ReadArguments,
+    #[command(flatten)]
+    pub plan: PlanArguments,
     /// Take the triangles in any order, as 'triangulate --unordered' writes them
     #[arg(long)]
     pub unordered: bool,

@@ -194,7 +194,7 @@ fn write_whole(
     format.check_points(&points).map_err(|failure| failure.in_file(path::name(&manifest.inputs[0].path)))?;
     let (hull, duplicates) = (std::mem::take(&mut joined.hull), std::mem::take(&mut joined.pairs));
     let triangles = tiles::triangles_of(joined, &arguments.folder, manifest, arguments.memory)?;
-    let mesh = MeshView { points: &points, triangles: &triangles, hull: &hull, duplicates: &duplicates };
+    let mesh = MeshView { points: &points, triangles: &triangles, hull: &hull, duplicates: &duplicates, planned: None };
     output.write(|out| format.write(&mesh, out))
 }
 

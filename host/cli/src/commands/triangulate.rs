@@ -1,8 +1,9 @@
 //! `incircle triangulate`: points in, the canonical mesh out.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use incircle::constraints::Pieces;
 use incircle::{DeviceAddress, Fleet, Report};
 
 use crate::arguments::TriangulateArguments;
@@ -11,17 +12,23 @@ use crate::commands::triangulate_large;
 use crate::connections::Connections;
 use crate::failure::{counted, failure_of, Failure};
 use crate::fleet::Several;
+use crate::formats::edge;
 use crate::lattice::{self, Laid, Numbers};
 use crate::output::{self, Output, Written};
+use crate::plan::PlannedSet;
 use crate::progress::Meter;
 use crate::report::RunReport;
 use crate::solve::{self, without_points};
 use crate::watch::Watch;
-use crate::{interrupt, path, source};
+use crate::{interrupt, path, plan, source};
 
 /// Reads the points, triangulates them, writes the mesh, and prints the report.
 pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
     match triangulate_large::memory_of(arguments) {
+        Some(_) if arguments.asks_for_plan() => Err(Failure::usage(
+            "constraints, domains, --edges and --neighbors need the whole set in memory: leave out --memory, --scratch, \
+             --resume and --unordered",
+        )),
         Some(memory) => triangulate_large::run(arguments, memory),
         None => run_in_memory(arguments),
     }
@@ -31,36 +38,97 @@ pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
 fn run_in_memory(arguments: &TriangulateArguments) -> Result<(), Failure> {
     let format = source::mesh_format(&arguments.output, arguments.format)?;
     let output = prepare_mesh(arguments)?;
+    let lists = Lists::prepare(arguments, &output)?;
     let chosen = Chosen::of(arguments)?;
     let trace = prepare_trace(arguments, &chosen, &output)?;
     let mut watch = Watch::start();
-    let table = source::read_set(&arguments.points, &arguments.read, arguments.quiet)?;
+    let set = plan::read_set(&arguments.points, &arguments.read, &arguments.plan, arguments.quiet)?;
+    let table = &set.table;
     watch.ended("load");
     interrupt::check()?;
     let in_file = |failure: Failure| failure.in_file(source::set_name(&arguments.points));
-    format.check_points(&table).map_err(in_file)?;
+    format.check_points(table).map_err(in_file)?;
     let how = arguments.grid.quantize.map(|how| (how, chosen.coord_bits()));
-    let laid = lattice::lay(&table, how).map_err(in_file)?;
-    chosen.check_lattice(&laid).map_err(in_file)?;
+    let places = lattice::lay(table, how).map_err(in_file)?;
+    // The places of holes and regions are in the same numbers as the points, but are none of them.
+    let own = set.has_marks().then(|| places.first(set.points));
+    let laid = own.as_ref().unwrap_or(&places);
+    chosen.check_lattice(laid).map_err(in_file)?;
     watch.ended("quantise");
     let trace = trace.map(Output::reserve).transpose()?;
     let trace_part = trace.as_ref().and_then(Written::part);
     let wanted = trace_part.map(|path| Trace { path, job: arguments.trace_job });
-    let (mesh, about, backend) = solve(chosen, &laid, wanted, arguments, &mut watch)?;
+    let (mut mesh, about, backend) = solve(chosen, laid, wanted, arguments, &mut watch)?;
     watch.stages.extend(&about.stages);
-    let mut report = match &backend {
-        Some(backend) => RunReport::new(&about, backend, &laid),
-        None => RunReport::of_several(&about, &laid),
-    };
+    let mut report = report_of(&about, backend.as_ref(), laid);
     report.left_out = table.left_out();
     // Dropping the back end ends a simulation, which completes its waveform.
     drop(backend);
     check_traced(trace_part, arguments)?;
     watch.since = Instant::now();
-    let written = output.write(|out| mesh.write(&table, format, out))?;
+    force_plan(&set, &places, &mut mesh, &mut watch).map_err(in_file)?;
+    report.planned = mesh.planned.as_ref();
+    let points = set.has_marks().then(|| table.first(set.points));
+    let written = output.write(|out| mesh.write(points.as_ref().unwrap_or(table), format, out))?;
+    let lists = lists.write(&mesh)?;
     watch.ended("write");
     report.stages = watch.stages;
-    output::finish(trace.into_iter().chain([written]), || tell(&report, arguments))
+    output::finish(trace.into_iter().chain(lists).chain([written]), || tell(&report, arguments))
+}
+
+/// Forces the constraints of a set into its mesh, if the set has any.
+fn force_plan(set: &PlannedSet, places: &Laid<'_>, mesh: &mut Connections, watch: &mut Watch) -> Result<(), Failure> {
+    if let Some(request) = &set.request {
+        mesh.planned = Some(request.force(mesh, set, places)?);
+        watch.ended("constrain");
+    }
+    Ok(())
+}
+
+/// The report of a run on one back end, or on several if there is none to name.
+fn report_of<'a>(about: &'a Report, backend: Option<&Backend>, laid: &'a Laid<'a>) -> RunReport<'a> {
+    match backend {
+        Some(backend) => RunReport::new(about, backend, laid),
+        None => RunReport::of_several(about, laid),
+    }
+}
+
+/// The files of edges and neighbours, checked before the work.
+struct Lists {
+    edges: Option<Output>,
+    neighbors: Option<Output>,
+}
+
+impl Lists {
+    fn prepare(arguments: &TriangulateArguments, mesh: &Output) -> Result<Self, Failure> {
+        let prepare = |file: &Option<PathBuf>| -> Result<Option<Output>, Failure> {
+            let Some(file) = file else { return Ok(None) };
+            let output = Output::prepare(file, &arguments.points)?;
+            if output.is_same(mesh) || output.is_standard() && mesh.is_standard() {
+                let name = path::name(file);
+                return Err(Failure::usage(format!("{name} is both the mesh and a list: choose another file for one")));
+            }
+            Ok(Some(output))
+        };
+        let (edges, neighbors) = (prepare(&arguments.edges)?, prepare(&arguments.neighbors)?);
+        if edges.as_ref().zip(neighbors.as_ref()).is_some_and(|(one, other)| one.is_same(other)) {
+            return Err(Failure::usage("--edges and --neighbors name the same file: choose another file for one"));
+        }
+        Ok(Self { edges, neighbors })
+    }
+
+    fn write(self, mesh: &Connections) -> Result<Vec<Written>, Failure> {
+        let none = Pieces::default();
+        let pieces = mesh.planned.as_ref().map_or(&none, |planned| &planned.made.pieces);
+        let mut written = Vec::new();
+        if let Some(output) = self.edges {
+            written.push(output.write(|out| edge::write_edges(&mesh.triangles, pieces, out))?);
+        }
+        if let Some(output) = self.neighbors {
+            written.push(output.write(|out| edge::write_neighbors(&mesh.triangles, out))?);
+        }
+        Ok(written)
+    }
 }
 
 /// Opens the back ends and lets them triangulate the points. A single back end stays open.

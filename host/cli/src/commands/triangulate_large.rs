@@ -35,6 +35,7 @@ pub fn memory_of(arguments: &TriangulateArguments) -> Option<u64> {
     }
     let format = source::mesh_format(&arguments.output, arguments.format).ok()?;
     let has_choices = arguments.grid.quantize.is_some() || arguments.trace.is_some() || arguments.backend.is_several();
+    let has_choices = has_choices || arguments.asks_for_plan();
     if has_choices || !tiles::is_streamed(format) {
         return None;
     }

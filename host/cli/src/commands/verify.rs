@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use incircle::verify::verify_constrained;
 use incircle::{VerifyError, VerifySummary};
 use serde_json::{json, Value};
 
@@ -9,6 +10,7 @@ use crate::arguments::{GridArguments, VerifyArguments};
 use crate::backend::MODEL_COORD_BITS;
 use crate::failure::{counted, Exit, Failure};
 use crate::lattice::{Laid, Numbers};
+use crate::plan::{self, Request};
 use crate::report::quantization_json;
 use crate::{lattice, output, path, source};
 
@@ -27,14 +29,21 @@ pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
         };
         return run_script(arguments, script, mesh);
     }
-    let table = source::read_set(points, &arguments.read, arguments.quiet)?;
+    let set = plan::read_set(points, &arguments.read, &arguments.plan, arguments.quiet)?;
     let GridArguments { coord_bits, quantize } = arguments.grid.checked()?;
     let how = quantize.map(|how| (how, coord_bits.unwrap_or(MODEL_COORD_BITS)));
-    let laid = lattice::lay(&table, how).map_err(|failure| failure.in_file(&points_name))?;
+    let laid = lattice::lay(&set.table, how).map_err(|failure| failure.in_file(&points_name))?;
     let names = [&*path::name(mesh), &*points_name];
-    let checked = read_triangles(arguments, mesh)
-        .and_then(|triangles| check(&laid.numbers, &triangles).map_err(|error| rejected(&error.to_string(), names)));
-    tell(checked, &laid, names, arguments)
+    let request = set.request.as_ref();
+    let kind = if request.is_some() { Kind::Constrained } else { Kind::Canonical };
+    let checked = read_triangles(arguments, mesh).and_then(|triangles| {
+        let checked = match request {
+            Some(request) => check_planned(&laid.numbers, set.points, request, &triangles),
+            None => check(&laid.numbers, &triangles),
+        };
+        checked.map_err(|error| rejected(&error.to_string(), kind, names))
+    });
+    tell(checked, &laid, kind, names, arguments)
 }
 
 /// Reads the triangles of the mesh.
@@ -55,9 +64,10 @@ fn run_script(arguments: &VerifyArguments, path: &Path, mesh: &Path) -> Result<(
     let living = script.living();
     let numbers = laid.numbers.select(&script.last_places(&living));
     let names = [&*path::name(mesh), &*name];
-    let checked = read_triangles(arguments, mesh)
-        .and_then(|triangles| check_living(&numbers, &living, &triangles).map_err(|reason| rejected(&reason, names)));
-    tell(checked, &laid, names, arguments)
+    let checked = read_triangles(arguments, mesh).and_then(|triangles| {
+        check_living(&numbers, &living, &triangles).map_err(|reason| rejected(&reason, Kind::Canonical, names))
+    });
+    tell(checked, &laid, Kind::Canonical, names, arguments)
 }
 
 /// Verifies triangles that name points by the numbers of their insertions. `living` has the numbers of the points.
@@ -73,11 +83,28 @@ fn check_living(numbers: &Numbers<'_>, living: &[u32], triangles: &[[u32; 3]]) -
     check(numbers, &triangles).map_err(|error| format!("{error} ({words})"))
 }
 
+/// The kind of mesh that is checked, as messages call it.
+#[derive(Clone, Copy)]
+enum Kind {
+    Canonical,
+    Constrained,
+}
+
+impl Kind {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Canonical => "canonical",
+            Self::Constrained => "canonical constrained",
+        }
+    }
+}
+
 /// The failure of a mesh that is not the one of these points.
-fn rejected(reason: &str, [mesh_name, points_name]: [&str; 2]) -> Failure {
+fn rejected(reason: &str, kind: Kind, [mesh_name, points_name]: [&str; 2]) -> Failure {
+    let kind = kind.name();
     Failure::new(
         Exit::Rejected,
-        format!("the triangles of {mesh_name} are not the canonical Delaunay triangulation of {points_name}: {reason}"),
+        format!("the triangles of {mesh_name} are not the {kind} Delaunay triangulation of {points_name}: {reason}"),
     )
 }
 
@@ -85,6 +112,7 @@ fn rejected(reason: &str, [mesh_name, points_name]: [&str; 2]) -> Failure {
 fn tell(
     checked: Result<VerifySummary, Failure>,
     laid: &Laid<'_>,
+    kind: Kind,
     [mesh_name, points_name]: [&str; 2],
     arguments: &VerifyArguments,
 ) -> Result<(), Failure> {
@@ -103,8 +131,9 @@ fn tell(
         Ok(())
     } else {
         output::print(&format!(
-            "the triangles of {mesh_name} are the canonical Delaunay triangulation of {points_name}: {}, {}, {} on the \
-             hull, {}\n",
+            "the triangles of {mesh_name} are the {} Delaunay triangulation of {points_name}: {}, {}, {} on the hull, \
+             {}\n",
+            kind.name(),
             counted(summary.points, "point"),
             counted(summary.triangles, "triangle"),
             counted(summary.hull.len(), "point"),
@@ -119,6 +148,20 @@ fn check(numbers: &Numbers<'_>, triangles: &[[u32; 3]]) -> Result<VerifySummary,
         Numbers::Grid(points) => incircle::verify(points, triangles),
         Numbers::Whole(points) => incircle::verify(points, triangles),
         Numbers::Doubles(points) => incircle::verify(points, triangles),
+    }
+}
+
+/// Verifies triangles with the constraints and the domain of a request. The places of holes stand behind the points.
+fn check_planned(
+    numbers: &Numbers<'_>,
+    points: usize,
+    request: &Request,
+    triangles: &[[u32; 3]],
+) -> Result<VerifySummary, VerifyError> {
+    match numbers {
+        Numbers::Grid(all) => verify_constrained(&all[..points], triangles, &request.plan(all, points)),
+        Numbers::Whole(all) => verify_constrained(&all[..points], triangles, &request.plan(all, points)),
+        Numbers::Doubles(all) => verify_constrained(&all[..points], triangles, &request.plan(all, points)),
     }
 }
 

@@ -58,11 +58,15 @@ fn read_row(content: &[u8], row: usize) -> Result<[u32; 4], Failure> {
     Ok(values)
 }
 
-/// Writes the triangles in their order.
+/// Writes the triangles in their order, each with the attribute of its region if there are regions.
 pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
-    writeln!(out, "{} 3 0", mesh.triangles.len())?;
+    let attributes = u8::from(mesh.attribute(0).is_some());
+    writeln!(out, "{} 3 {attributes}", mesh.triangles.len())?;
     for (id, [a, b, c]) in mesh.triangles.iter().enumerate() {
-        writeln!(out, "{id} {a} {b} {c}")?;
+        match mesh.attribute(id) {
+            Some(attribute) => writeln!(out, "{id} {a} {b} {c} {attribute}")?,
+            None => writeln!(out, "{id} {a} {b} {c}")?,
+        }
     }
     Ok(())
 }

@@ -2,12 +2,14 @@
 //!
 //! `points` has the input points `[x, y]`, `triangles` triples of indices into `points`, `hull` indices, and
 //! `duplicates` pairs `[index, lowest index at the same place]`. The key `numbers` with the value `doubles` says that
-//! the decimals in `points` stand for the nearest doubles.
+//! the decimals in `points` stand for the nearest doubles. A mesh with constraints also has `regions`, the region of each
+//! triangle, and `pieces` with items `[a, b, [constraints]]`.
 
 use std::io::{self, Write};
 
 use crate::failure::{quoted, Failure};
 use crate::formats::mesh_view::MeshView;
+use crate::formats::plan::PlanTable;
 use crate::formats::{geojson, json_text};
 use crate::memory::Memory;
 use crate::points::PointTable;
@@ -36,6 +38,17 @@ pub fn read_points(bytes: &[u8], memory: Memory) -> Result<PointTable, Failure> 
         }
     })?;
     table.complete()
+}
+
+/// Reads the points of a list `points`, which has no constraints, or a plan of GeoJSON.
+pub fn read_plan(bytes: &[u8], memory: Memory) -> Result<PlanTable, Failure> {
+    match json_text::fields(text::utf8(bytes)?, ["type", "points"]) {
+        Ok([None, Some(list)]) if json_text::is_list(list) => {
+            read_points(bytes, memory).map(|table| PlanTable::of_points(table, true))
+        }
+        Err(error) if !error.is_data() => Err(json_text::refuse(&error)),
+        _ => geojson::read_plan(bytes, memory),
+    }
 }
 
 /// Reads the list `triangles` and ignores everything else in the object.
@@ -70,6 +83,16 @@ pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
     write_list(out, mesh.hull.iter().map(u32::to_string))?;
     write!(out, ",\n\"duplicates\":")?;
     write_list(out, mesh.duplicates.iter().map(|[i, of]| format!("[{i},{of}]")))?;
+    if let Some(planned) = mesh.planned {
+        write!(out, ",\n\"regions\":")?;
+        write_list(out, planned.made.regions.iter().map(u32::to_string))?;
+        write!(out, ",\n\"pieces\":")?;
+        let piece = |([a, b], constraints): ([u32; 2], &[u32])| {
+            let constraints: Vec<String> = constraints.iter().map(u32::to_string).collect();
+            format!("[{a},{b},[{}]]", constraints.join(","))
+        };
+        write_list(out, planned.made.pieces.iter().map(piece))?;
+    }
     writeln!(out, "}}")
 }
 

@@ -1,6 +1,7 @@
 //! The form in which writers get a mesh.
 
 use crate::number::Coordinate;
+use crate::planned::Planned;
 use crate::points::PointTable;
 
 /// A mesh with the coordinates of its input file, for writers.
@@ -14,9 +15,17 @@ pub struct MeshView<'a> {
     pub hull: &'a [u32],
     /// Pairs of a duplicate and the lowest index at the same place.
     pub duplicates: &'a [[u32; 2]],
+    /// What constraints made of the mesh, if there are any.
+    pub planned: Option<&'a Planned>,
 }
 
 impl MeshView<'_> {
+    /// What a file of Triangle says of the region of a triangle; `None` if it says nothing.
+    pub fn attribute(&self, triangle: usize) -> Option<String> {
+        let planned = self.planned?;
+        planned.attribute(*planned.made.regions.get(triangle)?)
+    }
+
     /// The coordinates of a vertex, in the numbers of the file. A vertex that does not exist, which no mesh of the
     /// library has, is at the origin.
     pub fn position(&self, vertex: u32) -> [Coordinate; 2] {

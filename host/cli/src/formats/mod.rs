@@ -4,6 +4,7 @@ mod array;
 pub mod csv;
 mod csv_rows;
 pub mod curve;
+pub mod edge;
 pub mod ele;
 pub mod geojson;
 pub mod json;
@@ -15,8 +16,10 @@ pub mod npy;
 pub mod npy_writer;
 pub mod npz;
 pub mod obj;
+mod plan;
 pub mod ply;
 mod ply_writer;
+pub mod poly;
 mod selection;
 mod set;
 pub mod svg;
@@ -34,6 +37,7 @@ use crate::input::Input;
 use crate::points::PointTable;
 
 pub use mesh_view::MeshView;
+pub use plan::PlanTable;
 pub use selection::{Bounds, Selection};
 pub use set::SetFormat;
 
@@ -46,6 +50,8 @@ pub enum PointFormat {
     Xyz,
     /// Shewchuk's Triangle, .node
     Node,
+    /// Shewchuk's Triangle, .poly: points and constraints
+    Poly,
     /// Vertices of a Wavefront OBJ
     Obj,
     /// Vertices of a PLY, ascii or binary
@@ -71,6 +77,7 @@ impl PointFormat {
             "csv" | "tsv" => Self::Csv,
             "xyz" => Self::Xyz,
             "node" => Self::Node,
+            "poly" => Self::Poly,
             "obj" => Self::Obj,
             "ply" => Self::Ply,
             "geojson" => Self::Geojson,
@@ -96,6 +103,10 @@ impl PointFormat {
             Self::Csv => csv::read_points(&some_bytes(input)?, memory),
             Self::Xyz => xyz::read_points(&some_bytes(input)?, memory),
             Self::Node => node::read_points(&some_bytes(input)?, memory),
+            Self::Poly => Err(Failure::usage(
+                "a .poly file has constraints, which only 'triangulate' and 'verify' take, from one file: give its \
+                 .node file",
+            )),
             Self::Obj => obj::read_points(&some_bytes(input)?, memory),
             Self::Ply => ply::read_points(&some_bytes(input)?, memory),
             Self::Geojson => geojson::read_points(&some_bytes(input)?, memory),
@@ -104,6 +115,30 @@ impl PointFormat {
             Self::Npy => npy::read_points(array::Source::of_input(&mut input)),
             Self::Npz => npz::read_points(input, selection.array.as_deref()),
             Self::Wkt => wkt::read_points(&some_bytes(input)?, memory),
+        }
+    }
+}
+
+impl PointFormat {
+    /// Whether files of the format may hold constraints.
+    pub fn may_constrain(self) -> bool {
+        matches!(self, Self::Poly | Self::Geojson | Self::Json | Self::Wkt)
+    }
+
+    /// Reads the points and the constraints of an input. `beside` reads the points of a .poly file that has none of
+    /// its own. Formats without constraints are an error.
+    pub fn read_plan(
+        self,
+        input: Input,
+        beside: &dyn Fn() -> Result<PointTable, Failure>,
+    ) -> Result<PlanTable, Failure> {
+        let memory = input.memory();
+        match self {
+            Self::Poly => poly::read_plan(&some_bytes(input)?, memory, beside),
+            Self::Geojson => geojson::read_plan(&some_bytes(input)?, memory),
+            Self::Json => json::read_plan(&some_bytes(input)?, memory),
+            Self::Wkt => wkt::read_plan(&some_bytes(input)?, memory),
+            _ => Err(Failure::usage("files of this format hold no constraints")),
         }
     }
 }

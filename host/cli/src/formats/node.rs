@@ -24,7 +24,7 @@ const FIXED: usize = 3;
 pub fn read_points(bytes: &[u8], memory: Memory) -> Result<PointTable, Failure> {
     let (promised, rows) = triangle::open(bytes, &HEADER)?;
     let mut table = PointTable::of_rows([2, 3, 4]).within(memory);
-    let mut base = 0;
+    let mut ids = Ids::default();
     for (row, content) in rows {
         let count = table.len();
         if count as u64 == u64::from(promised) {
@@ -33,10 +33,7 @@ pub fn read_points(bytes: &[u8], memory: Memory) -> Result<PointTable, Failure> 
             )));
         }
         let (id, point) = read_point(content, row)?;
-        if count == 0 {
-            base = id;
-        }
-        check_id(id, base, count, row)?;
+        ids.check(id, count, row)?;
         table.push(point, row)?;
     }
     let found = table.len();
@@ -47,19 +44,32 @@ pub fn read_points(bytes: &[u8], memory: Memory) -> Result<PointTable, Failure> 
     table.complete()
 }
 
-/// Checks an id: ids start at `base`, which must be 0 or 1, and rise by one.
-fn check_id(id: u32, base: u32, count: usize, row: usize) -> Result<(), Failure> {
-    let expected = u64::from(base) + count as u64;
-    if base <= 1 && u64::from(id) == expected {
-        return Ok(());
-    }
-    let wanted = if count == 0 { "0 or 1".to_owned() } else { expected.to_string() };
-    Err(Failure::input(format!(
-        "row {row}, column 1: the id is {id}, not {wanted}: ids count from 0 or 1 and rise by one"
-    )))
+/// The ids of points, which start at 0 or 1 and rise by one.
+#[derive(Default)]
+pub(super) struct Ids {
+    /// The first id.
+    pub base: u32,
 }
 
-fn read_point(content: &[u8], row: usize) -> Result<(u32, [&[u8]; 2]), Failure> {
+impl Ids {
+    /// Checks the id of a point before which there are `count`.
+    pub fn check(&mut self, id: u32, count: usize, row: usize) -> Result<(), Failure> {
+        if count == 0 {
+            self.base = id;
+        }
+        let expected = u64::from(self.base) + count as u64;
+        if self.base <= 1 && u64::from(id) == expected {
+            return Ok(());
+        }
+        let wanted = if count == 0 { "0 or 1".to_owned() } else { expected.to_string() };
+        Err(Failure::input(format!(
+            "row {row}, column 1: the id is {id}, not {wanted}: ids count from 0 or 1 and rise by one"
+        )))
+    }
+}
+
+/// Reads a row `id x y …`.
+pub(super) fn read_point(content: &[u8], row: usize) -> Result<(u32, [&[u8]; 2]), Failure> {
     let mut values = [&[][..]; FIXED];
     let mut count = 0;
     for (slot, value) in values.iter_mut().zip(text::words(content)) {

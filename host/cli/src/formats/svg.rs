@@ -41,7 +41,10 @@ pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
     write_head(&canvas, &format!("Delaunay triangulation: {points}, {triangles}"), out)?;
     let sides = mesh.triangles.iter().map(|&triangle| side(canvas.corners(triangle)));
     draw_triangles(mesh.triangles, &canvas, &Classes::of(sides.collect()), out)?;
-    draw_hull(mesh.hull, !mesh.triangles.is_empty(), &canvas, out)?;
+    match mesh.planned {
+        Some(planned) => draw_pieces(planned.made.pieces.edges(), &canvas, out)?,
+        None => draw_hull(mesh.hull, !mesh.triangles.is_empty(), &canvas, out)?,
+    }
     let count = mesh.points.len();
     if count <= MOST_DOTS {
         let width = (CANVAS * 0.15 / (count as f64).sqrt()).clamp(60.0, 280.0);
@@ -212,6 +215,16 @@ pub(crate) fn draw_hull(hull: &[u32], is_closed: bool, canvas: &Canvas<'_>, out:
         "<path fill=\"none\" stroke=\"#e4572e\" stroke-width=\"45\" stroke-linejoin=\"round\" \
          stroke-linecap=\"round\" d=\"{d}\"/>"
     )
+}
+
+/// Draws the edges that constraints fix.
+fn draw_pieces(pieces: &[[u32; 2]], canvas: &Canvas<'_>, out: &mut dyn Write) -> io::Result<()> {
+    write!(out, "<path fill=\"none\" stroke=\"#e4572e\" stroke-width=\"45\" stroke-linecap=\"round\" d=\"")?;
+    for piece in pieces {
+        let [[x, y], [u, v]] = piece.map(|vertex| canvas.vertex(vertex));
+        write!(out, "M{x} {y}L{u} {v}")?;
+    }
+    writeln!(out, "\"/>")
 }
 
 /// Draws a dot at each place of the canvas, as a subpath of no length with round ends. Without places nothing is drawn.

@@ -1,21 +1,32 @@
-//! WKT, well-known text: `POINT (x y)` and `MULTIPOINT ((x y), (x y))`, which can only be read.
+//! WKT, well-known text: `POINT (x y)` and `MULTIPOINT ((x y), (x y))`, and in plans lines and polygons, which can only
+//! be read.
 //!
 //! A file holds any number of geometries, one after the other, also in a `GEOMETRYCOLLECTION`. Letters may be small or
 //! capital; `Z`, `M` and `ZM` stand behind the name of the geometry or not at all; `SRID=4326;` before a geometry, as
-//! PostGIS writes it, is ignored, and so is an `EMPTY` geometry. Other geometries are refused. The numbers are taken as
-//! they are written. Libraries for WKT make doubles of the numbers, so this module uses none.
+//! PostGIS writes it, is ignored, and so is an `EMPTY` geometry. Every position of a `LINESTRING` or `POLYGON` is a
+//! point; where only points are wanted, these are refused, and all others always. The numbers are taken as they are
+//! written. Libraries for WKT make doubles of the numbers, so this module uses none.
 //!
 //! Source: OGC 06-103r4, "Simple feature access, part 1", chapter 7.
 
 use crate::failure::{quoted, Failure};
+use crate::formats::plan::PlanTable;
 use crate::memory::Memory;
 use crate::points::PointTable;
 use crate::text;
 
 /// Reads the points of all geometries.
 pub fn read_points(bytes: &[u8], memory: Memory) -> Result<PointTable, Failure> {
+    read(bytes, PlanTable::new(memory, true)).map(|plan| plan.table)
+}
+
+/// Reads the points and the constraints of all geometries.
+pub fn read_plan(bytes: &[u8], memory: Memory) -> Result<PlanTable, Failure> {
+    read(bytes, PlanTable::new(memory, false))
+}
+
+fn read(bytes: &[u8], mut plan: PlanTable) -> Result<PlanTable, Failure> {
     let bytes = text::without_mark(bytes)?;
-    let mut table = PointTable::of_items("point").within(memory);
     let mut tokens = Tokens { all: bytes, at: 0 };
     // The number of collections that are open.
     let mut depth = 0usize;
@@ -33,7 +44,7 @@ pub fn read_points(bytes: &[u8], memory: Memory) -> Result<PointTable, Failure> 
                 }
             }
             _ => {
-                read_geometry(&mut tokens, word, &mut table)?;
+                read_geometry(&mut tokens, word, &mut plan)?;
                 continue_list(&mut tokens, depth)?;
             }
         }
@@ -41,7 +52,7 @@ pub fn read_points(bytes: &[u8], memory: Memory) -> Result<PointTable, Failure> 
     if depth > 0 {
         return Err(tokens.unexpected("')' or another geometry of the collection"));
     }
-    table.complete()
+    plan.complete()
 }
 
 /// Which numbers a point has behind x and y.
@@ -85,7 +96,7 @@ fn open(tokens: &mut Tokens<'_>) -> Result<Option<Dimensions>, Failure> {
 }
 
 /// Reads one geometry, whose first word has been taken.
-fn read_geometry<'a>(tokens: &mut Tokens<'a>, mut word: &'a [u8], table: &mut PointTable) -> Result<(), Failure> {
+fn read_geometry<'a>(tokens: &mut Tokens<'a>, mut word: &'a [u8], plan: &mut PlanTable) -> Result<(), Failure> {
     if word.eq_ignore_ascii_case(b"SRID") {
         tokens.expect(b"=", "'=' and a number")?;
         tokens.next();
@@ -99,21 +110,80 @@ fn read_geometry<'a>(tokens: &mut Tokens<'a>, mut word: &'a [u8], table: &mut Po
         [name @ .., b'M'] => (name, Dimensions::Measure),
         name => (name, Dimensions::Unsaid),
     };
-    if name != b"POINT" && name != b"MULTIPOINT" {
+    let is_line = LINES.contains(&name);
+    if name != b"POINT" && name != b"MULTIPOINT" && (!is_line || plan.takes_only_points()) {
         let (row, word) = (tokens.row(), quoted(word));
-        return Err(Failure::input(format!(
-            "row {row}: {word} is neither POINT nor MULTIPOINT nor a collection of them: other geometries are no points"
-        )));
+        return Err(Failure::input(match plan.takes_only_points() {
+            true => format!(
+                "row {row}: {word} is neither POINT nor MULTIPOINT nor a collection of them: other geometries are no \
+                 points"
+            ),
+            false => format!("row {row}: {word} is no geometry of points, lines or polygons"),
+        }));
     }
     let Some(dimensions) = open(tokens)? else {
         return Ok(());
     };
     let dimensions = if attached == Dimensions::Unsaid { dimensions } else { attached };
-    if name == b"POINT" {
-        read_point(tokens, dimensions, table)?;
-        return tokens.expect(b")", "')' behind the numbers of the point");
+    match name {
+        b"POINT" => {
+            read_point(tokens, dimensions, &mut plan.table)?;
+            tokens.expect(b")", "')' behind the numbers of the point")
+        }
+        b"MULTIPOINT" => read_multiple(tokens, dimensions, &mut plan.table),
+        name => read_lines(name, tokens, dimensions, plan),
     }
-    read_multiple(tokens, dimensions, table)
+}
+
+/// The names of the geometries that have constraints.
+const LINES: [&[u8]; 4] = [b"LINESTRING", b"MULTILINESTRING", b"POLYGON", b"MULTIPOLYGON"];
+
+/// Reads what is between the parentheses of a geometry of lines or polygons, and the closing one.
+fn read_lines(
+    name: &[u8],
+    tokens: &mut Tokens<'_>,
+    dimensions: Dimensions,
+    plan: &mut PlanTable,
+) -> Result<(), Failure> {
+    let inner: &[u8] = match name {
+        b"MULTILINESTRING" => b"LINESTRING",
+        b"POLYGON" => b"RING",
+        b"MULTIPOLYGON" => b"POLYGON",
+        _ => return read_chain(name, tokens, dimensions, plan),
+    };
+    loop {
+        if !tokens.take_word("EMPTY") {
+            tokens.expect(b"(", "'(' or EMPTY")?;
+            read_lines(inner, tokens, dimensions, plan)?;
+        }
+        if !tokens.take(b",") {
+            return tokens.expect(b")", "',' or ')'");
+        }
+    }
+}
+
+/// Reads the points of a line or ring, and the closing parenthesis.
+fn read_chain(
+    name: &[u8],
+    tokens: &mut Tokens<'_>,
+    dimensions: Dimensions,
+    plan: &mut PlanTable,
+) -> Result<(), Failure> {
+    let first = plan.table.len();
+    loop {
+        read_point(tokens, dimensions, &mut plan.table)?;
+        if !tokens.take(b",") {
+            break;
+        }
+    }
+    tokens.expect(b")", "',' or ')'")?;
+    // Counting the rows up to each ring would take quadratic time, so only a message does.
+    let what = || format!("row {}", tokens.row());
+    if name == b"RING" {
+        plan.add_ring(first, what)
+    } else {
+        plan.add_line(first, what)
+    }
 }
 
 /// Reads the points of a `MULTIPOINT` and the closing parenthesis.

@@ -62,6 +62,12 @@ impl PointTable {
         Self::of_coordinates("point", self.coordinates.select(indices))
     }
 
+    /// The first `count` points, without their z.
+    pub fn first(&self, count: usize) -> Self {
+        let indices: Vec<u32> = (0..count as u32).collect();
+        self.select(&indices)
+    }
+
     fn new(coordinates: Coordinates, origin: Origin, columns: [usize; 3]) -> Self {
         Self {
             coordinates,

@@ -16,6 +16,7 @@ mod backend {
 
 mod commands {
     mod bench;
+    mod constraints;
     mod generate;
     mod generate_numbers;
     mod replay;

@@ -1,96 +1,109 @@
 //! Linking a list of triangles to a mesh in which each edge has two sides.
+//!
+//! The triangles are sorted, and the smallest vertex of each comes first. So for each vertex, those triangles in which
+//! it is the smallest stand in a row, with both of their edges at that vertex. The third edge of a triangle waits in a
+//! list of its smaller end. Only these lists are read in scattered order.
 
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::plane::{Plane, Side, INFINITE, LAST, NEXT};
+use super::plane::{Plane, Side, INFINITE};
 
-/// Marks the end of a list of half-edges.
+/// Marks the end of a list of triangles.
 const NONE: u32 = u32::MAX;
+/// The most comparisons for which the sides at a vertex are not sorted.
+const FEW: usize = 256;
 
-/// The half-edges that have not found their other side, in a list for each vertex. An edge is in the list of the end
-/// with fewer edges. So all lists together are searched in O(n) time, because the smaller of both degrees, summed over
-/// the edges of a planar graph, is O(n) (Chiba and Nishizeki 1985).
-struct Waiting {
-    /// The first half-edge of each vertex.
-    first: Vec<u32>,
-    /// The next half-edge of the same list, for each half-edge.
-    next: Vec<u32>,
-    degrees: Vec<u32>,
+/// A side of an edge: the ends of the edge, with the triangle to the left, and the side.
+type Open = ([u32; 2], Side);
+
+/// The sides of edges at one vertex, with their other ends: those of edges that leave the vertex, and those of edges
+/// that arrive.
+#[derive(Default)]
+struct Around {
+    leaving: Vec<(u32, Side)>,
+    arriving: Vec<(u32, Side)>,
 }
 
-impl Waiting {
-    fn of(triangles: &[[u32; 3]], vertices: usize) -> Self {
-        let mut degrees = vec![0; vertices];
-        triangles.iter().flatten().for_each(|&vertex| degrees[vertex as usize] += 1);
-        Self { first: vec![NONE; vertices], next: vec![NONE; 3 * triangles.len()], degrees }
-    }
-
-    /// The vertex in whose list an edge is.
-    fn place(&self, [a, b]: [u32; 2]) -> usize {
-        let key = |vertex: u32| (self.degrees[vertex as usize], vertex);
-        key(a).min(key(b)).1 as usize
-    }
-
-    /// Takes out the half-edge with these ends.
-    fn take(&mut self, ends: [u32; 2], ends_of: impl Fn(u32) -> [u32; 2]) -> Option<u32> {
-        let place = self.place(ends);
-        let (mut before, mut half) = (NONE, self.first[place]);
-        while half != NONE {
-            let next = self.next[half as usize];
-            if ends_of(half) == ends {
-                match before {
-                    NONE => self.first[place] = next,
-                    before => self.next[before as usize] = next,
-                }
-                return Some(half);
-            }
-            (before, half) = (half, next);
+impl Around {
+    /// Links the two sides of each edge, and puts sides without another into a list. Leaves both lists empty. O(d) for
+    /// few sides, else O(d log d).
+    fn link(&mut self, vertex: u32, plane: &mut Plane, open: &mut Vec<Open>) {
+        if self.leaving.len() * self.arriving.len() > FEW {
+            // From the end of both sorted lists, as sides are found: sides with the largest other end come first.
+            self.leaving.sort_unstable_by_key(|&(end, side)| (end, side.number()));
+            self.arriving.sort_unstable_by_key(|&(end, side)| (end, side.number()));
         }
-        None
-    }
-
-    fn put(&mut self, half: u32, ends: [u32; 2]) {
-        let place = self.place(ends);
-        self.next[half as usize] = self.first[place];
-        self.first[place] = half;
+        while let Some((end, side)) = self.leaving.pop() {
+            let is_same = |&(other, _): &(u32, Side)| other == end;
+            match self.arriving.iter().rposition(is_same) {
+                Some(place) => {
+                    // The order of the rest stays, and in sorted lists nothing but sides without another stands behind.
+                    plane.link(side, self.arriving.remove(place).1);
+                }
+                None => open.push(([vertex, end], side)),
+            }
+        }
+        open.extend(self.arriving.drain(..).map(|(end, side)| ([end, vertex], side)));
     }
 }
 
 impl Plane {
-    /// Loads the triangles of a mesh and its hull into a plane without triangles, and adds the ghost triangles.
+    /// Loads the triangles of a mesh and its hull into a plane without triangles, and adds the ghost triangles. The
+    /// triangles are sorted, each with its smallest vertex first.
     pub fn load(&mut self, triangles: &[[u32; 3]], hull: &[u32], vertices: usize) {
         self.reserve(triangles.len() + hull.len());
         for &triangle in triangles {
             let number = self.allocate();
             self.set(number, triangle, [Side::new(0, 0); 3]);
         }
-        // Half-edge 3 t + k of triangle t lies opposite its vertex k.
-        let side = |half: u32| Side::new(half / 3, half as usize % 3);
-        let ends_of = |half: u32| {
-            let (triangle, slot) = (triangles[half as usize / 3], half as usize % 3);
-            [triangle[NEXT[slot]], triangle[LAST[slot]]]
-        };
-        let mut waiting = Waiting::of(triangles, vertices);
-        for half in 0..3 * triangles.len() as u32 {
-            let [from, to] = ends_of(half);
-            match waiting.take([to, from], ends_of) {
-                Some(other) => self.link(side(half), side(other)),
-                None => waiting.put(half, [from, to]),
-            }
-        }
+        let mut open = self.link_all(triangles, vertices);
+        open.sort_unstable_by_key(|&(ends, side)| (ends, side.number()));
         for (place, &from) in hull.iter().enumerate() {
             let to = hull[(place + 1) % hull.len()];
             let ghost = self.allocate();
             self.set_ghost(ghost, [from, to]);
-            if let Some(half) = waiting.take([from, to], ends_of) {
-                self.link(side(half), Side::new(ghost, 2));
+            if let Ok(found) = open.binary_search_by_key(&[from, to], |&(ends, _)| ends) {
+                self.link(open[found].1, Side::new(ghost, 2));
             }
         }
         let ghost = |place: usize| (triangles.len() + place % hull.len()) as u32;
         for place in 0..hull.len() {
             self.link(Side::new(ghost(place), 1), Side::new(ghost(place + 1), 0));
         }
+    }
+
+    /// Links the sides of all triangles. Returns the sides without another, which are those of the hull.
+    fn link_all(&mut self, triangles: &[[u32; 3]], vertices: usize) -> Vec<Open> {
+        // For each vertex the triangles whose third edge has it as its smaller end.
+        let mut first = vec![NONE; vertices];
+        let mut next = vec![NONE; triangles.len()];
+        for (number, &[_, b, c]) in triangles.iter().enumerate() {
+            let head = &mut first[b.min(c) as usize];
+            next[number] = core::mem::replace(head, number as u32);
+        }
+        let (mut open, mut around) = (Vec::new(), Around::default());
+        let mut own = 0u32;
+        for vertex in 0..vertices as u32 {
+            while let Some(&[_, b, c]) = triangles.get(own as usize).filter(|triangle| triangle[0] == vertex) {
+                around.leaving.push((b, Side::new(own, 2)));
+                around.arriving.push((c, Side::new(own, 1)));
+                own += 1;
+            }
+            let mut waiting = first[vertex as usize];
+            while waiting != NONE {
+                let [_, b, c] = self.get(waiting).vertices;
+                let side = Side::new(waiting, 0);
+                if b == vertex {
+                    around.leaving.push((c, side));
+                } else {
+                    around.arriving.push((b, side));
+                }
+                waiting = next[waiting as usize];
+            }
+            around.link(vertex, self, &mut open);
+        }
+        open
     }
 
     /// Writes the ghost triangle of a hull edge. Its sides 0 and 1 are those to the ghost triangles of the hull edges

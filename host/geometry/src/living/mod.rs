@@ -57,7 +57,7 @@ mod link;
 mod load;
 mod names;
 mod near;
-mod plane;
+pub(crate) mod plane;
 mod queries;
 mod rectangle;
 mod segment;

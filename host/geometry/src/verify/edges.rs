@@ -37,11 +37,11 @@ pub(super) fn check<P: ExactPoint>(
 
 /// One side of an edge: the two points in rising order, and the half-edge. Half-edge `3 t + k` runs from corner `k` of
 /// triangle `t` to the next.
-type Side = ([u32; 2], u32);
+pub(super) type Side = ([u32; 2], u32);
 
 /// The sides of all edges, those of one edge in a row. O(n log n) by a plain sort, so that the validator shares no
 /// sort with the host.
-fn sides(triangles: &[[u32; 3]]) -> Vec<Side> {
+pub(super) fn sides(triangles: &[[u32; 3]]) -> Vec<Side> {
     // `check_sizes` has made sure that three half-edges of each triangle fit 32 bits.
     let halfedges = 0..3 * triangles.len() as u32;
     let mut sides: Vec<Side> = halfedges
@@ -55,14 +55,14 @@ fn sides(triangles: &[[u32; 3]]) -> Vec<Side> {
 }
 
 /// The two points of a half-edge: its origin, then its end.
-fn ends(triangles: &[[u32; 3]], halfedge: u32) -> [u32; 2] {
+pub(super) fn ends(triangles: &[[u32; 3]], halfedge: u32) -> [u32; 2] {
     let corners = triangles[(halfedge / 3) as usize];
     let k = (halfedge % 3) as usize;
     [corners[k], corners[(k + 1) % 3]]
 }
 
 /// Refuses two half-edges of one edge that run the same way. Among three or more half-edges there are always two such.
-fn check_sides(triangles: &[[u32; 3]], sides: &[Side]) -> Result<(), VerifyError> {
+pub(super) fn check_sides(triangles: &[[u32; 3]], sides: &[Side]) -> Result<(), VerifyError> {
     for (place, &(_, later)) in sides.iter().enumerate() {
         let edge = ends(triangles, later);
         let mut earlier = sides[..place].iter();
@@ -74,13 +74,13 @@ fn check_sides(triangles: &[[u32; 3]], sides: &[Side]) -> Result<(), VerifyError
 }
 
 /// The hull edges, each of which must be met exactly once.
-struct HullEdges {
+pub(super) struct HullEdges {
     /// For each point of the hull, the next point, until the edge between both is met.
     following: Vec<Option<u32>>,
 }
 
 impl HullEdges {
-    fn of(hull: &[u32], points: usize) -> Self {
+    pub(super) fn of(hull: &[u32], points: usize) -> Self {
         let mut following = vec![None; points];
         for (&from, &to) in hull.iter().zip(hull.iter().skip(1).chain(hull.first())) {
             following[from as usize] = Some(to);
@@ -88,7 +88,7 @@ impl HullEdges {
         Self { following }
     }
 
-    fn take(&mut self, halfedge: u32, edge: [u32; 2]) -> Result<(), VerifyError> {
+    pub(super) fn take(&mut self, halfedge: u32, edge: [u32; 2]) -> Result<(), VerifyError> {
         let following = &mut self.following[edge[0] as usize];
         if *following != Some(edge[1]) {
             return Err(VerifyError::OpenEdge { triangle: (halfedge / 3) as usize, edge });
@@ -97,7 +97,7 @@ impl HullEdges {
         Ok(())
     }
 
-    fn check_complete(&self, hull: &[u32]) -> Result<(), VerifyError> {
+    pub(super) fn check_complete(&self, hull: &[u32]) -> Result<(), VerifyError> {
         for &from in hull {
             if let Some(to) = self.following[from as usize] {
                 return Err(VerifyError::MissingHullEdge { edge: [from, to] });
@@ -108,7 +108,7 @@ impl HullEdges {
 }
 
 /// Checks the local Delaunay property and the tie rule of the edge between two triangles; returns true for a tie.
-fn check_inner_edge<P: ExactPoint>(
+pub(super) fn check_inner_edge<P: ExactPoint>(
     sites: &Sites<'_, P>,
     triangles: &[[u32; 3]],
     one: u32,

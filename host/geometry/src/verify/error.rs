@@ -1,5 +1,7 @@
 //! The defects that the validator finds.
 
+use crate::plan::Mark;
+
 /// The first defect that [`verify`](fn@crate::verify) found in a mesh.
 ///
 /// Triangles are numbered by their place in the list, points by their input index. The message names both.
@@ -158,6 +160,59 @@ pub enum VerifyError {
         edge: [u32; 2],
         /// The lexicographically smallest of the four points.
         smallest: u32,
+    },
+    /// A constraint names a point that does not exist.
+    #[error("constraint {constraint} names point {index}, but there are only {points} points")]
+    ConstraintOutOfRange {
+        /// Number of the constraint in the list.
+        constraint: usize,
+        /// The index that the constraint names.
+        index: u32,
+        /// Number of points given.
+        points: usize,
+    },
+    /// The constraints that bound the domain do not form rings.
+    #[error("the boundary of the domain is not closed at point {point}")]
+    NotClosed {
+        /// Input index of the point.
+        point: usize,
+    },
+    /// The place of a hole is on a constraint.
+    #[error("{kind} {number} lies on the constraint from point {} to point {}", edge[0], edge[1])]
+    MarkOnConstraint {
+        /// What the place stands for.
+        kind: Mark,
+        /// Number of the hole in the list.
+        number: usize,
+        /// The ends of the piece of the constraint.
+        edge: [u32; 2],
+    },
+    /// A piece of a constraint is no edge of the mesh.
+    #[error("the piece of a constraint from point {} to point {} is no edge of a triangle", edge[0], edge[1])]
+    MissingPiece {
+        /// The piece by its two points.
+        edge: [u32; 2],
+    },
+    /// A piece of a constraint has triangles on the wrong sides.
+    #[error(
+        "the piece of a constraint from point {} to point {} has {found} triangles, but the domain lies on {due} of \
+         its sides, or on the other one", edge[0], edge[1]
+    )]
+    SidesOfPiece {
+        /// The piece by its two points.
+        edge: [u32; 2],
+        /// Number of triangles at the piece.
+        found: u8,
+        /// Number of sides of the piece that belong to the domain.
+        due: u8,
+    },
+    /// A triangle holds a point that is a corner of none.
+    #[error("triangle {triangle} holds point {point}, which is a corner of no triangle")]
+    PointInTriangle {
+        /// Number of the triangle in the list.
+        triangle: usize,
+        /// Input index of the point.
+        point: u32,
     },
     /// The hull list is not the hull of the points.
     #[error("the hull list differs from the hull of the points at place {place}: {found:?} instead of {expected:?}")]

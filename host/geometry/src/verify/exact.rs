@@ -21,6 +21,9 @@ pub(super) trait ExactPoint: Copy {
     /// Twice the signed area of a triangle, or of the sector from the origin to `b` and `c` if `a` is `None`, where
     /// integers of 128 bits can sum all areas of a mesh.
     fn orient2d_value(a: Option<Self>, b: Self, c: Self) -> Option<i128>;
+
+    /// The vector from another point, rounded once.
+    fn offset(&self, from: &Self) -> [f64; 2];
 }
 
 /// The vector from `from` to `to`.
@@ -53,6 +56,10 @@ impl ExactPoint for Point {
     fn orient2d_value(a: Option<Self>, b: Self, c: Self) -> Option<i128> {
         let a = a.unwrap_or_default();
         Some(minor(vector(a, b), vector(a, c)))
+    }
+
+    fn offset(&self, from: &Self) -> [f64; 2] {
+        [f64::from(self.x) - f64::from(from.x), f64::from(self.y) - f64::from(from.y)]
     }
 }
 
@@ -148,6 +155,10 @@ impl<C: ExactNumber> ExactPoint for [C; 2] {
 
     fn orient2d_value(_: Option<Self>, _: Self, _: Self) -> Option<i128> {
         None
+    }
+
+    fn offset(&self, from: &Self) -> [f64; 2] {
+        [self[0].rounded_difference(from[0]), self[1].rounded_difference(from[1])]
     }
 }
 

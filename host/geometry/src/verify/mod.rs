@@ -17,16 +17,21 @@
 //! Euler's formula and the sum of the areas follow from the first two points. The validator checks Euler's formula all
 //! the same, and the areas where integers of 128 bits can sum them, which is for points of the grid.
 
+mod buckets;
+mod constrained;
 mod digits;
 mod edges;
 mod error;
 mod exact;
+mod faces;
+mod fixed;
 mod sites;
 mod summary;
 
 use alloc::vec;
 use alloc::vec::Vec;
 
+pub use constrained::verify_constrained;
 pub use error::VerifyError;
 pub use summary::VerifySummary;
 
@@ -220,5 +225,7 @@ fn first_difference<T: PartialEq>(one: &[T], other: &[T]) -> Option<usize> {
     Some(common.count())
 }
 
+#[cfg(test)]
+mod plan_tests;
 #[cfg(test)]
 mod tests;

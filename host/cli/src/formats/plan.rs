@@ -1,0 +1,91 @@
+//! The points and the constraints of a file.
+
+use crate::failure::{counted, Failure};
+use crate::memory::Memory;
+use crate::points::PointTable;
+
+/// The points of a file, the constraints between them, and the holes and regions of a `.poly` file.
+pub struct PlanTable {
+    /// The points; behind them the places of holes, and then those of regions.
+    pub table: PointTable,
+    /// The number of points.
+    pub points: usize,
+    /// The sides of polygons, or all segments of a `.poly` file.
+    pub rings: Vec<[u32; 2]>,
+    /// The pieces of lines.
+    pub lines: Vec<[u32; 2]>,
+    /// The number of holes.
+    pub holes: usize,
+    /// The attribute of each region, as it is written.
+    pub attributes: Vec<String>,
+    /// Whether the file is a `.poly` file.
+    pub is_poly: bool,
+    /// Whether lines and polygons are refused, because somebody wants points.
+    only_points: bool,
+}
+
+impl PlanTable {
+    /// A plan without points. If only points are wanted, lines and polygons are refused.
+    pub fn new(memory: Memory, only_points: bool) -> Self {
+        Self::of_points(PointTable::of_items("point").within(memory), only_points)
+    }
+
+    /// A plan of points without constraints.
+    pub fn of_points(table: PointTable, only_points: bool) -> Self {
+        let (rings, lines, attributes) = (Vec::new(), Vec::new(), Vec::new());
+        Self { points: table.len(), table, rings, lines, holes: 0, attributes, is_poly: false, only_points }
+    }
+
+    /// Whether lines and polygons are refused.
+    pub fn takes_only_points(&self) -> bool {
+        self.only_points
+    }
+
+    /// The plan, once all points are in it.
+    pub fn complete(self) -> Result<Self, Failure> {
+        let table = self.table.complete()?;
+        let points = if self.is_poly { self.points } else { table.len() };
+        Ok(Self { table, points, ..self })
+    }
+
+    /// Makes a line of the points from the one with this index to the last. `what` names its place in messages.
+    pub fn add_line(&mut self, first: usize, what: impl Fn() -> String) -> Result<(), Failure> {
+        let count = self.table.len() - first;
+        if count == 1 {
+            return Err(Failure::input(format!("{} has a line of 1 point: a line needs two or more", what())));
+        }
+        self.lines.extend(chain(first, self.table.len()));
+        Ok(())
+    }
+
+    /// Makes a ring of the points from the one with this index to the last, which repeats the first.
+    pub fn add_ring(&mut self, first: usize, what: impl Fn() -> String) -> Result<(), Failure> {
+        let count = self.table.len() - first;
+        if count < 4 {
+            let count = counted(count, "point");
+            return Err(Failure::input(format!(
+                "{} has a ring of {count}: a ring needs four or more, of which the last repeats the first",
+                what()
+            )));
+        }
+        let place = |index: usize| [0, 1].map(|axis| self.table.coordinate(index, axis));
+        let [from, to] = [place(first), place(self.table.len() - 1)];
+        if from != to {
+            return Err(Failure::input(format!(
+                "{} has a ring that is not closed: it begins at ({}, {}) and ends at ({}, {})",
+                what(),
+                from[0],
+                from[1],
+                to[0],
+                to[1]
+            )));
+        }
+        self.rings.extend(chain(first, self.table.len()));
+        Ok(())
+    }
+}
+
+/// The pairs of consecutive indices from the first to before the end.
+fn chain(first: usize, end: usize) -> impl Iterator<Item = [u32; 2]> {
+    (first as u32..end as u32).zip(first as u32 + 1..end as u32).map(|(from, to)| [from, to])
+}

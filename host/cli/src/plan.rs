@@ -1,0 +1,172 @@
+//! Constraints and domains of the command: reading them, and forcing them into a mesh.
+
+use std::path::{Path, PathBuf};
+
+use incircle::constraints::{constrain, Constrained, Domain, Error, Place, Plan};
+use incircle::{Duplicate, Lattice, Mesh, PlanePoint, Step};
+
+use crate::arguments::{PlanArguments, ReadArguments};
+use crate::connections::Connections;
+use crate::failure::Failure;
+use crate::formats::{csv, PlanTable, PointFormat};
+use crate::input::Input;
+use crate::lattice::{Kind, Laid, Numbers};
+use crate::number::Coordinate;
+use crate::path::{extension, name};
+use crate::planned::Planned;
+use crate::points::PointTable;
+use crate::source;
+
+/// What is asked of the mesh of a set.
+pub struct Request {
+    /// The constraints. Those that bound nothing stand at the end.
+    constraints: Vec<[u32; 2]>,
+    /// How many constraints bound nothing.
+    lines: usize,
+    pub domain: Domain,
+    /// The number of holes, whose places stand behind the points.
+    holes: usize,
+    /// The attribute of each region. The places of regions stand behind those of holes.
+    attributes: Vec<String>,
+}
+
+/// A set of points, and what is asked of its mesh.
+pub struct PlannedSet {
+    /// The points; behind them the places of holes, and then those of regions.
+    pub table: PointTable,
+    /// The number of points.
+    pub points: usize,
+    /// `None` if the canonical mesh of the points is all that is asked.
+    pub request: Option<Request>,
+}
+
+impl PlannedSet {
+    /// Whether places of holes or regions stand behind the points.
+    pub fn has_marks(&self) -> bool {
+        self.table.len() > self.points
+    }
+}
+
+/// Reads a set of points with its constraints.
+pub fn read_set(
+    paths: &[PathBuf],
+    read: &ReadArguments,
+    arguments: &PlanArguments,
+    quiet: bool,
+) -> Result<PlannedSet, Failure> {
+    let format = |path: &Path| read.from.or_else(|| PointFormat::of_extension(extension(path)));
+    let plan = match paths {
+        [path] => match format(path).filter(|format| format.may_constrain()) {
+            Some(format) => {
+                read.selection(format)?;
+                let beside = || source::read_points(&path.with_extension("node"), read, quiet);
+                let plan = Input::open(path, quiet).and_then(|input| format.read_plan(input, &beside));
+                plan.map_err(|failure| failure.in_file(name(path)))?
+            }
+            None => PlanTable::of_points(source::read_set(paths, read, quiet)?, false),
+        },
+        _ => PlanTable::of_points(source::read_set(paths, read, quiet)?, false),
+    };
+    let PlanTable { table, points, rings: mut constraints, mut lines, holes, attributes, is_poly, .. } = plan;
+    if let Some(path) = &arguments.constraints {
+        let own = Input::open(path, quiet).and_then(|input| csv::read_pairs(&input.into_bytes()?, points));
+        lines.extend(own.map_err(|failure| failure.in_file(name(path)))?);
+    }
+    let default = match (is_poly, constraints.is_empty()) {
+        (true, _) => Domain::Holes,
+        (false, false) => Domain::EvenOdd,
+        (false, true) => Domain::All,
+    };
+    // Lines bound a domain only where there is no polygon.
+    let free = if constraints.is_empty() { 0 } else { lines.len() };
+    constraints.extend(lines);
+    let is_asked = is_poly || arguments.is_given() || !constraints.is_empty();
+    let domain = arguments.domain.unwrap_or(default);
+    let request = is_asked.then_some(Request { constraints, lines: free, domain, holes, attributes });
+    Ok(PlannedSet { table, points, request })
+}
+
+impl Request {
+    /// Forces the constraints into a mesh. The places of holes and regions stand behind the points in `laid`.
+    pub fn force(&self, mesh: &mut Connections, set: &PlannedSet, laid: &Laid<'_>) -> Result<Planned, Failure> {
+        let made = match &laid.numbers {
+            Numbers::Grid(places) => self.force_in(places, set.points, mesh),
+            Numbers::Whole(places) => self.force_in(places, set.points, mesh),
+            Numbers::Doubles(places) => self.force_in(places, set.points, mesh),
+        };
+        let made = made.map_err(|error| refuse(error, &set.table, laid))?;
+        let mut attributes = Vec::new();
+        if !self.attributes.is_empty() {
+            attributes.resize(made.region_count as usize, "0".to_owned());
+            // Of several places in one region the first gives the attribute.
+            for (&region, attribute) in made.marked.iter().zip(&self.attributes).rev() {
+                attributes[region as usize].clone_from(attribute);
+            }
+        }
+        Ok(Planned { made, attributes, domain: self.domain, constraints: self.constraints.len() })
+    }
+
+    /// The plan in these numbers.
+    pub fn plan<'a, P>(&'a self, places: &'a [P], points: usize) -> Plan<'a, P> {
+        let marks = places.get(points..).unwrap_or_default();
+        let (holes, regions) = marks.split_at(self.holes.min(marks.len()));
+        Plan { constraints: &self.constraints, lines: self.lines, domain: self.domain, holes, regions }
+    }
+
+    fn force_in<P: PlanePoint>(
+        &self,
+        places: &[P],
+        points: usize,
+        mesh: &mut Connections,
+    ) -> Result<Constrained, Error> {
+        let duplicates = mesh.duplicates.iter().map(|&[index, of]| Duplicate { index, of }).collect();
+        let (triangles, hull) = (std::mem::take(&mut mesh.triangles), std::mem::take(&mut mesh.hull));
+        let whole = Mesh::new(places[..points].to_vec(), triangles, hull, duplicates);
+        let made = constrain(&whole, &self.plan(places, points))?;
+        mesh.hull = whole.hull;
+        mesh.triangles.clone_from(&made.triangles);
+        Ok(made)
+    }
+}
+
+/// The failure of constraints that have no mesh. The place of a crossing is told in the numbers of the file.
+fn refuse(error: Error, table: &PointTable, laid: &Laid<'_>) -> Failure {
+    match error {
+        Error::Crossing { constraints, ends, place } if !matches!(laid.kind, Kind::Quantized(_)) => {
+            let place = place_in(table, ends).unwrap_or(place);
+            Failure::input(Error::Crossing { constraints, ends, place }.to_string())
+        }
+        other => Failure::input(other.to_string()),
+    }
+}
+
+/// The crossing of two constraints, given by the indices of their ends, in the numbers of the file.
+fn place_in(table: &PointTable, ends: [[u32; 2]; 2]) -> Option<Place> {
+    let [a, b, c, d] = [ends[0][0], ends[0][1], ends[1][0], ends[1][1]]
+        .map(|index| [0, 1].map(|axis| table.coordinate(index as usize, axis)));
+    let all = [a, b, c, d];
+    let digits = all.iter().flatten().map(|coordinate| match coordinate {
+        Coordinate::Decimal { digits, .. } => Some(*digits),
+        Coordinate::Double(_) => None,
+    });
+    if let Some(digits) = digits.collect::<Option<Vec<u32>>>().and_then(|digits| digits.into_iter().max()) {
+        let steps = |coordinate: Coordinate| match coordinate {
+            Coordinate::Decimal { steps, digits: own } => steps.checked_mul(10i128.checked_pow(digits - own)?),
+            Coordinate::Double(_) => None,
+        };
+        let point = |[x, y]: [Coordinate; 2]| Some([steps(x)?, steps(y)?]);
+        return Place::of_lines([[point(a)?, point(b)?], [point(c)?, point(d)?]], 10i128.checked_pow(digits)?);
+    }
+    let value = |coordinate: Coordinate| match coordinate {
+        Coordinate::Double(value) => Some(value),
+        Coordinate::Decimal { .. } => None,
+    };
+    let point = |[x, y]: [Coordinate; 2]| Some([value(x)?, value(y)?]);
+    let (lattice, grid) = Lattice::of_doubles(&[point(a)?, point(b)?, point(c)?, point(d)?])?;
+    let parts = match lattice.step {
+        Step::Binary { exponent: exponent @ ..=0 } => 2i128.checked_pow(exponent.unsigned_abs())?,
+        _ => 1,
+    };
+    let steps = |place: usize| grid.get(place).map(|&point| lattice.steps(point).map(i128::from));
+    Place::of_lines([[steps(0)?, steps(1)?], [steps(2)?, steps(3)?]], parts)
+}

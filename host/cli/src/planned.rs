@@ -1,0 +1,54 @@
+//! What constraints made of a mesh, for its file and for the report.
+
+use incircle::constraints::{Constrained, Domain};
+use serde_json::{json, Value};
+
+use crate::failure::counted;
+
+/// A constrained mesh with what its file gives its regions.
+#[derive(Clone, Debug, Default)]
+pub struct Planned {
+    pub made: Constrained,
+    /// The attribute of each region, by its number; empty if the file gives none.
+    pub attributes: Vec<String>,
+    pub domain: Domain,
+    /// The number of constraints.
+    pub constraints: usize,
+}
+
+impl Planned {
+    /// What the file of a mesh says of the region with this number: its attribute, or else its number. `None` if the
+    /// triangles are all of the hull and no region is named.
+    pub fn attribute(&self, region: u32) -> Option<String> {
+        match self.attributes.get(region as usize) {
+            Some(attribute) => Some(attribute.clone()),
+            None => (self.domain != Domain::All).then(|| region.to_string()),
+        }
+    }
+
+    /// The line of the report for people.
+    pub fn line(&self, of: usize) -> String {
+        let made = &self.made;
+        format!(
+            "{} in {}; domain {}: {} of {of} triangles, {}",
+            counted(self.constraints, "constraint"),
+            counted(made.pieces.len(), "piece"),
+            self.domain,
+            made.triangles.len(),
+            counted(made.region_count as usize, "region")
+        )
+    }
+
+    /// The report as a JSON object. Twice the area is a text, because it may have more bits than a JSON number.
+    pub fn to_json(&self) -> Value {
+        let made = &self.made;
+        json!({
+            "constraints": self.constraints,
+            "pieces": made.pieces.len(),
+            "domain": self.domain.name(),
+            "triangles": made.triangles.len(),
+            "regions": made.region_count,
+            "twice_area": made.twice_area.map(|area| area.to_string()),
+        })
+    }
+}

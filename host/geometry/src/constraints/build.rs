@@ -1,0 +1,226 @@
+//! From a mesh and a plan to a constrained mesh, step by step.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::constrained::Constrained;
+use super::crossing::Place;
+use super::domain::{Boundary, Parts};
+use super::error::Error;
+use super::force::Stop;
+use super::network::Network;
+use super::pieces::Pieces;
+use crate::cpu::view::view_of_32_bits;
+use crate::double::Coordinate;
+use crate::lattice::Numbers;
+use crate::mesh::smallest_first;
+use crate::plan::{Domain, Mark, Plan};
+use crate::point::{Duplicate, Point, MAX_POINTS};
+use crate::site::{FilteredSite, Site};
+
+/// The lists of a mesh.
+#[derive(Clone, Copy)]
+pub(super) struct MeshLists<'a> {
+    pub triangles: &'a [[u32; 3]],
+    pub hull: &'a [u32],
+    pub duplicates: &'a [Duplicate],
+}
+
+/// Makes the constrained mesh of the first `points` places.
+pub(super) fn of_numbers(
+    numbers: &Numbers<'_>,
+    points: usize,
+    mesh: MeshLists<'_>,
+    plan: &Plan<'_, u32>,
+) -> Result<Constrained, Error> {
+    match numbers {
+        Numbers::Grid(places) => {
+            let whole = |site: Point| Some([site.x.into(), site.y.into()]);
+            let mut made = of_sites(places, points, mesh, plan, whole)?;
+            made.twice_area = Some(twice_area(places, &made.triangles));
+            Ok(made)
+        }
+        Numbers::Whole(places) => of_sites(&filtered(places), points, mesh, plan, |site| Some(site.0)),
+        Numbers::Doubles(places) => of_sites(&filtered(places), points, mesh, plan, |_| None),
+    }
+}
+
+fn filtered<C: Coordinate>(places: &[[C; 2]]) -> Vec<FilteredSite<C>> {
+    places.iter().map(|&place| FilteredSite::of(place)).collect()
+}
+
+/// Twice the sum of the areas. Each is below 2^65, and there are fewer than 2^30, so 128 bits hold the sum.
+fn twice_area(places: &[Point], triangles: &[[u32; 3]]) -> i128 {
+    let area = |corners: &[u32; 3]| {
+        let [a, b, c] = corners.map(|corner| places[corner as usize]);
+        view_of_32_bits(a, b, c).cross
+    };
+    triangles.iter().map(area).sum()
+}
+
+/// The steps. `whole` gives the coordinates of a site if they are whole numbers.
+fn of_sites<S: Site>(
+    places: &[S],
+    points: usize,
+    mesh: MeshLists<'_>,
+    plan: &Plan<'_, u32>,
+    whole: impl Fn(S) -> Option<[i64; 2]>,
+) -> Result<Constrained, Error> {
+    let ends = ends_of(plan.constraints, points, mesh.duplicates)?;
+    let mut marks = plan.holes.iter().chain(plan.regions);
+    if places.len() < points || !marks.all(|&place| (place as usize) < places.len()) {
+        return Err(Error::NoMesh);
+    }
+    if mesh.triangles.is_empty() {
+        return on_line(places, mesh.hull, &ends, plan);
+    }
+    let mut network = Network::new(places, mesh.triangles, mesh.hull)?;
+    let pieces = force_all(&mut network, &ends).map_err(|found| {
+        let pairs = |constraint: u32| plan.constraints[constraint as usize];
+        found.error(|pair| pair.map(|vertex| places[vertex as usize]), pairs, &whole)
+    })?;
+    let boundary = Boundary { pieces: &pieces, ends: &ends, count: plan.boundary(), domain: plan.domain };
+    boundary.check(points)?;
+    let is_whole = plan.domain == Domain::All && plan.regions.is_empty();
+    let parts = if is_whole { Parts::one(&network) } else { Parts::of(&network, &boundary) };
+    let chosen = parts.chosen(&network, plan)?;
+    let (mut made, regions) = numbered(&network, mesh.triangles.len(), &parts, &chosen);
+    if made.triangles.is_empty() {
+        return Err(Error::Empty { triangles: mesh.triangles.len() });
+    }
+    for (number, part) in parts.marked(&network, Mark::Region, plan.regions)?.into_iter().enumerate() {
+        made.marked.push(regions.get(part as usize).copied().flatten().ok_or(Error::RegionOutsideDomain { number })?);
+    }
+    made.pieces = pieces;
+    Ok(made)
+}
+
+/// The ends of all constraints, under the lowest indices of their places.
+fn ends_of(constraints: &[[u32; 2]], points: usize, duplicates: &[Duplicate]) -> Result<Vec<[u32; 2]>, Error> {
+    if constraints.len() > MAX_POINTS {
+        return Err(Error::TooManyConstraints { count: constraints.len(), max: MAX_POINTS });
+    }
+    if duplicates.iter().any(|duplicate| duplicate.of as usize >= points) {
+        return Err(Error::NoMesh);
+    }
+    let lowest = |index: u32| {
+        let found = duplicates.binary_search_by_key(&index, |duplicate| duplicate.index);
+        found.map_or(index, |place| duplicates[place].of)
+    };
+    let checked = |(constraint, &ends): (u32, &[u32; 2])| match ends.iter().find(|&&end| end as usize >= points) {
+        Some(&index) => Err(Error::OutOfRange { constraint, index, points }),
+        None => Ok(ends.map(lowest)),
+    };
+    (0..).zip(constraints).map(checked).collect()
+}
+
+/// What ended the forcing of constraints.
+pub(super) enum Ended {
+    /// These constraints cross; the smaller number comes first.
+    Crossing([u32; 2]),
+    Error(Error),
+}
+
+impl Ended {
+    fn error<S: Site>(
+        self,
+        sites: impl Fn([u32; 2]) -> [S; 2],
+        pairs: impl Fn(u32) -> [u32; 2],
+        whole: impl Fn(S) -> Option<[i64; 2]>,
+    ) -> Error {
+        match self {
+            Self::Crossing(constraints) => {
+                let ends = constraints.map(pairs);
+                let sites = ends.map(sites);
+                let place = Place::of(sites.map(|pair| pair.map(&whole)), sites.map(|pair| pair.map(Site::rounded)));
+                Error::Crossing { constraints, ends, place }
+            }
+            Self::Error(error) => error,
+        }
+    }
+}
+
+/// Forces all constraints into the mesh, in their order.
+fn force_all<S: Site>(network: &mut Network<'_, S>, ends: &[[u32; 2]]) -> Result<Pieces, Ended> {
+    let mut parts: Vec<([u32; 2], u32)> = Vec::with_capacity(ends.len());
+    for (constraint, &[from, to]) in (0..).zip(ends) {
+        let mut at = from;
+        while at != to {
+            let next = network.step(at, to).map_err(|stop| match stop {
+                Stop::Crossing(edge) => {
+                    let other = parts.iter().find(|(piece, _)| *piece == edge);
+                    // Every fixed edge is a piece.
+                    other.map_or(Ended::Error(Error::NoMesh), |&(_, other)| Ended::Crossing([other, constraint]))
+                }
+                Stop::Error(error) => Ended::Error(error),
+            })?;
+            parts.push(([at.min(next), at.max(next)], constraint));
+            at = next;
+        }
+    }
+    Ok(Pieces::of(parts))
+}
+
+/// The pieces of constraints between points of one line, which has no triangles. `hull` has its points in order.
+fn on_line<S: Site>(places: &[S], hull: &[u32], ends: &[[u32; 2]], plan: &Plan<'_, u32>) -> Result<Constrained, Error> {
+    let site = |index: u32| places.get(index as usize).ok_or(Error::NoMesh);
+    let line: Vec<&S> = hull.iter().map(|&index| site(index)).collect::<Result<_, _>>()?;
+    let mut parts = Vec::new();
+    for (constraint, &pair) in (0..).zip(ends) {
+        let mut ranks = [0; 2];
+        for (rank, end) in ranks.iter_mut().zip(pair) {
+            *rank = line.binary_search(&site(end)?).map_err(|_| Error::NoMesh)?;
+        }
+        let between = &hull[ranks[0].min(ranks[1])..=ranks[0].max(ranks[1])];
+        parts.extend(between.windows(2).map(|two| ([two[0].min(two[1]), two[0].max(two[1])], constraint)));
+    }
+    if plan.domain != Domain::All {
+        return Err(Error::Empty { triangles: 0 });
+    }
+    if !plan.regions.is_empty() {
+        return Err(Error::Outside { kind: Mark::Region, number: 0 });
+    }
+    Ok(Constrained { pieces: Pieces::of(parts), ..Constrained::default() })
+}
+
+/// The triangles of the chosen parts in canonical order with their regions, and the region of each part. `count` is
+/// the number of triangles of the mesh.
+fn numbered<S: Site>(
+    network: &Network<'_, S>,
+    count: usize,
+    parts: &Parts,
+    chosen: &[bool],
+) -> (Constrained, Vec<Option<u32>>) {
+    let mut regions = vec![None; chosen.len()];
+    let mut made = Constrained::default();
+    made.triangles.reserve(count);
+    made.regions.reserve(count);
+    let mut add = |corners: [u32; 3], triangle: u32| {
+        let part = parts.of[triangle as usize] as usize;
+        // In lists that are no mesh there may be triangles that no flood has met.
+        if chosen.get(part) == Some(&true) {
+            let region = *regions[part].get_or_insert_with(|| {
+                made.region_count += 1;
+                made.region_count - 1
+            });
+            made.triangles.push(corners);
+            made.regions.push(region);
+        }
+    };
+    // The triangles that no step has changed are sorted as they stand, so only the others are sorted, and both merged.
+    let corners = |triangle: u32| smallest_first(network.plane.get(triangle).vertices);
+    let numbers = || 0..count as u32;
+    let changed = numbers().filter(|&number| network.is_changed(number));
+    let mut changed: Vec<([u32; 3], u32)> = changed.map(|number| (corners(number), number)).collect();
+    changed.sort_unstable();
+    let mut changed = changed.into_iter().peekable();
+    for number in numbers().filter(|&number| !network.is_changed(number)) {
+        let own = corners(number);
+        while let Some((corners, number)) = changed.next_if(|(other, _)| *other < own) {
+            add(corners, number);
+        }
+        add(own, number);
+    }
+    changed.for_each(|(corners, number)| add(corners, number));
+    (made, regions)
+}

@@ -1,0 +1,38 @@
+//! Constrained Delaunay triangulation: edges that must be in the mesh, and the domain that they bound.
+//!
+//! Use [`constrain`] if roads, walls, coastlines or outlines must be edges of a mesh. A constraint is a pair of indices
+//! of points. The answer is canonical, as without constraints: of all triangulations that have the constraints as
+//! edges, it is the one in which every other edge is locally Delaunay, with ties decided by the tie rule. The page
+//! `docs/constraints.md` of the repository has the contract and the proof.
+//!
+//! | you want | call |
+//! |---|---|
+//! | a mesh with edges that must be there | [`constrain`] with [`Plan::new`] |
+//! | the triangles inside polygons | the same with [`Domain::EvenOdd`] or [`Domain::NonZero`] |
+//! | the triangles of a `.poly` file of Shewchuk's Triangle | the same with [`Domain::Holes`] and the holes |
+//! | constraints in the mesh of a device | [`constrain_numbers`] |
+//!
+//! **How it works, file by file.** `build` has the steps. `network` links the triangles of a mesh, marks fixed edges and
+//! flips free ones; `force` brings a constraint into it; `pieces` collects what constraints became; `crossing` works
+//! out where two of them cross; `domain` floods the parts between them, and `locate` finds holes and regions.
+
+mod build;
+mod constrain;
+mod constrained;
+mod crossing;
+mod domain;
+mod error;
+mod force;
+mod locate;
+mod network;
+mod pieces;
+#[cfg(test)]
+mod tests;
+
+pub use constrain::{constrain, constrain_numbers};
+pub use constrained::Constrained;
+pub use crossing::{Fraction, Place};
+pub use error::Error;
+pub use pieces::Pieces;
+
+pub use crate::plan::{Domain, Mark, Plan, UnknownDomain};

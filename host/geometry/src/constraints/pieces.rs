@@ -1,0 +1,60 @@
+//! The edges of a mesh that constraints fix, with the constraints of each.
+
+use alloc::vec::Vec;
+
+/// The pieces of constraints: the edges that must be in the mesh. A constraint is cut into pieces at each point on it.
+/// Pieces that overlap are one, with the list of their constraints.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Pieces {
+    edges: Vec<[u32; 2]>,
+    /// The end of the constraints of each piece in `constraints`.
+    ends: Vec<u32>,
+    constraints: Vec<u32>,
+}
+
+impl Pieces {
+    /// Collects edges, each with both ends in rising order and the number of a constraint. O(n log n).
+    pub(super) fn of(mut parts: Vec<([u32; 2], u32)>) -> Self {
+        parts.sort_unstable();
+        parts.dedup();
+        let mut pieces = Self::default();
+        for piece in parts.chunk_by(|one, other| one.0 == other.0) {
+            pieces.edges.push(piece[0].0);
+            pieces.constraints.extend(piece.iter().map(|&(_, constraint)| constraint));
+            pieces.ends.push(pieces.constraints.len() as u32);
+        }
+        pieces
+    }
+
+    /// The number of pieces.
+    pub fn len(&self) -> usize {
+        self.edges.len()
+    }
+
+    /// Whether there are no pieces.
+    pub fn is_empty(&self) -> bool {
+        self.edges.is_empty()
+    }
+
+    /// The pieces as pairs of points, the smaller index first, in sorted order.
+    pub fn edges(&self) -> &[[u32; 2]] {
+        &self.edges
+    }
+
+    /// The constraints of the piece at a place of [`edges`](Self::edges), in rising order; none past the last piece.
+    pub fn constraints(&self, place: usize) -> &[u32] {
+        let Some(&end) = self.ends.get(place) else { return &[] };
+        let begin = place.checked_sub(1).map_or(0, |before| self.ends[before]);
+        &self.constraints[begin as usize..end as usize]
+    }
+
+    /// The pieces with their constraints.
+    pub fn iter(&self) -> impl Iterator<Item = ([u32; 2], &[u32])> + '_ {
+        self.edges.iter().enumerate().map(|(place, &edge)| (edge, self.constraints(place)))
+    }
+
+    /// The constraints of an edge, whose ends may come in either order; none if it is no piece. O(log n).
+    pub fn of_edge(&self, [a, b]: [u32; 2]) -> &[u32] {
+        self.edges.binary_search(&[a.min(b), a.max(b)]).map_or(&[], |place| self.constraints(place))
+    }
+}

@@ -1,0 +1,5 @@
+mod answers;
+mod brute;
+mod canonical;
+mod domains;
+mod hostile;

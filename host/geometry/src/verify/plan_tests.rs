@@ -1,0 +1,161 @@
+//! Tests of the validator of constrained meshes: what the builder makes is accepted, and nothing else.
+
+use incircle_testkit::SplitMix64;
+
+use core::num::NonZeroUsize;
+use core::ops::ControlFlow;
+
+use super::{verify_constrained, VerifyError};
+use crate::constraints::{constrain, Error};
+use crate::cpu::triangulate;
+use crate::mesh::Mesh;
+use crate::plan::{Domain, Mark, Plan};
+use crate::plane_point::PlanePoint;
+use crate::point::Point;
+
+fn mesh_of<P: PlanePoint>(points: &[P]) -> Mesh<P> {
+    triangulate(points.to_vec(), NonZeroUsize::MIN, &mut |_| ControlFlow::Continue(())).expect("finite points")
+}
+
+/// Rings and lines on a grid that is full of ties, as long as the library finds no crossing.
+fn random_plan(random: &mut SplitMix64, points: &[Point], most: u64) -> (Vec<[u32; 2]>, usize) {
+    let mesh = mesh_of(points);
+    let any = |random: &mut SplitMix64| random.below(points.len() as u64) as u32;
+    let (mut rings, mut lines): (Vec<[u32; 2]>, Vec<[u32; 2]>) = (Vec::new(), Vec::new());
+    for _ in 0..most {
+        let first = any(random);
+        // Points near one another, so that rings and lines do not cross too often.
+        let near = |random: &mut SplitMix64| {
+            let at = points[first as usize];
+            let close = |&index: &u32| {
+                let other = points[index as usize];
+                at.x.abs_diff(other.x) < 4 && at.y.abs_diff(other.y) < 4
+            };
+            (0..20).map(|_| any(random)).find(close).unwrap_or(first)
+        };
+        let is_ring = !random.once_in(3);
+        let chain: Vec<u32> = core::iter::once(first).chain((0..2 + random.below(3)).map(|_| near(random))).collect();
+        let sides = chain.windows(2).map(|two| [two[0], two[1]]);
+        let before = (rings.len(), lines.len());
+        if is_ring {
+            rings.extend(sides);
+            rings.push([chain[chain.len() - 1], first]);
+        } else {
+            lines.extend(sides);
+        }
+        let all = [&rings[..], &lines[..]].concat();
+        if constrain(&mesh, &Plan::new(&all)).is_err() {
+            rings.truncate(before.0);
+            lines.truncate(before.1);
+        }
+    }
+    let count = lines.len();
+    rings.extend(lines);
+    (rings, count)
+}
+
+/// Damages a list of triangles in one place, and sorts it again.
+fn damaged(random: &mut SplitMix64, triangles: &[[u32; 3]], points: u32) -> Vec<[u32; 3]> {
+    let mut wrong = triangles.to_vec();
+    let at = random.below(wrong.len() as u64) as usize;
+    match random.below(4) {
+        0 => drop(wrong.remove(at)),
+        1 => wrong[at][random.below(3) as usize] = random.below_u32(points),
+        2 => {
+            // The other diagonal, if the next triangle with a common edge has it.
+            let [a, b, c] = wrong[at];
+            let other = wrong.iter().position(|other| {
+                let sides = [[other[0], other[1]], [other[1], other[2]], [other[2], other[0]]];
+                sides.contains(&[b, a])
+            });
+            if let Some(other) = other {
+                let d = wrong[other].into_iter().find(|&corner| corner != a && corner != b).unwrap_or(a);
+                wrong[at] = [a, d, c];
+                wrong[other] = [d, b, c];
+            } else {
+                wrong.remove(at);
+            }
+        }
+        _ => wrong.push([(); 3].map(|()| random.below_u32(points))),
+    }
+    for triangle in &mut wrong {
+        let first = (0..3).min_by_key(|&place| triangle[place]).unwrap_or(0);
+        triangle.rotate_left(first);
+    }
+    wrong.sort_unstable();
+    wrong
+}
+
+#[test]
+fn meshes_of_plans_are_accepted_and_damaged_ones_are_not() {
+    let mut random = SplitMix64::new(61);
+    let (mut accepted, mut refused) = (0, 0);
+    for round in 0..400 {
+        let side = 6 + random.below_u32(9);
+        let points: Vec<Point> = random.points((side * side / 2) as usize, side);
+        let (constraints, lines) = random_plan(&mut random, &points, 4 + round % 12);
+        let mark = |random: &mut SplitMix64| Point::new(random.below_u32(side), random.below_u32(side));
+        let holes: Vec<Point> = (0..random.below(2)).map(|_| mark(&mut random)).collect();
+        let mesh = mesh_of(&points);
+        for domain in Domain::ALL {
+            let plan = Plan { domain, lines, holes: &holes, ..Plan::new(&constraints) };
+            let made = match constrain(&mesh, &plan) {
+                Ok(made) => made,
+                Err(Error::OnConstraint { number, .. }) => {
+                    let found = verify_constrained(&points, &[], &plan);
+                    assert!(
+                        matches!(found, Err(VerifyError::MarkOnConstraint { kind: Mark::Hole, number: n, .. })
+                        if n == number),
+                        "{found:?}"
+                    );
+                    continue;
+                }
+                Err(Error::Empty { .. }) => {
+                    verify_constrained(&points, &[], &plan).expect("no triangle is the answer");
+                    continue;
+                }
+                Err(Error::Outside { .. }) => continue,
+                Err(other) => panic!("{other}"),
+            };
+            let shown = || format!("{domain} {points:?} {constraints:?} {lines} {holes:?}");
+            let found = verify_constrained(&points, &made.triangles, &plan);
+            found.unwrap_or_else(|error| panic!("{error}: {}", shown()));
+            accepted += 1;
+            for _ in 0..8 {
+                let wrong = damaged(&mut random, &made.triangles, points.len() as u32);
+                if wrong != made.triangles {
+                    assert!(verify_constrained(&points, &wrong, &plan).is_err(), "{wrong:?}: {}", shown());
+                    refused += 1;
+                }
+            }
+        }
+    }
+    assert!(accepted > 1000 && refused > 5000, "{accepted} {refused}");
+}
+
+#[test]
+fn numbers_of_all_kinds_are_checked() {
+    let mut random = SplitMix64::new(62);
+    for _ in 0..60 {
+        let points: Vec<Point> = random.points(80, 12);
+        let (constraints, lines) = random_plan(&mut random, &points, 8);
+        let unit = 2f64.powi(900);
+        let doubles: Vec<[f64; 2]> = points.iter().map(|p| [f64::from(p.x) * unit, f64::from(p.y) * unit]).collect();
+        let odd: Vec<[f64; 2]> = points.iter().map(|p| [0.1 * f64::from(p.x) + 1e9, 0.3 * f64::from(p.y)]).collect();
+        let long = |value: u32| (1i64 << 62) + (i64::from(value) << 40);
+        let whole: Vec<[i64; 2]> = points.iter().map(|p| [long(p.x), -long(p.y)]).collect();
+        for domain in Domain::ALL {
+            check(&doubles, &constraints, lines, domain);
+            check(&whole, &constraints, lines, domain);
+            check(&odd, &constraints, lines, domain);
+        }
+    }
+}
+
+/// Checks the mesh of some points, if constraints that are free of crossings on a grid are so here, too.
+fn check<P: PlanePoint + core::fmt::Debug>(points: &[P], constraints: &[[u32; 2]], lines: usize, domain: Domain) {
+    let plan = Plan { domain, lines, ..Plan::new(constraints) };
+    if let Ok(made) = constrain(&mesh_of(points), &plan) {
+        verify_constrained(points, &made.triangles, &plan).unwrap_or_else(|error| panic!("{error}: {points:?}"));
+    }
+}
