@@ -38,31 +38,39 @@ pub struct Buffers<'b> {
 
 /// A device behind a serial port.
 ///
-/// The device itself takes 1.1 kB of memory, most of it for the longest frame.
+/// The value takes 1.2 kB of memory, most of it for the longest frame, and [`Device::new`] can make it in a `static`.
 pub struct Device<P, C> {
     line: Line<P, C>,
-    greeting: Greeting,
+    greeting: Option<Greeting>,
     /// Number of the last session.
     session: u8,
 }
 
 impl<P: Read + ReadReady + Write, C: Clock> Device<P, C> {
-    /// Greets the device at this port, for 3 seconds at most. No session is opened.
+    /// A device at this port. Nothing is sent yet.
+    pub const fn new(port: P, clock: C) -> Self {
+        Self { line: Line::new(port, clock), greeting: None, session: 0 }
+    }
+
+    /// Greets the device, for 3 seconds at most, and returns the properties of its core. No session is opened. A job
+    /// greets a device that has not been greeted.
     ///
     /// # Errors
     /// [`Error::Silent`] or [`Error::Noise`] if no device answers, [`Error::Device`] if its greeting is not one of a
     /// device that this driver serves, and errors of the port.
-    pub fn connect(port: P, clock: C) -> Result<Self, Error<P::Error>> {
-        let mut line = Line::new(port, clock);
+    pub fn greet(&mut self) -> Result<Identity, Error<P::Error>> {
+        let line = &mut self.line;
         let since = line.now();
-        let session = since as u8;
+        // Any number from 1 to 255 will do, so long as it is not that of the last session.
+        self.session = self.session.max(since as u8);
         loop {
-            line.say(session.max(1), HostFrame::Hello)?;
+            line.say(self.session.max(1), HostFrame::Hello)?;
             let until = line.now().wrapping_add(GREET_EVERY);
             while let Some(header) = line.hear(until)? {
                 if header.kind == DeviceFrame::Hello {
                     let greeting = greeting(line.body())?;
-                    return Ok(Self { line, greeting, session });
+                    self.greeting = Some(greeting);
+                    return Ok(greeting.identity);
                 }
             }
             if has_come(since.wrapping_add(GREET_FOR), line.now()) {
@@ -74,9 +82,12 @@ impl<P: Read + ReadReady + Write, C: Clock> Device<P, C> {
         }
     }
 
-    /// The properties of the core.
-    pub const fn identity(&self) -> &Identity {
-        &self.greeting.identity
+    /// The greeting of the device, which is greeted if need be.
+    fn greeting(&mut self) -> Result<Greeting, Error<P::Error>> {
+        if self.greeting.is_none() {
+            self.greet()?;
+        }
+        self.greeting.ok_or(Error::Silent)
     }
 
     /// The port and the clock.
@@ -90,8 +101,8 @@ impl<P: Read + ReadReady + Write, C: Clock> Device<P, C> {
     /// each point, which takes 1.5 ms at 115,200 bits per second. Points on one line need no device.
     ///
     /// # Errors
-    /// [`Error::Buffer`], [`Error::TooManyPoints`], [`Error::Capacity`] and [`Error::Coordinate`] before anything is
-    /// sent; [`Error::Timeout`] after `timeout_ms` milliseconds; errors of the line and of the port; [`Error::Device`]
+    /// [`Error::Buffer`], [`Error::TooManyPoints`], [`Error::Capacity`] and [`Error::Coordinate`] before a session opens;
+    /// the errors of [`Device::greet`]; [`Error::Timeout`] after `timeout_ms` milliseconds; errors of the line and of the port; [`Error::Device`]
     /// if the device says what no sound device says.
     pub fn triangulate<'b>(
         &mut self,
@@ -100,15 +111,16 @@ impl<P: Read + ReadReady + Write, C: Clock> Device<P, C> {
         timeout_ms: u32,
     ) -> Result<Mesh<'b>, Error<P::Error>> {
         let limit = Limit { since: self.line.now(), milliseconds: timeout_ms };
-        self.check_points(points)?;
         let order = part("order", buffers.order, points.len())?;
+        let greeting = self.greeting()?;
+        let Identity { capacity, coord_bits, contexts, .. } = greeting.identity;
+        check_points(points, coord_bits)?;
         let Order { distinct, is_collinear } = prepare(points, order);
         let order: &'b [u16] = order;
         let (order, duplicates) = order.split_at(distinct);
         if is_collinear {
             return Ok(Mesh::on_a_line(points, order, duplicates));
         }
-        let Identity { capacity, coord_bits, contexts, .. } = self.greeting.identity;
         if distinct > capacity as usize {
             return Err(Error::Capacity { given: distinct, capacity });
         }
@@ -116,23 +128,8 @@ impl<P: Read + ReadReady + Write, C: Clock> Device<P, C> {
         let layout = Layout::of(coord_bits, capacity);
         let load = Load { points, order, contexts: contexts as usize, layout };
         let mut assembly = Assembly::new(load, capacity, records);
-        self.insert_and_read(&load, &mut assembly, limit)?;
+        self.insert_and_read(&load, &mut assembly, &greeting, limit)?;
         Ok(assembly.finish(duplicates)?)
-    }
-
-    fn check_points(&self, points: &[Point]) -> Result<(), Error<P::Error>> {
-        if points.len() > MOST_POINTS {
-            return Err(Error::TooManyPoints { given: points.len(), most: MOST_POINTS });
-        }
-        let bits = self.greeting.identity.coord_bits;
-        let is_beyond = |&[x, y]: &Point| u32::from(x | y).checked_shr(bits).is_some_and(|rest| rest != 0);
-        match points.iter().position(is_beyond) {
-            Some(index) => {
-                let [x, y] = points.get(index).copied().unwrap_or_default();
-                Err(Error::Coordinate { index, x, y, bits })
-            }
-            None => Ok(()),
-        }
     }
 
     /// Does a job in a session of its own.
@@ -140,11 +137,12 @@ impl<P: Read + ReadReady + Write, C: Clock> Device<P, C> {
         &mut self,
         load: &Load<'_>,
         assembly: &mut Assembly<'_>,
+        greeting: &Greeting,
         limit: Limit,
     ) -> Result<(), Error<P::Error>> {
         let distinct = load.order.len();
         let layout = load.layout;
-        let mut session = self.open(limit)?;
+        let mut session = self.open(greeting, limit)?;
         session.ask(Request::bare(Command::Clear(Clear::one_mesh(0))))?;
         check_report(session.ask(Request::insert(load))?, distinct)?;
         let records = records_needed(distinct);
@@ -164,8 +162,7 @@ impl<P: Read + ReadReady + Write, C: Clock> Device<P, C> {
     }
 
     /// Opens a session, which resets the core.
-    fn open(&mut self, limit: Limit) -> Result<Session<'_, P, C>, Error<P::Error>> {
-        // Any number from 1 to 255 will do, so long as it is not that of the last session.
+    fn open(&mut self, greeting: &Greeting, limit: Limit) -> Result<Session<'_, P, C>, Error<P::Error>> {
         self.session = self.session % u8::MAX + 1;
         let number = self.session;
         let since = self.line.now();
@@ -175,7 +172,7 @@ impl<P: Read + ReadReady + Write, C: Clock> Device<P, C> {
             while let Some(header) = self.line.hear(until)? {
                 limit.check(self.line.now())?;
                 if header.kind == DeviceFrame::Opened && header.session == number {
-                    return Ok(Session::new(&mut self.line, number, &self.greeting, limit, header.free));
+                    return Ok(Session::new(&mut self.line, number, greeting, limit, header.free));
                 }
             }
             let now = self.line.now();
@@ -184,6 +181,18 @@ impl<P: Read + ReadReady + Write, C: Clock> Device<P, C> {
                 return Err(Error::Lost { milliseconds: now.wrapping_sub(since) });
             }
         }
+    }
+}
+
+/// Refuses points that this driver cannot number, or that are not on the grid of the device.
+fn check_points<E>(points: &[Point], bits: u32) -> Result<(), Error<E>> {
+    if points.len() > MOST_POINTS {
+        return Err(Error::TooManyPoints { given: points.len(), most: MOST_POINTS });
+    }
+    let is_beyond = |&[x, y]: &Point| u32::from(x | y).checked_shr(bits).is_some_and(|rest| rest != 0);
+    match points.iter().enumerate().find(|(_, point)| is_beyond(point)) {
+        Some((index, &[x, y])) => Err(Error::Coordinate { index, x, y, bits }),
+        None => Ok(()),
     }
 }
 

@@ -9,7 +9,7 @@
 //! # use embedded_io::{Read, ReadReady, Write};
 //! # fn show(_: u16, _: u16, _: u16) {}
 //! # fn main_of<P: Read + ReadReady + Write>(uart: P, clock: impl Clock) -> Result<(), Error<P::Error>> {
-//! let mut device = Device::connect(uart, clock)?;
+//! let mut device = Device::new(uart, clock);
 //! let points = [[0, 0], [4, 0], [4, 4], [0, 4]];
 //! let (mut order, mut records) = ([0; 4], [[0; 3]; 6]); // n places, 2 n - 2 records
 //! let buffers = Buffers { order: &mut order, records: &mut records };
@@ -45,6 +45,7 @@ mod load;
 mod mesh;
 mod order;
 mod session;
+mod sort;
 
 pub use clock::Clock;
 pub use device::{Buffers, Device};

@@ -29,7 +29,12 @@ impl Load<'_> {
         let place = place_of(word / width, self.order.len(), self.contexts);
         let index = self.order.get(place).copied().unwrap_or_default();
         let [x, y] = at(self.points, index);
-        self.layout.point_to_words(x.into(), y.into())[word % width]
+        let [first, second] = self.layout.point_to_words(x.into(), y.into());
+        if word.is_multiple_of(width) {
+            first
+        } else {
+            second
+        }
     }
 }
 
@@ -77,6 +82,6 @@ impl<'b> Request<'b> {
             (_, Some(load)) => load.word(word - self.head_words),
             _ => 0,
         };
-        word.to_le_bytes()[place % 4]
+        (word >> (8 * (place % 4))) as u8
     }
 }

@@ -9,6 +9,7 @@ use incircle_protocol::infinite_vertex;
 use crate::error::Fault;
 use crate::load::Load;
 use crate::order::{at, orient2d, smallest_first};
+use crate::sort::sort_by;
 use crate::Point;
 
 /// A canonical mesh, in the buffers of the caller.
@@ -112,7 +113,7 @@ impl<'b> Assembly<'b> {
         if self.area != hull {
             return Err(Fault::Area { triangles: self.area, hull });
         }
-        triangles.sort_unstable();
+        sort_by(triangles, |a, b| a < b);
         match triangles.windows(2).find(|pair| pair[0] == pair[1]) {
             Some(pair) => Err(Fault::TriangleTwice(pair[0])),
             None => Ok(Mesh { points, triangles, hull_edges, line: &[], duplicates }),
@@ -122,7 +123,7 @@ impl<'b> Assembly<'b> {
 
 /// Chains the hull edges into one cycle that starts at its lowest index, and writes the cycle into the third places.
 fn close_hull(edges: &mut [[u16; 3]]) -> Result<(), Fault> {
-    edges.sort_unstable();
+    sort_by(edges, |a, b| a < b);
     let ghosts = edges.len();
     let start = edges.first().map_or(0, |edge| edge[0]);
     let mut point = start;
@@ -132,9 +133,9 @@ fn close_hull(edges: &mut [[u16; 3]]) -> Result<(), Fault> {
         if place > 0 && point == start {
             return Err(open);
         }
-        edges[place][2] = point;
+        edges.get_mut(place).ok_or(open)?[2] = point;
         let leaving = edges.binary_search_by_key(&point, |edge| edge[0]).map_err(|_| open)?;
-        point = edges[leaving][1];
+        point = edges.get(leaving).ok_or(open)?[1];
     }
     if point == start && ghosts >= 3 {
         Ok(())

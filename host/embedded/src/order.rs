@@ -8,6 +8,7 @@ use core::cmp::Ordering;
 
 use incircle_protocol::FIRST_ROUND;
 
+use crate::sort::sort_by;
 use crate::Point;
 
 /// The place in an order from which points belong to all contexts in turn.
@@ -57,13 +58,13 @@ pub(crate) fn prepare(points: &[Point], order: &mut [u16]) -> Order {
     for (place, index) in order.iter_mut().zip(0..=u16::MAX) {
         *place = index;
     }
-    order.sort_unstable_by_key(|&index| (hilbert(at(points, index)), index));
+    sort_by(order, |a, b| (hilbert(at(points, a)), a) < (hilbert(at(points, b)), b));
     let distinct = take_out_duplicates(points, order);
     let (kept, duplicates) = order.split_at_mut(distinct);
-    duplicates.sort_unstable();
+    sort_by(duplicates, |a, b| a < b);
     let is_collinear = !start_with_a_triangle(points, kept);
     if is_collinear {
-        kept.sort_unstable_by_key(|&index| at(points, index));
+        sort_by(kept, |a, b| at(points, a) < at(points, b));
     }
     Order { distinct, is_collinear }
 }
@@ -72,11 +73,13 @@ pub(crate) fn prepare(points: &[Point], order: &mut [u16]) -> Order {
 /// in `order`, the lowest index first.
 fn take_out_duplicates(points: &[Point], order: &mut [u16]) -> usize {
     let mut kept = 0;
+    let mut last = None;
     for place in 0..order.len() {
-        let is_duplicate = kept > 0 && at(points, order[kept - 1]) == at(points, order[place]);
-        if !is_duplicate {
+        let point = order.get(place).map(|&index| at(points, index));
+        if point != last {
             order.swap(kept, place);
             kept += 1;
+            last = point;
         }
     }
     kept
@@ -87,8 +90,9 @@ fn start_with_a_triangle(points: &[Point], order: &mut [u16]) -> bool {
     let &mut [first, second, ..] = order else { return false };
     let (a, b) = (at(points, first), at(points, second));
     match order.iter().position(|&index| orient2d(a, b, at(points, index)) != 0) {
+        // Points between move up by one place, so that they stay along the curve.
         Some(third) => {
-            order[2..=third].rotate_right(1);
+            (3..=third).rev().for_each(|place| order.swap(place, place - 1));
             true
         }
         None => false,

@@ -10,7 +10,8 @@ use crate::rig::{ask, by_cpu, random_points, run, small, End, Fate, LINK, PATIEN
 #[test]
 fn wrong_points_and_buffers_are_refused_before_anything_is_sent() {
     let board = small();
-    let mut device = Device::connect(End(board.clone()), End(board.clone())).unwrap();
+    let mut device = Device::new(End(board.clone()), End(board.clone()));
+    device.greet().unwrap();
     let sent = board.borrow().bytes;
     let points = random_points(1025, 1 << 16, 1);
     assert_eq!(ask(&mut device, &points, PATIENCE), Err(Error::Capacity { given: 1025, capacity: 1024 }));
@@ -62,7 +63,7 @@ fn a_line_that_is_cut_at_any_byte_ends_the_job() {
 fn a_board_that_is_reset_loses_the_session_and_serves_the_next_job() {
     let points = random_points(300, 1 << 16, 1);
     let board = small();
-    let mut device = Device::connect(End(board.clone()), End(board.clone())).unwrap();
+    let mut device = Device::new(End(board.clone()), End(board.clone()));
     for after in (100..2000).step_by(100) {
         let begin = board.borrow().bytes[1];
         let is_due = std::rc::Rc::new(std::cell::Cell::new(false));
@@ -84,7 +85,7 @@ fn a_board_that_is_reset_loses_the_session_and_serves_the_next_job() {
             incircle_embedded::Clock::idle(&mut clock);
             incircle_embedded::Clock::milliseconds(&mut clock)
         };
-        let mut other = Device::connect(port, ticking).unwrap();
+        let mut other = Device::new(port, ticking);
         let (mut order, mut records) = (vec![0; 300], vec![[0; 3]; 598]);
         let buffers = Buffers { order: &mut order, records: &mut records };
         let found = other.triangulate(&points, buffers, PATIENCE).map(|_| ());
@@ -98,7 +99,7 @@ fn a_board_that_is_reset_loses_the_session_and_serves_the_next_job() {
 fn another_host_is_named() {
     let points = random_points(300, 1 << 16, 1);
     let board = small();
-    let mut device = Device::connect(End(board.clone()), End(board.clone())).unwrap();
+    let mut device = Device::new(End(board.clone()), End(board.clone()));
     // The first job has a session of its own number; the other host takes the next one but one, in the second job.
     ask(&mut device, &points, PATIENCE).unwrap();
     let open = FromHost { session: 200, kind: HostFrame::Open, number: 0, payload: vec![] };
@@ -107,7 +108,7 @@ fn another_host_is_named() {
     // The bytes of the other host replace some of this host's.
     let place = move |byte: u64| byte.checked_sub(begin).and_then(|place| usize::try_from(place).ok());
     let (port, clock) = (Intruder { end: End(board.clone()), line, place: Box::new(place) }, End(board.clone()));
-    let mut device = Device::connect(port, clock).unwrap();
+    let mut device = Device::new(port, clock);
     let (mut order, mut records) = (vec![0; 300], vec![[0; 3]; 598]);
     let buffers = Buffers { order: &mut order, records: &mut records };
     let found = device.triangulate(&points, buffers, PATIENCE).map(|_| ());
@@ -153,7 +154,8 @@ impl Write for Intruder {
 fn a_job_ends_when_its_time_is_over() {
     let points = random_points(300, 1 << 16, 1);
     let board = small();
-    let mut device = Device::connect(End(board.clone()), End(board.clone())).unwrap();
+    let mut device = Device::new(End(board.clone()), End(board.clone()));
+    device.greet().unwrap();
     for milliseconds in [0, 1, 10, 100, 300] {
         let since = board.borrow().nanoseconds;
         assert_eq!(ask(&mut device, &points, milliseconds), Err(Error::Timeout { milliseconds }));

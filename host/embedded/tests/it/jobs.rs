@@ -11,8 +11,8 @@ use crate::rig::{ask, by_cpu, random_points, run, small, Board, End, PATIENCE};
 #[test]
 fn sets_of_every_kind_have_the_meshes_of_the_cpu() {
     let board = small();
-    let mut device = Device::connect(End(board.clone()), End(board.clone())).unwrap();
-    assert_eq!(device.identity().capacity, 1024);
+    let mut device = Device::new(End(board.clone()), End(board.clone()));
+    assert_eq!(device.greet().unwrap().capacity, 1024);
     for &distribution in Distribution::all() {
         for (count, bits) in [(9, 3), (200, 16), (1024, 16)] {
             let Ok(set) = generate(distribution, count, bits, 5) else { continue };
@@ -27,7 +27,7 @@ fn sets_of_every_kind_have_the_meshes_of_the_cpu() {
 #[test]
 fn small_sets_with_many_duplicates_and_lines() {
     let board = small();
-    let mut device = Device::connect(End(board.clone()), End(board.clone())).unwrap();
+    let mut device = Device::new(End(board.clone()), End(board.clone()));
     for count in 0..60 {
         for (side, seed) in [(2, 1), (4, 2), (1 << 16, 3)] {
             let points = random_points(count, side, seed);
@@ -66,7 +66,7 @@ fn a_device_with_wide_points_and_records() {
 #[test]
 fn a_thousand_points_pass_in_a_second_and_a_half() {
     let board = small();
-    let mut device = Device::connect(End(board.clone()), End(board.clone())).unwrap();
+    let mut device = Device::new(End(board.clone()), End(board.clone()));
     let points = random_points(1000, 1 << 16, 8);
     let since = board.borrow().nanoseconds;
     ask(&mut device, &points, PATIENCE).unwrap();

@@ -187,7 +187,7 @@ fn a_device_that_never_stops_talking_ends_in_an_error() {
         let babbler =
             Babbler { random: SplitMix64::new(seed), bytes: VecDeque::new(), has_greeted: false, nanoseconds: 0 };
         let ear = Rc::new(RefCell::new(babbler));
-        let mut device = Device::connect(Ear(ear.clone()), Ear(ear.clone())).unwrap();
+        let mut device = Device::new(Ear(ear.clone()), Ear(ear.clone()));
         let (mut order, mut records) = ([0; 100], [[0; 3]; 198]);
         let buffers = Buffers { order: &mut order, records: &mut records };
         assert!(device.triangulate(&points, buffers, 20_000).is_err(), "{seed}");

@@ -168,7 +168,7 @@ pub fn ask<D: WordDevice>(
 
 /// Greets the board and does a job.
 pub fn run<D: WordDevice>(board: &Rc<RefCell<Board<D>>>, points: &[Point]) -> Result<Lists, Error<Infallible>> {
-    let mut device = Device::connect(End(board.clone()), End(board.clone()))?;
+    let mut device = Device::new(End(board.clone()), End(board.clone()));
     ask(&mut device, points, PATIENCE)
 }
 
