@@ -21,6 +21,8 @@
 //! # }
 //! ```
 //!
+//! The crate has no features, and needs Rust 1.95 or newer.
+//!
 //! # Order of insertion and duplicates
 //! The driver sorts the caller's buffer of indices, never the points: along the Hilbert curve, with duplicates taken
 //! out, three points that span a triangle first, and a run of the curve for each context of the core. The mesh does not
