@@ -17,8 +17,8 @@ use crate::order::{prepare, Order};
 use crate::session::{Limit, Session, GROW_AFTER, MAX_ANSWER_WORDS};
 use crate::{records_needed, Point};
 
-/// Milliseconds for which the host greets. A device that another host left at a high rate first needs its silence, after
-/// which it is back at the first rate.
+/// Milliseconds for which the host greets. A device that another host left at a high rate first needs its silence,
+/// after which it is back at the first rate.
 const GREET_FOR: u32 = MAX_SILENCE_MS + 1000;
 /// Milliseconds from one greeting or `Open` to the next.
 const GREET_EVERY: u32 = 200;
@@ -53,7 +53,7 @@ impl<P: Read + ReadReady + Write, C: Clock> Device<P, C> {
     }
 
     /// Greets the device, for 3 seconds at most, and returns the properties of its core. No session is opened. A job
-    /// greets a device that has not been greeted.
+    /// greets a device that has not been greeted. Greet again where another board may be at the port.
     ///
     /// # Errors
     /// [`Error::Silent`] or [`Error::Noise`] if no device answers, [`Error::Device`] if its greeting is not one of a
@@ -98,12 +98,12 @@ impl<P: Read + ReadReady + Write, C: Clock> Device<P, C> {
     /// Triangulates the points, and leaves the canonical mesh in the buffers.
     ///
     /// The order of insertion and the sorting of triangles cost O(n log n). The line carries 16 bytes and some more for
-    /// each point, which takes 1.5 ms at 115,200 bits per second. Points on one line need no device.
+    /// each point, which takes 1.5 ms at 115,200 bits per second. Points on one line need no session.
     ///
     /// # Errors
-    /// [`Error::Buffer`], [`Error::TooManyPoints`], [`Error::Capacity`] and [`Error::Coordinate`] before a session opens;
-    /// the errors of [`Device::greet`]; [`Error::Timeout`] after `timeout_ms` milliseconds; errors of the line and of the port; [`Error::Device`]
-    /// if the device says what no sound device says.
+    /// [`Error::Buffer`], [`Error::TooManyPoints`], [`Error::Capacity`] and [`Error::Coordinate`] before a session
+    /// opens; the errors of [`Device::greet`]; [`Error::Timeout`] after `timeout_ms` milliseconds; errors of the line
+    /// and of the port; [`Error::Device`] if the device says what no sound device says.
     pub fn triangulate<'b>(
         &mut self,
         points: &'b [Point],
