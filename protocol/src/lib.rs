@@ -4,10 +4,12 @@
 //! to every command is a header word, a word that counts the payload words, and the payload. `protocol/README.md`
 //! describes the same in prose, with an example exchange.
 //!
-//! This crate has no dependencies, and no logic beyond packing and unpacking words: a [`Command`] knows its words and
-//! the length of its answer, but not what a device does with it.
+//! This crate has no dependencies, and no logic beyond packing and unpacking words and frames: a [`Command`] knows its
+//! words and the length of its answer, but not what a device does with it. The crate needs neither the standard library
+//! nor an allocator, so that it also serves microcontrollers.
 #![no_std]
 
+mod cobs;
 mod command;
 mod config;
 mod counters;
@@ -17,6 +19,7 @@ mod layout;
 mod status;
 mod stream;
 
+pub use cobs::decode_reverse_cobs;
 pub use command::{
     answer_engine, answer_head, answer_header, answer_opcode, answer_status, answer_tag, batch_word, clear_word,
     command_contexts, command_meshes, command_opcode, command_starts_batch, command_tag, command_word, signed_header,

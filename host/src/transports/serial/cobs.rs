@@ -1,9 +1,8 @@
-//! Coding that takes the zeros out of frames: COBS towards the device, reverse COBS towards the host.
+//! Coding that takes the zeros out of frames to the device: COBS. Frames to the host come in reverse COBS, which
+//! [`decode_reverse_cobs`](incircle_protocol::decode_reverse_cobs) decodes; the tests here send both ways.
 
 /// Most bytes of a piece without a zero.
 const PIECE: usize = 254;
-/// Length byte of a full piece. Unlike other length bytes, it does not stand for a zero.
-const FULL_PIECE: u8 = 255;
 
 /// Appends `bytes` in COBS, without the closing zero.
 pub(super) fn encode(bytes: &[u8], out: &mut Vec<u8>) {
@@ -25,36 +24,14 @@ pub(super) fn encode(bytes: &[u8], out: &mut Vec<u8>) {
     }
 }
 
-/// Decodes reverse COBS in place, towards the end of `bytes`, and returns the place where the decoded bytes begin.
-/// `None` if a length byte is impossible.
-pub(super) fn decode_reverse(bytes: &mut [u8]) -> Option<usize> {
-    let mut read = bytes.len();
-    let mut write = bytes.len();
-    // The last length byte stands for no zero, since the frame ends there, and its piece is never full.
-    let mut is_last = true;
-    while read > 0 {
-        let code = bytes[read - 1];
-        let length = usize::from(code).checked_sub(1)?;
-        let start = (read - 1).checked_sub(length)?;
-        if is_last && code == FULL_PIECE {
-            return None;
-        }
-        if !is_last && code != FULL_PIECE {
-            write -= 1;
-            bytes[write] = 0;
-        }
-        bytes.copy_within(start..read - 1, write - length);
-        write -= length;
-        read = start;
-        is_last = false;
-    }
-    (!is_last).then_some(write)
-}
-
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
+    use incircle_protocol::decode_reverse_cobs;
     use proptest::prelude::*;
+
+    /// Length byte of a full piece. Unlike other length bytes, it does not stand for a zero.
+    const FULL_PIECE: u8 = 255;
 
     /// Decodes COBS as a device does.
     pub fn decode(bytes: &[u8]) -> Option<Vec<u8>> {
@@ -113,7 +90,7 @@ pub(super) mod tests {
         for mut bytes in
             [vec![], vec![0], vec![3], vec![1, 0, 1], vec![9, 9, 9], vec![1; 254].into_iter().chain([255]).collect()]
         {
-            assert_eq!(decode_reverse(&mut bytes), None, "{bytes:?}");
+            assert_eq!(decode_reverse_cobs(&mut bytes), None, "{bytes:?}");
         }
     }
 
@@ -129,7 +106,7 @@ pub(super) mod tests {
             let mut out = Vec::new();
             encode_reverse(&plain, &mut out);
             prop_assert!(!out.contains(&0));
-            let start = decode_reverse(&mut out).expect("sound");
+            let start = decode_reverse_cobs(&mut out).expect("sound");
             prop_assert_eq!(&out[start..], &plain[..]);
         }
     }

@@ -1,8 +1,8 @@
 //! Encoding frames to the device and decoding frames from it. No byte from the line is used before its check sum holds.
 
 use incircle_protocol::{
-    DeviceFrame, HostFrame, ANSWER_HEADER_BYTES, CRC_BYTES, DEVICE_HEADER_BYTES, FRAME_END, HOST_HEADER_BYTES,
-    MAX_DEVICE_FRAME, MAX_PAYLOAD,
+    decode_reverse_cobs, DeviceFrame, HostFrame, ANSWER_HEADER_BYTES, CRC_BYTES, DEVICE_HEADER_BYTES, FRAME_END,
+    HOST_HEADER_BYTES, MAX_DEVICE_FRAME, MAX_PAYLOAD,
 };
 
 use super::cobs;
@@ -148,7 +148,7 @@ impl Decoder {
         if self.bytes.is_empty() {
             return Decoded::Nothing;
         }
-        let start = if self.is_too_long { None } else { cobs::decode_reverse(&mut self.bytes) };
+        let start = if self.is_too_long { None } else { decode_reverse_cobs(&mut self.bytes) };
         let message = start.and_then(|start| Message::parse(&self.bytes[start..]));
         message.map_or(Decoded::Broken, Decoded::Frame)
     }

@@ -1,0 +1,8 @@
+//! Tests of the driver against a simulated board, on a line in virtual time.
+
+mod errors;
+mod faults;
+mod jobs;
+mod lies;
+mod rig;
+mod sources;
