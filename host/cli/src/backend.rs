@@ -235,6 +235,7 @@ fn once<T>(in_address: Option<T>, argument: Option<T>, name: &str) -> Result<Opt
 
 /// A waveform to write.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(not(feature = "sim"), expect(dead_code, reason = "only the simulated core writes waveforms"))]
 pub struct Trace<'a> {
     /// File for the waveform.
     pub path: &'a Path,
@@ -245,7 +246,8 @@ pub struct Trace<'a> {
 /// Opens the back end for jobs of up to `room` points, or, without that number, as large as possible.
 ///
 /// For a model all points count, for a core distinct ones. A core in simulation has the chosen configuration, or else
-/// the smallest one that holds the points, or else the largest. The waveform `trace` is of the back end `sim`. Greeting a board takes no longer than `timeout`.
+/// the smallest one that holds the points, or else the largest. The waveform `trace` is of the back end `sim`. Greeting a
+/// board takes no longer than `timeout`.
 pub fn open_with_room(
     choice: &Choice,
     room: Option<usize>,
