@@ -14,6 +14,7 @@ use crate::cpu::view::view_of_32_bits;
 use crate::double::Coordinate;
 use crate::lattice::Numbers;
 use crate::mesh::smallest_first;
+use crate::pages;
 use crate::plan::{Domain, Mark, Plan};
 use crate::point::{Duplicate, Point, MAX_POINTS};
 use crate::site::{FilteredSite, Site};
@@ -74,7 +75,7 @@ fn of_sites<S: Site>(
     if mesh.triangles.is_empty() {
         return on_line(places, mesh.hull, &ends, plan);
     }
-    let mut network = Network::new(places, mesh.triangles, mesh.hull)?;
+    let mut network = Network::new(places, mesh.triangles, mesh.hull, &ends)?;
     let pieces = force_all(&mut network, &ends).map_err(|found| {
         let pairs = |constraint: u32| plan.constraints[constraint as usize];
         found.error(|pair| pair.map(|vertex| places[vertex as usize]), pairs, &whole)
@@ -193,8 +194,7 @@ fn numbered<S: Site>(
 ) -> (Constrained, Vec<Option<u32>>) {
     let mut regions = vec![None; chosen.len()];
     let mut made = Constrained::default();
-    made.triangles.reserve(count);
-    made.regions.reserve(count);
+    (made.triangles, made.regions) = (pages::with_room(count), pages::with_room(count));
     let mut add = |corners: [u32; 3], triangle: u32| {
         let part = parts.of[triangle as usize] as usize;
         // In lists that are no mesh there may be triangles that no flood has met.

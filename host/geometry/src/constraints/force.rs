@@ -43,6 +43,7 @@ impl<S: Site> Network<'_, S> {
         match self.way(from, to).ok_or(Error::NoMesh)? {
             Way::Along(side, end) => {
                 self.fix(side);
+                self.note(end, side.triangle());
                 Ok(end)
             }
             Way::Through(first) => {
@@ -59,7 +60,7 @@ impl<S: Site> Network<'_, S> {
         let [a, q] = [from, to].map(|vertex| self.site(vertex));
         let side_of = |vertex: u32| S::orient2d(a, self.site(vertex), q);
         let is_ahead = |vertex: u32| vertex == to || S::is_between(a, self.site(vertex), q);
-        self.around(from).find_map(|side| {
+        self.around(from, self.triangle_at(from)).find_map(|side| {
             let [b, c] = self.plane.ends(side);
             match side_of(b) {
                 Ordering::Equal if is_ahead(b) => Some(Way::Along(side.last(), b)),

@@ -56,7 +56,7 @@ impl<S: Site> Network<'_, S> {
         let sides = [0, 1, 2].map(|slot| Side::new(triangle, slot));
         let corner = self.plane.get(triangle).vertices.into_iter().find(|&vertex| self.site(vertex) == q);
         if let Some(corner) = corner {
-            let mut around = self.around(corner).flat_map(|side| [side.next(), side.last()]);
+            let mut around = self.around(corner, triangle).flat_map(|side| [side.next(), side.last()]);
             let fixed = around.find(|&side| self.is_fixed(side));
             return fixed.map_or(Found::Inside(triangle), |side| Found::OnFixed(self.edge(side)));
         }

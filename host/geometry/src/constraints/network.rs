@@ -26,7 +26,7 @@ pub(super) struct Network<'a, S: Site> {
     pub plane: Plane,
     /// Marks of each triangle: a bit for each side whose edge is fixed, and [`CROSSED`] and [`CHANGED`].
     marks: Vec<u8>,
-    /// One of the triangles at each vertex.
+    /// One of the triangles at each vertex that is an end of a constraint or of one of its pieces.
     at: Vec<u32>,
     /// The edges that may have to be flipped.
     pub stack: Vec<Side>,
@@ -41,11 +41,11 @@ pub(super) struct Network<'a, S: Site> {
 }
 
 impl<'a, S: Site> Network<'a, S> {
-    /// Links the triangles of a mesh whose indices are those of `sites`. O(n).
+    /// Links the triangles of a mesh whose indices are those of `sites`. `ends` are the ends of all constraints. O(n).
     ///
     /// # Errors
     /// A list names a point that does not exist, or the triangles are not sorted.
-    pub fn new(sites: &'a [S], triangles: &[[u32; 3]], hull: &[u32]) -> Result<Self, Error> {
+    pub fn new(sites: &'a [S], triangles: &[[u32; 3]], hull: &[u32], ends: &[[u32; 2]]) -> Result<Self, Error> {
         let is_site = |&index: &u32| (index as usize) < sites.len();
         if !triangles.as_flattened().iter().chain(hull).all(is_site) {
             return Err(Error::NoMesh);
@@ -56,9 +56,16 @@ impl<'a, S: Site> Network<'a, S> {
         }
         let mut plane = Plane::default();
         plane.load(triangles, hull, sites.len());
+        // Bits fit the cache, where a number for each corner of each triangle would not.
+        let mut is_end: Vec<u64> = zeros(sites.len() / 64 + 1);
+        ends.as_flattened().iter().for_each(|&end| is_end[end as usize / 64] |= 1 << (end % 64));
         let mut at = zeros(sites.len());
         for (triangle, corners) in (0u32..).zip(triangles) {
-            corners.iter().for_each(|&corner| at[corner as usize] = triangle);
+            for &corner in corners {
+                if is_end[corner as usize / 64] >> (corner % 64) & 1 != 0 {
+                    at[corner as usize] = triangle;
+                }
+            }
         }
         let marks = zeros(plane.end() as usize);
         let [left, right, chain] = [(); 3].map(|()| Vec::new());
@@ -116,10 +123,19 @@ impl<'a, S: Site> Network<'a, S> {
         triangle
     }
 
-    /// The sides opposite a vertex in the triangles around it, counter-clockwise, those of ghost triangles left out. No
-    /// side comes twice, so the walk ends on any list of triangles.
-    pub fn around(&self, vertex: u32) -> impl Iterator<Item = Side> + '_ {
-        let first = self.at[vertex as usize];
+    /// The triangle from which the triangles around an end of a constraint are found.
+    pub fn triangle_at(&self, vertex: u32) -> u32 {
+        self.at[vertex as usize]
+    }
+
+    /// Says in which triangle an end of a piece is.
+    pub fn note(&mut self, vertex: u32, triangle: u32) {
+        self.at[vertex as usize] = triangle;
+    }
+
+    /// The sides opposite a vertex in the triangles around it, counter-clockwise from the triangle `first`, those of
+    /// ghost triangles left out. No side comes twice, so the walk ends on any list of triangles.
+    pub fn around(&self, vertex: u32, first: u32) -> impl Iterator<Item = Side> + '_ {
         let opposite = move |triangle: u32| {
             let record = self.plane.get(triangle);
             let slot = record.slot_of(vertex);

@@ -4,10 +4,10 @@
 //! it is the smallest stand in a row, with both of their edges at that vertex. The third edge of a triangle waits in a
 //! list of its smaller end. Only these lists are read in scattered order.
 
-use alloc::vec;
 use alloc::vec::Vec;
 
 use super::plane::{Plane, Side, INFINITE};
+use crate::pages;
 
 /// Marks the end of a list of triangles.
 const NONE: u32 = u32::MAX;
@@ -76,8 +76,11 @@ impl Plane {
     /// Links the sides of all triangles. Returns the sides without another, which are those of the hull.
     fn link_all(&mut self, triangles: &[[u32; 3]], vertices: usize) -> Vec<Open> {
         // For each vertex the triangles whose third edge has it as its smaller end.
-        let mut first = vec![NONE; vertices];
-        let mut next = vec![NONE; triangles.len()];
+        let [mut first, mut next] = [vertices, triangles.len()].map(|count| {
+            let mut list = pages::with_room(count);
+            list.resize(count, NONE);
+            list
+        });
         for (number, &[_, b, c]) in triangles.iter().enumerate() {
             let head = &mut first[b.min(c) as usize];
             next[number] = core::mem::replace(head, number as u32);
