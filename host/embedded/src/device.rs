@@ -2,8 +2,8 @@
 
 use embedded_io::{Read, ReadReady, Write};
 use incircle_protocol::{
-    Clear, Command, DeviceFrame, Greeting, HostFrame, Identity, InsertReport, Layout, RecordRange, GREETING_WORDS,
-    INSERT_REPORT_WORDS, MAX_SILENCE_MS,
+    rate_step, Clear, Command, DeviceFrame, Greeting, HostFrame, Identity, InsertReport, Layout, RecordRange,
+    FIRST_RATE, GREETING_WORDS, INSERT_REPORT_WORDS, MAX_SILENCE_MS,
 };
 
 use crate::clock::{has_come, Clock};
@@ -14,6 +14,7 @@ use crate::line::Line;
 use crate::load::{Load, Request};
 use crate::mesh::{Assembly, Mesh};
 use crate::order::{prepare, Order};
+use crate::rate::{Rate, MOST_FAILURES, SILENCE_SLACK};
 use crate::session::{Limit, Session, GROW_AFTER, MAX_ANSWER_WORDS};
 use crate::{records_needed, Point};
 
@@ -44,12 +45,24 @@ pub struct Device<P, C> {
     greeting: Option<Greeting>,
     /// Number of the last session.
     session: u8,
+    /// The rate that the caller wants.
+    rate: Option<Rate<P>>,
 }
 
 impl<P: Read + ReadReady + Write, C: Clock> Device<P, C> {
     /// A device at this port. Nothing is sent yet.
     pub const fn new(port: P, clock: C) -> Self {
-        Self { line: Line::new(port, clock), greeting: None, session: 0 }
+        Self { line: Line::new(port, clock), greeting: None, session: 0, rate: None }
+    }
+
+    /// The same device, whose jobs run at this rate in bits per second, if it works. `set` sets the port to a rate, and
+    /// is called when all bytes of the host have left it. Between jobs the port is at 115,200 bits per second.
+    ///
+    /// A rate that the device cannot reach is not asked for. A rate at which the device does not answer costs 3
+    /// seconds, and the job runs at 115,200 bits per second; after two failures it is not tried again.
+    pub fn with_rate(mut self, bits_per_second: u32, set: fn(&mut P, u32)) -> Self {
+        self.rate = Some(Rate { bits_per_second, set, failures: 0 });
+        self
     }
 
     /// Greets the device, for 3 seconds at most, and returns the properties of its core. No session is opened. A job
@@ -132,8 +145,22 @@ impl<P: Read + ReadReady + Write, C: Clock> Device<P, C> {
         Ok(assembly.finish(duplicates)?)
     }
 
-    /// Does a job in a session of its own.
+    /// Does a job in a session of its own, and leaves the port at the first rate.
     fn insert_and_read(
+        &mut self,
+        load: &Load<'_>,
+        assembly: &mut Assembly<'_>,
+        greeting: &Greeting,
+        limit: Limit,
+    ) -> Result<(), Error<P::Error>> {
+        let done = self.job(load, assembly, greeting, limit);
+        if let Some(Rate { set, .. }) = self.rate {
+            self.line.set_rate(set, FIRST_RATE);
+        }
+        done
+    }
+
+    fn job(
         &mut self,
         load: &Load<'_>,
         assembly: &mut Assembly<'_>,
@@ -142,7 +169,11 @@ impl<P: Read + ReadReady + Write, C: Clock> Device<P, C> {
     ) -> Result<(), Error<P::Error>> {
         let distinct = load.order.len();
         let layout = load.layout;
-        let mut session = self.open(greeting, limit)?;
+        let mut free = self.open(limit)?;
+        if !self.raise_rate(greeting, limit, free)? {
+            free = self.open(limit)?;
+        }
+        let mut session = Session::new(&mut self.line, self.session, greeting, limit, free);
         session.ask(Request::bare(Command::Clear(Clear::one_mesh(0))))?;
         check_report(session.ask(Request::insert(load))?, distinct)?;
         let records = records_needed(distinct);
@@ -161,8 +192,26 @@ impl<P: Read + ReadReady + Write, C: Clock> Device<P, C> {
         session.close()
     }
 
-    /// Opens a session, which resets the core.
-    fn open(&mut self, greeting: &Greeting, limit: Limit) -> Result<Session<'_, P, C>, Error<P::Error>> {
+    /// Brings an open session to the rate that the caller wants, if there is one and the device can reach it. Returns
+    /// false if that failed: the device is then back at the first rate, without a session.
+    fn raise_rate(&mut self, greeting: &Greeting, limit: Limit, free: u16) -> Result<bool, Error<P::Error>> {
+        let Some(Rate { bits_per_second, set, failures: 0..MOST_FAILURES }) = self.rate else { return Ok(true) };
+        let Some(step) = rate_step(bits_per_second, greeting.clock_hz) else { return Ok(true) };
+        let session = Session::new(&mut self.line, self.session, greeting, limit, free);
+        if session.raise(bits_per_second, step, set)? {
+            return Ok(true);
+        }
+        if let Some(rate) = &mut self.rate {
+            rate.failures += 1;
+        }
+        self.line.set_rate(set, FIRST_RATE);
+        let until = self.line.now().wrapping_add(greeting.silence_ms + SILENCE_SLACK);
+        while self.line.hear(until)?.is_some() {}
+        Ok(false)
+    }
+
+    /// Opens a session, which resets the core. Returns the free bytes of the device's FIFO.
+    fn open(&mut self, limit: Limit) -> Result<u16, Error<P::Error>> {
         self.session = self.session % u8::MAX + 1;
         let number = self.session;
         let since = self.line.now();
@@ -172,7 +221,7 @@ impl<P: Read + ReadReady + Write, C: Clock> Device<P, C> {
             while let Some(header) = self.line.hear(until)? {
                 limit.check(self.line.now())?;
                 if header.kind == DeviceFrame::Opened && header.session == number {
-                    return Ok(Session::new(&mut self.line, number, greeting, limit, header.free));
+                    return Ok(header.free);
                 }
             }
             let now = self.line.now();

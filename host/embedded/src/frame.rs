@@ -79,6 +79,8 @@ pub(crate) struct Header {
     pub answers: u8,
     /// Free bytes of the device's FIFO.
     pub free: u16,
+    /// Status bits, `STATUS_...` of the protocol.
+    pub status: u8,
 }
 
 /// What the reader holds.
@@ -104,6 +106,11 @@ pub(crate) struct FrameReader {
 impl FrameReader {
     pub const fn new() -> Self {
         Self { bytes: [0; MAX_ENCODED], length: 0, is_too_long: false, held: Held::Part }
+    }
+
+    /// Forgets all bytes.
+    pub fn clear(&mut self) {
+        (self.length, self.is_too_long, self.held) = (0, false, Held::Part);
     }
 
     /// Whether a frame waits to be looked at. The reader takes no byte until then.
@@ -161,12 +168,13 @@ impl FrameReader {
         let encoded = self.bytes.get_mut(..length)?;
         let start = decode_reverse_cobs(encoded)?;
         let (said, crc) = encoded.get(start..)?.split_last_chunk::<CRC_BYTES>()?;
-        let (&[session, kind, expected, answers, low, high, _], _) = said.split_first_chunk::<DEVICE_HEADER_BYTES>()?;
+        let (&[session, kind, expected, answers, low, high, status], _) =
+            said.split_first_chunk::<DEVICE_HEADER_BYTES>()?;
         if Crc32::of(said) != u32::from_le_bytes(*crc) {
             return None;
         }
         let kind = DeviceFrame::from_u8(kind)?;
-        let header = Header { session, kind, expected, answers, free: u16::from_le_bytes([low, high]) };
+        let header = Header { session, kind, expected, answers, free: u16::from_le_bytes([low, high]), status };
         Some((header, start + DEVICE_HEADER_BYTES..length - CRC_BYTES))
     }
 }
@@ -232,7 +240,7 @@ mod tests {
                 assert_eq!(reader.look(), None, "{length}");
                 reader.take(byte);
             }
-            let header = Header { session: 9, kind, expected: 1, answers: 0, free: 4096 };
+            let header = Header { session: 9, kind, expected: 1, answers: 0, free: 4096, status };
             assert_eq!(reader.look(), Some(header), "{length}");
             assert_eq!(reader.body(), frame.body, "{length}");
             reader.look_again();

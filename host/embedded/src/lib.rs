@@ -30,9 +30,10 @@
 //!
 //! # Ports and clocks
 //! A port implements `Read`, `ReadReady` and `Write` of [`embedded_io`], as the serial ports of most libraries for
-//! microcontrollers do, at 115,200 bits per second, 8 data bits, no parity, one stop bit. The driver looks for received
-//! bytes before every byte that it writes. Where a call of `write` or `flush` may block for longer than a byte takes,
-//! the port must keep the bytes received meanwhile, for example by an interrupt. Lost bytes cost time, never the mesh.
+//! microcontrollers do, at 115,200 bits per second, 8 data bits, no parity, one stop bit. [`Device::with_rate`] makes
+//! jobs run at a higher rate. The driver looks for received bytes before every byte that it writes. Where a call of
+//! `write` or `flush` may block for longer than a byte takes, the port must keep the bytes received meanwhile, for
+//! example by an interrupt. Lost bytes cost time, never the mesh.
 #![no_std]
 #![warn(missing_docs)]
 
@@ -46,6 +47,7 @@ mod line;
 mod load;
 mod mesh;
 mod order;
+mod rate;
 mod session;
 mod sort;
 

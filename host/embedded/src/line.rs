@@ -36,6 +36,12 @@ impl<P: Read + ReadReady + Write, C: Clock> Line<P, C> {
         (self.port, self.clock)
     }
 
+    /// Lets the caller set the port to this rate. Bytes that came at the rate before are forgotten.
+    pub fn set_rate(&mut self, set: fn(&mut P, u32), rate: u32) {
+        set(&mut self.port, rate);
+        self.reader.clear();
+    }
+
     /// Sends a frame with these bytes of payload.
     pub fn send(
         &mut self,

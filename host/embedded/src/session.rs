@@ -58,8 +58,8 @@ impl Limit {
 
 /// The host's end of an open session.
 pub(crate) struct Session<'l, P, C> {
-    line: &'l mut Line<P, C>,
-    number: u8,
+    pub(crate) line: &'l mut Line<P, C>,
+    pub(crate) number: u8,
     silence_ms: u32,
     fifo: u32,
     layout: Layout,
@@ -143,7 +143,8 @@ impl<'l, P: Read + ReadReady + Write, C: Clock> Session<'l, P, C> {
         Ok(())
     }
 
-    fn after(&mut self, milliseconds: u32) -> u32 {
+    /// The moment in so many milliseconds.
+    pub(crate) fn after(&mut self, milliseconds: u32) -> u32 {
         self.line.now().wrapping_add(milliseconds)
     }
 
@@ -151,7 +152,7 @@ impl<'l, P: Read + ReadReady + Write, C: Clock> Session<'l, P, C> {
         POLL_EVERY.min(self.silence_ms / 4)
     }
 
-    fn say_poll(&mut self) -> Result<(), Error<P::Error>> {
+    pub(crate) fn say_poll(&mut self) -> Result<(), Error<P::Error>> {
         self.line.say(self.number, HostFrame::Poll)
     }
 
@@ -291,7 +292,7 @@ impl<'l, P: Read + ReadReady + Write, C: Clock> Session<'l, P, C> {
     }
 
     /// Waits for the next frame of this session; `None` if there is none by this moment.
-    fn hear(&mut self, until: u32) -> Result<Option<Header>, Error<P::Error>> {
+    pub(crate) fn hear(&mut self, until: u32) -> Result<Option<Header>, Error<P::Error>> {
         loop {
             let heard = self.line.hear(until)?;
             let now = self.line.now();

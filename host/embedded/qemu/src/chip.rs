@@ -216,8 +216,7 @@ struct Memory(UnsafeCell<Lists>);
 // SAFETY: only `with_lists` uses it, which is called once.
 unsafe impl Sync for Memory {}
 
-static MEMORY: Memory =
-    Memory(UnsafeCell::new(Lists { points: [[0; 2]; 1024], order: [0; 1024], records: [[0; 3]; 2046] }));
+static MEMORY: Memory = Memory(UnsafeCell::new(Lists::EMPTY));
 
 /// Lends the lists of the job. Called once.
 pub fn with_lists(job: impl FnOnce(&mut Lists)) {

@@ -28,6 +28,10 @@ struct Lists {
     records: [[u16; 3]; records_needed(ROOM)],
 }
 
+impl Lists {
+    const EMPTY: Self = Self { points: [[0; 2]; ROOM], order: [0; ROOM], records: [[0; 3]; records_needed(ROOM)] };
+}
+
 /// Reads rows of two numbers, and returns how many there were.
 fn read(rows: &[u8], points: &mut [Point]) -> usize {
     let mut count = 0;

@@ -4,5 +4,6 @@ mod errors;
 mod faults;
 mod jobs;
 mod lies;
+mod rates;
 mod rig;
 mod sources;

@@ -8,12 +8,12 @@ use std::rc::Rc;
 use embedded_io::{ErrorType, Read, ReadReady, Write};
 use incircle_embedded::{records_needed, Buffers, Clock, Device, Error, Point};
 use incircle_model::serial::{Instantly, SerialModel, WordDevice};
-use incircle_protocol::{Identity, LinkConfig, FIRST_RATE, SMALL};
+use incircle_protocol::{Identity, LinkConfig, FIRST_RATE, PHASE_BITS, SMALL};
 
 /// The link of the simulated boards. The clock is slow, so that a model by clock keeps up.
 pub const LINK: LinkConfig = LinkConfig { clock_hz: 1_000_000, fifo_bytes: 4096, silence_ms: 2000 };
-/// Nanoseconds of a byte on the line.
-const BYTE_NS: u64 = 10 * 1_000_000_000 / FIRST_RATE as u64;
+/// The same at the clock of a board.
+pub const FAST_LINK: LinkConfig = LinkConfig { clock_hz: 125_000_000, fifo_bytes: 4096, silence_ms: 2000 };
 /// Bytes that the port of the microcontroller keeps, as many serial ports do in hardware. Later ones are lost.
 const PORT_BYTES: usize = 16;
 /// Milliseconds that a job may take.
@@ -41,14 +41,26 @@ pub struct Board<D> {
     pub bytes: [u64; 2],
     /// Bytes that the port did not keep.
     pub overflows: u64,
+    /// Bits per second at which the host's port runs.
+    pub rate: u32,
+    /// Highest rate that the line carries.
+    pub usable: u32,
+    link: LinkConfig,
     received: VecDeque<u8>,
     clocks_left: u64,
 }
 
 impl<D: WordDevice> Board<D> {
     pub fn new(identity: Identity, core: D) -> Rc<RefCell<Self>> {
+        Self::with_link(LINK, identity, core)
+    }
+
+    pub fn with_link(link: LinkConfig, identity: Identity, core: D) -> Rc<RefCell<Self>> {
         Rc::new(RefCell::new(Self {
-            model: SerialModel::new(LINK, identity, core),
+            model: SerialModel::new(link, identity, core),
+            rate: FIRST_RATE,
+            usable: u32::MAX,
+            link,
             faults: Box::new(|_, _| Fate::Passes),
             nanoseconds: 5_000_000_000,
             bytes: [0; 2],
@@ -59,10 +71,11 @@ impl<D: WordDevice> Board<D> {
     }
 
     /// The bytes that arrive in place of this one.
-    fn carry(&mut self, to_host: bool, byte: u8) -> Vec<u8> {
+    fn carry(&mut self, to_host: bool, byte: u8, is_readable: bool) -> Vec<u8> {
         let count = &mut self.bytes[usize::from(to_host)];
         *count += 1;
         match (self.faults)(to_host, *count - 1) {
+            Fate::Passes if !is_readable => vec![byte ^ 0x5a],
             Fate::Passes => vec![byte],
             Fate::Lost => vec![],
             Fate::Twice => vec![byte; 2],
@@ -70,17 +83,27 @@ impl<D: WordDevice> Board<D> {
         }
     }
 
+    /// Whether both sides have the same rate, and the line carries it. Otherwise bits come out wrong.
+    fn is_readable(&self) -> bool {
+        let device = (u64::from(self.model.rate_step()) * u64::from(self.link.clock_hz)) >> PHASE_BITS;
+        device.abs_diff(self.rate.into()) < u64::from(self.rate) / 50 && self.rate <= self.usable
+    }
+
     /// Lets the time of a byte pass, in which the host may send one.
     fn pass(&mut self, sent: Option<u8>) {
-        self.nanoseconds += BYTE_NS;
-        for byte in sent.map_or(vec![], |byte| self.carry(false, byte)) {
+        let byte_ns = 10 * 1_000_000_000 / u64::from(self.rate);
+        self.nanoseconds += byte_ns;
+        let is_readable = self.is_readable();
+        for byte in sent.map_or(vec![], |byte| self.carry(false, byte, is_readable)) {
             self.model.take(byte);
         }
-        self.clocks_left += BYTE_NS * u64::from(LINK.clock_hz);
+        self.clocks_left += byte_ns * u64::from(self.link.clock_hz);
         self.model.pass(self.clocks_left / 1_000_000_000);
         self.clocks_left %= 1_000_000_000;
+        // The last byte before the device changes its rate still has the old one.
+        let is_readable = self.is_readable();
         if let Some(byte) = self.model.give() {
-            for byte in self.carry(true, byte) {
+            for byte in self.carry(true, byte, is_readable) {
                 if self.received.len() < PORT_BYTES {
                     self.received.push_back(byte);
                 } else {
@@ -93,6 +116,13 @@ impl<D: WordDevice> Board<D> {
 
 /// The port or the clock of the microcontroller.
 pub struct End<D>(pub Rc<RefCell<Board<D>>>);
+
+impl<D> End<D> {
+    /// Sets the port to a rate.
+    pub fn set_rate(&mut self, rate: u32) {
+        self.0.borrow_mut().rate = rate;
+    }
+}
 
 impl<D> ErrorType for End<D> {
     type Error = Infallible;
@@ -140,6 +170,12 @@ impl<D: WordDevice> Clock for End<D> {
 pub fn small() -> Rc<RefCell<Board<Instantly>>> {
     let core = Instantly::of(SMALL).unwrap();
     Board::new(core.identity(), core)
+}
+
+/// A board with the core `small` at the clock of a real one.
+pub fn fast() -> Rc<RefCell<Board<Instantly>>> {
+    let core = Instantly::of(SMALL).unwrap();
+    Board::with_link(FAST_LINK, core.identity(), core)
 }
 
 /// A mesh with lists of its own.
