@@ -6,6 +6,7 @@ mod csv_rows;
 pub mod curve;
 pub mod ele;
 pub mod geojson;
+pub mod geojson_ring;
 pub mod json;
 mod json_text;
 pub mod lidar;
@@ -93,7 +94,7 @@ impl PointFormat {
     pub fn read(self, mut input: Input, selection: &Selection) -> Result<PointTable, Failure> {
         let memory = input.memory();
         match self {
-            Self::Csv => csv::read_points(&some_bytes(input)?, memory),
+            Self::Csv => csv::read_valued_points(&some_bytes(input)?, selection.value.as_deref(), memory),
             Self::Xyz => xyz::read_points(&some_bytes(input)?, memory),
             Self::Node => node::read_points(&some_bytes(input)?, memory),
             Self::Obj => obj::read_points(&some_bytes(input)?, memory),

@@ -18,9 +18,11 @@ mod commands {
     mod bench;
     mod generate;
     mod generate_numbers;
+    mod interpolate;
     mod replay;
     mod tile;
     mod triangulate_large;
+    mod voronoi;
 }
 
 mod formats {
