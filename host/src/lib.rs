@@ -127,6 +127,7 @@
 //! | small sets one after the other, such as points that move | [`Triangulator`], which keeps its memory |
 //! | points that come, go or move, or questions about places | [`Triangulation`], which changes with them |
 //! | the region nearest to each point, clipped to a polygon | [`voronoi`], with the mesh of grid points |
+//! | points spread evenly over a region | [`lloyd::relax`], with grid points and a [`voronoi::Clip`] |
 //! | values between points, such as heights | [`interpolate::Surface`], with the mesh of the points |
 //! | many small sets at once | [`Session::triangulate_batch`]: a device works on them side by side |
 //! | several devices for one set | [`Fleet`], which leaves out a device that dies |
@@ -165,7 +166,7 @@ pub use incircle_geometry::cpu::{Error as TriangulatorError, Triangulator};
 pub use incircle_geometry::lattice::{Lattice, Step};
 pub use incircle_geometry::living::{self, Triangulation};
 pub use incircle_geometry::verify::{self, verify, VerifyError, VerifySummary};
-pub use incircle_geometry::{double, interpolate, orient2d, predicate, tiles, voronoi};
+pub use incircle_geometry::{double, interpolate, lloyd, orient2d, predicate, tiles, voronoi};
 pub use incircle_geometry::{Duplicate, Mesh, Order, PlanePoint, Point};
 pub use incircle_geometry::{UnknownOrder, EMPTY, MAX_POINTS};
 pub use incircle_protocol::{Config, Identity};

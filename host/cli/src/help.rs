@@ -171,6 +171,18 @@ Examples:
   incircle interpolate survey.laz --class 2 --grid 1 -o ground.asc
   incircle interpolate wells.csv --value depth --at places.csv -o depths.csv --method sibson";
 
+/// End of `incircle lloyd -h`.
+pub const LLOYD: &str = "\
+Example:
+  incircle lloyd points.csv -o even.csv --iterations 20";
+
+/// End of `incircle lloyd --help`.
+pub const LLOYD_LONG: &str = "\
+Examples:
+  incircle lloyd points.csv -o even.csv --iterations 20
+  incircle lloyd points.csv -o even.npy --until-still --clip 0,0,1000,1000
+  incircle lloyd survey.csv -o even.csv --iterations 5 --quantize fit";
+
 /// End of `incircle info -h`.
 pub const INFO: &str = "\
 Example:

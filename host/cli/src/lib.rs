@@ -74,6 +74,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Replay(arguments) => commands::replay::run(arguments),
         Command::Voronoi(arguments) => commands::voronoi::run(arguments),
         Command::Interpolate(arguments) => commands::interpolate::run(arguments),
+        Command::Lloyd(arguments) => commands::lloyd::run(arguments),
         Command::Info(arguments) => commands::info::run(arguments),
         Command::Devices(arguments) => commands::devices::run(arguments),
         Command::Completions(arguments) => commands::completions::run(arguments),

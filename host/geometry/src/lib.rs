@@ -13,6 +13,7 @@
 //! | a mesh that can be asked and changed | [`Triangulation`] | 0.1 to 0.3 µs near the last place, some µs elsewhere |
 //! | the triangles beside a triangle | [`Mesh::neighbors`], [`Mesh::halfedges`] | O(n) for the whole mesh |
 //! | the Voronoi cells of a set, whole or clipped | [`voronoi`] | O(n), less than 2 µs a point |
+//! | points spread evenly over a region | [`lloyd::relax`] | about 1 µs a point and step |
 //! | values between points, such as heights | [`interpolate`] | 0.1 to 2 µs a place |
 //! | proof that a mesh is right | [`verify()`], [`Mesh::verify`] | O(n log n) |
 //! | the side of a line that a point is on | [`orient2d`] | two multiplications |
@@ -51,6 +52,7 @@ mod edges;
 pub mod interpolate;
 pub mod lattice;
 pub mod living;
+pub mod lloyd;
 mod mesh;
 pub mod order;
 pub mod pages;

@@ -4,6 +4,7 @@ mod backend;
 mod generate;
 mod interpolate;
 mod job;
+mod lloyd;
 mod points;
 mod replay;
 mod tile;
@@ -27,6 +28,7 @@ pub use backend::{BackendArguments, ConfigName};
 pub use generate::GenerateArguments;
 pub use interpolate::{InterpolateArguments, ValueFormat};
 pub use job::JobArguments;
+pub use lloyd::LloydArguments;
 pub use points::{GridArguments, ReadArguments};
 pub use replay::ReplayArguments;
 pub use tile::{JoinArguments, LocalArguments, SplitArguments, TileArguments, TileCommand};
@@ -104,6 +106,12 @@ pub enum Command {
     /// linear on the triangles of the mesh, or means of the natural neighbours.
     #[command(verbatim_doc_comment, after_help = help::INTERPOLATE, after_long_help = help::INTERPOLATE_LONG)]
     Interpolate(InterpolateArguments),
+    /// Spread points evenly: move each to the centroid of its Voronoi cell, again and again
+    ///
+    /// The result has the same bytes on every machine and with any number of threads. Points move on a
+    /// finer lattice, so theirs must leave 8 of 31 bits spare; --quantize fit rounds them onto one.
+    #[command(verbatim_doc_comment, after_help = help::LLOYD, after_long_help = help::LLOYD_LONG)]
+    Lloyd(LloydArguments),
     /// Describe a back end: version, coordinates, capacity, contexts
     #[command(after_help = help::INFO, after_long_help = help::INFO_LONG)]
     Info(InfoArguments),

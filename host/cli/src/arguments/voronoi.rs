@@ -13,7 +13,7 @@ use crate::number;
 pub struct Rectangle(pub [String; 4]);
 
 /// Parses two opposite corners of a rectangle. Numbers stay as they are written, because they count exactly.
-fn rectangle_from(text: &str) -> Result<Rectangle, String> {
+pub(super) fn rectangle_from(text: &str) -> Result<Rectangle, String> {
     let numbers: Vec<String> = text.split(',').map(|part| part.trim().to_owned()).collect();
     let is_number = |part: &String| number::parse(part.as_bytes()).is_some_and(|it| it.nearest().value.is_finite());
     match <[String; 4]>::try_from(numbers) {

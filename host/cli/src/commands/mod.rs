@@ -9,6 +9,7 @@ pub mod devices;
 pub mod generate;
 pub mod info;
 pub mod interpolate;
+pub mod lloyd;
 pub mod replay;
 pub mod tile;
 pub mod triangulate;

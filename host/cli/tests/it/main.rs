@@ -19,6 +19,7 @@ mod commands {
     mod generate;
     mod generate_numbers;
     mod interpolate;
+    mod lloyd;
     mod replay;
     mod tile;
     mod triangulate_large;

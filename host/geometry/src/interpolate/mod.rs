@@ -4,9 +4,9 @@
 //!
 //! | method | value at a place | cost |
 //! |---|---|---|
-//! | [`Method::Linear`] | that of the plane through the corners of the triangle around the place | 0.05 to 0.3 µs |
-//! | [`Method::Laplace`] | mean of the natural neighbours, weighted by edge length over distance | about 1 µs |
-//! | [`Method::Sibson`] | mean of the natural neighbours, weighted by areas of a new cell | about 1 µs |
+//! | [`Method::Linear`] | that of the plane through the corners of the triangle around the place | 0.1 to 0.2 µs |
+//! | [`Method::Laplace`] | mean of the natural neighbours, weighted by edge length over distance | 0.2 to 0.5 µs |
+//! | [`Method::Sibson`] | mean of the natural neighbours, weighted by areas of a new cell | 0.2 to 0.5 µs |
 //!
 //! The natural neighbours of a place are the neighbours that it would have as a further point of the set. All three
 //! methods give the values of the set at its points, and linear functions between them (to rounding, see [`Method`]).

@@ -6,7 +6,7 @@
 //!
 //! | you want | call | cost |
 //! |---|---|---|
-//! | the diagram of a mesh | [`Voronoi::of`] | O(n), about 0.4 µs a point |
+//! | the diagram of a mesh | [`Voronoi::of`] | O(n), about 1 µs a point |
 //! | a cell, its neighbours and its corners | [`Voronoi::cell`], [`Voronoi::cells`] | O(1), no allocation |
 //! | a corner exactly, or rounded once | [`Voronoi::vertex`], [`Corner::nearest`] | 20 to 60 ns |
 //! | a cell inside a clip, with its area | [`Cells::cell`] | O(k), or O(k m) where the border of the clip passes |
