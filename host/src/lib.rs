@@ -143,6 +143,9 @@
 //! | small sets one after the other, such as points that move | [`Triangulator`], which keeps its memory |
 //! | points that come, go or move, or questions about places | [`Triangulation`], which changes with them |
 //! | edges that must be in the mesh, or triangles inside polygons | [`constraints::constrain`] |
+//! | the region nearest to each point, clipped to a polygon | [`voronoi`], with the mesh of grid points |
+//! | points spread evenly over a region | [`lloyd::relax`], with grid points and a [`voronoi::Clip`] |
+//! | values between points, such as heights | [`interpolate::Surface`], with the mesh of the points |
 //! | many small sets at once | [`Session::triangulate_batch`]: a device works on them side by side |
 //! | several devices for one set | [`Fleet`], which leaves out a device that dies |
 //! | a `Vec` of points that you can hand over | [`Session::triangulate_owned`], which does not copy it |
@@ -155,7 +158,8 @@
 //! points of 16 bits it takes at most 200 bytes a point beyond the points themselves. The CPU triangulator takes whole
 //! numbers of up to 64 bits and all finite doubles; a device has its own number of bits, 16 for the standard cores, and
 //! takes points whose [`Lattice`] fits them. A job may have up to [`MAX_POINTS`] points. A device holds as many
-//! distinct ones as its [`Identity`] says, and does larger sets in parts. There are no Voronoi cells.
+//! distinct ones as its [`Identity`] says, and does larger sets in parts. Voronoi cells ([`voronoi`]) are exact on
+//! lattices of up to 31 bits.
 //!
 //! No set of points and no faulty device makes a call panic: every failure is an [`Error`], whose [`ErrorKind`] says
 //! whose fault it is. Only the predicates of integers, called by themselves, need coordinates below 2^31.
@@ -180,7 +184,8 @@ pub use incircle_geometry::cpu::{Error as TriangulatorError, Triangulator};
 pub use incircle_geometry::lattice::{Lattice, Step};
 pub use incircle_geometry::living::{self, Triangulation};
 pub use incircle_geometry::verify::{self, verify, VerifyError, VerifySummary};
-pub use incircle_geometry::{double, orient2d, predicate, tiles, Duplicate, Mesh, Order, PlanePoint, Point};
+pub use incircle_geometry::{double, interpolate, lloyd, orient2d, predicate, tiles, voronoi};
+pub use incircle_geometry::{Duplicate, Mesh, Order, PlanePoint, Point};
 pub use incircle_geometry::{UnknownOrder, EMPTY, MAX_POINTS};
 pub use incircle_protocol::{Config, Identity};
 pub use job::{Counters, Latencies, Options, Progress, ProgressListener, Report, Share, Solution, Stage};

@@ -146,6 +146,43 @@ Examples:
   incircle tile join tiles -o mesh.npy --memory 1G
   incircle tile join tiles -o mesh.csv.zst --unordered";
 
+/// End of `incircle voronoi -h`.
+pub const VORONOI: &str = "\
+Example:
+  incircle voronoi points.csv -o cells.geojson";
+
+/// End of `incircle voronoi --help`.
+pub const VORONOI_LONG: &str = "\
+Examples:
+  incircle voronoi points.csv -o cells.geojson
+  incircle voronoi cities.geojson -o cells.svg --clip-to country.geojson
+  incircle voronoi points.csv -o cells.json --clip 0,0,1000,1000
+  incircle voronoi points.npy -o cells.geojson.gz --quantize fit";
+
+/// End of `incircle interpolate -h`.
+pub const INTERPOLATE: &str = "\
+Example:
+  incircle interpolate survey.csv --grid 0.5 -o heights.npy";
+
+/// End of `incircle interpolate --help`.
+pub const INTERPOLATE_LONG: &str = "\
+Examples:
+  incircle interpolate survey.csv --grid 0.5 -o heights.npy
+  incircle interpolate survey.laz --class 2 --grid 1 -o ground.asc
+  incircle interpolate wells.csv --value depth --at places.csv -o depths.csv --method sibson";
+
+/// End of `incircle lloyd -h`.
+pub const LLOYD: &str = "\
+Example:
+  incircle lloyd points.csv -o even.csv --iterations 20";
+
+/// End of `incircle lloyd --help`.
+pub const LLOYD_LONG: &str = "\
+Examples:
+  incircle lloyd points.csv -o even.csv --iterations 20
+  incircle lloyd points.csv -o even.npy --until-still --clip 0,0,1000,1000
+  incircle lloyd survey.csv -o even.csv --iterations 5 --quantize fit";
+
 /// End of `incircle info -h`.
 pub const INFO: &str = "\
 Example:

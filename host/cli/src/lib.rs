@@ -8,16 +8,19 @@
 mod arguments;
 mod backend;
 mod bench_report;
+mod cells;
 mod commands;
 mod connections;
 mod failure;
 mod fit;
 mod fleet;
 pub mod formats;
+mod grid;
 mod help;
 mod input;
 mod interrupt;
 mod lattice;
+mod lines;
 mod memory;
 mod number;
 mod numbers;
@@ -35,6 +38,7 @@ mod solve;
 mod source;
 mod text;
 mod tiles;
+mod value_writer;
 mod values;
 mod watch;
 
@@ -70,6 +74,9 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Bench(arguments) => commands::bench::run(arguments),
         Command::Tile(arguments) => commands::tile::run(arguments),
         Command::Replay(arguments) => commands::replay::run(arguments),
+        Command::Voronoi(arguments) => commands::voronoi::run(arguments),
+        Command::Interpolate(arguments) => commands::interpolate::run(arguments),
+        Command::Lloyd(arguments) => commands::lloyd::run(arguments),
         Command::Info(arguments) => commands::info::run(arguments),
         Command::Devices(arguments) => commands::devices::run(arguments),
         Command::Completions(arguments) => commands::completions::run(arguments),

@@ -13,6 +13,16 @@ use crate::script::{self, Script};
 /// Reads the points of a file or of standard input, those that the arguments select. The format is that of `--from`, or
 /// else that of the extension. Without `--from`, standard input is CSV.
 pub fn read_points(path: &Path, arguments: &ReadArguments, quiet: bool) -> Result<PointTable, Failure> {
+    read_valued_points(path, arguments, None, quiet)
+}
+
+/// Reads points like [`read_points`], with the column `value` of a CSV file as their z.
+pub fn read_valued_points(
+    path: &Path,
+    arguments: &ReadArguments,
+    value: Option<&str>,
+    quiet: bool,
+) -> Result<PointTable, Failure> {
     let format = match arguments.from {
         Some(format) => format,
         None if is_standard(path) => PointFormat::Csv,
@@ -21,7 +31,10 @@ pub fn read_points(path: &Path, arguments: &ReadArguments, quiet: bool) -> Resul
             Failure::usage(format!("{name}: the extension names no format of points: add --from {names}"))
         })?,
     };
-    let selection: Selection = arguments.selection(format)?;
+    if value.is_some() && format != PointFormat::Csv {
+        return Err(Failure::usage("--value names a column of CSV: leave it out for other formats, whose z is taken"));
+    }
+    let selection = Selection { value: value.map(str::to_owned), ..arguments.selection(format)? };
     let read = || format.read(Input::open(path, quiet)?, &selection);
     read().map_err(|failure| failure.in_file(name(path)))
 }

@@ -13,6 +13,9 @@
 //! | a mesh that can be asked and changed | [`Triangulation`] | 0.1 to 0.3 µs near the last place, some µs elsewhere |
 //! | a mesh with edges that must be there | [`constraints::constrain`] | O(n) beside the triangulation |
 //! | the triangles beside a triangle | [`Mesh::neighbors`], [`Mesh::halfedges`] | O(n) for the whole mesh |
+//! | the Voronoi cells of a set, whole or clipped | [`voronoi`] | O(n), less than 2 µs a point |
+//! | points spread evenly over a region | [`lloyd::relax`] | about 1 µs a point and step |
+//! | values between points, such as heights | [`interpolate`] | 0.1 to 2 µs a place |
 //! | proof that a mesh is right | [`verify()`], [`Mesh::verify`] | O(n log n) |
 //! | the side of a line that a point is on | [`orient2d`] | two multiplications |
 //! | whether a point is inside a circle | [`incircle`] | ten multiplications |
@@ -48,8 +51,10 @@ pub mod constraints;
 pub mod cpu;
 pub mod double;
 mod edges;
+pub mod interpolate;
 pub mod lattice;
 pub mod living;
+pub mod lloyd;
 mod mesh;
 pub mod order;
 pub mod pages;
@@ -62,6 +67,7 @@ pub mod sort;
 mod tie;
 pub mod tiles;
 pub mod verify;
+pub mod voronoi;
 
 pub use living::Triangulation;
 pub use mesh::{Mesh, EMPTY};

@@ -5,6 +5,7 @@
 //! - [`generate`]: point sets by name, those of `incircle generate`.
 //! - [`delaunay`]: the canonical Delaunay triangulation by its definition, slow and plain.
 //! - [`delaunay_of_doubles`]: the same of points of doubles, in integers of any size.
+//! - [`clipped_cell`], [`cell_neighbors`], [`twice_area_inside`]: Voronoi cells by their definition, in fractions.
 //! - [`disc_is_between`]: whether the circumscribed disc of a triangle lies between lines, in the same integers.
 //! - [`words`] and [`Batch`]: point sets as a device takes them, with [`Random32`], whose seeds tests know.
 //! - [`canonical`]: the check of a mesh from a device, and its form without ids.
@@ -20,6 +21,7 @@ mod compiled;
 mod exchange;
 mod network;
 mod oracle;
+mod oracle_of_cells;
 mod oracle_of_doubles;
 mod random;
 mod random32;
@@ -32,6 +34,7 @@ pub use compiled::Compiled;
 pub use exchange::{exchange_datagrams, exchange_steps, Datagram};
 pub use network::{Network, NetworkFaults};
 pub use oracle::{conflicts, delaunay, orient2d};
+pub use oracle_of_cells::{cell_neighbors, clipped_cell, twice_area_inside, Area, Fraction};
 pub use oracle_of_doubles::{
     delaunay_of_doubles, disc_is_between, hull_of_doubles, incircle_of_doubles, orient2d_of_doubles,
 };

@@ -2,11 +2,14 @@
 
 mod backend;
 mod generate;
+mod interpolate;
 mod job;
+mod lloyd;
 mod plan;
 mod points;
 mod replay;
 mod tile;
+mod voronoi;
 
 use std::net::SocketAddrV4;
 use std::path::{Path, PathBuf};
@@ -24,11 +27,14 @@ use crate::values::{
 
 pub use backend::{BackendArguments, ConfigName};
 pub use generate::GenerateArguments;
+pub use interpolate::{InterpolateArguments, ValueFormat};
 pub use job::JobArguments;
+pub use lloyd::LloydArguments;
 pub use plan::PlanArguments;
 pub use points::{GridArguments, ReadArguments};
 pub use replay::ReplayArguments;
 pub use tile::{JoinArguments, LocalArguments, SplitArguments, TileArguments, TileCommand};
+pub use voronoi::{Rectangle, VoronoiArguments};
 
 /// Exact Delaunay triangulation: one canonical answer, in software or hardware
 #[derive(Debug, Parser)]
@@ -88,6 +94,26 @@ pub enum Command {
     /// the mesh at the end, from the points that live then; the bytes are the same.
     #[command(verbatim_doc_comment, after_help = help::REPLAY, after_long_help = help::REPLAY_LONG)]
     Replay(ReplayArguments),
+    /// Compute the Voronoi cells of a file of points, exactly
+    ///
+    /// The cell of a point is the region that is nearest to it. Cells are clipped to a rectangle or to
+    /// a polygon; without one, JSON has unbounded cells with the directions of their rays, and the
+    /// other formats clip to the smallest rectangle around the points. The points and the corners of
+    /// the clip must lie on a lattice of up to 31 bits; --quantize fit rounds them onto one.
+    #[command(verbatim_doc_comment, after_help = help::VORONOI, after_long_help = help::VORONOI_LONG)]
+    Voronoi(VoronoiArguments),
+    /// Work out values between points, such as heights: at places of a file, or on a grid
+    ///
+    /// The value of a point is its z, or a column of CSV that --value names. Values between points are
+    /// linear on the triangles of the mesh, or means of the natural neighbours.
+    #[command(verbatim_doc_comment, after_help = help::INTERPOLATE, after_long_help = help::INTERPOLATE_LONG)]
+    Interpolate(InterpolateArguments),
+    /// Spread points evenly: move each to the centroid of its Voronoi cell, again and again
+    ///
+    /// The result has the same bytes on every machine and with any number of threads. Points move on a
+    /// finer lattice, so theirs must leave 8 of 31 bits spare; --quantize fit rounds them onto one.
+    #[command(verbatim_doc_comment, after_help = help::LLOYD, after_long_help = help::LLOYD_LONG)]
+    Lloyd(LloydArguments),
     /// Describe a back end: version, coordinates, capacity, contexts
     #[command(after_help = help::INFO, after_long_help = help::INFO_LONG)]
     Info(InfoArguments),

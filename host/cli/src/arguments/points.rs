@@ -45,6 +45,11 @@ pub struct ReadArguments {
 }
 
 impl ReadArguments {
+    /// The arguments that read a whole file in the format of its extension.
+    pub fn of_whole_file() -> Self {
+        Self { from: None, classes: Vec::new(), bounds: None, array: None }
+    }
+
     /// The points that the arguments select from a file of this format. An option that the format does not have is
     /// refused.
     pub fn selection(&self, format: PointFormat) -> Result<Selection, Failure> {
@@ -59,7 +64,7 @@ impl ReadArguments {
         if self.array.is_some() && format != PointFormat::Npz {
             return Err(Failure::usage("--array names an array of an .npz archive: leave it out for other formats"));
         }
-        Ok(Selection { array: self.array.clone(), classes: self.classes.clone(), bounds: self.bounds })
+        Ok(Selection { array: self.array.clone(), classes: self.classes.clone(), bounds: self.bounds, value: None })
     }
 }
 

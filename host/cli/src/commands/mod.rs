@@ -3,12 +3,16 @@
 pub mod bench;
 pub mod bench_batch;
 mod bench_sets;
+mod clip;
 pub mod completions;
 pub mod devices;
 pub mod generate;
 pub mod info;
+pub mod interpolate;
+pub mod lloyd;
 pub mod replay;
 pub mod tile;
 pub mod triangulate;
 mod triangulate_large;
 pub mod verify;
+pub mod voronoi;

@@ -22,10 +22,15 @@ const NAMES: [(&str, &str); 6] =
 
 /// Reads the points of a file.
 pub fn read_points(bytes: &[u8], memory: Memory) -> Result<PointTable, Failure> {
+    read_valued_points(bytes, None, memory)
+}
+
+/// Reads the points of a file. If `value` names a column or has its number, counted from 1, that column is taken for z.
+pub fn read_valued_points(bytes: &[u8], value: Option<&str>, memory: Memory) -> Result<PointTable, Failure> {
     let mut rows = CsvRows::new(text::without_mark(bytes)?);
-    let mut table = PointTable::of_rows([1, 2, 3]).within(memory);
     let mut columns = [0, 1];
-    let mut z = None;
+    let mut z = value.and_then(number_of_column);
+    let mut table = PointTable::of_rows([1, 2, z.map_or(3, |column| column + 1)]).within(memory);
     let mut width = 0;
     loop {
         // The quick way reads rows of two columns, x and y. In a file with the header `x,z` one of the two is the z.
@@ -42,9 +47,15 @@ pub fn read_points(bytes: &[u8], memory: Memory) -> Result<PointTable, Failure> 
             refuse_one_column(&values, row)?;
             if !values.iter().any(text::looks_like_number) {
                 columns = named_columns(&values);
-                z = named_column(&values, "z");
+                z = match value {
+                    None => named_column(&values, "z"),
+                    Some(name) => named_column(&values, name).or(z),
+                };
                 table = PointTable::of_rows([columns[0], columns[1], z.unwrap_or(0)].map(|column| column + 1))
                     .within(memory);
+            }
+            value.map_or(Ok(()), |name| refuse_no_column(name, z, width))?;
+            if !values.iter().any(text::looks_like_number) {
                 continue;
             }
         }
@@ -138,6 +149,22 @@ fn named_columns(header: &Values<'_>) -> [usize; 2] {
 /// The column with this name, counted from 0.
 fn named_column(header: &Values<'_>, name: &str) -> Option<usize> {
     header.iter().position(|field| field.trim_ascii().eq_ignore_ascii_case(name.as_bytes()))
+}
+
+/// The column of this number, which is counted from 1, counted from 0.
+fn number_of_column(text: &str) -> Option<usize> {
+    text.parse::<usize>().ok()?.checked_sub(1)
+}
+
+/// Refuses the name or number of a column that the file does not have.
+fn refuse_no_column(name: &str, found: Option<usize>, width: usize) -> Result<(), Failure> {
+    if found.is_some_and(|column| column < width) {
+        return Ok(());
+    }
+    Err(Failure::input(format!(
+        "there is no column {}: give a name of the header, or a number from 1 to {width}",
+        quoted(name.as_bytes())
+    )))
 }
 
 fn refuse_one_column(record: &Values<'_>, row: usize) -> Result<(), Failure> {

@@ -7,6 +7,7 @@ pub mod curve;
 pub mod edge;
 pub mod ele;
 pub mod geojson;
+pub mod geojson_ring;
 pub mod json;
 mod json_text;
 pub mod lidar;
@@ -100,7 +101,7 @@ impl PointFormat {
     pub fn read(self, mut input: Input, selection: &Selection) -> Result<PointTable, Failure> {
         let memory = input.memory();
         match self {
-            Self::Csv => csv::read_points(&some_bytes(input)?, memory),
+            Self::Csv => csv::read_valued_points(&some_bytes(input)?, selection.value.as_deref(), memory),
             Self::Xyz => xyz::read_points(&some_bytes(input)?, memory),
             Self::Node => node::read_points(&some_bytes(input)?, memory),
             Self::Poly => Err(Failure::usage(

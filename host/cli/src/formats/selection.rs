@@ -11,6 +11,8 @@ pub struct Selection {
     pub classes: Vec<u8>,
     /// The rectangle whose points are taken.
     pub bounds: Option<Bounds>,
+    /// The column of a CSV file that is taken for z: its name in the header, or its number, counted from 1.
+    pub value: Option<String>,
 }
 
 /// A rectangle with its edges, in the numbers as the user wrote them.

@@ -17,9 +17,9 @@ const MARGIN: f64 = 500.0;
 /// Width of the picture in pixels, unless the viewer chooses its own.
 const PIXELS: f64 = 1000.0;
 /// The number of size classes, which is odd so that the median lies in the middle of a class.
-const CLASSES: usize = 25;
+pub(crate) const CLASSES: usize = 25;
 /// Sets of more points than this have no dots, which would cover the triangles.
-const MOST_DOTS: usize = 2000;
+pub(crate) const MOST_DOTS: usize = 2000;
 /// Colours from the smallest to the largest triangles; classes lie between them.
 const RAMP: [[u8; 3]; 6] = [
     [0x1d, 0x2b, 0x53],
@@ -31,7 +31,7 @@ const RAMP: [[u8; 3]; 6] = [
 ];
 
 /// The colour of points.
-const POINT: &str = "#1d2b53";
+pub(crate) const POINT: &str = "#1d2b53";
 
 /// Writes the picture of a mesh.
 pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
@@ -97,7 +97,7 @@ impl<'a> Canvas<'a> {
     }
 
     /// The place of a point on the canvas, with y downwards as in SVG.
-    fn place(&self, point: [f64; 2]) -> [i64; 2] {
+    pub(crate) fn place(&self, point: [f64; 2]) -> [i64; 2] {
         let unit = |axis: usize| ((point[axis] * self.shrink - self.low[axis]) * self.scale).round();
         let x = MARGIN + unit(0);
         let y = self.size[1] - MARGIN - unit(1);
@@ -147,14 +147,15 @@ impl Classes {
         Self { middle, spread }
     }
 
-    fn class(&self, side: f64) -> usize {
+    /// The class of a triangle or cell of this side.
+    pub(crate) fn class(&self, side: f64) -> usize {
         let along = (side.log2() - self.middle) / (2.0 * self.spread) + 0.5;
         let last = (CLASSES - 1) as f64;
         (along * last).round().clamp(0.0, last) as usize
     }
 
     /// The triangle side in the middle of a class.
-    fn side(&self, class: usize) -> f64 {
+    pub(crate) fn side(&self, class: usize) -> f64 {
         let along = class as f64 / (CLASSES - 1) as f64;
         (self.middle + (along - 0.5) * 2.0 * self.spread).exp2()
     }
@@ -188,7 +189,8 @@ pub(crate) fn draw_triangles(
     writeln!(out, "</g>")
 }
 
-fn colour(class: usize) -> String {
+/// The colour of a class.
+pub(crate) fn colour(class: usize) -> String {
     let along = class as f64 / (CLASSES - 1) as f64 * (RAMP.len() - 1) as f64;
     let below = (along as usize).min(RAMP.len() - 2);
     let share = along - below as f64;

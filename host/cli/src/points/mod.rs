@@ -152,6 +152,14 @@ impl PointTable {
         Ok(())
     }
 
+    /// Adds an item of two numbers.
+    pub fn push_numbers(&mut self, point: [Number; 2]) -> Result<(), Failure> {
+        self.has_fraction |= point.iter().any(|number| !matches!(number, Number::Decimal(it) if it.digits == 0));
+        self.add_row(0)?;
+        self.rounded += self.coordinates.push(point);
+        Ok(())
+    }
+
     /// Adds a point of doubles, from a file that stores doubles. Values that are not finite are refused.
     pub fn push_doubles(&mut self, point: [f64; 2], row: usize) -> Result<(), Failure> {
         if let Some(axis) = point.iter().position(|value| !value.is_finite()) {

@@ -19,9 +19,12 @@ mod commands {
     mod constraints;
     mod generate;
     mod generate_numbers;
+    mod interpolate;
+    mod lloyd;
     mod replay;
     mod tile;
     mod triangulate_large;
+    mod voronoi;
 }
 
 mod formats {

@@ -57,6 +57,7 @@ mod tests;
 mod triangulator;
 pub(crate) mod view;
 
+pub(crate) use parallel::in_parallel;
 pub use parts::{Parts, SolvedPart, Unsound};
 pub use small::Triangulator;
 pub use triangulator::{connect, threads_for, triangulate, Connectivity, Error, Progress, Stage, Watch};

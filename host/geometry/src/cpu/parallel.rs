@@ -8,7 +8,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 /// items, the calling thread included. If the system will not start a thread, the threads that did
 /// start share its work.
 #[cfg(feature = "std")]
-pub(super) fn in_parallel<T: Send, R: Send>(items: impl Iterator<Item = T>, work: impl Fn(T) -> R + Sync) -> Vec<R> {
+pub(crate) fn in_parallel<T: Send, R: Send>(items: impl Iterator<Item = T>, work: impl Fn(T) -> R + Sync) -> Vec<R> {
     use std::panic::resume_unwind;
     use std::thread::Builder;
 
@@ -31,7 +31,7 @@ pub(super) fn in_parallel<T: Send, R: Send>(items: impl Iterator<Item = T>, work
 
 /// Applies `work` to all items, one after the other, and returns the results in the order of the items.
 #[cfg(not(feature = "std"))]
-pub(super) fn in_parallel<T: Send, R: Send>(items: impl Iterator<Item = T>, work: impl Fn(T) -> R + Sync) -> Vec<R> {
+pub(crate) fn in_parallel<T: Send, R: Send>(items: impl Iterator<Item = T>, work: impl Fn(T) -> R + Sync) -> Vec<R> {
     items.map(work).collect()
 }
 

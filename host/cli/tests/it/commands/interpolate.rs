@@ -1,0 +1,146 @@
+//! `incircle interpolate`: values of linear functions and at points, every format, and refusals.
+
+use serde_json::Value;
+
+use crate::common::Scratch;
+
+/// Rows `x,y,value` below a header.
+fn rows(text: &str) -> Vec<[f64; 3]> {
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("x,y,value"));
+    let row = |line: &str| {
+        let values: Vec<f64> = line.split(',').map(|value| value.parse().expect("a number")).collect();
+        [values[0], values[1], values[2]]
+    };
+    lines.map(row).collect()
+}
+
+/// A scratch folder with points `x,y,z,depth`, where z is a linear function.
+fn with_points() -> Scratch {
+    let scratch = Scratch::new();
+    let mut text = "x,y,z,depth\n".to_owned();
+    for k in 0..60u32 {
+        let (x, y) = (k * k * 7 % 101, k * 31 % 97);
+        text.push_str(&format!("0.{x:03},-0.{y:03},{},{k}\n", 2 * i64::from(x) - i64::from(y)));
+    }
+    scratch.write("p.csv", text);
+    scratch
+}
+
+#[test]
+fn every_method_gives_linear_functions_and_the_values_of_points() {
+    let scratch = with_points();
+    scratch.write("q.csv", "0.0501,-0.0405\n0.05,-0.05\n9,9\n0.028,-0.062\n");
+    for method in ["linear", "laplace", "sibson"] {
+        scratch.run(&format!("interpolate p.csv --at q.csv -o v.csv --method {method} --quiet")).ok();
+        let found = rows(&scratch.read("v.csv"));
+        assert_eq!(found.len(), 4);
+        assert!(found[2][2].is_nan() && found[2][..2] == [9.0, 9.0]);
+        for [x, y, value] in [found[0], found[1], found[3]] {
+            assert!((value - (2000.0 * x + 1000.0 * y)).abs() < 1e-9, "{method}: {x} {y} {value}");
+        }
+        // Point 2, with its depth.
+        scratch.run(&format!("interpolate p.csv --value depth --at p.csv -o d.csv --method {method} --quiet")).ok();
+        let depths: Vec<f64> = rows(&scratch.read("d.csv")).iter().map(|row| row[2]).collect();
+        assert_eq!(depths[..3], [0.0, 1.0, 2.0]);
+        scratch.run(&format!("interpolate p.csv --value 4 --at p.csv -o e.csv --method {method} --quiet")).ok();
+        assert_eq!(scratch.read("d.csv"), scratch.read("e.csv"));
+    }
+    scratch.run("interpolate p.csv --at q.csv -o v.csv --outside nearest --quiet").ok();
+    assert!(rows(&scratch.read("v.csv")).iter().all(|row| row[2].is_finite()));
+}
+
+#[test]
+fn grids_have_all_multiples_of_the_step() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", "x,y,z\n-0.5,0,1\n3,0,8\n3,2.1,8\n-0.5,2.1,1\n");
+    let run = scratch.run("interpolate p.csv --grid 0.5 -o g.asc").ok();
+    assert!(run.stderr.contains("4 points, values at 40 places by linear, 0 without a value"), "{run:?}");
+    let text = scratch.read("g.asc");
+    let head = "ncols 8\nnrows 5\nxllcenter -0.5\nyllcenter 0\ncellsize 0.5\nNODATA_value -9999\n";
+    assert!(text.starts_with(head), "{text}");
+    let row = "1 2 3 4 5 6 7 8";
+    assert_eq!(text[head.len()..].lines().collect::<Vec<_>>(), [row; 5]);
+    scratch.run("interpolate p.csv --grid 0.5 -o g.csv --method sibson --threads 1 --quiet").ok();
+    let found = rows(&scratch.read("g.csv"));
+    assert_eq!((found.len(), found[0][..2].to_vec(), found[39][..2].to_vec()), (40, vec![-0.5, 0.0], vec![3.0, 2.0]));
+    scratch.run("interpolate p.csv --grid 0.5 -o g.npy --quiet").ok();
+    let bytes = scratch.bytes("g.npy");
+    assert!(String::from_utf8_lossy(&bytes[..128]).contains("'shape': (5, 8"), "{bytes:?}");
+    assert_eq!(bytes[128..136], 1f64.to_le_bytes());
+    assert_eq!(bytes.len(), 128 + 40 * 8);
+}
+
+#[test]
+fn contours_are_lines_of_equal_value() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", "x,y,z\n0,0,0\n10,0,0\n10,10,0\n0,10,0\n5,5,10\n");
+    let run = scratch.run("interpolate p.csv --contours 2.5 -o c.geojson").ok();
+    assert!(run.stderr.contains("5 points, 3 contour lines at 5 levels"), "{run:?}");
+    let json: Value = serde_json::from_str(&scratch.read("c.geojson")).expect("JSON");
+    let features = json["features"].as_array().expect("features");
+    let values: Vec<f64> = features.iter().filter_map(|it| it["properties"]["value"].as_f64()).collect();
+    // All of the base counts as above 0, and the tip is a line without length.
+    assert_eq!(values, [2.5, 5.0, 7.5]);
+    for feature in &features[..3] {
+        let line = feature["geometry"]["coordinates"].as_array().expect("a line");
+        assert_eq!((line.len(), &line[0]), (5, &line[4]));
+        let offset = feature["properties"]["value"].as_f64().expect("a level") / 2.0;
+        for place in line {
+            for coordinate in [&place[0], &place[1]] {
+                let distance = (coordinate.as_f64().expect("a number") - 5.0).abs();
+                assert!((distance - (5.0 - offset)).abs() < 1e-12, "{feature}");
+            }
+        }
+    }
+}
+
+#[test]
+fn reports_say_what_was_done() {
+    let scratch = with_points();
+    scratch.write("q.csv", "0.05,-0.05\n9,9\n");
+    let run = scratch.run("interpolate p.csv --at q.csv -o v.npy --json").ok();
+    let report: Value = serde_json::from_str(&run.stdout).expect("a report");
+    assert_eq!((report["points"].as_u64(), report["places"].as_u64()), (Some(60), Some(2)));
+    assert_eq!((report["without_value"].as_u64(), report["method"].as_str()), (Some(1), Some("linear")));
+}
+
+#[test]
+fn wrong_input_is_one_sentence_and_no_file() {
+    let scratch = with_points();
+    scratch.write("line.csv", "x,y,z\n0,0,1\n1,1,2\n");
+    scratch.write("gap.csv", "x,y,z\n0,0,1\n1,0,\n1,1,2\n");
+    scratch.write("word.csv", "x,y,z\n0,0,1\n1,0,high\n1,1,2\n");
+    scratch.write("flat.csv", "0,0\n1,0\n0,1\n");
+    scratch.write("flat.xyz", "0 0\n1 0\n0 1\n");
+    scratch.write("some.geojson", "{\"type\":\"MultiPoint\",\"coordinates\":[[0,0,1],[1,0],[0,1,2]]}");
+    let files = scratch.files();
+    for (arguments, code, parts) in [
+        ("gap.csv --grid 1 -o v.csv", 3, &["gap.csv: row 3, column 3: the value is missing"][..]),
+        ("word.csv --grid 1 -o v.csv", 3, &["word.csv: row 3, column 3: 'high' is not a number"]),
+        ("flat.csv --grid 1 -o v.csv", 3, &["flat.csv: the points have no values", "--value"]),
+        (
+            "some.geojson --grid 1 -o v.csv",
+            3,
+            &["some.geojson: z is left out: point 2 has none, but every point needs"],
+        ),
+        ("p.csv --value width --grid 1 -o v.csv", 3, &["p.csv: there is no column 'width'"]),
+        ("p.csv --value 9 --grid 1 -o v.csv", 3, &["there is no column '9'", "a number from 1 to 4"]),
+        ("line.csv --grid 1 -o v.csv", 3, &["line.csv: there is no triangle between the points"]),
+        ("p.csv --grid 0 -o v.csv", 3, &["--grid '0' is no step: give a positive decimal"]),
+        ("p.csv --grid -1 -o v.csv", 3, &["--grid '-1' is no step"]),
+        ("p.csv --grid wide -o v.csv", 3, &["--grid 'wide' is no step"]),
+        ("p.csv --grid 0.0000000001 -o v.csv", 3, &["nodes, more than the", "give a larger step"]),
+        ("p.csv --contours 0 -o v.geojson", 3, &["--contours '0' is no step"]),
+        ("p.csv --contours 0.00001 -o v.geojson", 3, &["levels, more than 10000: give a larger step"]),
+        ("p.csv --contours 1 -o v.csv", 2, &["contours are written as GeoJSON"]),
+        ("p.csv --at none.csv -o v.csv", 3, &["none.csv"]),
+        ("p.csv --at flat.csv -o v.asc", 2, &["an ASCII grid has the values of a grid"]),
+        ("p.csv --at flat.csv -o v.txt", 2, &["the name tells no format of values"]),
+        ("flat.xyz --value z --grid 1 -o v.csv", 2, &["--value names a column of CSV"]),
+    ] {
+        scratch.run(&format!("interpolate {arguments}")).fails(code, parts);
+        assert_eq!(scratch.files(), files, "{arguments}");
+    }
+    assert_eq!(scratch.run("interpolate p.csv -o v.csv").code, Some(2));
+}

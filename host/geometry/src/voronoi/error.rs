@@ -1,0 +1,45 @@
+//! The reasons why there is no Voronoi diagram, or no clip.
+
+use crate::point::Point;
+
+/// The reasons why a mesh has no Voronoi diagram here, or a ring makes no clip.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A coordinate has more than 31 bits.
+    #[error("point {index} is {point}, but coordinates end at 2147483647: use a coarser grid")]
+    CoordinateOutOfRange {
+        /// Index of the point, in the set or in the ring of the clip.
+        index: usize,
+        /// The point with this coordinate.
+        point: Point,
+    },
+    /// A triangle, the hull or a duplicate of the mesh names a point that is not there.
+    #[error("the mesh names point {index}, but has {points} points: triangulate these points")]
+    NoSuchPoint {
+        /// The index that was named.
+        index: u32,
+        /// Number of points.
+        points: usize,
+    },
+    /// A triangle of the mesh has no area or is clockwise.
+    #[error("triangle {triangle} of the mesh is not counter-clockwise: triangulate the points")]
+    NotCounterClockwise {
+        /// Place of the triangle in the list.
+        triangle: usize,
+    },
+    /// The clip has fewer than three different corners, or no area.
+    #[error("the clip has no area: give two opposite corners of a rectangle, or three corners that turn")]
+    EmptyClip,
+    /// The border of the clip crosses or touches itself.
+    #[error(
+        "the border of the clip crosses or touches itself: edges {one} and {other} have a common place; give a ring in \
+         which only consecutive edges meet"
+    )]
+    CrossedClip {
+        /// Number of an edge, counted from 0: it begins at the corner of this number.
+        one: usize,
+        /// Number of the other edge, which is higher.
+        other: usize,
+    },
+}
