@@ -3,6 +3,8 @@
 
 #[path = "src/serial/board.rs"]
 mod board;
+#[path = "src/network/parameters.rs"]
+mod network;
 #[path = "build/states.rs"]
 mod states;
 
@@ -10,10 +12,13 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use incircle_hdl::export;
+use incircle_hdl::top::{UdpPins, UDP_TOP_NAME};
+use incircle_hdl::udp_link::UdpParameters;
 use incircle_protocol::{Config, FULL, SMALL};
 use verilated::build::{Builder, ModelSource, Optimisation};
 
-/// Root modules: the core, the core behind its serial link, and the core behind its stream link.
+/// Root modules: the core, the core behind its serial link, and the core behind its stream link. The one behind a UDP
+/// link has its name from `hdl`.
 const TOP: &str = "incircle_core";
 const SERIAL_TOP: &str = "incircle_serial_top";
 const STREAM_TOP: &str = "incircle_stream_top";
@@ -44,6 +49,15 @@ fn main() {
         if is_wanted(&name) {
             let verilog = exported(&name, export::serial_top(config, board::board_link(config), false));
             builder = builder.model(ModelSource::new(&name, SERIAL_TOP, verilog).optimisation(Optimisation::Fast));
+        }
+    }
+    for config in [SMALL, FULL] {
+        let name = format!("network_{}", config.name);
+        if is_wanted(&name) {
+            let (link, address, prefix) = (network::network_link(config), network::ADDRESS, network::PREFIX);
+            let parameters = UdpParameters { link, address, prefix, port: network::PORT };
+            let verilog = exported(&name, export::udp_top(config, parameters, UdpPins::Gmii, false));
+            builder = builder.model(ModelSource::new(&name, UDP_TOP_NAME, verilog).optimisation(Optimisation::Fast));
         }
     }
     for (config, beat_bits) in CARDS {

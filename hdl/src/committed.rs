@@ -2,6 +2,8 @@
 
 use crate::export::{self, ExportError};
 use crate::files::replace;
+use crate::top::UdpPins;
+use crate::udp_link::UdpParameters;
 use incircle_protocol::{Config, LinkConfig, DUAL, FULL, QUAD, SMALL};
 use std::fmt;
 use std::io::{self, Write};
@@ -31,6 +33,8 @@ pub enum Top {
     Serial(LinkConfig),
     /// The core behind a stream link with beats of this many bits.
     Stream(u32),
+    /// The core behind a UDP link, with these pins of a PHY.
+    Udp(UdpParameters, UdpPins),
 }
 
 /// The reason why an export did not reach its file.
@@ -65,6 +69,7 @@ pub fn file((config, top): (Config, Top)) -> PathBuf {
         Top::Core => "",
         Top::Serial(_) => "_serial",
         Top::Stream(_) => "_stream",
+        Top::Udp(..) => "_udp",
     };
     folder().join(format!("incircle_{}{link}.v", config.name))
 }
@@ -80,6 +85,9 @@ pub fn text(config: Config, top: Top, with_probe: bool) -> Result<String, Export
         Top::Serial(link) => ("incircle core behind a serial link", export::serial_top(config, link, with_probe)?),
         Top::Stream(beat_bits) => {
             ("incircle core behind a stream link", export::stream_top(config, beat_bits, with_probe)?)
+        }
+        Top::Udp(parameters, pins) => {
+            ("incircle core behind a UDP link", export::udp_top(config, parameters, pins, with_probe)?)
         }
     };
     let plural = if contexts == 1 { "" } else { "s" };

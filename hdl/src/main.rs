@@ -5,8 +5,11 @@ use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
 use incircle_hdl::board::sizes::{self, size_name, Family, Sizes, SizesRequest, FAMILIES, SIZES};
 use incircle_hdl::board::{self, Board, BoardError, Clock, Origin, Report, Request, BOARDS};
 use incircle_hdl::committed::{self, Top};
-use incircle_protocol::{Config, LinkConfig, BEAT_BITS, FULL, NAMED, SILENCE_MS};
+use incircle_hdl::top::UdpPins;
+use incircle_hdl::udp_link::UdpParameters;
+use incircle_protocol::{Config, LinkConfig, UdpLinkConfig, BEAT_BITS, FULL, NAMED, SILENCE_MS, UDP_PORT};
 use std::io::Write;
+use std::net::Ipv4Addr;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -17,6 +20,10 @@ struct Arguments {
     #[command(subcommand)]
     command: Command,
 }
+
+/// Bytes of the receive FIFO unless others are asked for.
+const SERIAL_FIFO_BYTES: u32 = 4_096;
+const UDP_FIFO_BYTES: u32 = 16_384;
 
 #[derive(Subcommand)]
 enum Command {
@@ -66,18 +73,37 @@ struct ExportArguments {
     /// Add the write port of the triangle memory to the ports, for simulation.
     #[arg(long, requires = "core_size")]
     probe: bool,
-    /// Module to export: the core with its two streams of words, or the core behind a serial link or a stream link.
+    /// Module to export: the core with its two streams of words, or the core behind a serial, stream or UDP link.
     #[arg(long, value_enum, default_value = "core", requires = "core_size")]
     top: TopName,
-    /// Clock of the serial link, in Hz.
+    /// Clock of the core behind a serial link or a UDP link, in Hz.
     #[arg(long, default_value_t = 125_000_000, requires = "core_size")]
     clock_hz: u32,
-    /// Size of the serial link's receive FIFO in bytes, a power of two.
-    #[arg(long, default_value_t = 4_096, requires = "core_size")]
-    fifo_bytes: u32,
+    /// Size of the receive FIFO of the serial link or the UDP link in bytes, a power of two. Default: 4096 for the
+    /// serial link, 16384 for the UDP link.
+    #[arg(long, requires = "core_size")]
+    fifo_bytes: Option<u32>,
+    #[command(flatten)]
+    network: NetworkArguments,
     /// Width of a beat of the stream link in bits: 64 or 128.
     #[arg(long, default_value_t = 64, value_parser = beat_bits, requires = "core_size")]
     width: u32,
+}
+
+#[derive(Args)]
+struct NetworkArguments {
+    /// IPv4 address of a device with a UDP link, and the number of bits of it that name the network.
+    #[arg(long, value_name = "A.B.C.D/N", default_value = "192.168.1.50/24", value_parser = network_address)]
+    ip: (Ipv4Addr, u8),
+    /// Ethernet address of the device, which no other device of the network may have.
+    #[arg(long, value_name = "MAC", default_value = "02:00:00:69:43:01", value_parser = ethernet_address)]
+    mac: [u8; 6],
+    /// UDP port at which the device listens.
+    #[arg(long, value_name = "PORT", default_value_t = UDP_PORT)]
+    udp_port: u16,
+    /// Taps of 25 ps by which an ECP5 delays the data of RGMII; or `gmii` for the pins of GMII, for simulation.
+    #[arg(long, value_name = "TAPS", default_value = "0", value_parser = udp_pins)]
+    rgmii_delay: UdpPins,
 }
 
 #[derive(Args)]
@@ -171,6 +197,27 @@ enum TopName {
     Serial,
     /// The module incircle_stream_top
     Stream,
+    /// The module incircle_udp_top
+    Udp,
+}
+
+fn network_address(text: &str) -> Result<(Ipv4Addr, u8), String> {
+    let parts = text.split_once('/').and_then(|(address, bits)| Some((address.parse().ok()?, bits.parse().ok()?)));
+    parts.ok_or_else(|| "write an IPv4 address and the bits of its network, such as 192.168.1.50/24".into())
+}
+
+fn ethernet_address(text: &str) -> Result<[u8; 6], String> {
+    let bytes = text.split(':').map(|byte| u8::from_str_radix(byte, 16).ok().filter(|_| byte.len() == 2));
+    let bytes = bytes.collect::<Option<Vec<u8>>>().and_then(|bytes| <[u8; 6]>::try_from(bytes).ok());
+    bytes.ok_or_else(|| "write an Ethernet address as six bytes in hexadecimal, such as 02:00:00:69:43:01".into())
+}
+
+fn udp_pins(text: &str) -> Result<UdpPins, String> {
+    if text == "gmii" {
+        return Ok(UdpPins::Gmii);
+    }
+    let delay = text.parse().ok().filter(|delay| *delay < 128);
+    delay.map(|delay| UdpPins::Rgmii { delay }).ok_or_else(|| "write a number of taps from 0 to 127, or gmii".into())
 }
 
 fn config(name: &str) -> Result<Config, String> {
@@ -212,13 +259,23 @@ fn named_board(name: &str) -> Result<Board, String> {
 
 /// Writes the Verilog of one configuration, or renews the committed files.
 fn export(arguments: ExportArguments) -> Result<(), committed::WriteError> {
-    let ExportArguments { config, points, contexts, ring, engines, out, probe, top, clock_hz, fifo_bytes, width } =
-        arguments;
+    let ExportArguments {
+        config, points, contexts, ring, engines, out, probe, top, clock_hz, fifo_bytes, width, ..
+    } = arguments;
+    let NetworkArguments { ip: (address, prefix), mac, udp_port: port, rgmii_delay: pins } = arguments.network;
     let own = points.zip(contexts).map(|(points, contexts)| Config { name: "custom", points, ring, contexts, engines });
     let top = match top {
         TopName::Core => Top::Core,
-        TopName::Serial => Top::Serial(LinkConfig { clock_hz, fifo_bytes, silence_ms: SILENCE_MS }),
+        TopName::Serial => {
+            let fifo_bytes = fifo_bytes.unwrap_or(SERIAL_FIFO_BYTES);
+            Top::Serial(LinkConfig { clock_hz, fifo_bytes, silence_ms: SILENCE_MS })
+        }
         TopName::Stream => Top::Stream(width),
+        TopName::Udp => {
+            let fifo_bytes = fifo_bytes.unwrap_or(UDP_FIFO_BYTES);
+            let link = UdpLinkConfig { clock_hz, fifo_bytes, silence_ms: SILENCE_MS, mac };
+            Top::Udp(UdpParameters { link, address, prefix, port }, pins)
+        }
     };
     if let Some(config) = config.or(own) {
         return committed::write(config, top, probe, out);

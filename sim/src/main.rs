@@ -88,7 +88,7 @@ enum Task {
         waveform: PathBuf,
     },
     /// Put a device on the network, until SIGTERM or SIGINT ends the program.
-    #[command(after_help = "Example:\n  incircle-sim serve-udp --fast")]
+    #[command(after_help = "Example:\n  incircle-sim serve-udp")]
     ServeUdp {
         /// IPv4 address and UDP port to listen at; with port 0 the system chooses one.
         #[arg(long, value_name = "ADDRESS:PORT", default_value = "127.0.0.1:0")]
@@ -100,7 +100,7 @@ enum Task {
         /// delay=MS, seed=N.
         #[arg(long, value_name = "SPEC", default_value = "")]
         fault: NetworkFaults,
-        /// Run the software model, which has one context and no clock. The pins cannot be simulated yet.
+        /// Leave out the pins: run the software model, which has one context and no clock.
         #[arg(long)]
         fast: bool,
     },
@@ -160,18 +160,11 @@ fn run_network(
     faults: NetworkFaults,
     is_fast: bool,
 ) -> Result<(), Box<dyn Error>> {
-    if !is_fast {
-        return Err(
-            "a device on a network cannot be simulated at its pins yet: add --fast for the software model".into()
-        );
-    }
     let stops = stops()?;
-    let service = NetworkService { listen, config, faults };
+    let service = NetworkService { listen, config, is_fast, faults };
+    let what = if is_fast { "the software model" } else { "simulated at its pins" };
     let ready = |address| {
-        say_ready(&format!(
-            "an incircle device on the network, {}, the software model: open udp:{address}",
-            config.name
-        ));
+        say_ready(&format!("an incircle device on the network, {}, {what}: open udp:{address}", config.name));
     };
     let NetworkFigures { to_device, to_host, faults } = serve_network(&service, &stops, ready)?;
     eprintln!("incircle-sim: {to_device} datagrams to the device, {to_host} to hosts, {faults} faults");

@@ -5,7 +5,8 @@
 //! Latency: 1 clock from a byte to the state.
 //!
 //! Source: polynomial 04C11DB7, reflected, as `serial/crc32.rs`, which takes a bit a clock in a quarter of the logic.
-//! The state is linear: a byte of eight bits adds one constant for each bit that is 1.
+//! The state is linear: a byte of eight bits adds one constant for each bit that is 1. The register holds the inverse of
+//! the state, because a register of an FPGA begins with 0, and needs a LUT a bit to be set to 1 later.
 
 use super::types::Byte;
 use crate::commands::types::Word;
@@ -14,14 +15,17 @@ use crate::prelude::*;
 #[derive(LogicBlock, Default)]
 pub struct ByteCrc {
     pub clock: Signal<In, Clock>,
-    /// Set the state to all ones at this edge.
+    /// Set the state to `start` at this edge: to [`ByteCrc::FIRST`] for a new sum.
     pub sets: Signal<In, Bit>,
+    pub start: Signal<In, Word>,
     /// Take `byte_data` at this edge.
     pub takes: Signal<In, Bit>,
     pub byte_data: Signal<In, Byte>,
     /// State of the check sum; the check sum is its complement, low byte first.
     pub state: Signal<Out, Word>,
-    remainder: DFF<Word>,
+    inverse: DFF<Word>,
+    remainder: Signal<Local, Word>,
+    after: Signal<Local, Word>,
     mixed: Signal<Local, Byte>,
     eight: Signal<Local, Word>,
     upper: Signal<Local, Word>,
@@ -29,6 +33,8 @@ pub struct ByteCrc {
 }
 
 impl ByteCrc {
+    /// The state before the first byte.
+    pub const FIRST: u64 = crate::serial::Crc32::FIRST;
     /// The state after a frame that ends with its own check sum, if the check sum is right.
     pub const SOUND: u64 = crate::serial::Crc32::SOUND;
 }
@@ -36,11 +42,12 @@ impl ByteCrc {
 impl Logic for ByteCrc {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, remainder);
-        self.state.next = self.remainder.q.val();
+        dff_setup!(self, clock, inverse);
+        self.remainder.next = !self.inverse.q.val();
+        self.state.next = self.remainder.val();
         self.eight.next = 8.into();
-        self.upper.next = self.remainder.q.val() >> self.eight.val();
-        self.mixed.next = self.remainder.q.val().get_bits::<8>(0) ^ self.byte_data.val();
+        self.upper.next = self.remainder.val() >> self.eight.val();
+        self.mixed.next = self.remainder.val().get_bits::<8>(0) ^ self.byte_data.val();
         for i in 0..8 {
             self.terms[i].next = 0.into();
         }
@@ -68,19 +75,20 @@ impl Logic for ByteCrc {
         if self.mixed.val().get_bit(7) {
             self.terms[7].next = 0xedb8_8320u64.into();
         }
+        self.after.next = self.upper.val()
+            ^ self.terms[0].val()
+            ^ self.terms[1].val()
+            ^ self.terms[2].val()
+            ^ self.terms[3].val()
+            ^ self.terms[4].val()
+            ^ self.terms[5].val()
+            ^ self.terms[6].val()
+            ^ self.terms[7].val();
         if self.takes.val() {
-            self.remainder.d.next = self.upper.val()
-                ^ self.terms[0].val()
-                ^ self.terms[1].val()
-                ^ self.terms[2].val()
-                ^ self.terms[3].val()
-                ^ self.terms[4].val()
-                ^ self.terms[5].val()
-                ^ self.terms[6].val()
-                ^ self.terms[7].val();
+            self.inverse.d.next = !self.after.val();
         }
         if self.sets.val() {
-            self.remainder.d.next = 0xffff_ffffu64.into();
+            self.inverse.d.next = !self.start.val();
         }
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! 1. A datagram is 12 bytes of its receiver (Ethernet address, IPv4 address, UDP port, each highest byte first) and 0
 //!    to 1,472 bytes of payload. The block does not check the length.
-//! 2. `byte_ready` depends on registers only. The byte with `byte_is_last` ends the datagram.
+//! 2. `byte_ready` depends on registers only, and stays high until the end of a datagram. The byte with `byte_is_last`
+//!    ends the datagram; `byte_drops`, without a byte, forgets those of one that has not ended.
 //! 3. While `holds` is high, `length` and the bytes of the oldest datagram stay. `lets_go` at an edge frees its slot;
 //!    it may be high only while `holds` is.
 //! 4. Both resets are held together, at least for three clocks of either.
@@ -27,6 +28,7 @@ pub struct DatagramSlots {
     pub byte_ready: Signal<Out, Bit>,
     pub byte_data: Signal<In, Byte>,
     pub byte_is_last: Signal<In, Bit>,
+    pub byte_drops: Signal<In, Bit>,
     pub read_clock: Signal<In, Clock>,
     pub read_reset: Signal<In, Bit>,
     /// The oldest datagram, its length, and a byte of it.
@@ -102,6 +104,9 @@ impl Logic for DatagramSlots {
                     self.length0.d.next = self.after_byte.val();
                 }
             }
+        }
+        if self.byte_drops.val() {
+            self.count.d.next = 0.into();
         }
         if self.write_reset.val() {
             self.count.d.next = 0.into();

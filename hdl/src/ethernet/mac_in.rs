@@ -96,6 +96,7 @@ impl Logic for MacIn {
         self.ends.next = self.is_over.q.val();
         self.is_sound.next = self.is_good.q.val();
 
+        self.crc.start.next = 0xffff_ffffu64.into();
         self.crc.sets.next = self.state.q.val() != FrameState::Body;
         self.crc.takes.next = self.data_valid.val();
         self.crc.byte_data.next = self.data.val();

@@ -86,6 +86,7 @@ impl Logic for MacOut {
         self.data_valid.next = self.gives.q.val();
         self.data.next = self.given.q.val();
         self.begins.next = (self.part.q.val() == SendPart::Preamble) & (self.left.q.val() == self.lead.val());
+        self.crc.start.next = 0xffff_ffffu64.into();
         self.crc.sets.next = self.part.q.val() == SendPart::Preamble;
         self.crc.takes.next = (self.part.q.val() == SendPart::Body) | (self.part.q.val() == SendPart::Padding);
         self.crc.byte_data.next = 0.into();

@@ -20,6 +20,13 @@ crate::packed! {
         pub broadcast: Bits<32>,
     }
 
+    /// Whether entries of datagrams are on their way to the reader: as far as the reader's clock knows, and as far as
+    /// that of the port does.
+    pub struct OnTheWay {
+        pub to_the_reader: bool,
+        pub from_the_port: bool,
+    }
+
     /// The meaning of a byte of a received frame, by its place. A `tests` field demands that the byte equals the first
     /// or second wanted byte, if a frame is to stay what the field names.
     pub struct Roles {

@@ -29,7 +29,7 @@ use super::mac_in::MacIn;
 use super::mac_out::MacOut;
 use super::responder::Responder;
 use super::send_choice::SendChoice;
-use super::types::{Byte, Station};
+use super::types::{Byte, OnTheWay, Station};
 use crate::prelude::*;
 use crate::stream::AsyncFifo;
 
@@ -52,14 +52,13 @@ pub struct UdpPort {
     pub entry_valid: Signal<Out, Bit>,
     pub entry: Signal<Out, Bits<9>>,
     pub entry_pop: Signal<In, Bit>,
-    /// No entry is on its way to the reader, as far as the reader's clock knows, and as far as that of the port does.
-    pub entries_end: Signal<Out, Bit>,
-    pub entries_are_fetched: Signal<Out, Bit>,
-    /// The bytes of datagrams to send.
+    pub on_the_way: Signal<Out, OnTheWay>,
+    /// The bytes of datagrams to send; `byte_drops` forgets those of a datagram that has not ended.
     pub byte_valid: Signal<In, Bit>,
     pub byte_ready: Signal<Out, Bit>,
     pub byte_data: Signal<In, Byte>,
     pub byte_is_last: Signal<In, Bit>,
+    pub byte_drops: Signal<In, Bit>,
     mac_in: MacIn,
     roles: ByteRoles,
     kinds: FrameMatch,
@@ -127,8 +126,8 @@ impl Logic for UdpPort {
         self.entries.pop.next = self.entry_pop.val();
         self.entry_valid.next = self.entries.valid.val();
         self.entry.next = self.entries.data.val();
-        self.entries_end.next = self.entries.is_empty.val();
-        self.entries_are_fetched.next = self.entries.is_fetched.val();
+        self.on_the_way.next.to_the_reader = !self.entries.is_empty.val();
+        self.on_the_way.next.from_the_port = !self.entries.is_fetched.val();
 
         self.responder.frame_begins.next = self.roles.frame_begins.val();
         self.responder.head_valid.next = self.roles.head_valid.val();
@@ -147,6 +146,7 @@ impl Logic for UdpPort {
         self.slots.byte_valid.next = self.byte_valid.val();
         self.slots.byte_data.next = self.byte_data.val();
         self.slots.byte_is_last.next = self.byte_is_last.val();
+        self.slots.byte_drops.next = self.byte_drops.val();
         self.byte_ready.next = self.slots.byte_ready.val();
         self.slots.read_clock.next = self.port_clock.val();
         self.slots.read_reset.next = self.port_reset.val();

@@ -2,17 +2,19 @@
 
 use std::fmt;
 
-use incircle_protocol::{Config, ConfigError, LinkConfig, LinkConfigError, BEAT_BITS};
+use incircle_protocol::{Config, ConfigError, LinkConfig, LinkConfigError, UdpLinkConfig, BEAT_BITS};
 use rust_hdl_core::check_error::CheckError;
 use rust_hdl_core::prelude::*;
 
 use crate::cluster::{Dual, Quad};
+use crate::ethernet::{RgmiiIn, RgmiiOut};
 use crate::serial::{SerialError, SerialLink};
 use crate::stream::StreamLink;
 use crate::top::{
-    serial_wrapper, stream_wrapper, wrapper, ChipParts, Core, SerialTop, StreamTop, CORE_NAME, SERIAL_TOP_NAME,
-    STREAM_TOP_NAME,
+    serial_wrapper, stream_wrapper, udp_wrapper, wrapper, ChipParts, Core, SerialTop, StreamTop, UdpPins, UdpTop,
+    CORE_NAME, SERIAL_TOP_NAME, STREAM_TOP_NAME, UDP_TOP_NAME,
 };
+use crate::udp_link::{UdpDevice, UdpError, UdpLink, UdpParameters};
 
 /// The reason why a design cannot become Verilog.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,6 +29,8 @@ pub enum ExportError {
     Config(ConfigError),
     /// A parameter with which no serial link can be built.
     Link(LinkConfigError),
+    /// A parameter with which no UDP link can be built.
+    Udp(UdpError),
     /// A width of beats with which no stream link can be built.
     BeatBits(u32),
 }
@@ -36,6 +40,7 @@ impl fmt::Display for ExportError {
         let (names, fault, remedy) = match self {
             Self::Config(error) => return error.fmt(f),
             Self::Link(error) => return error.fmt(f),
+            Self::Udp(error) => return error.fmt(f),
             Self::BeatBits(given) => {
                 let [narrow, wide] = BEAT_BITS;
                 return write!(f, "a beat of a stream has {narrow} or {wide} bits, not {given}: choose one of them");
@@ -61,6 +66,15 @@ impl From<SerialError> for ExportError {
         match error {
             SerialError::Core(error) => Self::Config(error),
             SerialError::Link(error) => Self::Link(error),
+        }
+    }
+}
+
+impl From<UdpError> for ExportError {
+    fn from(error: UdpError) -> Self {
+        match error {
+            UdpError::Core(error) => Self::Config(error),
+            error => Self::Udp(error),
         }
     }
 }
@@ -164,6 +178,46 @@ pub fn stream_top(config: Config, beat_bits: u32, with_probe: bool) -> Result<St
     })
 }
 
+/// The whole Verilog of a core behind a UDP link: the device, and around it
+/// the ANSI wrapper [`UDP_TOP_NAME`](crate::top::UDP_TOP_NAME) with these pins of a PHY.
+///
+/// `with_probe` adds the write port of the triangle memory to the wrapper's ports, for simulation.
+///
+/// # Errors
+/// If a parameter is out of range, or the design is not fit for export.
+pub fn udp_top(
+    config: Config,
+    parameters: UdpParameters,
+    pins: UdpPins,
+    with_probe: bool,
+) -> Result<String, ExportError> {
+    on_large_stack(|| {
+        let names = ["link", "engines", "logic", "rgmii_in", "rgmii_out"].map(|part| format!("{UDP_TOP_NAME}_{part}"));
+        let [link, chip, device, rgmii_in, rgmii_out] = names;
+        let pin_blocks = match pins {
+            UdpPins::Gmii => String::new(),
+            UdpPins::Rgmii { delay } => {
+                connected(RgmiiIn::new(delay), &rgmii_in)? + &connected(RgmiiOut::default(), &rgmii_out)?
+            }
+        };
+        if config.engines > 1 {
+            let parts = ChipParts { link: &link, chip: &chip, engines: config.engines, with_probe };
+            let inside = udp_device(config, parameters, parts.link)? + &engines(config, parts.chip)?;
+            return Ok(inside + &pin_blocks + &parts.udp(pins));
+        }
+        let inside = connected(UdpTop::new(config, parameters)?, &device)?;
+        Ok(inside + &pin_blocks + &udp_wrapper(&device, pins, with_probe))
+    })
+}
+
+/// The Verilog of all that a device with a UDP link has beside its core, with the root module `name`.
+///
+/// # Errors
+/// If a parameter is out of range, or the design is not fit for export.
+pub fn udp_device(config: Config, parameters: UdpParameters, name: &str) -> Result<String, ExportError> {
+    connected(UdpDevice::new(config, parameters)?, name)
+}
+
 /// Runs `work` in a thread with a large stack: a device is built by value, in several copies of 300 kB an engine, too
 /// much for the usual stack of a thread. If the system will not start a thread, the caller's stack must do.
 fn on_large_stack<T: Send>(work: impl Fn() -> T + Sync) -> T {
@@ -182,6 +236,14 @@ pub fn serial_link(config: Config, link: LinkConfig, name: &str) -> Result<Strin
     let mut uut = SerialLink::new(config, link)?;
     uut.connect_all();
     verilog(&uut, name)
+}
+
+/// The Verilog of a UDP link alone, without its Ethernet port, with the root module `name`.
+///
+/// # Errors
+/// If a parameter is out of range, or the design is not fit for export.
+pub fn udp_link(config: Config, link: UdpLinkConfig, name: &str) -> Result<String, ExportError> {
+    connected(UdpLink::new(config, link)?, name)
 }
 
 /// The Verilog of a stream link alone with beats of `beat_bits` bits, with the root module `name`.

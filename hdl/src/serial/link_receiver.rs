@@ -44,7 +44,7 @@ pub struct LinkReceiver {
     decoder: CobsDecoder,
     reader: FrameReader,
     judge: FrameJudge,
-    fifo: ReceiveFifo,
+    fifo: ReceiveFifo<8>,
     payload_digest: PayloadDigest,
     words: CommandWords,
     pushes: Signal<Local, Bit>,
@@ -54,7 +54,7 @@ pub struct LinkReceiver {
 impl LinkReceiver {
     /// The receiver of a link that has passed [`LinkConfig::check`].
     pub fn new(link: LinkConfig) -> Self {
-        Self { uart: UartReceiver::new(), fifo: ReceiveFifo::new(link), ..Self::default() }
+        Self { uart: UartReceiver::new(), fifo: ReceiveFifo::new(link.fifo_bytes), ..Self::default() }
     }
 }
 
@@ -105,8 +105,8 @@ impl Logic for LinkReceiver {
         self.receipt.next.digest = self.payload_digest.state.val();
 
         self.words.reset.next = self.clears.val();
-        self.words.byte_valid.next = self.fifo.byte_valid.val();
-        self.words.byte_data.next = self.fifo.byte_data.val();
+        self.words.byte_valid.next = self.fifo.entry_valid.val();
+        self.words.byte_data.next = self.fifo.entry_data.val();
         self.fifo.takes.next = self.words.takes.val();
         self.command.valid.next = self.words.word_valid.val();
         self.command.data.next = self.words.word.val();

@@ -3,9 +3,13 @@
 mod core;
 mod serial_top;
 mod stream_top;
+mod udp_top;
+mod udp_wrapper;
 mod wrapper;
 
 pub use self::core::Core;
 pub use serial_top::SerialTop;
 pub use stream_top::StreamTop;
+pub use udp_top::UdpTop;
+pub use udp_wrapper::{udp_wrapper, UdpPins, UDP_TOP_NAME};
 pub use wrapper::{serial_wrapper, stream_wrapper, wrapper, ChipParts, CORE_NAME, SERIAL_TOP_NAME, STREAM_TOP_NAME};

@@ -149,14 +149,14 @@ fn port_of(pin: &str) -> String {
 }
 
 /// Ports with their direction, name and width.
-type Ports<'a> = &'a [(&'a str, &'a str, usize)];
+pub(super) type Ports<'a> = &'a [(&'a str, &'a str, usize)];
 
 /// The write ports of the triangle memories.
 #[derive(Clone, Copy)]
-struct Probe {
-    engines: u32,
+pub(super) struct Probe {
+    pub(super) engines: u32,
     /// The fields are ports. Without the probe a write port ends in a wire that synthesis removes.
-    is_shown: bool,
+    pub(super) is_shown: bool,
 }
 
 impl Probe {
@@ -168,7 +168,7 @@ impl Probe {
         }
     }
 
-    fn inside(self) -> String {
+    pub(super) fn inside(self) -> String {
         let bits: usize = PROBE.iter().map(|(_, width)| width).sum();
         let wire = |port: String| format!("    wire [{}:0] unused_{port};\n", bits - 1);
         self.ports().into_iter().filter(|_| !self.is_shown).map(wire).collect()
@@ -179,7 +179,7 @@ impl Probe {
         self.ports().into_iter().filter(move |_| self.is_shown).flat_map(fields)
     }
 
-    fn connections(self) -> String {
+    pub(super) fn connections(self) -> String {
         let connected = |port: String| {
             let fields: Vec<String> = PROBE.iter().rev().map(|(name, _)| format!("{port}_{name}")).collect();
             let write = if self.is_shown { format!("{{{}}}", fields.join(", ")) } else { format!("unused_{port}") };
@@ -195,12 +195,12 @@ fn declared(direction: &str, name: &str, width: usize) -> String {
 }
 
 /// Connections of an instance to pins of the same names.
-fn connections(ports: Ports) -> String {
+pub(super) fn connections(ports: Ports) -> String {
     ports.iter().map(|(_, name, _)| format!("        .{}({name}),\n", port_of(name))).collect()
 }
 
 /// The Verilog of a module with ANSI ports.
-fn module(name: &str, ports: Ports, probe: Probe, inside: &str) -> String {
+pub(super) fn module(name: &str, ports: Ports, probe: Probe, inside: &str) -> String {
     let declarations = ports.iter().map(|&(direction, name, width)| declared(direction, name, width));
     let declarations: Vec<_> = declarations.chain(probe.declarations()).collect();
     let declarations = declarations.join(",\n    ");
@@ -255,7 +255,7 @@ pub struct ChipParts<'a> {
 
 impl ChipParts<'_> {
     /// The wires between link and engines, and the instance of the engines with this clock.
-    fn engines(self, clock: &str) -> String {
+    pub(super) fn engines(self, clock: &str) -> String {
         let Self { chip, engines, with_probe, .. } = self;
         let probe = Probe { engines, is_shown: with_probe };
         let wires = BETWEEN.iter().map(|(_, name, width)| format!("    {};\n", declared("", name, *width).trim()));
@@ -287,13 +287,13 @@ impl ChipParts<'_> {
         module(STREAM_TOP_NAME, &[&ports[..], &STREAM_UNUSED].concat(), self.probe(), &inside)
     }
 
-    fn probe(self) -> Probe {
+    pub(super) fn probe(self) -> Probe {
         Probe { engines: self.engines, is_shown: self.with_probe }
     }
 }
 
 /// The connections of a link to the wires between it and the engines.
-fn link_side() -> String {
+pub(super) fn link_side() -> String {
     connections(&BETWEEN).trim_end_matches(",\n").to_string()
 }
 

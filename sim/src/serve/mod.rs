@@ -5,6 +5,7 @@
 //! time stops until a byte comes.
 
 mod network;
+mod on_network;
 mod pace;
 mod terminal;
 

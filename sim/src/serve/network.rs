@@ -1,27 +1,21 @@
-//! A device on a network, for any program that opens UDP sockets: the software model of the link and of the core.
-//!
-//! The core needs no time of its own here: it works as fast as this machine. The silence of the session passes in real
-//! time.
+//! A device on a network, for any program that opens UDP sockets: the software model of the link and of the core, or a
+//! board that is simulated at the pins of its PHY.
 
 use std::io::{self, ErrorKind};
 use std::net::{SocketAddr, SocketAddrV4, UdpSocket};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use incircle_model::serial::Instantly;
-use incircle_model::udp::UdpModel;
 use incircle_model::ModelError;
-use incircle_protocol::{Config, UdpLinkConfig, MAX_HOST_DATAGRAM, SILENCE_MS};
+use incircle_protocol::{Config, MAX_HOST_DATAGRAM};
 use incircle_testkit::{Network, NetworkFaults};
 
-/// Clock of the core that the greeting names.
-const CLOCK_HZ: u32 = 120_000_000;
-/// Bytes of the FIFO.
-const FIFO_BYTES: u32 = 16_384;
-/// Most datagrams that are taken before the core works, and that the core gives before others are taken.
+use super::on_network::{FastDevice, OnNetwork};
+use crate::error::SimError;
+use crate::network::NetworkBoard;
+
+/// Most datagrams that are taken before the core works.
 const BURST: usize = 64;
-/// Number of clocks of the core between two looks at its answers.
-const SLICE: u64 = 4096;
 /// Longest wait for a datagram. A signal to end may have to wait this long.
 const NAP: Duration = Duration::from_millis(50);
 /// Shortest wait: a timeout of 0 would mean none.
@@ -34,6 +28,8 @@ pub struct NetworkService {
     pub listen: SocketAddrV4,
     /// Core of the device.
     pub config: Config,
+    /// Whether the device is the software model, and not a board at its pins.
+    pub is_fast: bool,
     /// Faults between host and device.
     pub faults: NetworkFaults,
 }
@@ -68,6 +64,9 @@ pub enum NetworkError {
     /// The core cannot be modelled.
     #[error("{0}")]
     Model(#[from] ModelError),
+    /// The board cannot be simulated.
+    #[error("{0}")]
+    Board(#[from] SimError),
 }
 
 /// Serves a device until `stops` is set, and calls `ready` with its address as soon as it listens.
@@ -83,17 +82,17 @@ pub fn serve_network(
     let socket = UdpSocket::bind(service.listen).map_err(refused)?;
     socket.set_nonblocking(true)?;
     let address = socket.local_addr()?;
-    let core = Instantly::of(service.config)?;
-    let [high, low] = address.port().to_be_bytes();
-    let mac = [2, 0, 0x69, 0x43, high, low];
-    let link = UdpLinkConfig { clock_hz: CLOCK_HZ, fifo_bytes: FIFO_BYTES, silence_ms: SILENCE_MS, mac };
+    let device: Box<dyn OnNetwork> = if service.is_fast {
+        Box::new(FastDevice::new(service.config, address.port())?)
+    } else {
+        Box::new(NetworkBoard::new(service.config)?)
+    };
     let has_faults = service.faults != NetworkFaults { seed: service.faults.seed, ..NetworkFaults::default() };
     let mut server = Server {
         socket,
-        device: UdpModel::new(link, core.identity(), core),
+        device,
         network: has_faults.then(|| [0, 1].map(|direction| Network::new(&service.faults, 0, direction))),
         origin: Instant::now(),
-        aged: 0,
         figures: NetworkFigures::default(),
     };
     ready(address);
@@ -107,21 +106,17 @@ pub fn serve_network(
 /// The state of a running service.
 struct Server {
     socket: UdpSocket,
-    device: UdpModel<Instantly>,
+    device: Box<dyn OnNetwork>,
     /// The ways to the device and back, if they have faults.
     network: Option<[Network<SocketAddrV4>; 2]>,
     origin: Instant,
-    /// Clocks by which the silence has grown.
-    aged: u64,
     figures: NetworkFigures,
 }
 
 impl Server {
     /// Takes what has come, lets the core work, and sends its answers, or waits.
     fn turn(&mut self) -> io::Result<()> {
-        let clocks = self.now() * u64::from(CLOCK_HZ / 1_000_000) / 1000;
-        self.device.age(clocks - self.aged);
-        self.aged = clocks;
+        self.device.age(self.now());
         let mut is_idle = true;
         for _ in 0..BURST {
             if !self.take_one()? {
@@ -130,8 +125,8 @@ impl Server {
             is_idle = false;
         }
         self.arrive();
-        for _ in 0..BURST {
-            self.device.work(SLICE);
+        for _ in 0..self.device.burst() {
+            self.device.work();
             while let Some((to, datagram)) = self.device.give() {
                 self.figures.to_host += 1;
                 self.hand_out(to, &datagram)?;
@@ -162,7 +157,7 @@ impl Server {
                     Some([down, _]) => down.send(now, from, &bytes[..length]),
                     None => {
                         self.figures.to_device += 1;
-                        self.device.take(from, false, &bytes[..length]);
+                        self.device.take(from, &bytes[..length]);
                     }
                 }
                 Ok(true)
@@ -179,7 +174,7 @@ impl Server {
         let Some([down, up]) = &mut self.network else { return };
         while let Some((from, datagram)) = down.next(now) {
             self.figures.to_device += 1;
-            self.device.take(from, false, &datagram);
+            self.device.take(from, &datagram);
             while let Some((to, datagram)) = self.device.give() {
                 self.figures.to_host += 1;
                 up.send(now, to, &datagram);

@@ -9,16 +9,26 @@ mod leaf;
 mod links;
 mod serial;
 mod stream;
+mod udp_link;
 mod visit;
 
 pub use ethernet::PHY_WRITES;
 pub use links::{HASTY_LINK, QUICK_LINK};
+pub use udp_link::QUICK_UDP_LINK;
 
 /// Returns the name of the root module and the Verilog of every block that is tested by itself.
 ///
 /// # Panics
 /// Panics if a block is not fit for export, which is a fault in its source.
 pub fn blocks() -> Vec<(String, String)> {
-    [leaf::blocks(), visit::blocks(), control::blocks(), serial::blocks(), stream::blocks(), ethernet::blocks()]
-        .concat()
+    [
+        leaf::blocks(),
+        visit::blocks(),
+        control::blocks(),
+        serial::blocks(),
+        stream::blocks(),
+        ethernet::blocks(),
+        udp_link::blocks(),
+    ]
+    .concat()
 }

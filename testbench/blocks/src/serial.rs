@@ -26,7 +26,7 @@ pub(crate) fn blocks() -> Vec<(String, String)> {
         block(FrameJudge::default(), "serial_frame_judge"),
         block(SessionState::default(), "serial_session_state"),
         block(Replies::default(), "serial_replies"),
-        block(ReceiveFifo::new(QUICK_LINK), "serial_receive_fifo"),
+        block(ReceiveFifo::<8>::new(QUICK_LINK.fifo_bytes), "serial_receive_fifo"),
         block(PayloadDigest::default(), "serial_payload_digest"),
         block(CommandWords::default(), "serial_command_words"),
         block(CommandProgress::default(), "serial_command_progress"),

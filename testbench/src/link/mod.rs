@@ -2,18 +2,20 @@
 //!
 //! [`VirtualLine`] joins the protocol that runs over ports of the operating system to a board with its pins or without,
 //! with faults and a delay each way in between. No real time is involved, so every run can be repeated.
-//! [`Served`] is a board behind a pseudo-terminal, in real time.
+//! [`VirtualEther`] does the same for the UDP link and a board behind the pins of its PHY. [`Served`] is a board behind a pseudo-terminal, in real time.
 
 mod goodput;
 mod jobs;
 mod served;
 mod soak;
+mod virtual_ether;
 mod virtual_line;
 
 pub use goodput::{document, measure, Goodput, Way, RATES, TARGET};
 pub use jobs::{is_one_mesh, random_points};
 pub use served::Served;
 pub use soak::{soak, Soak, SoakReport};
+pub use virtual_ether::{EtherTransport, VirtualEther};
 pub use virtual_line::{VirtualLine, VirtualTransport};
 
 use incircle_protocol::Config;

@@ -9,3 +9,4 @@ mod proofs;
 mod refusals;
 mod serial;
 mod stream;
+mod udp;

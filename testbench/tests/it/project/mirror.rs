@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 /// Blocks without a test file of their own: the test that runs the block, by its path from `tests/it`,
 /// and why that test is enough.
-const ELSEWHERE: [(&str, &str, &str); 40] = [
+const ELSEWHERE: [(&str, &str, &str); 48] = [
     ("cluster/dual", "cores/chip", "wires between router, slots and collector"),
     ("cluster/engine_slot", "cores/chip", "a core with its queue and a count, at every clock"),
     ("cluster/quad", "cores/chip", "wires between router, slots and collector"),
@@ -49,6 +49,14 @@ const ELSEWHERE: [(&str, &str, &str); 40] = [
     ("stream/core_side", "blocks/stream/stream_link", "the half of the link in the clock of the core"),
     ("stream/device_identity", "blocks/stream/register_block", "constants of registers, read through the port"),
     ("stream/traffic", "blocks/stream/register_block", "counters, read through the port"),
+    ("udp_link/datagram_bytes", "blocks/udp_link/udp_link", "the bytes of every datagram that goes out"),
+    ("udp_link/datagram_header", "blocks/udp_link/udp_link", "the headers of the datagrams that go out"),
+    ("udp_link/datagram_parts", "blocks/udp_link/udp_link", "the order of the bytes that go out, also if they are cut"),
+    ("udp_link/datagram_sums", "blocks/udp_link/udp_link", "the check sums of the datagrams that go out"),
+    ("udp_link/udp_device", "links/ether", "wires between port and link, at the pins of a board"),
+    ("udp_link/udp_receiver", "blocks/udp_link/udp_link", "the receiving half of the link, at its ports"),
+    ("udp_link/udp_transmitter", "blocks/udp_link/udp_link", "the sending half of the link, at its ports"),
+    ("top/udp_top", "links/ether", "the device at its pins"),
     ("top/core", "cores/lockstep", "every root port at every clock"),
     ("top/serial_top", "links/page", "the device at its pins"),
     ("top/stream_top", "links/stream_top", "the device at its ports"),

@@ -14,13 +14,14 @@ use incircle_hdl::engine::{
     SoloPhase, SoloProgress, SoloStart, SoloTurn, StarTriangle, Start, Step, Turned, Upcoming, Verdict, Visit,
     VisitEvents, Write, WriteEnables,
 };
-use incircle_hdl::ethernet::types::Station;
+use incircle_hdl::ethernet::types::{OnTheWay, Station};
 use incircle_hdl::leaf::Unpacked;
 use incircle_hdl::mesh::{ReadRecord, Record};
 use incircle_hdl::predicate::{Corners, EdgeFlags, OrderFlags, Signs};
 use incircle_hdl::serial::types::{AnswerPlace, BytePlace, Contents, FrameHead, Lamps, Receipt, Session};
 use incircle_hdl::serial::Asked;
 use incircle_hdl::stream::{AnswerEvents, CommandEvents};
+use incircle_hdl::udp_link::types::{DatagramAsks, DatagramHead, DatagramVerdict, UdpSession};
 use rust_hdl_core::prelude::*;
 use verilated::{Model, PortId};
 
@@ -190,6 +191,11 @@ packed_values!(
     SeedProgress,
     Signs,
     Station,
+    OnTheWay,
+    DatagramAsks,
+    DatagramHead,
+    DatagramVerdict,
+    UdpSession,
     SoloPhase,
     SoloProgress,
     SoloStart,

@@ -5,7 +5,7 @@ use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::ethernet::ByteCrc;
 use incircle_testkit::SplitMix64;
 
-named_ports!(ByteCrc, [sets, takes, byte_data], [state], clock);
+named_ports!(ByteCrc, [sets, start, takes, byte_data], [state], clock);
 
 #[test]
 fn check_sums_run_a_byte_a_clock() {
@@ -13,11 +13,13 @@ fn check_sums_run_a_byte_a_clock() {
     let mut block = Stepper::new("ethernet_byte_crc", ByteCrc::default(), 1);
     for run in 0..200 {
         block.set("sets", true);
+        block.set("start", ByteCrc::FIRST);
         block.set("takes", run % 2 == 0);
         block.set("byte_data", 0x5au8);
         block.settle();
         block.edge();
         block.set("sets", false);
+        block.set("start", random.next_u64() as u32);
         let mut bytes = Vec::new();
         for _ in 0..random.below(40) {
             let (takes, byte) = (random.below(4) > 0, random.below(256) as u8);

@@ -25,9 +25,10 @@ named_ports!(
         entry_pop,
         byte_valid,
         byte_data,
-        byte_is_last
+        byte_is_last,
+        byte_drops
     ],
-    [tx_valid, tx_data, entry_valid, entry, entries_end, entries_are_fetched, byte_ready]
+    [tx_valid, tx_data, entry_valid, entry, on_the_way, byte_ready]
 );
 
 /// Periods of the clocks of the port and of the core: equal, slower and faster.
@@ -42,6 +43,8 @@ struct Rig<P> {
     wire: VecDeque<Option<(u8, bool)>>,
     /// What the device is to send: bytes, and whether each is the last of its datagram.
     sends: VecDeque<(u8, bool)>,
+    /// The bytes of the datagram that has not ended are to be forgotten.
+    drops: bool,
     /// The reader takes an entry in one clock out of this many.
     pace: u64,
     random: SplitMix64,
@@ -62,7 +65,7 @@ impl<P: Pins> Rig<P> {
         for port in ["port_clock", "core_clock", "rx_valid", "rx_error", "rx_data", "entry_pop"] {
             pins.set(port, 0);
         }
-        for port in ["byte_valid", "byte_data", "byte_is_last"] {
+        for port in ["byte_valid", "byte_data", "byte_is_last", "byte_drops"] {
             pins.set(port, 0);
         }
         pins.set("station", station | wide(&BROADCAST) << 96);
@@ -74,6 +77,7 @@ impl<P: Pins> Rig<P> {
             edges: [0; 2],
             wire: VecDeque::new(),
             sends: VecDeque::new(),
+            drops: false,
             pace: 1,
             random: SplitMix64::new(seed),
             coming: Vec::new(),
@@ -115,6 +119,9 @@ impl<P: Pins> Rig<P> {
         self.pins.set("byte_valid", offered.is_some().into());
         self.pins.set("byte_data", offered.map_or(0, |byte| byte.0).into());
         self.pins.set("byte_is_last", offered.is_some_and(|byte| byte.1).into());
+        let drops = rises[1] && self.drops && self.sends.is_empty();
+        self.pins.set("byte_drops", drops.into());
+        self.drops &= !drops;
         self.pins.set("entry_pop", 0);
         self.pins.settle();
         if !self.in_reset() {
@@ -440,6 +447,31 @@ fn datagrams_go_out_to_whom_they_are_for_at_the_pace_of_the_wire() {
         // A frame of 1,514 bytes takes 1,538 clocks with preamble, check sum and gap.
         let pace = ends[2] - ends[1];
         assert!(periods[1] > 8000 || pace <= 1544, "a frame in {pace} clocks at {periods:?}");
+    }
+}
+
+#[test]
+fn a_datagram_that_is_dropped_leaves_no_trace() {
+    let mut random = SplitMix64::new(14);
+    for periods in PERIODS {
+        let mut rig = Rig::new(Verilog::new("ethernet_udp_port", 9), periods, 9);
+        let mut expected = Vec::new();
+        for length in [1, 12, 13, 700, 1483] {
+            rig.sends.extend((0..length).map(|_| (random.below(256) as u8, false)));
+            rig.drops = true;
+            while rig.drops {
+                rig.step();
+            }
+            let to = Party::random(&mut random);
+            let payload = vec![length as u8; 40];
+            let bytes = [to.bytes(), payload.clone()].concat();
+            let last = bytes.len() - 1;
+            rig.sends.extend(bytes.into_iter().enumerate().map(|(place, byte)| (byte, place == last)));
+            expected.push(sealed(udp(DEVICE, (to.mac, to.address, to.port), &payload, false)));
+        }
+        rig.rest();
+        let sent: Vec<Vec<u8>> = rig.frames.into_iter().map(|frame| frame.0).collect();
+        assert_eq!(sent, expected);
     }
 }
 

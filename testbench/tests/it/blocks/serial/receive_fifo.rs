@@ -7,17 +7,23 @@ use incircle_blocks::QUICK_LINK;
 use incircle_hdl::serial::ReceiveFifo;
 use incircle_testkit::SplitMix64;
 
-named_ports!(ReceiveFifo, [reset, begins, push, push_data, commits, takes], [free, byte_valid, byte_data], clock);
+named_ports!(
+    ReceiveFifo<8>,
+    [reset, begins, push, push_data, commits, takes],
+    [free, is_full, entry_valid, entry_data],
+    clock
+);
 
 #[test]
 fn fifo_gives_what_was_committed_and_nothing_else() {
     let size = QUICK_LINK.fifo_bytes as usize;
     let mut random = SplitMix64::new(1);
-    let mut block = Stepper::new("serial_receive_fifo", ReceiveFifo::new(QUICK_LINK), 1);
+    let mut block = Stepper::new("serial_receive_fifo", ReceiveFifo::new(QUICK_LINK.fifo_bytes), 1);
     let mut committed: VecDeque<u8> = VecDeque::new();
     let mut provisional: Vec<u8> = Vec::new();
     // Clocks for which nothing was pushed, and for which `free` can have followed.
     let (mut rests_for, mut still_for) = (0, 0);
+    let mut began = 0;
     let (mut commits, mut windings, mut fullest) = (0, 0, 0);
     for clock in 0..150_000 {
         // The FIFO fills and empties in turn.
@@ -39,11 +45,14 @@ fn fifo_gives_what_was_committed_and_nothing_else() {
             if still_for >= 2 {
                 block.expect("free", (size - committed.len()) as u64);
             }
-            let is_there = block.is("byte_valid");
+            if still_for >= 2 && rests_for >= 2 && began != clock - 1 {
+                block.expect("is_full", committed.len() + provisional.len() == size);
+            }
+            let is_there = block.is("entry_valid");
             assert!(!is_there || !committed.is_empty(), "a byte came that was not committed");
             assert!(is_there || committed.is_empty() || still_for < 4, "no byte in clock {clock}");
             if let (true, Some(first)) = (is_there, committed.front()) {
-                block.expect("byte_data", *first);
+                block.expect("entry_data", *first);
                 takes = random.below(empties) == 0;
             }
         }
@@ -65,6 +74,7 @@ fn fifo_gives_what_was_committed_and_nothing_else() {
             still_for = 0;
         }
         if begins {
+            began = clock;
             windings += usize::from(!provisional.is_empty());
             provisional.clear();
         }

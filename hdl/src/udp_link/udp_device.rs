@@ -1,0 +1,106 @@
+//! All that a device with a UDP link has beside its core: the Ethernet port and the link, with the crossing of clocks
+//! between them.
+//!
+//! 1. `reset` is needed once, after power-up, for 8 clocks of each of the two clocks. It may change at any time: each
+//!    clock has a synchroniser for it.
+//! 2. The addresses of the device are constants.
+//!
+//! Latency: that of the port and of the link.
+
+use super::udp_link::UdpLink;
+use super::udp_parameters::{UdpError, UdpParameters};
+use crate::commands::{AnswerSink, CommandSource};
+use crate::ethernet::types::Station;
+use crate::ethernet::UdpPort;
+use crate::leaf::{Parameter, Synchroniser};
+use crate::prelude::*;
+use crate::serial::types::{Byte, Lamps};
+use incircle_protocol::Config;
+
+#[derive(LogicBlock, Default)]
+pub struct UdpDevice {
+    /// Clock of the PHY's bytes, 125 MHz; clock of the core; reset, active high.
+    pub port_clock: Signal<In, Clock>,
+    pub core_clock: Signal<In, Clock>,
+    pub reset: Signal<In, Bit>,
+    /// The pins of the PHY, as GMII names them: `rx_dv`, `rx_er`, `rxd`, `tx_en`, `txd`.
+    pub rx_valid: Signal<In, Bit>,
+    pub rx_error: Signal<In, Bit>,
+    pub rx_data: Signal<In, Byte>,
+    pub tx_valid: Signal<Out, Bit>,
+    pub tx_data: Signal<Out, Byte>,
+    /// Lamps: alive, busy, error, from bit 0 up; see [`UdpLink`]. Busy is lit while a datagram waits as well.
+    pub leds: Signal<Out, Bits<3>>,
+    /// Synchronous reset of the core, and its streams, in the clock of the core.
+    pub core_reset: Signal<Out, Bit>,
+    pub command: CommandSource,
+    pub response: AnswerSink,
+    pub device_busy: Signal<In, Bit>,
+    port: UdpPort,
+    link: UdpLink,
+    port_resets: Synchroniser<Bit>,
+    core_resets: Synchroniser<Bit>,
+    station: Parameter<Station>,
+    lamps: Signal<Local, Lamps>,
+}
+
+impl UdpDevice {
+    /// The port and the link of a core of this configuration.
+    ///
+    /// # Errors
+    /// If a parameter is out of range; the error says which one and what is possible.
+    pub fn new(config: Config, parameters: UdpParameters) -> Result<Self, UdpError> {
+        let UdpParameters { link, .. } = parameters.check()?;
+        Ok(Self {
+            port: UdpPort::new(),
+            link: UdpLink::new(config, link)?,
+            station: Parameter::new(parameters.station()),
+            ..Self::default()
+        })
+    }
+}
+
+impl Logic for UdpDevice {
+    #[hdl_gen]
+    fn update(&mut self) {
+        clock!(self, core_clock, link, core_resets);
+        clock!(self, port_clock, port_resets);
+        self.core_resets.sent.next = self.reset.val();
+        self.port_resets.sent.next = self.reset.val();
+        self.port.port_clock.next = self.port_clock.val();
+        self.port.port_reset.next = self.port_resets.received.val();
+        self.port.core_clock.next = self.core_clock.val();
+        self.port.core_reset.next = self.core_resets.received.val();
+        self.link.reset.next = self.core_resets.received.val();
+        self.port.station.next = self.station.val();
+        self.port.rx_valid.next = self.rx_valid.val();
+        self.port.rx_error.next = self.rx_error.val();
+        self.port.rx_data.next = self.rx_data.val();
+        self.tx_valid.next = self.port.tx_valid.val();
+        self.tx_data.next = self.port.tx_data.val();
+
+        self.link.entry_valid.next = self.port.entry_valid.val();
+        self.link.entry.next = self.port.entry.val();
+        self.port.entry_pop.next = self.link.entry_pop.val();
+        self.port.byte_valid.next = self.link.byte_valid.val();
+        self.link.byte_ready.next = self.port.byte_ready.val();
+        self.port.byte_data.next = self.link.byte_data.val();
+        self.port.byte_is_last.next = self.link.byte_is_last.val();
+        self.port.byte_drops.next = self.link.byte_drops.val();
+
+        self.core_reset.next = self.link.core_reset.val();
+        self.command.valid.next = self.link.command.valid.val();
+        self.command.data.next = self.link.command.data.val();
+        self.link.command.ready.next = self.command.ready.val();
+        self.link.response.valid.next = self.response.valid.val();
+        self.link.response.data.next = self.response.data.val();
+        self.link.response.both.next = self.response.both.val();
+        self.link.response.last.next = self.response.last.val();
+        self.response.ready.next = self.link.response.ready.val();
+        self.link.device_busy.next = self.device_busy.val();
+        self.lamps.next.alive = self.link.lamps.val().alive;
+        self.lamps.next.busy = self.link.lamps.val().busy | self.port.on_the_way.val().to_the_reader;
+        self.lamps.next.error = self.link.lamps.val().error;
+        self.leds.next = self.lamps.val().into();
+    }
+}

@@ -1,0 +1,114 @@
+//! Devices that can be put on a network: the software model, which needs no time of its own, and a board at the pins of
+//! its PHY, which needs time for each clock.
+
+use std::net::SocketAddrV4;
+
+use incircle_model::serial::Instantly;
+use incircle_model::udp::UdpModel;
+use incircle_model::ModelError;
+use incircle_protocol::{Config, UdpLinkConfig, SILENCE_MS};
+
+use crate::network::NetworkBoard;
+
+/// Clock of the core that the greeting of the software model names.
+const CLOCK_HZ: u32 = 120_000_000;
+/// Bytes of its FIFO.
+const FIFO_BYTES: u32 = 16_384;
+/// Number of clocks of the core between two looks at its answers.
+const SLICE: u64 = 4096;
+/// Most slices, or turns, before the network is looked at again.
+const BURST: usize = 64;
+/// Nanoseconds of a board's time between two looks at the network: about as long as a long datagram takes on the wire.
+const SLICE_NS: u64 = 16_000;
+
+/// A device between datagrams.
+pub(super) trait OnNetwork {
+    /// Takes a datagram that came from this address.
+    fn take(&mut self, from: SocketAddrV4, datagram: &[u8]);
+
+    /// The next datagram for a host, and the address that it goes to.
+    fn give(&mut self) -> Option<(SocketAddrV4, Vec<u8>)>;
+
+    /// Works for a while.
+    fn work(&mut self);
+
+    /// Whether there is something to do.
+    fn is_at_work(&self) -> bool;
+
+    /// How often the device may work before the network is looked at again.
+    fn burst(&self) -> usize;
+
+    /// Lets this much real time pass, in nanoseconds since the start.
+    fn age(&mut self, now: u64);
+}
+
+/// The software model. Its silence passes in real time.
+pub(super) struct FastDevice {
+    model: UdpModel<Instantly>,
+    /// Clocks by which the silence has grown.
+    aged: u64,
+}
+
+impl FastDevice {
+    /// The model of a core of this configuration. `port` makes its Ethernet address its own.
+    pub(super) fn new(config: Config, port: u16) -> Result<Self, ModelError> {
+        let core = Instantly::of(config)?;
+        let [high, low] = port.to_be_bytes();
+        let mac = [2, 0, 0x69, 0x43, high, low];
+        let link = UdpLinkConfig { clock_hz: CLOCK_HZ, fifo_bytes: FIFO_BYTES, silence_ms: SILENCE_MS, mac };
+        Ok(Self { model: UdpModel::new(link, core.identity(), core), aged: 0 })
+    }
+}
+
+impl OnNetwork for FastDevice {
+    fn take(&mut self, from: SocketAddrV4, datagram: &[u8]) {
+        self.model.take(from, false, datagram);
+    }
+
+    fn give(&mut self) -> Option<(SocketAddrV4, Vec<u8>)> {
+        self.model.give()
+    }
+
+    fn work(&mut self) {
+        self.model.work(SLICE);
+    }
+
+    fn is_at_work(&self) -> bool {
+        self.model.is_at_work()
+    }
+
+    fn burst(&self) -> usize {
+        BURST
+    }
+
+    fn age(&mut self, now: u64) {
+        let clocks = now * u64::from(CLOCK_HZ / 1_000_000) / 1000;
+        self.model.age(clocks - self.aged);
+        self.aged = clocks;
+    }
+}
+
+/// A board lives in its own time, which is slower than real time.
+impl OnNetwork for NetworkBoard {
+    fn take(&mut self, from: SocketAddrV4, datagram: &[u8]) {
+        self.send(from, false, datagram);
+    }
+
+    fn give(&mut self) -> Option<(SocketAddrV4, Vec<u8>)> {
+        self.receive()
+    }
+
+    fn work(&mut self) {
+        self.run(SLICE_NS);
+    }
+
+    fn is_at_work(&self) -> bool {
+        !self.is_at_rest()
+    }
+
+    fn burst(&self) -> usize {
+        1
+    }
+
+    fn age(&mut self, _now: u64) {}
+}

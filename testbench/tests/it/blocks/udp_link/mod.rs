@@ -1,0 +1,11 @@
+//! Tests of the blocks in `hdl/src/udp_link`.
+
+mod answer_parts;
+mod datagram_digest;
+mod datagram_judge;
+mod datagram_match;
+mod datagram_reader;
+mod datagram_replies;
+mod sender_store;
+mod udp_link;
+mod udp_session_state;
