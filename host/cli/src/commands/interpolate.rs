@@ -48,27 +48,53 @@ pub fn run(arguments: &InterpolateArguments) -> Result<(), Failure> {
         let lines = Lines { surface: &surface, points: &doubles[..values.len()], values: &values };
         return write_lines(arguments, &lines, step, output, &laid, &mut watch);
     }
-    let threads = arguments.threads.and_then(|threads| usize::try_from(threads.get()).ok());
-    let threads = threads.and_then(NonZeroUsize::new).or(std::thread::available_parallelism().ok());
-    let (method, outside) = (arguments.method.method(), arguments.outside.outside());
-    let found = surface.values(method, outside, at, threads.unwrap_or(NonZeroUsize::MIN));
-    watch.ended("interpolate");
-    let written = output.write(|out| match (format, &grid) {
-        (ValueFormat::Csv, _) => value_writer::write_csv(&places, &found, out),
-        (ValueFormat::Npy, _) => value_writer::write_npy(&found, grid.as_ref(), out),
-        (ValueFormat::Asc, Some(grid)) => value_writer::write_asc(&found, grid, out),
-        (ValueFormat::Asc | ValueFormat::Geojson, _) => Ok(()),
-    })?;
-    watch.ended("write");
-    let method = arguments.method.to_possible_value().map_or_else(String::new, |name| name.get_name().to_owned());
-    let told = Told {
-        laid: &laid,
-        points: points.len(),
-        places: found.len(),
-        without: found.iter().filter(|value| value.is_nan()).count(),
-        method,
-    };
-    output::finish([written], || told.tell(arguments, &watch.stages))
+    let wanted = Wanted { surface: &surface, places: &places, at, grid: grid.as_ref(), points: points.len() };
+    wanted.write(arguments, format, output, &laid, &mut watch)
+}
+
+/// The places at which values are wanted.
+struct Wanted<'a> {
+    surface: &'a Surface,
+    /// The places in the numbers of the file, and in those of the surface.
+    places: &'a PointTable,
+    at: &'a [[f64; 2]],
+    grid: Option<&'a Grid>,
+    /// The number of points of the surface.
+    points: usize,
+}
+
+impl Wanted<'_> {
+    /// Works out the values, writes them, and prints the report.
+    fn write(
+        &self,
+        arguments: &InterpolateArguments,
+        format: ValueFormat,
+        output: Output,
+        laid: &Laid<'_>,
+        watch: &mut Watch,
+    ) -> Result<(), Failure> {
+        let threads = arguments.threads.and_then(|threads| usize::try_from(threads.get()).ok());
+        let threads = threads.and_then(NonZeroUsize::new).or(std::thread::available_parallelism().ok());
+        let (method, outside) = (arguments.method.method(), arguments.outside.outside());
+        let found = self.surface.values(method, outside, self.at, threads.unwrap_or(NonZeroUsize::MIN));
+        watch.ended("interpolate");
+        let written = output.write(|out| match (format, self.grid) {
+            (ValueFormat::Csv, _) => value_writer::write_csv(self.places, &found, out),
+            (ValueFormat::Npy, grid) => value_writer::write_npy(&found, grid, out),
+            (ValueFormat::Asc, Some(grid)) => value_writer::write_asc(&found, grid, out),
+            (ValueFormat::Asc | ValueFormat::Geojson, _) => Ok(()),
+        })?;
+        watch.ended("write");
+        let name = arguments.method.to_possible_value();
+        let told = Told {
+            laid,
+            points: self.points,
+            places: found.len(),
+            without: found.iter().filter(|value| value.is_nan()).count(),
+            method: name.map_or_else(String::new, |name| name.get_name().to_owned()),
+        };
+        output::finish([written], || told.tell(arguments, &watch.stages))
+    }
 }
 
 /// Writes contour lines and prints the report.
