@@ -99,8 +99,8 @@ typedef struct incircle_mesh incircle_mesh;
 // A triangulation that can be asked and changed. While one thread changes it, no other may use it; several may ask.
 typedef struct incircle_triangulation incircle_triangulation;
 
-// A function that hears of the progress of a job: the stage, and the items done of all items of the stage. It is called
-// in the thread that asked for the job. A result other than 0 ends the job. No exception of C++ may leave it.
+// A function that hears of the progress of a job: the stage, and the items done of all items of the stage. It is
+// called in the thread that asked for the job. A result other than 0 ends the job. No exception of C++ may leave it.
 typedef int32_t (*incircle_progress)(void *user, const char *stage, size_t done, size_t total);
 
 // The choices for a job. Set all to 0 and `size` to `sizeof(incircle_options)` first.
@@ -145,8 +145,8 @@ size_t incircle_error(char *text,
 // Triangulates `count` points. `points` has x and y of each, in the type of numbers `number`, such as `INCIRCLE_F64`.
 // `options` may be null. `mesh` becomes a mesh that must be freed, or null if the call fails.
 //
-// The points are copied, so they need to live only for the call. The status is `INCIRCLE_INPUT` for a coordinate that is
-// NaN or infinite, and for points that the device cannot take.
+// The points are copied, so they need to live only for the call. The status is `INCIRCLE_INPUT` for a coordinate that
+// is NaN or infinite, and for points that the device cannot take.
 //
 // # Safety
 // All pointers are null or point to what is said above.
@@ -158,8 +158,8 @@ int32_t incircle_triangulate(const void *points,
 
 // The triangles: three indices each, counter-clockwise, the smallest first, in sorted order.
 //
-// As in all functions for lists, `count` becomes the number of items. With a null buffer nothing else is done; else the
-// buffer gets all items, or none and the status is `INCIRCLE_BUFFER`, if `room` items are not enough.
+// As in all functions for lists, `count` becomes the number of items. With a null buffer nothing else is done; else
+// the buffer gets all items, or none and the status is `INCIRCLE_BUFFER`, if `room` items are not enough.
 //
 // # Safety
 // `mesh` is a mesh that is not freed, `buffer` null or room for `room` items, and `count` may be written.
@@ -187,8 +187,8 @@ int32_t incircle_mesh_duplicates(const incircle_mesh *mesh,
                                  size_t room,
                                  size_t *count);
 
-// The half-edges, three for each triangle. Half-edge `3 t + k` runs from vertex `k` of triangle `t` to the next one. The
-// item is the half-edge of the same edge in the other triangle, or `UINT32_MAX` on the hull.
+// The half-edges, three for each triangle. Half-edge `3 t + k` runs from vertex `k` of triangle `t` to the next one.
+// The item is the half-edge of the same edge in the other triangle, or `UINT32_MAX` on the hull.
 //
 // # Safety
 // As for `incircle_mesh_triangles`.

@@ -103,8 +103,8 @@ impl<P: PlanePoint> AnyMesh for Mesh<P> {
 #[allow(non_camel_case_types)]
 pub struct incircle_mesh(Box<dyn AnyMesh + Send + Sync>);
 
-/// A function that hears of the progress of a job: the stage, and the items done of all items of the stage. It is called
-/// in the thread that asked for the job. A result other than 0 ends the job. No exception of C++ may leave it.
+/// A function that hears of the progress of a job: the stage, and the items done of all items of the stage. It is
+/// called in the thread that asked for the job. A result other than 0 ends the job. No exception of C++ may leave it.
 #[allow(non_camel_case_types)]
 pub type incircle_progress =
     Option<extern "C" fn(user: *mut c_void, stage: *const c_char, done: usize, total: usize) -> i32>;
@@ -129,8 +129,8 @@ pub struct incircle_options {
 /// Triangulates `count` points. `points` has x and y of each, in the type of numbers `number`, such as `INCIRCLE_F64`.
 /// `options` may be null. `mesh` becomes a mesh that must be freed, or null if the call fails.
 ///
-/// The points are copied, so they need to live only for the call. The status is `INCIRCLE_INPUT` for a coordinate that is
-/// NaN or infinite, and for points that the device cannot take.
+/// The points are copied, so they need to live only for the call. The status is `INCIRCLE_INPUT` for a coordinate that
+/// is NaN or infinite, and for points that the device cannot take.
 ///
 /// # Safety
 /// All pointers are null or point to what is said above.
@@ -231,8 +231,8 @@ impl Choices<'_> {
 
 /// The triangles: three indices each, counter-clockwise, the smallest first, in sorted order.
 ///
-/// As in all functions for lists, `count` becomes the number of items. With a null buffer nothing else is done; else the
-/// buffer gets all items, or none and the status is `INCIRCLE_BUFFER`, if `room` items are not enough.
+/// As in all functions for lists, `count` becomes the number of items. With a null buffer nothing else is done; else
+/// the buffer gets all items, or none and the status is `INCIRCLE_BUFFER`, if `room` items are not enough.
 ///
 /// # Safety
 /// `mesh` is a mesh that is not freed, `buffer` null or room for `room` items, and `count` may be written.
@@ -278,8 +278,8 @@ pub unsafe extern "C" fn incircle_mesh_duplicates(
     guarded(|| unsafe { give(&shared(mesh, "mesh")?.0.duplicates(), buffer, room, count) })
 }
 
-/// The half-edges, three for each triangle. Half-edge `3 t + k` runs from vertex `k` of triangle `t` to the next one. The
-/// item is the half-edge of the same edge in the other triangle, or `UINT32_MAX` on the hull.
+/// The half-edges, three for each triangle. Half-edge `3 t + k` runs from vertex `k` of triangle `t` to the next one.
+/// The item is the half-edge of the same edge in the other triangle, or `UINT32_MAX` on the hull.
 ///
 /// # Safety
 /// As for `incircle_mesh_triangles`.
