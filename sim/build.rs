@@ -13,7 +13,7 @@ use std::path::PathBuf;
 
 use incircle_hdl::export;
 use incircle_hdl::top::{UdpPins, UDP_TOP_NAME};
-use incircle_hdl::udp_link::UdpParameters;
+use incircle_hdl::udp::UdpParameters;
 use incircle_protocol::{Config, FULL, SMALL};
 use verilated::build::{Builder, ModelSource, Optimisation};
 

@@ -3,7 +3,7 @@
 use crate::export::{self, ExportError};
 use crate::files::replace;
 use crate::top::UdpPins;
-use crate::udp_link::UdpParameters;
+use crate::udp::UdpParameters;
 use incircle_protocol::{Config, LinkConfig, DUAL, FULL, QUAD, SMALL};
 use std::fmt;
 use std::io::{self, Write};

@@ -15,4 +15,4 @@ mod prelude;
 pub mod serial;
 pub mod stream;
 pub mod top;
-pub mod udp_link;
+pub mod udp;

@@ -6,7 +6,7 @@ use incircle_hdl::board::sizes::{self, size_name, Family, Sizes, SizesRequest, F
 use incircle_hdl::board::{self, Board, BoardError, Clock, Origin, Report, Request, BOARDS};
 use incircle_hdl::committed::{self, Top};
 use incircle_hdl::top::UdpPins;
-use incircle_hdl::udp_link::UdpParameters;
+use incircle_hdl::udp::UdpParameters;
 use incircle_protocol::{Config, LinkConfig, UdpLinkConfig, BEAT_BITS, FULL, NAMED, SILENCE_MS, UDP_PORT};
 use std::io::Write;
 use std::net::Ipv4Addr;

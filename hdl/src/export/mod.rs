@@ -14,7 +14,7 @@ use crate::top::{
     serial_wrapper, stream_wrapper, udp_wrapper, wrapper, ChipParts, Core, SerialTop, StreamTop, UdpPins, UdpTop,
     CORE_NAME, SERIAL_TOP_NAME, STREAM_TOP_NAME, UDP_TOP_NAME,
 };
-use crate::udp_link::{UdpDevice, UdpError, UdpLink, UdpParameters};
+use crate::udp::{UdpDevice, UdpError, UdpLink, UdpParameters};
 
 /// The reason why a design cannot become Verilog.
 #[derive(Clone, Debug, PartialEq, Eq)]

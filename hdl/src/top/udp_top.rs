@@ -7,7 +7,7 @@ use crate::commands::{AnswerSink, CommandSource};
 use crate::engine::Write;
 use crate::prelude::*;
 use crate::serial::types::Byte;
-use crate::udp_link::{UdpDevice, UdpError, UdpParameters};
+use crate::udp::{UdpDevice, UdpError, UdpParameters};
 use incircle_protocol::Config;
 
 #[derive(LogicBlock, Default)]

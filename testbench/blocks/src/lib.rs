@@ -9,12 +9,12 @@ mod leaf;
 mod links;
 mod serial;
 mod stream;
-mod udp_link;
+mod udp;
 mod visit;
 
 pub use ethernet::PHY_WRITES;
 pub use links::{HASTY_LINK, QUICK_LINK};
-pub use udp_link::QUICK_UDP_LINK;
+pub use udp::QUICK_UDP_LINK;
 
 /// Returns the name of the root module and the Verilog of every block that is tested by itself.
 ///
@@ -28,7 +28,7 @@ pub fn blocks() -> Vec<(String, String)> {
         serial::blocks(),
         stream::blocks(),
         ethernet::blocks(),
-        udp_link::blocks(),
+        udp::blocks(),
     ]
     .concat()
 }

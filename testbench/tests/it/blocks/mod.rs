@@ -9,4 +9,4 @@ mod mesh;
 mod predicate;
 mod serial;
 mod stream;
-mod udp_link;
+mod udp;

@@ -4,7 +4,7 @@ use std::net::Ipv4Addr;
 
 use incircle_hdl::export;
 use incircle_hdl::top::{UdpPins, UDP_TOP_NAME};
-use incircle_hdl::udp_link::UdpParameters;
+use incircle_hdl::udp::UdpParameters;
 use incircle_protocol::{Config, UdpLinkConfig, DUAL, SILENCE_MS, SMALL, TINY, UDP_PORT};
 use incircle_testbench::gate::{self, Cells};
 

@@ -21,7 +21,7 @@ use incircle_hdl::predicate::{Corners, EdgeFlags, OrderFlags, Signs};
 use incircle_hdl::serial::types::{AnswerPlace, BytePlace, Contents, FrameHead, Lamps, Receipt, Session};
 use incircle_hdl::serial::Asked;
 use incircle_hdl::stream::{AnswerEvents, CommandEvents};
-use incircle_hdl::udp_link::types::{DatagramAsks, DatagramHead, DatagramVerdict, UdpSession};
+use incircle_hdl::udp::types::{DatagramAsks, DatagramHead, DatagramVerdict, UdpSession};
 use rust_hdl_core::prelude::*;
 use verilated::{Model, PortId};
 

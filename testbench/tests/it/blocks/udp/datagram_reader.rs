@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use crate::rig::ethernet_frames::frame_sum;
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_hdl::udp_link::DatagramReader;
+use incircle_hdl::udp::DatagramReader;
 use incircle_testkit::SplitMix64;
 
 named_ports!(

@@ -1,7 +1,7 @@
 //! Runs `UdpSessionState` in Rust and in Verilog beside plain code: all three must agree.
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_hdl::udp_link::UdpSessionState;
+use incircle_hdl::udp::UdpSessionState;
 use incircle_testkit::SplitMix64;
 
 named_ports!(UdpSessionState, [reset, asks, fails], [session, saw_gap, forgets], clock);

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_hdl::udp_link::AnswerParts;
+use incircle_hdl::udp::AnswerParts;
 use incircle_testkit::SplitMix64;
 
 named_ports!(

@@ -1,7 +1,7 @@
 //! Runs `SenderStore` in Rust and in Verilog beside plain code: all three must agree.
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_hdl::udp_link::SenderStore;
+use incircle_hdl::udp::SenderStore;
 use incircle_testkit::SplitMix64;
 
 named_ports!(

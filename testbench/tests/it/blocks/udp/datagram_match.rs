@@ -1,7 +1,7 @@
 //! Runs `DatagramMatch` in Rust and in Verilog beside plain code: all three must agree.
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_hdl::udp_link::DatagramMatch;
+use incircle_hdl::udp::DatagramMatch;
 use incircle_testkit::SplitMix64;
 
 named_ports!(DatagramMatch, [head_valid, index, byte_data, session_byte, session], [head], clock);

@@ -2,7 +2,7 @@
 
 use crate::rig::ethernet_frames::frame_sum;
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_hdl::udp_link::DatagramDigest;
+use incircle_hdl::udp::DatagramDigest;
 use incircle_testkit::SplitMix64;
 
 named_ports!(DatagramDigest, [reset, begins, push, push_data, commits], [state], clock);

@@ -4,7 +4,7 @@ use incircle_protocol::{UdpLinkConfig, SMALL};
 
 use crate::exported::{block, named};
 use incircle_hdl::export::udp_link;
-use incircle_hdl::udp_link::{
+use incircle_hdl::udp::{
     AnswerParts, DatagramDigest, DatagramJudge, DatagramMatch, DatagramReader, DatagramReplies, SenderStore,
     UdpSessionState,
 };

@@ -1,7 +1,7 @@
 //! Runs `DatagramJudge` in Rust and in Verilog beside plain code: all three must agree.
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_hdl::udp_link::DatagramJudge;
+use incircle_hdl::udp::DatagramJudge;
 use incircle_testkit::SplitMix64;
 
 named_ports!(DatagramJudge, [head, comes, verdict, session, has_room, place_is_taken], [asks], clock);

@@ -1,7 +1,7 @@
 //! Runs `DatagramReplies` in Rust and in Verilog beside plain code: all three must agree.
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_hdl::udp_link::DatagramReplies;
+use incircle_hdl::udp::DatagramReplies;
 use incircle_testkit::SplitMix64;
 
 named_ports!(

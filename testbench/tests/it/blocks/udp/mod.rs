@@ -1,4 +1,4 @@
-//! Tests of the blocks in `hdl/src/udp_link`.
+//! Tests of the blocks in `hdl/src/udp`.
 
 mod answer_parts;
 mod datagram_digest;
