@@ -33,6 +33,7 @@ mod solve;
 mod source;
 mod text;
 mod tiles;
+mod trace;
 mod values;
 mod watch;
 

@@ -6,7 +6,7 @@ use std::time::Instant;
 use incircle::{DeviceAddress, Fleet, Report};
 
 use crate::arguments::TriangulateArguments;
-use crate::backend::{self, Backend, Choice, Trace};
+use crate::backend::{self, Backend, Choice};
 use crate::commands::triangulate_large;
 use crate::connections::Connections;
 use crate::failure::{counted, failure_of, Failure};
@@ -16,6 +16,7 @@ use crate::output::{self, Output, Written};
 use crate::progress::Meter;
 use crate::report::RunReport;
 use crate::solve::{self, without_points};
+use crate::trace::Trace;
 use crate::watch::Watch;
 use crate::{interrupt, path, source};
 
