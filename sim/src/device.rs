@@ -180,8 +180,8 @@ impl SimDevice {
     /// device completes the file.
     ///
     /// # Errors
-    /// [`SimError::Trace`]: the device was not made by [`SimDevice::traced`], or the file cannot be created. If the disk
-    /// fills later, `send` and `receive` return the error.
+    /// [`SimError::Trace`]: the device was not made by [`SimDevice::traced`], or the file cannot be created. If the
+    /// disk fills later, `send` and `receive` return the error.
     pub fn trace_to(&mut self, path: impl AsRef<Path>) -> Result<(), SimError> {
         Ok(self.model.trace_to(path)?)
     }

@@ -6,7 +6,8 @@ use incircle::transports::{receive_in_pieces, receive_next_in_pieces, AnswerHead
 use incircle::{Device, ErrorKind, Transport, TransportError};
 use incircle_protocol::{Command, Config};
 
-use crate::{SimDevice, SimError};
+use crate::device::SimDevice;
+use crate::error::SimError;
 
 /// Clocks simulated between two looks at the deadline: a fraction of a second.
 const SLICE: u64 = 100_000;

@@ -1,7 +1,6 @@
 //! Back ends of the command: from arguments to devices.
 
 use std::num::{NonZeroU32, NonZeroUsize};
-use std::path::Path;
 use std::time::Duration;
 
 use incircle::pcie::{CardAddress, CardRegisters, PcieTransport};
@@ -12,6 +11,7 @@ use incircle_protocol::{Config, Greeting, CORE_COORD_BITS, LARGE, NAMED};
 use crate::arguments::{BackendArguments, ConfigName, GridArguments, JobArguments};
 use crate::failure::{failure_of, Exit, Failure};
 use crate::lattice::{Laid, Numbers};
+use crate::trace::Trace;
 
 /// Bits of a coordinate of a model whose address names none, and the most that a model can have.
 pub const MODEL_COORD_BITS: u32 = 31;
@@ -233,21 +233,11 @@ fn once<T>(in_address: Option<T>, argument: Option<T>, name: &str) -> Result<Opt
     Ok(in_address.or(argument))
 }
 
-/// A waveform to write.
-#[derive(Clone, Copy, Debug)]
-#[cfg_attr(not(feature = "sim"), expect(dead_code, reason = "only the simulated core writes waveforms"))]
-pub struct Trace<'a> {
-    /// File for the waveform.
-    pub path: &'a Path,
-    /// Number of the job that the waveform shows, from 1; without it the waveform shows all of them.
-    pub job: Option<u64>,
-}
-
 /// Opens the back end for jobs of up to `room` points, or, without that number, as large as possible.
 ///
 /// For a model all points count, for a core distinct ones. A core in simulation has the chosen configuration, or else
-/// the smallest one that holds the points, or else the largest. The waveform `trace` is of the back end `sim`. Greeting a
-/// board takes no longer than `timeout`.
+/// the smallest one that holds the points, or else the largest. The waveform `trace` is of the back end `sim`. Greeting
+/// a board takes no longer than `timeout`.
 pub fn open_with_room(
     choice: &Choice,
     room: Option<usize>,

@@ -38,6 +38,7 @@ mod solve;
 mod source;
 mod text;
 mod tiles;
+mod trace;
 mod value_writer;
 mod values;
 mod watch;

@@ -4,9 +4,9 @@ use incircle::Device;
 use incircle_protocol::Config;
 use incircle_sim::{SimDevice, SimError, SimTransport};
 
-use crate::backend::Trace;
 use crate::failure::{printable, Exit, Failure};
 use crate::interrupt;
+use crate::trace::Trace;
 
 /// Makes a core of this configuration. With `trace` a waveform of all its signals goes to that file, which is complete
 /// once the device is dropped.

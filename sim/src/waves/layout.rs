@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::{NamedState, Signal};
+use super::header::Signal;
+use super::named_state::NamedState;
 
 /// Scope in which Verilator puts the ports of the root module.
 const PORTS: &str = "TOP";

@@ -6,6 +6,7 @@
 
 mod header;
 mod layout;
+mod named_state;
 // A part of the build script, which has no tests of its own.
 #[cfg(test)]
 #[path = "../../build/states.rs"]
@@ -40,17 +41,6 @@ pub enum LayoutError {
     },
 }
 
-/// A signal whose states have names.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct NamedState {
-    /// Instances from the root of the core to the module, with `$` between them; `.` is the root.
-    path: &'static str,
-    signal: &'static str,
-    enumeration: &'static str,
-    /// Name and value of each state.
-    states: Vec<(&'static str, u64)>,
-}
-
 /// Writes the layout of a waveform of a core: `NAME.gtkw` beside `NAME.vcd`, and a file `NAME.ENUMERATION.txt` with the
 /// names of the states of each enumeration. Files of these names are replaced. Returns what was written, the layout
 /// first. Open it with `gtkwave NAME.gtkw`.
@@ -68,7 +58,7 @@ pub fn write_layout(waveform: impl AsRef<Path>) -> Result<Vec<PathBuf>, LayoutEr
     let signals = signals.ok_or_else(|| LayoutError::NoWaveform { path: waveform.to_owned() })?;
     let times = times(&mut file).map_err(at(waveform))?;
     let mut written = Vec::new();
-    for (path, text) in layout::files(waveform, &signals, &named_states(), times) {
+    for (path, text) in layout::files(waveform, &signals, &named_state::named_states(), times) {
         std::fs::write(&path, text).map_err(at(&path))?;
         written.push(path);
     }
@@ -94,18 +84,6 @@ fn times(file: &mut File) -> Result<(u64, u64), std::io::Error> {
     Ok((first.unwrap_or(0), last.or(first).unwrap_or(0)))
 }
 
-/// The signals with named states of all cores, as the build script found them.
-fn named_states() -> Vec<NamedState> {
-    let state = |line: &'static str| {
-        let mut words = line.split(' ');
-        let (path, signal, enumeration) = (words.next()?, words.next()?, words.next()?);
-        let states =
-            words.filter_map(|word| word.split_once('=')).filter_map(|(name, at)| Some((name, at.parse().ok()?)));
-        Some(NamedState { path, signal, enumeration, states: states.collect() })
-    };
-    include_str!(concat!(env!("OUT_DIR"), "/states.txt")).lines().filter_map(state).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::states;
@@ -113,7 +91,7 @@ mod tests {
     #[test]
     fn states_are_found_in_verilog() {
         let text = "x\nmodule root$a$b(clock);\n    localparam Step$Idle = 0;\n    localparam Step$Work = 1;\n    \
-                    localparam other = 3'h2;\n    case (state$q)\n        Step$Idle:\n        state$d = Step$Work;\n    \
+                    localparam other = 3'h2;\n    case (state$q)\n        Step$Idle:\n        state$d = Step$Work;\n\
                     is_idle = phase == Step$Idle;\nendmodule\nmodule root();\n    localparam Way$Up = 0;\nendmodule\n";
         let found: Vec<String> = states::named_states(text).into_iter().collect();
         assert_eq!(found, ["a$b phase Step Idle=0 Work=1", "a$b state$q Step Idle=0 Work=1"]);

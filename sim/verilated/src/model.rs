@@ -253,8 +253,8 @@ impl Model {
     /// Simulates one clock on this input; see [`Model::clock`].
     ///
     /// # Panics
-    /// The port belongs to another kind of model, or is no input of one bit. A model with `fast_clocks` has no clock but
-    /// `clock`.
+    /// The port belongs to another kind of model, or is no input of one bit. A model with `fast_clocks` has no clock
+    /// but `clock`.
     #[inline]
     pub fn clock_on(&mut self, clock: PortId) {
         if self.tracing {

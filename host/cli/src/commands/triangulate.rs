@@ -7,7 +7,7 @@ use incircle::constraints::Pieces;
 use incircle::{DeviceAddress, Fleet, Report};
 
 use crate::arguments::TriangulateArguments;
-use crate::backend::{self, Backend, Choice, Trace};
+use crate::backend::{self, Backend, Choice};
 use crate::commands::triangulate_large;
 use crate::connections::Connections;
 use crate::failure::{counted, failure_of, Failure};
@@ -19,6 +19,7 @@ use crate::plan::PlannedSet;
 use crate::progress::Meter;
 use crate::report::RunReport;
 use crate::solve::{self, without_points};
+use crate::trace::Trace;
 use crate::watch::Watch;
 use crate::{interrupt, path, plan, source};
 

@@ -4,8 +4,8 @@
 //! twice a clock, for a third of the work. Behind registers the inputs cost nothing until the port [`APPLY`] changes.
 //! The run side changes it after an input was set, and before the next edge of the clock.
 
-use super::APPLY;
-
+/// Name of the port that passes the inputs on. The run side drives it.
+const APPLY: &str = "inputs$apply";
 /// What stands between these two is not in waveforms.
 const HIDDEN: &str = "/*verilator tracing_off*/";
 const SHOWN: &str = "/*verilator tracing_on*/";

@@ -7,9 +7,6 @@ mod processes;
 use super::error::BuildError;
 use super::source::ModelSource;
 
-/// Name of the port that passes the inputs on, in a model with `fast_clocks`. The run side drives it.
-const APPLY: &str = "inputs$apply";
-
 /// The text that Verilator gets for this model.
 pub(super) fn rewritten(model: &ModelSource) -> Result<String, BuildError> {
     if !model.fast_clocks {
