@@ -79,7 +79,6 @@ pub struct AnswerPacker {
     one_place: Signal<Local, Bits<2>>,
     last_place: Signal<Local, Bits<2>>,
     last_position: Signal<Local, Byte>,
-    eight: Signal<Local, Word>,
 }
 
 const _: () = assert!(MAX_PAYLOAD == 4 * 256, "the parts of this block are as long as the protocol says");
@@ -94,13 +93,27 @@ impl Logic for AnswerPacker {
         self.one_place.next = 1.into();
         self.last_place.next = 3.into();
         self.last_position.next = 255.into();
-        self.eight.next = 8.into();
         self.is_due.next = (self.state.q.val() == PackState::Start) & self.is_settled.q.val();
         self.is_last.next = self.is_short.q.val();
         self.answer.next.number = self.answers.q.val();
         self.answer.next.part = self.part_number.q.val();
         self.byte_valid.next = (self.state.q.val() == PackState::Words) & self.is_held.q.val();
+        // A choice among four bytes is smaller than a word that shifts, because the word then has one source only.
         self.byte_data.next = self.word.q.val().get_bits::<8>(0);
+        match self.place.q.val().index() {
+            1 => {
+                self.byte_data.next = self.word.q.val().get_bits::<8>(8);
+            }
+            2 => {
+                self.byte_data.next = self.word.q.val().get_bits::<8>(16);
+            }
+            3 => {
+                self.byte_data.next = self.word.q.val().get_bits::<8>(24);
+            }
+            _ => {
+                self.byte_data.next = self.word.q.val().get_bits::<8>(0);
+            }
+        }
         self.byte_is_last.next = self.part_ends.q.val() & (self.place.q.val() == self.last_place.val());
         self.awaits.next = self.state.q.val() == PackState::Head;
 
@@ -156,7 +169,6 @@ impl Logic for AnswerPacker {
             PackState::Words => {
                 if self.takes.val() {
                     self.place.d.next = self.place.q.val() + self.one_place.val();
-                    self.word.d.next = self.word.q.val() >> self.eight.val();
                     if self.place.q.val() == self.last_place.val() {
                         self.is_held.d.next = false;
                         if self.part_ends.q.val() {

@@ -86,7 +86,7 @@ impl Logic for LinkReceiver {
         self.judge.comes.next = self.reader.comes.val();
         self.judge.is_sound.next = self.reader.is_sound.val();
         self.judge.open.next = self.open.val();
-        self.judge.free.next = self.fifo.free.val();
+        self.judge.free.next = self.fifo.room.val().free;
         self.asked.next = self.judge.asked.val();
 
         self.pushes.next = self.reader.payload_valid.val() & self.judge.takes_payload.val();
@@ -96,7 +96,7 @@ impl Logic for LinkReceiver {
         self.fifo.push.next = self.pushes.val();
         self.fifo.push_data.next = self.reader.payload.val();
         self.fifo.commits.next = self.judge.asked.val().takes;
-        self.receipt.next.free = self.fifo.free.val();
+        self.receipt.next.free = self.fifo.room.val().free;
         self.payload_digest.reset.next = self.clears.val();
         self.payload_digest.begins.next = self.reader.header_comes.val();
         self.payload_digest.push.next = self.pushes.val();

@@ -14,6 +14,7 @@
 //! Pointers have 16 bits, of which the memory uses as many as its address has: the difference of two pointers is the
 //! number of entries between them.
 
+use super::types::FifoRoom;
 use crate::leaf::{BlockMemory, Parameter};
 use crate::prelude::*;
 
@@ -32,10 +33,8 @@ pub struct ReceiveFifo<const D: usize> {
     pub push_data: Signal<In, Bits<D>>,
     /// All entries that were pushed count.
     pub commits: Signal<In, Bit>,
-    /// Free entries, among them the places of entries that do not count yet.
-    pub free: Signal<Out, Bits<16>>,
-    /// There is no place for one more entry.
-    pub is_full: Signal<Out, Bit>,
+    /// The room for more entries.
+    pub room: Signal<Out, FifoRoom>,
     /// The oldest entry that counts; the user takes the entry at the edge at which `takes` is high.
     pub entry_valid: Signal<Out, Bit>,
     pub entry_data: Signal<Out, Bits<D>>,
@@ -80,8 +79,8 @@ impl<const D: usize> Logic for ReceiveFifo<D> {
         self.memory.read_address.next = self.free_end.q.val().get_bits::<15>(0);
         self.entry_data.next = self.memory.read_data.val();
         self.entry_valid.next = self.holds.q.val() & (self.read_for.q.val() == self.longest.val());
-        self.free.next = self.unused.q.val();
-        self.is_full.next = self.full.q.val();
+        self.room.next.free = self.unused.q.val();
+        self.room.next.is_full = self.full.q.val();
 
         self.full.d.next = self.provisional.q.val() == self.free_end.q.val();
         self.unused.d.next = self.free_end.q.val() - self.committed.q.val();

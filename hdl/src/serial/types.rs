@@ -26,6 +26,14 @@ crate::packed! {
         pub expected: Byte,
     }
 
+    /// The room in a receive FIFO.
+    pub struct FifoRoom {
+        /// Free entries, among them the places of entries that do not count yet.
+        pub free: Bits<16>,
+        /// There is no place for one more entry.
+        pub is_full: bool,
+    }
+
     /// The credit of the host, and the digest of the payload that the device has taken.
     pub struct Receipt {
         /// Free bytes of the receive FIFO.

@@ -44,8 +44,8 @@ pub struct UdpLink {
     pub core_reset: Signal<Out, Bit>,
     pub command: CommandSource,
     pub response: AnswerSink,
-    /// The device holds words of commands, or owes answers, that do not show in the streams: so only a chip of several
-    /// engines says.
+    /// The device holds words of commands, or owes answers, that do not show in the streams. Only a chip of several
+    /// engines drives this port; with one engine it stays low.
     pub device_busy: Signal<In, Bit>,
     receiver: UdpReceiver,
     transmitter: UdpTransmitter,

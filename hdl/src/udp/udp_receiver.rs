@@ -99,7 +99,7 @@ impl Logic for UdpReceiver {
         self.asks.next = self.judge.asks.val();
 
         self.clears.next = self.reset.val() | self.forgets.val();
-        if self.reader.word_valid.val() & self.fifo.is_full.val() {
+        if self.reader.word_valid.val() & self.fifo.room.val().is_full {
             self.no_room.d.next = true;
         }
         if self.reader.begins.val() {
@@ -107,10 +107,10 @@ impl Logic for UdpReceiver {
         }
         self.fifo.reset.next = self.clears.val();
         self.fifo.begins.next = self.reader.begins.val();
-        self.fifo.push.next = self.reader.word_valid.val() & (!self.fifo.is_full.val());
+        self.fifo.push.next = self.reader.word_valid.val() & (!self.fifo.room.val().is_full);
         self.fifo.push_data.next = self.reader.word.val();
         self.fifo.commits.next = self.judge.asks.val().takes;
-        self.receipt.next.free = self.fifo.free.val();
+        self.receipt.next.free = self.fifo.room.val().free;
         self.digest.reset.next = self.clears.val();
         self.digest.begins.next = self.reader.begins.val();
         self.digest.push.next = self.reader.payload_valid.val();

@@ -30,13 +30,12 @@ impl Grid {
                 return Err(Failure::input(format!("--grid {shown} is no step: give a positive decimal, such as 0.5")))
             }
         };
-        let length = Number::Decimal(step).nearest().value;
         let doubles = points.doubles();
         let bound = |axis: usize, pick: fn(f64, f64) -> f64| {
-            doubles.iter().map(|point| point[axis]).reduce(pick).unwrap_or(0.0) / length
+            doubles.iter().map(|point| point[axis]).reduce(pick).unwrap_or(0.0)
         };
-        let low = [0, 1].map(|axis| bound(axis, f64::min).ceil());
-        let high = [0, 1].map(|axis| bound(axis, f64::max).floor());
+        let low = [0, 1].map(|axis| number::multiple_from(bound(axis, f64::min), step));
+        let high = [0, 1].map(|axis| number::multiple_to(bound(axis, f64::max), step));
         let counts = [0, 1].map(|axis| (high[axis] - low[axis] + 1.0).max(0.0));
         let most = (memory.bytes() / NODE_BYTES) as f64;
         let is_far = low.iter().chain(&high).any(|value| value.abs() > 1e15);

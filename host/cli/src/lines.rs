@@ -30,9 +30,8 @@ impl Lines<'_> {
         let Some(Number::Decimal(step @ Decimal { steps: 1.., .. })) = number::parse(step.trim().as_bytes()) else {
             return Err(Failure::input(format!("--contours {shown} is no step: give a positive decimal, such as 10")));
         };
-        let length = Number::Decimal(step).nearest().value;
-        let low = (self.values.iter().copied().fold(f64::INFINITY, f64::min) / length).ceil();
-        let high = (self.values.iter().copied().fold(f64::NEG_INFINITY, f64::max) / length).floor();
+        let low = number::multiple_from(self.values.iter().copied().fold(f64::INFINITY, f64::min), step);
+        let high = number::multiple_to(self.values.iter().copied().fold(f64::NEG_INFINITY, f64::max), step);
         if high - low >= MOST_LEVELS || low.abs().max(high.abs()) > 1e15 {
             return Err(Failure::input(format!(
                 "--contours {shown} gives {:.3e} levels, more than {MOST_LEVELS}: give a larger step",

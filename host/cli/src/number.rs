@@ -202,6 +202,19 @@ fn exact(text: &[u8]) -> Option<Decimal> {
     Some(Decimal { steps: steps.checked_mul(power)?, digits: 0 })
 }
 
+/// The least multiple of a positive step whose nearest double is `value` or above, counted in steps. For up to 10^15
+/// steps: a quotient of doubles alone would lose multiples by its rounding, such as 0.3 / 0.1.
+pub fn multiple_from(value: f64, step: Decimal) -> f64 {
+    let near = (value / Number::Decimal(step).nearest().value).round();
+    let at = |multiple: f64| nearest(multiple as i128 * i128::from(step.steps), step.digits);
+    [near - 1.0, near].into_iter().find(|&multiple| at(multiple) >= value).unwrap_or(near + 1.0)
+}
+
+/// The greatest multiple of a positive step whose nearest double is `value` or below. See [`multiple_from`].
+pub fn multiple_to(value: f64, step: Decimal) -> f64 {
+    0.0 - multiple_from(-value, step)
+}
+
 /// The double that is nearest to `steps * 10^-digits`.
 pub fn nearest(steps: i128, digits: u32) -> f64 {
     const EXACT: i128 = 1 << 53;

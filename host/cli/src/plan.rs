@@ -8,7 +8,7 @@ use incircle::{Duplicate, Lattice, Mesh, PlanePoint, Step};
 use crate::arguments::{PlanArguments, ReadArguments};
 use crate::connections::Connections;
 use crate::failure::Failure;
-use crate::formats::{csv, PlanTable, PointFormat};
+use crate::formats::{csv, node, PlanTable, PointFormat};
 use crate::input::Input;
 use crate::lattice::{Kind, Laid, Numbers};
 use crate::number::Coordinate;
@@ -59,7 +59,7 @@ pub fn read_set(
         [path] => match format(path).filter(|format| format.may_constrain()) {
             Some(format) => {
                 read.selection(format)?;
-                let beside = || source::read_points(&path.with_extension("node"), read, quiet);
+                let beside = || read_beside(&path.with_extension("node"), quiet);
                 let plan = Input::open(path, quiet).and_then(|input| format.read_plan(input, &beside));
                 plan.map_err(|failure| failure.in_file(name(path)))?
             }
@@ -84,6 +84,13 @@ pub fn read_set(
     let domain = arguments.domain.unwrap_or(default);
     let request = is_asked.then_some(Request { constraints, lines: free, domain, holes, attributes });
     Ok(PlannedSet { table, points, request })
+}
+
+/// Reads a `.node` file, and the id of its first point.
+fn read_beside(path: &Path, quiet: bool) -> Result<(PointTable, u32), Failure> {
+    let table = source::read_points(path, &ReadArguments::of_whole_file(), quiet)?;
+    let base = Input::open(path, true).and_then(|input| node::first_id(&input.into_bytes()?));
+    Ok((table, base.map_err(|failure| failure.in_file(name(path)))?))
 }
 
 impl Request {

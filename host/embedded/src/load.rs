@@ -20,7 +20,8 @@ pub(crate) struct Load<'b> {
 impl Load<'_> {
     /// The index of the point that the device has as this vertex; `None` if there is no such vertex.
     pub fn index(&self, vertex: u32) -> Option<u16> {
-        let place = place_of(usize::try_from(vertex).ok()?, self.order.len(), self.contexts);
+        let vertex = usize::try_from(vertex).ok().filter(|&vertex| vertex < self.order.len())?;
+        let place = place_of(vertex, self.order.len(), self.contexts);
         self.order.get(place).copied()
     }
 

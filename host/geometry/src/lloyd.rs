@@ -147,10 +147,15 @@ pub fn step(points: &[Point], clip: &Clip, threads: NonZeroUsize) -> Result<Vec<
 /// The grid point nearest to the centroid of a cell; the point itself if the cell has no area.
 fn centroid(cell: &ClippedCell<'_>, point: Point) -> Point {
     let (mut area, mut moments) = (0i128, [0i128; 2]);
+    let (mut low, mut high) = ([i128::MAX; 2], [i128::MIN; 2]);
     for piece in cell.pieces() {
         let (mut first, mut from) = (None, [0i128; 2]);
         for (corner, _) in piece.corners() {
             let to = seen(corner, point);
+            for axis in 0..2 {
+                low[axis] = low[axis].min(to[axis]);
+                high[axis] = high[axis].max(to[axis]);
+            }
             if first.is_some() {
                 add(from, to, &mut area, &mut moments);
             }
@@ -164,12 +169,14 @@ fn centroid(cell: &ClippedCell<'_>, point: Point) -> Point {
     }
     // Three times the area, in units of a grid step.
     let divisor = (3 * area) << BITS;
-    let moved = |value: u32, moment: i128| {
-        let offset = (2 * moment + divisor).div_euclid(2 * divisor);
-        // A centroid lies in the box of its cell, so this never cuts off more than a rounding.
-        (i128::from(value) + offset).clamp(0, (1 << 31) - 1) as u32
+    let round = |value: i128| (value + (1 << (BITS - 1))) >> BITS;
+    let moved = |value: u32, axis: usize| {
+        let offset = (2 * moments[axis] + divisor).div_euclid(2 * divisor);
+        // The rounded corners of a cell that is thinner than a share of a step can have a centroid outside their box.
+        let inside = offset.clamp(round(low[axis]), round(high[axis]));
+        (i128::from(value) + inside).clamp(0, (1 << 31) - 1) as u32
     };
-    Point::new(moved(point.x, moments[0]), moved(point.y, moments[1]))
+    Point::new(moved(point.x, 0), moved(point.y, 1))
 }
 
 /// A corner as seen from the point, in 2^-8 of a step, rounded down. At most 40 bits inside the grid.

@@ -56,7 +56,13 @@ impl Frame {
         let base = |axis: usize| {
             let first = grid.first().map_or([0, 0], |point| [point.x, point.y])[axis];
             let last_digits = match table.coordinate(0, axis) {
-                Coordinate::Decimal { steps, digits: own } => steps * 10i128.pow(digits.saturating_sub(own)),
+                Coordinate::Decimal { steps, digits: own } if exponent == 0 && own <= digits => {
+                    steps * 10i128.pow(digits - own)
+                }
+                // Points have a power of two as their step only if each coordinate is a double, so this rounds nothing.
+                Coordinate::Decimal { steps, digits: own } => {
+                    scaled(crate::number::nearest(steps, own), -exponent) as i128
+                }
                 // A whole number of steps, below 2^63.
                 Coordinate::Double(value) => scaled(value, -exponent) as i128,
             };

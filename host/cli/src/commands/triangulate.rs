@@ -41,7 +41,7 @@ fn run_in_memory(arguments: &TriangulateArguments) -> Result<(), Failure> {
     let output = prepare_mesh(arguments)?;
     let lists = Lists::prepare(arguments, &output)?;
     let chosen = Chosen::of(arguments)?;
-    let trace = prepare_trace(arguments, &chosen, &output)?;
+    let trace = prepare_trace(arguments, &chosen, &output, &lists)?;
     let mut watch = Watch::start();
     let set = plan::read_set(&arguments.points, &arguments.read, &arguments.plan, arguments.quiet)?;
     let table = &set.table;
@@ -104,15 +104,20 @@ impl Lists {
     fn prepare(arguments: &TriangulateArguments, mesh: &Output) -> Result<Self, Failure> {
         let prepare = |file: &Option<PathBuf>| -> Result<Option<Output>, Failure> {
             let Some(file) = file else { return Ok(None) };
-            let output = Output::prepare(file, &arguments.points)?;
-            if output.is_same(mesh) || output.is_standard() && mesh.is_standard() {
+            let output = Output::prepare(file, &inputs(arguments))?;
+            if arguments.json && output.is_standard() {
+                return Err(Failure::usage(
+                    "a list and the report of --json cannot both go to standard output: give the list a file",
+                ));
+            }
+            if is_one(&output, mesh) {
                 let name = path::name(file);
                 return Err(Failure::usage(format!("{name} is both the mesh and a list: choose another file for one")));
             }
             Ok(Some(output))
         };
         let (edges, neighbors) = (prepare(&arguments.edges)?, prepare(&arguments.neighbors)?);
-        if edges.as_ref().zip(neighbors.as_ref()).is_some_and(|(one, other)| one.is_same(other)) {
+        if edges.as_ref().zip(neighbors.as_ref()).is_some_and(|(one, other)| is_one(one, other)) {
             return Err(Failure::usage("--edges and --neighbors name the same file: choose another file for one"));
         }
         Ok(Self { edges, neighbors })
@@ -190,9 +195,19 @@ impl Chosen {
     }
 }
 
+/// Whether two outputs are the same file, or are both standard output.
+fn is_one(one: &Output, other: &Output) -> bool {
+    one.is_same(other) || one.is_standard() && other.is_standard()
+}
+
+/// All files that the run reads.
+fn inputs(arguments: &TriangulateArguments) -> Vec<PathBuf> {
+    arguments.points.iter().chain(&arguments.plan.constraints).cloned().collect()
+}
+
 /// The output for the mesh, checked before the work.
 fn prepare_mesh(arguments: &TriangulateArguments) -> Result<Output, Failure> {
-    let output = Output::prepare(&arguments.output, &arguments.points)?;
+    let output = Output::prepare(&arguments.output, &inputs(arguments))?;
     if arguments.json && output.is_standard() {
         return Err(Failure::usage(
             "the mesh and the report of --json cannot both go to standard output: give -o a file",
@@ -213,19 +228,28 @@ fn check_traced(part: Option<&Path>, arguments: &TriangulateArguments) -> Result
 }
 
 /// The output for the waveform of `--trace`, checked before the work.
-fn prepare_trace(arguments: &TriangulateArguments, chosen: &Chosen, mesh: &Output) -> Result<Option<Output>, Failure> {
+fn prepare_trace(
+    arguments: &TriangulateArguments,
+    chosen: &Chosen,
+    mesh: &Output,
+    lists: &Lists,
+) -> Result<Option<Output>, Failure> {
     let Some(file) = &arguments.trace else {
         return Ok(None);
     };
     if !matches!(chosen, Chosen::One(Choice { address: DeviceAddress::Sim { .. }, .. })) {
         return Err(Failure::usage("--trace records the simulated core: it needs --backend sim"));
     }
-    let trace = Output::prepare(file, &arguments.points)?;
+    let trace = Output::prepare(file, &inputs(arguments))?;
     if trace.is_same(mesh) {
         return Err(Failure::usage(format!(
             "{} is both the mesh and the waveform: choose another file for one",
             path::name(file)
         )));
+    }
+    if [&lists.edges, &lists.neighbors].into_iter().flatten().any(|list| list.is_same(&trace)) {
+        let name = path::name(file);
+        return Err(Failure::usage(format!("{name} is both a list and the waveform: choose another file for one")));
     }
     Ok(Some(trace))
 }

@@ -131,7 +131,7 @@ impl PointFormat {
     pub fn read_plan(
         self,
         input: Input,
-        beside: &dyn Fn() -> Result<PointTable, Failure>,
+        beside: &dyn Fn() -> Result<(PointTable, u32), Failure>,
     ) -> Result<PlanTable, Failure> {
         let memory = input.memory();
         match self {

@@ -44,6 +44,12 @@ pub fn read_points(bytes: &[u8], memory: Memory) -> Result<PointTable, Failure> 
     table.complete()
 }
 
+/// The id of the first point of a file, 0 if there is none.
+pub fn first_id(bytes: &[u8]) -> Result<u32, Failure> {
+    let (_, mut rows) = triangle::open(bytes, &HEADER)?;
+    rows.next().map_or(Ok(0), |(row, content)| read_point(content, row).map(|(id, _)| id))
+}
+
 /// The ids of points, which start at 0 or 1 and rise by one.
 #[derive(Default)]
 pub(super) struct Ids {

@@ -20,17 +20,19 @@ const HEADER: triangle::Header =
 /// A row with its number, without its comment.
 type Row<'a> = (usize, &'a [u8]);
 
-/// Reads a plan. `beside` reads the points of the `.node` file beside.
+/// Reads a plan. `beside` reads the points of the `.node` file beside, and the id of the first.
 pub fn read_plan(
     bytes: &[u8],
     memory: Memory,
-    beside: &dyn Fn() -> Result<PointTable, Failure>,
+    beside: &dyn Fn() -> Result<(PointTable, u32), Failure>,
 ) -> Result<PlanTable, Failure> {
     let (promised, mut rows) = triangle::open(bytes, &HEADER)?;
     let mut table = PointTable::of_rows([2, 3, 4]).within(memory);
     let mut ids = Ids::default();
     if promised == 0 {
-        table = beside()?.into_items();
+        let (points, base) = beside()?;
+        table = points.into_items();
+        ids.base = base;
     }
     for _ in 0..promised {
         let (row, content) = next(&mut rows, "points", promised, table.len())?;
@@ -41,7 +43,7 @@ pub fn read_plan(
     let points = table.len();
     let mut plan = PlanTable::of_points(table, false);
     plan.is_poly = true;
-    read_segments(&mut rows, &mut plan, ids.base, promised == 0)?;
+    read_segments(&mut rows, &mut plan, ids.base)?;
     let holes = section(&mut rows, "holes")?.unwrap_or(0);
     for number in 0..holes {
         read_mark(&mut rows, &mut plan, "holes", [holes, number])?;
@@ -77,14 +79,8 @@ fn section<'a>(rows: &mut impl Iterator<Item = Row<'a>>, items: &str) -> Result<
     text::whole(value, &format!("a number of {items}"), Place::Cell { row, column: 1 }).map(Some)
 }
 
-/// Reads the section of segments. The ids of points in another file may count from 0 or 1: they count from 0 if a
-/// segment names point 0, or if all points are named by ids below their number.
-fn read_segments<'a>(
-    rows: &mut impl Iterator<Item = Row<'a>>,
-    plan: &mut PlanTable,
-    base: u32,
-    is_beside: bool,
-) -> Result<(), Failure> {
+/// Reads the section of segments, whose ids begin with `base`.
+fn read_segments<'a>(rows: &mut impl Iterator<Item = Row<'a>>, plan: &mut PlanTable, base: u32) -> Result<(), Failure> {
     let points = plan.points;
     let promised = section(rows, "segments")?
         .ok_or_else(|| Failure::input("the file ends behind the points: a row with the number of segments follows"))?;
@@ -102,10 +98,6 @@ fn read_segments<'a>(
         plan.rings.push([ends[1], ends[2]]);
     }
     let all = || plan.rings.iter().flatten();
-    let base = match is_beside {
-        false => base,
-        true => u32::from(all().all(|&end| end > 0) && all().any(|&end| end as usize >= points)),
-    };
     let is_point = |&&end: &&u32| end.checked_sub(base).is_some_and(|index| (index as usize) < points);
     if let Some(end) = all().find(|end| !is_point(end)) {
         let points = counted(points, "point");

@@ -141,6 +141,17 @@ impl Ended {
     }
 }
 
+/// Entries that the list of the constraints of all pieces may have. They take 3 GiB, so lists stay below 32 bits, too.
+const MOST_PARTS: usize = 1 << 28;
+
+/// Checks that the list of parts may become longer.
+fn check_room(parts: usize) -> Result<(), Error> {
+    match parts < MOST_PARTS {
+        true => Ok(()),
+        false => Err(Error::TooManyPieces { max: MOST_PARTS }),
+    }
+}
+
 /// Forces all constraints into the mesh, in their order.
 fn force_all<S: Site>(network: &mut Network<'_, S>, ends: &[[u32; 2]]) -> Result<Pieces, Ended> {
     let mut parts: Vec<([u32; 2], u32)> = Vec::with_capacity(ends.len());
@@ -155,6 +166,7 @@ fn force_all<S: Site>(network: &mut Network<'_, S>, ends: &[[u32; 2]]) -> Result
                 }
                 Stop::Error(error) => Ended::Error(error),
             })?;
+            check_room(parts.len()).map_err(Ended::Error)?;
             parts.push(([at.min(next), at.max(next)], constraint));
             at = next;
         }
@@ -172,6 +184,7 @@ fn on_line<S: Site>(places: &[S], hull: &[u32], ends: &[[u32; 2]], plan: &Plan<'
         for (rank, end) in ranks.iter_mut().zip(pair) {
             *rank = line.binary_search(&site(end)?).map_err(|_| Error::NoMesh)?;
         }
+        check_room(parts.len() + ranks[0].abs_diff(ranks[1]))?;
         let between = &hull[ranks[0].min(ranks[1])..=ranks[0].max(ranks[1])];
         parts.extend(between.windows(2).map(|two| ([two[0].min(two[1]), two[0].max(two[1])], constraint)));
     }

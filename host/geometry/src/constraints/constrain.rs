@@ -39,8 +39,8 @@ use crate::site::Site;
 /// ```
 ///
 /// # Errors
-/// Constraints cross or name points that do not exist, the boundary of the domain is not closed, a hole or region has
-/// no place, the domain is empty, or the mesh is not that of its points.
+/// Constraints cross or name points that do not exist, the boundary of the domain is not closed, the place of a hole or
+/// region is outside the hull or on a constraint, the domain is empty, or the mesh is not that of its points.
 pub fn constrain<P: PlanePoint>(mesh: &Mesh<P>, plan: &Plan<'_, P>) -> Result<Constrained, Error> {
     let places: Vec<P> = [&mesh.points[..], plan.holes, plan.regions].concat();
     if let Some(index) = places.iter().position(|place| !place.site().is_finite()) {

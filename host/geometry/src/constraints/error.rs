@@ -21,6 +21,12 @@ pub enum Error {
         /// Number of constraints that are possible.
         max: usize,
     },
+    /// Constraints overlap so much that the list of the constraints of all pieces is too long.
+    #[error("constraints overlap too much: their pieces would name more than {max} constraints")]
+    TooManyPieces {
+        /// Entries that the list may have.
+        max: usize,
+    },
     /// A constraint names a point that does not exist.
     #[error("constraint {constraint} names point {index}, but the number of points is {points}")]
     OutOfRange {
@@ -86,7 +92,7 @@ pub enum Error {
         /// The ends of the piece of the constraint.
         edge: [u32; 2],
     },
-    /// A hole or a region lies in no triangle of the domain.
+    /// The place of a region lies in a part of the hull that does not belong to the domain.
     #[error("region {number} lies in a part of the hull that does not belong to the domain")]
     RegionOutsideDomain {
         /// Number of the region.

@@ -108,6 +108,10 @@ impl<S: Site> Network<'_, S> {
                     self.add_left(left, apex);
                     edge = right;
                 }
+                // In triangles of another set the vertex may lie elsewhere on the line, and the walk would never end.
+                Ordering::Equal if apex != to && !S::is_between(a, self.site(apex), q) => {
+                    return Err(Error::NoMesh.into());
+                }
                 Ordering::Equal => {
                     self.add_right(right, b);
                     self.add_left(left, apex);

@@ -92,7 +92,8 @@ impl<P: ExactPoint> Buckets<P> {
         if b[0] < a[0] {
             (a, b) = (b, a);
         }
-        let slope = (b[1] - a[1]) / (b[0] - a[0]);
+        // Roundings of the ends would tilt a line within a narrow strip, so all rows between the ends are taken there.
+        let slope = if b[0] - a[0] < 1e-5 { f64::INFINITY } else { (b[1] - a[1]) / (b[0] - a[0]) };
         for column in self.cell(a[0])..=self.cell(b[0]) {
             // The part of the line in this column. All numbers are below the number of columns and err by 1e-9 at most,
             // so one more row on either side is enough.

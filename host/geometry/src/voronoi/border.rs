@@ -35,7 +35,11 @@ impl Border {
             .collect();
         let low = ring.iter().map(|corner| corner.y).min().unwrap_or(0);
         let high = ring.iter().map(|corner| corner.y).max().unwrap_or(0);
-        let count = (ring.len() as u64).clamp(1, MOST_SLABS);
+        // An edge that is high counts in many slabs: with few slabs all of them together have 8 entries an edge.
+        let span = u128::from(high - low) + 1;
+        let heights: u128 = boxes.iter().map(|[_, [bottom, top]]| u128::from(top - bottom) + 1).sum();
+        let fitting = (8 * ring.len() as u128 * span / heights.max(1)).max(1);
+        let count = (ring.len() as u64).clamp(1, MOST_SLABS).min(u64::try_from(fitting).unwrap_or(MOST_SLABS));
         let height = (u64::from(high - low) + 1).div_ceil(count);
         let mut border = Self { low, high, height, slabs: vec![Vec::new(); count as usize], boxes };
         for edge in 0..ring.len() {

@@ -11,7 +11,7 @@ const FULL_LINK: LinkConfig = LinkConfig { fifo_bytes: 16_384, ..LINK };
 
 /// Cells of the link of a small core by Yosys 0.23.
 const MEASURED: Cells =
-    Cells { lut4: 1193, carry: 139, distributed_ram: 0, flip_flops: 997, multipliers: 0, block_ram: 2 };
+    Cells { lut4: 1174, carry: 139, distributed_ram: 0, flip_flops: 997, multipliers: 0, block_ram: 2 };
 
 /// Largest number of look-up tables of four inputs for the link, with two for each carry cell.
 const MOST_TABLES: u64 = 1500;

@@ -210,8 +210,11 @@ fn a_trace_of_one_job_has_no_other_jobs() {
     let [all, first, second] = ["", "--trace-job 1", "--trace-job 2"].map(clocks);
     assert!(first > 300 && second > 300 && first + second < all, "{all} {first} {second}");
     scratch.run(&format!("{run} --trace-job 1000")).fails(2, &["fewer jobs"]);
-    scratch.run(&format!("{run} --trace-job 0")).fails(2, &["--trace-job"]);
-    scratch.run("triangulate p.csv -o m.ele --backend sim --trace-job 1").fails(2, &["--trace"]);
+    for options in ["--trace t.vcd --trace-job 0", "--trace-job 1"] {
+        let refused = scratch.run(&format!("triangulate p.csv -o m.ele --backend sim {options}"));
+        assert_eq!(refused.code, Some(2), "{refused:?}");
+        assert!(refused.stderr.contains("--trace"), "{refused:?}");
+    }
 }
 
 #[test]

@@ -104,6 +104,13 @@ fn regions_of_a_poly_have_their_attributes() {
     points.write("p.poly", "0 2 0 0\n1 0\n0 0 2\n0\n");
     points.run("triangulate p.poly -o m.ele --domain all --json").ok();
     assert_eq!(points.read("m.ele"), "2 3 0\n0 0 1 2\n1 0 2 3\n");
+    // The file of points counts from 1, and no segment names its last point.
+    points.write("p.node", "5 2 0 0\n1 0 0\n2 8 0\n3 8 8\n4 0 8\n5 4 3\n");
+    points.write("p.poly", "0 2 0 0\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n");
+    for from in ["", "--from poly"] {
+        points.run(&format!("triangulate p.poly -o m.ele {from}")).ok();
+        assert_eq!(points.read("m.ele"), "4 3 0\n0 0 1 4\n1 0 4 3\n2 1 2 4\n3 2 3 4\n");
+    }
 }
 
 #[test]

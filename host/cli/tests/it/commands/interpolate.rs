@@ -69,6 +69,12 @@ fn grids_have_all_multiples_of_the_step() {
     assert!(String::from_utf8_lossy(&bytes[..128]).contains("'shape': (5, 8"), "{bytes:?}");
     assert_eq!(bytes[128..136], 1f64.to_le_bytes());
     assert_eq!(bytes.len(), 128 + 40 * 8);
+    // The quotient 0.3 / 0.1 of doubles is below 3.
+    scratch.write("t.csv", "x,y,z\n0,0,0\n0.3,0,0.3\n0.3,0.7,0.7\n0,0.7,0\n");
+    let run = scratch.run("interpolate t.csv --grid 0.1 -o g.csv").ok();
+    assert!(run.stderr.contains("values at 32 places"), "{run:?}");
+    let run = scratch.run("interpolate t.csv --contours 0.1 -o c.geojson").ok();
+    assert!(run.stderr.contains("at 8 levels"), "{run:?}");
 }
 
 #[test]

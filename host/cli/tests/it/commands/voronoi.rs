@@ -161,3 +161,16 @@ fn small_sets_have_cells() {
         scratch.run(&format!("voronoi {name}.csv -o {name}.json --quiet")).ok();
     }
 }
+
+#[test]
+fn decimals_that_are_binary_fractions_keep_their_places() {
+    let scratch = Scratch::new();
+    // Ten decimals: the points have steps of 2^-10, because steps of 10^-10 would need too many bits.
+    scratch.write("p.csv", "0.0009765625,0.0009765625\n1,0\n0,1\n1,1\n");
+    scratch.run("voronoi p.csv -o c.geojson --clip 0,0,1,1 --quiet").ok();
+    let json: Value = serde_json::from_str(&scratch.read("c.geojson")).expect("JSON");
+    let rings = json["features"].as_array().expect("features").iter().map(|one| &one["geometry"]["coordinates"][0]);
+    let places: Vec<[f64; 2]> = rings.flat_map(corners).collect();
+    assert!(places.contains(&[0.0, 0.0]) && places.contains(&[1.0, 1.0]), "{places:?}");
+    assert!(places.iter().flatten().all(|value| (0.0..=1.0).contains(value)), "{places:?}");
+}

@@ -215,3 +215,13 @@ fn contours_are_the_segments_of_all_triangles() {
     }
     assert!(closed > 0, "no closed line");
 }
+
+#[test]
+fn of_points_at_one_distance_the_lowest_index_counts() {
+    // No edge joins points 0 and 1, both of which are at distance 5 from the place.
+    let points = [[3, 4], [5, 0], [4, 3], [0, 5], [9, 9]];
+    let places = doubles(&points);
+    let mesh = mesh_of(&places);
+    let surface = Surface::new(&places, &mesh.triangles, &[0.0, 1.0, 2.0, 3.0, 4.0]).expect("a surface");
+    assert_eq!(surface.value(Method::Linear, Outside::Nearest, [0.0, 0.0]), 0.0);
+}

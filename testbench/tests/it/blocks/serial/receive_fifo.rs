@@ -7,12 +7,7 @@ use incircle_blocks::QUICK_LINK;
 use incircle_hdl::serial::ReceiveFifo;
 use incircle_testkit::SplitMix64;
 
-named_ports!(
-    ReceiveFifo<8>,
-    [reset, begins, push, push_data, commits, takes],
-    [free, is_full, entry_valid, entry_data],
-    clock
-);
+named_ports!(ReceiveFifo<8>, [reset, begins, push, push_data, commits, takes], [room, entry_valid, entry_data], clock);
 
 #[test]
 fn fifo_gives_what_was_committed_and_nothing_else() {
@@ -43,10 +38,10 @@ fn fifo_gives_what_was_committed_and_nothing_else() {
         let mut takes = false;
         if clock > 0 {
             if still_for >= 2 {
-                block.expect("free", (size - committed.len()) as u64);
+                block.expect("room.free", (size - committed.len()) as u64);
             }
             if still_for >= 2 && rests_for >= 2 && began != clock - 1 {
-                block.expect("is_full", committed.len() + provisional.len() == size);
+                block.expect("room.is_full", committed.len() + provisional.len() == size);
             }
             let is_there = block.is("entry_valid");
             assert!(!is_there || !committed.is_empty(), "a byte came that was not committed");
