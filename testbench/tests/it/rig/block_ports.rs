@@ -18,7 +18,7 @@ use incircle_hdl::ethernet::types::{OnTheWay, Station};
 use incircle_hdl::leaf::Unpacked;
 use incircle_hdl::mesh::{ReadRecord, Record};
 use incircle_hdl::predicate::{Corners, EdgeFlags, OrderFlags, Signs};
-use incircle_hdl::serial::types::{AnswerPlace, BytePlace, Contents, FrameHead, Lamps, Receipt, Session};
+use incircle_hdl::serial::types::{AnswerPlace, BytePlace, Contents, FifoRoom, FrameHead, Lamps, Receipt, Session};
 use incircle_hdl::serial::Asked;
 use incircle_hdl::stream::{AnswerEvents, CommandEvents};
 use incircle_hdl::udp::types::{DatagramAsks, DatagramHead, DatagramVerdict, UdpSession};
@@ -156,6 +156,7 @@ packed_values!(
     AnswerPlace,
     BytePlace,
     Contents,
+    FifoRoom,
     FrameHead,
     Lamps,
     Receipt,
