@@ -109,7 +109,7 @@ fn regions_of_a_poly_have_their_attributes() {
     points.write("p.poly", "0 2 0 0\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n");
     for from in ["", "--from poly"] {
         points.run(&format!("triangulate p.poly -o m.ele {from}")).ok();
-        assert_eq!(points.read("m.ele"), "4 3 0\n0 0 1 4\n1 0 4 3\n2 1 2 4\n3 2 3 4\n");
+        assert_eq!(points.read("m.ele"), "4 3 1\n0 0 1 4 0\n1 0 4 3 0\n2 1 2 4 0\n3 2 3 4 0\n");
     }
 }
 
