@@ -67,7 +67,7 @@ fn scans_in_pieces_have_the_mesh_of_the_run_in_memory() {
 fn a_lattice_that_shows_late_is_that_of_all_points() {
     let scratch = Scratch::new();
     let mut random = SplitMix64::new(9);
-    let mut number = || random.below(3072) as f64 / 1024.0;
+    let mut number = || random.below(192) as f64 / 64.0;
     let coarse: String = (0..POINTS).map(|_| format!("{},{}\n", number(), number())).collect();
     let finest = "0.000000000931322574615478515625";
     for last in ["0.0001,1.0003\n".to_owned(), format!("{finest},1\n2,{finest}\n"), format!("{finest},1e0\n")] {
@@ -130,21 +130,17 @@ fn damaged_scans_are_refused_as_in_memory() {
     for (minor, format) in [(2, 1), (4, 6)] {
         let packed = write(minor, format, true, AXES, &points);
         refused(&scratch, "p.laz", &packed[..packed.len() / 2], &["p.laz", "cut off"]);
-        // The second chunk begins beyond the middle of the file.
-        let mut other = packed.clone();
-        let middle = packed.len() * 3 / 4;
-        other[middle..middle + 4000].fill(0xff);
-        scratch.write("p.laz", &other);
-        let whole = scratch.run("triangulate p.laz -o m.npy -q");
-        let pieces = scratch.run("triangulate p.laz -o m.npy --memory 32M -q");
-        assert_eq!((pieces.code, pieces.stderr), (whole.code, whole.stderr));
+        if format == 6 {
+            // The second chunk begins beyond the middle of the file, so a piece is taken before the damage is found.
+            let (mut other, middle) = (packed.clone(), packed.len() * 3 / 4);
+            other[middle..middle + 4000].fill(0xff);
+            refused(&scratch, "p.laz", &other, &["p.laz: chunk 2 of 2"]);
+        }
         let mut less = packed;
         let place = if minor == 4 { 247 } else { 107 };
         assert_eq!(word(&less, place) as u64, POINTS);
         less[place] -= 1;
-        std::fs::remove_file(scratch.path("p.laz")).expect("the file is there");
-        let _ = std::fs::remove_file(scratch.path("m.npy"));
-        refused(&scratch, "p.laz", &less, &["p.laz"]);
+        refused(&scratch, "p.laz", &less, &["p.laz: chunk 2 of 2", "19999"]);
     }
 }
 
