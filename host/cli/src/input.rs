@@ -87,6 +87,11 @@ impl Input {
         self.memory
     }
 
+    /// The input without a bound on its bytes, for readers that keep only a piece of it.
+    pub fn without_end(self) -> Self {
+        Self { left: u64::MAX, ..self }
+    }
+
     /// All bytes of the input.
     pub fn into_bytes(mut self) -> Result<Vec<u8>, Failure> {
         if self.size > self.memory.input_bytes() {

@@ -23,20 +23,25 @@ pub fn read_valued_points(
     value: Option<&str>,
     quiet: bool,
 ) -> Result<PointTable, Failure> {
-    let format = match arguments.from {
-        Some(format) => format,
-        None if is_standard(path) => PointFormat::Csv,
-        None => PointFormat::of_extension(extension(path)).ok_or_else(|| {
-            let (name, names) = (name(path), PointFormat::names());
-            Failure::usage(format!("{name}: the extension names no format of points: add --from {names}"))
-        })?,
-    };
+    let format = format_of_points(path, arguments)?;
     if value.is_some() && format != PointFormat::Csv {
         return Err(Failure::usage("--value names a column of CSV: leave it out for other formats, whose z is taken"));
     }
     let selection = Selection { value: value.map(str::to_owned), ..arguments.selection(format)? };
     let read = || format.read(Input::open(path, quiet)?, &selection);
     read().map_err(|failure| failure.in_file(name(path)))
+}
+
+/// The format of a file of points: that of `--from`, or else that of the extension. Standard input is CSV.
+pub fn format_of_points(path: &Path, arguments: &ReadArguments) -> Result<PointFormat, Failure> {
+    match arguments.from {
+        Some(format) => Ok(format),
+        None if is_standard(path) => Ok(PointFormat::Csv),
+        None => PointFormat::of_extension(extension(path)).ok_or_else(|| {
+            let (name, names) = (name(path), PointFormat::names());
+            Failure::usage(format!("{name}: the extension names no format of points: add --from {names}"))
+        }),
+    }
 }
 
 /// Reads the points of several files as one set, numbered in the order of the files.

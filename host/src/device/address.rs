@@ -120,7 +120,7 @@ impl DeviceAddress {
                 return Err(forms.to_owned());
             }
         };
-        choices.items().try_for_each(|choice| address.choose(choice))?;
+        choices.items()?.into_iter().try_for_each(|choice| address.choose(choice))?;
         Ok(address)
     }
 
@@ -241,6 +241,8 @@ mod tests {
             "model?bits=3",
             "model?capacity=many",
             "model?capacity",
+            "model?capacity=9&capacity=9",
+            "clock?config=full&config=quad",
             "model?config=tiny",
             "clock?config=huge",
             "clock?config",

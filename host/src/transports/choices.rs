@@ -17,12 +17,19 @@ impl<'a> Choices<'a> {
     }
 
     /// The choices in the order of the text. A key without `=` has an empty value.
-    pub(crate) fn items(&self) -> impl Iterator<Item = Choice<'a>> + use<'a> {
-        let items = self.items.split('&').filter(|item| !item.is_empty());
-        items.map(|item| {
+    ///
+    /// # Errors
+    /// A sentence that does not repeat the address, if a key stands twice: nobody can say which value was meant.
+    pub(crate) fn items(&self) -> Result<Vec<Choice<'a>>, String> {
+        let mut choices: Vec<Choice<'a>> = Vec::new();
+        for item in self.items.split('&').filter(|item| !item.is_empty()) {
             let (key, value) = item.split_once('=').unwrap_or((item, ""));
-            Choice { key, value }
-        })
+            if choices.iter().any(|choice| choice.key == key) {
+                return Err(format!("\"{key}\" stands twice: give it once"));
+            }
+            choices.push(Choice { key, value });
+        }
+        Ok(choices)
     }
 }
 

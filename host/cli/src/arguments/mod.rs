@@ -197,7 +197,7 @@ pub struct LargeArguments {
     ///
     /// The tiles and the triangles lie in files. The mesh is the same. The points must lie on a
     /// lattice of up to 32 bits, and the mesh is written as npy, csv or ele. Without this option a
-    /// set of .npy files that does not fit the free memory is cut into tiles.
+    /// set of npy, csv, xyz or LiDAR files that does not fit the free memory is cut into tiles.
     #[arg(long, value_name = "BYTES", value_parser = bytes_from, verbatim_doc_comment)]
     pub memory: Option<u64>,
     /// Folder for the files of a set in tiles (default: the folder of the mesh)

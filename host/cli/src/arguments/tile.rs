@@ -38,8 +38,8 @@ pub enum TileCommand {
 pub struct SplitArguments {
     /// Files of points, which are one set: the points are numbered in this order
     ///
-    /// The points must lie on a common lattice of up to 32 bits. The memory holds one of the files
-    /// at a time, and only a piece of an .npy file that is not packed.
+    /// The points must lie on a common lattice of up to 32 bits. The memory holds a piece of an
+    /// .npy, CSV, XYZ, LAS or LAZ file, and all of any other file, one file at a time.
     #[arg(required = true, value_name = "POINTS", verbatim_doc_comment)]
     pub inputs: Vec<PathBuf>,
     /// Most points of a tile

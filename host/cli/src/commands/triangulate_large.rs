@@ -13,7 +13,7 @@ use crate::arguments::TriangulateArguments;
 use crate::backend::Choice;
 use crate::commands::tile::{check_backend, triangulate_tile};
 use crate::failure::{counted, Exit, Failure};
-use crate::formats::{npy, MeshFormat, PointFormat};
+use crate::formats::MeshFormat;
 use crate::input::Input;
 use crate::memory::Memory;
 use crate::output::{self, Output};
@@ -39,25 +39,63 @@ pub fn memory_of(arguments: &TriangulateArguments) -> Option<u64> {
     if has_choices || !tiles::is_streamed(format) {
         return None;
     }
-    let points = count_points(arguments)?;
-    let fits = points <= free.most_points() && points <= MAX_POINTS as u64;
-    if !fits && !arguments.quiet {
+    let points = too_many(arguments, free).filter(|_| Budget::is_enough(usual))?;
+    if !arguments.quiet {
         output::note(&format!(
             "{points} points do not fit the {} of free memory at once, so they are triangulated in tiles",
             tiles::told(free.bytes())
         ));
     }
-    (!fits).then_some(usual)
+    Some(usual)
 }
 
-/// The number of points of all inputs, if they are arrays that need not be unpacked.
-fn count_points(arguments: &TriangulateArguments) -> Option<u64> {
-    let count = |path: &PathBuf| {
-        let format = arguments.read.from.or_else(|| PointFormat::of_extension(path::extension(path)));
-        let input = Input::open(path, true).ok().filter(|input| input.size() > 0);
-        input.filter(|_| format == Some(PointFormat::Npy)).and_then(|input| npy::count_points(input).ok())
+/// The least bytes of a row of text with two numbers.
+const LEAST_ROW: u64 = 4;
+
+/// The most points of all inputs, if that is known and they do not fit the memory.
+fn too_many(arguments: &TriangulateArguments, free: Memory) -> Option<u64> {
+    // The number of points that an option selects is not known before they are read.
+    if !arguments.read.classes.is_empty() || arguments.read.bounds.is_some() {
+        return None;
+    }
+    let fits = |most: &Most| {
+        most.text <= free.input_bytes() && most.points <= free.most_points() && most.points <= MAX_POINTS as u64
     };
-    arguments.points.iter().map(count).sum()
+    // Rows are counted only if that decides.
+    if fits(&Most::of(arguments, false)?) {
+        return None;
+    }
+    let most = Most::of(arguments, true)?;
+    (!fits(&most)).then_some(most.points)
+}
+
+/// Upper bounds for what the inputs of a run hold.
+struct Most {
+    points: u64,
+    /// The bytes of the largest text, which the reader in memory takes as a whole.
+    text: u64,
+}
+
+impl Most {
+    /// The bounds by headers and lengths, and by the rows of texts if these are counted. `None` if an input has none.
+    fn of(arguments: &TriangulateArguments, counts_rows: bool) -> Option<Self> {
+        let mut most = Self { points: 0, text: 0 };
+        for path in &arguments.points {
+            let format = source::format_of_points(path, &arguments.read).ok()?;
+            // Opening a pipe and closing it again would end the program that writes to it.
+            fs::metadata(path).ok().filter(fs::Metadata::is_file)?;
+            let input = Input::open(path, true).ok().filter(|input| input.size() > 0)?;
+            let bytes = input.size();
+            if format.has_rows() {
+                most.text = most.text.max(bytes);
+            }
+            most.points = most.points.checked_add(match format.has_rows() && !counts_rows {
+                true => bytes / LEAST_ROW + 1,
+                false => format.most_points(input)?,
+            })?;
+        }
+        Some(most)
+    }
 }
 
 /// Triangulates the set within a memory of so many bytes.

@@ -10,8 +10,11 @@ use std::fmt::Display;
 use std::io::{self, Write};
 
 use crate::failure::{counted, quoted, Failure};
-use crate::formats::csv_rows::{CsvRows, Values};
+use crate::formats::blocks::{Blocks, RowEnd};
+use crate::formats::csv_rows::{separator_of, CsvRows, Values};
 use crate::formats::mesh_view::MeshView;
+use crate::formats::{no_byte, Take};
+use crate::input::Input;
 use crate::memory::Memory;
 use crate::points::{Place, PointTable};
 use crate::text;
@@ -27,43 +30,99 @@ pub fn read_points(bytes: &[u8], memory: Memory) -> Result<PointTable, Failure> 
 
 /// Reads the points of a file. If `value` names a column or has its number, counted from 1, that column is taken for z.
 pub fn read_valued_points(bytes: &[u8], value: Option<&str>, memory: Memory) -> Result<PointTable, Failure> {
-    let mut rows = CsvRows::new(text::without_mark(bytes)?);
-    let mut columns = [0, 1];
-    let mut z = value.and_then(number_of_column);
-    let mut table = PointTable::of_rows([1, 2, z.map_or(3, |column| column + 1)]).within(memory);
-    let mut width = 0;
-    loop {
-        // The quick way reads rows of two columns, x and y. In a file with the header `x,z` one of the two is the z.
-        if width == 2 && columns == [0, 1] && z.is_none() {
-            while let Some((row, pair)) = rows.next_pair() {
-                table.push_decimals(pair, row)?;
-            }
-        }
-        let Some((row, values)) = rows.next()? else {
-            return table.complete();
+    let mut reader = PointReader::new(value, memory);
+    reader.read(text::without_mark(bytes)?)?;
+    reader.table.complete()
+}
+
+/// Calls `take` with the coordinates of the points, in pieces of up to about 256 KiB of text, or one row if that is
+/// longer.
+///
+/// # Errors
+/// The text is empty, a row or a number is wrong, a whole number is beyond 64 bits, or `take` fails.
+pub fn read_pieces(input: Input, value: Option<&str>, take: Take<'_>) -> Result<(), Failure> {
+    let (mut blocks, mut reader) = (Blocks::new(input, RowEnd::Any), PointReader::new(value, Memory::ENDLESS));
+    let mut is_first = true;
+    while let Some(block) = blocks.next()? {
+        let block = if std::mem::take(&mut is_first) { text::without_mark(block)? } else { block };
+        reader.read(block)?;
+        take(&reader.table.take_exact()?)?;
+    }
+    if is_first {
+        Err(no_byte())
+    } else {
+        Ok(())
+    }
+}
+
+/// The columns of a file, and the points read so far.
+struct PointReader<'v> {
+    value: Option<&'v str>,
+    columns: [usize; 2],
+    z: Option<usize>,
+    /// The number of columns; zero before the first row.
+    width: usize,
+    /// The byte between two values, once a row is read.
+    separator: Option<u8>,
+    /// The number of rows of the file that were read.
+    rows: usize,
+    table: PointTable,
+}
+
+impl<'v> PointReader<'v> {
+    fn new(value: Option<&'v str>, memory: Memory) -> Self {
+        let z = value.and_then(number_of_column);
+        let table = PointTable::of_rows([1, 2, z.map_or(3, |column| column + 1)]).within(memory);
+        Self { value, columns: [0, 1], z, width: 0, separator: None, rows: 0, table }
+    }
+
+    /// Reads the next rows of the file.
+    fn read(&mut self, bytes: &[u8]) -> Result<(), Failure> {
+        let mut rows = match self.separator {
+            Some(separator) => CsvRows::after(self.rows, bytes, separator),
+            None => CsvRows::after(self.rows, bytes, separator_of(bytes)),
         };
-        if width == 0 {
-            width = values.len();
-            refuse_one_column(&values, row)?;
-            if !values.iter().any(text::looks_like_number) {
-                columns = named_columns(&values);
-                z = match value {
-                    None => named_column(&values, "z"),
-                    Some(name) => named_column(&values, name).or(z),
-                };
-                table = PointTable::of_rows([columns[0], columns[1], z.unwrap_or(0)].map(|column| column + 1))
-                    .within(memory);
+        loop {
+            // The quick way reads rows of two columns, x and y. In a file with the header `x,z` one of the two is the z.
+            if self.width == 2 && self.columns == [0, 1] && self.z.is_none() {
+                while let Some((row, pair)) = rows.next_pair() {
+                    self.table.push_decimals(pair, row)?;
+                }
             }
-            value.map_or(Ok(()), |name| refuse_no_column(name, z, width))?;
-            if !values.iter().any(text::looks_like_number) {
-                continue;
+            let separator = rows.separator();
+            let Some((row, values)) = rows.next()? else { break };
+            if self.width == 0 {
+                self.separator = Some(separator);
+                if self.take_first(&values, row)? {
+                    continue;
+                }
+            }
+            refuse_other_width(&values, self.width, row)?;
+            self.table.push(self.columns.map(|column| values.get(column)), row)?;
+            if let Some(column) = self.z {
+                self.table.push_height(Some(values.get(column)), row)?;
             }
         }
-        refuse_other_width(&values, width, row)?;
-        table.push(columns.map(|column| values.get(column)), row)?;
-        if let Some(column) = z {
-            table.push_height(Some(values.get(column)), row)?;
+        self.rows = rows.row();
+        Ok(())
+    }
+
+    /// Learns the columns from the first row. Returns whether it is a header.
+    fn take_first(&mut self, values: &Values<'_>, row: usize) -> Result<bool, Failure> {
+        self.width = values.len();
+        refuse_one_column(values, row)?;
+        let is_header = !values.iter().any(text::looks_like_number);
+        if is_header {
+            self.columns = named_columns(values);
+            self.z = match self.value {
+                None => named_column(values, "z"),
+                Some(name) => named_column(values, name).or(self.z),
+            };
+            let [x, y] = self.columns;
+            self.table.set_columns([x, y, self.z.unwrap_or(0)].map(|column| column + 1));
         }
+        self.value.map_or(Ok(()), |name| refuse_no_column(name, self.z, self.width))?;
+        Ok(is_header)
     }
 }
 

@@ -58,11 +58,23 @@ impl<'r> Values<'r> {
 impl<'a> CsvRows<'a> {
     /// The rows of a text. The separator is a comma, or the semicolon or tab that the first row has instead.
     pub fn new(bytes: &'a [u8]) -> Self {
-        let mut rows = text::rows(bytes).map(|(_, row)| row);
-        let first = rows.find(|row| !row.trim_ascii().is_empty() && !row.starts_with(b"#")).unwrap_or_default();
-        let separator = [b',', b';', b'\t'].into_iter().find(|byte| first.contains(byte)).unwrap_or(b',');
+        Self::after(0, bytes, separator_of(bytes))
+    }
+
+    /// The rows of a text that has so many rows before these bytes.
+    pub fn after(row: usize, bytes: &'a [u8], separator: u8) -> Self {
         let reader = ReaderBuilder::new().delimiter(separator).build();
-        Self { rest: bytes, row: 0, separator, reader, unquoted: Vec::new(), ends: Vec::new() }
+        Self { rest: bytes, row, separator, reader, unquoted: Vec::new(), ends: Vec::new() }
+    }
+
+    /// The byte between two values.
+    pub fn separator(&self) -> u8 {
+        self.separator
+    }
+
+    /// The number of rows of the text up to the last one taken.
+    pub fn row(&self) -> usize {
+        self.row
     }
 
     /// The next row with its number, counted from 1; `None` after the last one.
@@ -147,6 +159,13 @@ impl<'a> CsvRows<'a> {
         self.ends.truncate(ended + last);
         Ok(())
     }
+}
+
+/// The byte between two values of a text: a comma, or the semicolon or tab that the first row has instead.
+pub fn separator_of(bytes: &[u8]) -> u8 {
+    let mut rows = text::rows(bytes).map(|(_, row)| row);
+    let first = rows.find(|row| !row.trim_ascii().is_empty() && !row.starts_with(b"#")).unwrap_or_default();
+    [b',', b';', b'\t'].into_iter().find(|byte| first.contains(byte)).unwrap_or(b',')
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! The file formats, a file each, which reads and writes its format.
 
 mod array;
+mod blocks;
 pub mod csv;
 mod csv_rows;
 pub mod curve;
@@ -35,12 +36,15 @@ use clap::ValueEnum;
 
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::points::PointTable;
+use crate::points::{Coordinates, PointTable};
 
 pub use mesh_view::MeshView;
 pub use plan::PlanTable;
 pub use selection::{Bounds, Selection};
 pub use set::SetFormat;
+
+/// A function that takes the coordinates of the next points of a file.
+pub type Take<'a> = &'a mut dyn FnMut(&Coordinates) -> Result<(), Failure>;
 
 /// Formats that points are read from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -121,6 +125,44 @@ impl PointFormat {
 }
 
 impl PointFormat {
+    /// Calls `take` with the coordinates of the selected points, in pieces. The memory holds one piece of CSV, XYZ, LAS
+    /// and LAZ, and of an array that is not packed; all points of other files are one piece.
+    ///
+    /// # Errors
+    /// As for [`read`](Self::read); a coordinate has no exact value that tiles take; or `take` fails.
+    pub fn read_pieces(self, input: Input, selection: &Selection, take: Take<'_>) -> Result<(), Failure> {
+        match self {
+            Self::Csv => csv::read_pieces(input.without_end(), selection.value.as_deref(), take),
+            Self::Xyz => xyz::read_pieces(input.without_end(), take),
+            Self::Las => lidar::read_pieces(input, selection, take),
+            Self::Npy => npy::read_pieces(input, take),
+            _ => {
+                let table = self.read(input, selection)?;
+                table.check_exact()?;
+                take(table.coordinates())
+            }
+        }
+    }
+
+    /// The most points that an input can have, as far as that is known without reading points: by the header of an
+    /// array or a LAS file, and by the rows of a text. `None` for other formats, for packed inputs, and for headers that
+    /// promise more points than the file has bytes.
+    pub fn most_points(self, input: Input) -> Option<u64> {
+        let bytes = input.size();
+        match self {
+            _ if bytes == 0 => None,
+            Self::Csv | Self::Xyz => blocks::count_rows(input.without_end()).ok(),
+            Self::Las => lidar::count_points(input).ok().filter(|&points| points <= bytes),
+            Self::Npy => npy::count_points(input).ok(),
+            _ => None,
+        }
+    }
+
+    /// Whether files of the format are texts with a row for each point.
+    pub fn has_rows(self) -> bool {
+        matches!(self, Self::Csv | Self::Xyz)
+    }
+
     /// Whether files of the format may hold constraints.
     pub fn may_constrain(self) -> bool {
         matches!(self, Self::Poly | Self::Geojson | Self::Json | Self::Wkt)
@@ -243,9 +285,14 @@ impl MeshFormat {
 fn some_bytes(input: Input) -> Result<Vec<u8>, Failure> {
     let bytes = input.into_bytes()?;
     if bytes.is_empty() {
-        return Err(Failure::input("the file is empty: a set without points is a file with a header, such as 'x,y'"));
+        return Err(no_byte());
     }
     Ok(bytes)
+}
+
+/// The failure of an input of points without a byte.
+fn no_byte() -> Failure {
+    Failure::input("the file is empty: a set without points is a file with a header, such as 'x,y'")
 }
 
 /// The names of formats as a list, such as `csv, xyz or node`.

@@ -8,6 +8,7 @@ use std::ops::Range;
 
 use crate::failure::Failure;
 use crate::formats::array::{Cells, Pieces, Source, Wanted};
+use crate::formats::Take;
 use crate::input::Input;
 use crate::memory::Memory;
 use crate::points::{Coordinates, Place, PointTable, Unit};
@@ -51,7 +52,7 @@ pub fn count_points(input: Input) -> Result<u64, Failure> {
 
 /// Calls `take` with the coordinates of the points, piece by piece. The memory holds one piece, however large the array
 /// is.
-pub fn read_pieces(input: Input, take: &mut dyn FnMut(&Coordinates) -> Result<(), Failure>) -> Result<(), Failure> {
+pub fn read_pieces(input: Input, take: Take<'_>) -> Result<(), Failure> {
     let mut rows = Rows::open(input)?;
     rows.each(0..rows.count(), &mut |piece| take(&piece))
 }

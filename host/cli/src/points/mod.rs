@@ -204,6 +204,35 @@ impl PointTable {
         }
     }
 
+    /// Takes the points out of the table, for tiles. The next point is the first of a table that knows what the numbers
+    /// before it were.
+    ///
+    /// # Errors
+    /// A whole number is beyond 64 bits, or a coordinate was rounded. Tiles take no set that has such numbers.
+    pub fn take_exact(&mut self) -> Result<Coordinates, Failure> {
+        if let Some(message) = &self.beyond {
+            return Err(Failure::input(message));
+        }
+        self.check_exact()?;
+        self.heights = Heights::default();
+        if let Origin::Rows(rows) = &mut self.origin {
+            *rows = Rows::default();
+        }
+        Ok(std::mem::take(&mut self.coordinates))
+    }
+
+    /// Refuses coordinates that are neither doubles nor steps of one length, which tiles do not take.
+    pub fn check_exact(&self) -> Result<(), Failure> {
+        if matches!(self.coordinates, Coordinates::Steps { .. }) || self.rounded == 0 {
+            return Ok(());
+        }
+        Err(Failure::input(format!(
+            "{} of its coordinates are not exact as doubles, and there is no common step of up to 64 bits: tiles take \
+             points on a lattice of at most 32 bits, so round the numbers to fewer digits",
+            self.rounded
+        )))
+    }
+
     #[inline]
     fn add_row(&mut self, row: usize) -> Result<(), Failure> {
         let index = self.len();

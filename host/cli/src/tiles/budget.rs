@@ -78,6 +78,11 @@ impl Budget {
         }
     }
 
+    /// Whether a memory of so many bytes is enough for tiles.
+    pub fn is_enough(memory: u64) -> bool {
+        memory >= LEAST
+    }
+
     /// The memory of `tile split` for tiles of at most `most` points. The verb has no other step.
     pub fn of_tiles(most: NonZeroUsize) -> Self {
         Self {

@@ -12,6 +12,8 @@ const MOST_STEPS: i128 = 9_200_000_000_000_000_000;
 /// The words of one kind of numbers in [`Extent::to_words`]: whether there are any, the step, and four sides of 128
 /// bits.
 const KIND_WORDS: usize = 10;
+/// The kinds of numbers in [`Extent::to_words`]. A word behind them says whether a decimal is no double.
+const KINDS: usize = 3;
 
 /// The length of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,13 +68,20 @@ impl Span {
 pub struct Extent {
     decimal: Option<(u32, Span)>,
     binary: Option<(i32, Span)>,
+    /// The span of the decimals as multiples of a power of two, as long as all are such multiples.
+    alike: Option<(i32, Span)>,
+    /// Whether a decimal is no multiple of a power of two that doubles have.
+    has_no_double: bool,
 }
 
 impl Extent {
     /// Adds the points of a piece. Points that have no lattice are refused.
     pub fn add(&mut self, piece: &Coordinates) -> Result<(), Failure> {
         let added = match piece {
-            Coordinates::Steps { steps, unit } => self.add_steps(steps, unit),
+            Coordinates::Steps { steps, unit } => {
+                self.add_alike(piece, unit);
+                self.add_steps(steps, unit)
+            }
             Coordinates::Doubles(points) => self.add_doubles(points),
         };
         added.ok_or_else(no_lattice)
@@ -86,6 +95,25 @@ impl Extent {
         }
     }
 
+    /// Notes decimals as multiples of a power of two. In a text, a number with many digits may make doubles of a piece,
+    /// and all other pieces are decimals.
+    fn add_alike(&mut self, piece: &Coordinates, unit: &Unit) {
+        if self.has_no_double {
+            return;
+        }
+        let added = match piece {
+            Coordinates::Steps { steps, .. } if unit.digits == 0 => {
+                let values = steps.iter().map(|&point| decimal(unit, point));
+                Some(values.map(|at| Span { low: at, high: at }).reduce(Span::with).map(|span| (0, span)))
+            }
+            _ if piece.count_no_doubles() > 0 => None,
+            _ => lattice_of(&piece.doubles()),
+        };
+        let joined =
+            added.and_then(|added| added.map_or(Some(self.alike), |added| joined(self.alike, added).map(Some)));
+        (self.alike, self.has_no_double) = (joined.flatten(), joined.is_none());
+    }
+
     fn add_decimal(&mut self, added: u32, span: Span) -> Option<()> {
         let (digits, old) = self.decimal.unwrap_or((added, span));
         let finest = digits.max(added);
@@ -95,27 +123,20 @@ impl Extent {
     }
 
     fn add_doubles(&mut self, points: &[[f64; 2]]) -> Option<()> {
-        if points.is_empty() {
-            return Some(());
+        match lattice_of(points)? {
+            Some((exponent, span)) => self.add_binary(exponent, span),
+            None => Some(()),
         }
-        let (lattice, grid) = Lattice::of_doubles(points)?;
-        let most = grid.iter().fold([0; 2], |most: [u32; 2], point| [most[0].max(point.x), most[1].max(point.y)]);
-        let low = lattice.offset.map(i128::from);
-        let span = Span { low, high: [0, 1].map(|axis| low[axis] + i128::from(most[axis])) };
-        self.add_binary(exponent_of(&lattice), span)
     }
 
     fn add_binary(&mut self, exponent: i32, span: Span) -> Option<()> {
-        let (coarse, old) = self.binary.unwrap_or((exponent, span));
-        let finest = coarse.min(exponent);
-        let old = old.times(power_of_two(coarse, finest))?;
-        self.binary = Some((finest, old.with(span.times(power_of_two(exponent, finest))?)));
+        self.binary = Some(joined(self.binary, (exponent, span))?);
         Some(())
     }
 
     /// The spans as numbers of 64 bits, for another process.
     pub fn to_words(&self) -> Vec<u64> {
-        let mut words = Vec::with_capacity(2 * KIND_WORDS);
+        let mut words = Vec::with_capacity(KINDS * KIND_WORDS + 1);
         let mut add = |step: Option<u64>, span: Span| {
             words.extend([u64::from(step.is_some()), step.unwrap_or(0)]);
             let values = [span.low, span.high].into_iter().flatten().map(i128::cast_unsigned);
@@ -123,8 +144,11 @@ impl Extent {
         };
         let nothing = Span { low: [0; 2], high: [0; 2] };
         add(self.decimal.map(|(digits, _)| digits.into()), self.decimal.map_or(nothing, |(_, span)| span));
-        let exponent = self.binary.map(|(exponent, _)| exponent.cast_unsigned().into());
-        add(exponent, self.binary.map_or(nothing, |(_, span)| span));
+        for kind in [self.binary, self.alike] {
+            let exponent = kind.map(|(exponent, _)| exponent.cast_unsigned().into());
+            add(exponent, kind.map_or(nothing, |(_, span)| span));
+        }
+        words.push(self.has_no_double.into());
         words
     }
 
@@ -140,10 +164,14 @@ impl Extent {
             high: [value(first + 6), value(first + 8)],
         };
         let decimal = if word(0) == 1 { self.add_decimal(word(1) as u32, span(0)) } else { Some(()) };
-        let binary = match word(KIND_WORDS) {
-            1 => self.add_binary((word(KIND_WORDS + 1) as u32).cast_signed(), span(KIND_WORDS)),
-            _ => Some(()),
+        let power_at = |first: usize| {
+            let exponent = (word(first + 1) as u32).cast_signed();
+            (word(first) == 1).then(|| (exponent, span(first)))
         };
+        let binary = power_at(KIND_WORDS).map_or(Some(()), |(exponent, span)| self.add_binary(exponent, span));
+        let alike = power_at(2 * KIND_WORDS).map_or(Some(self.alike), |added| joined(self.alike, added).map(Some));
+        self.has_no_double |= word(KINDS * KIND_WORDS) == 1 || alike.is_none();
+        self.alike = alike.flatten();
         decimal.and(binary).ok_or_else(no_lattice)
     }
 
@@ -157,11 +185,11 @@ impl Extent {
                 let whole = whole.times(10i128.checked_pow(digits)).ok_or_else(no_lattice)?;
                 (Length::Decimal(digits), decimal.with(whole))
             }
-            (Some((0, whole)), Some((exponent, binary))) => {
-                let whole = whole.times(power_of_two(0, exponent)).ok_or_else(no_lattice)?;
-                (Length::Binary(exponent), binary.with(whole))
+            (Some(_), Some(binary)) => {
+                let alike = self.alike.filter(|_| !self.has_no_double);
+                let (exponent, span) = alike.and_then(|alike| joined(Some(binary), alike)).ok_or_else(no_lattice)?;
+                (Length::Binary(exponent), span)
             }
-            (Some(_), Some(_)) => return Err(no_lattice()),
         };
         let spans = [0, 1].map(|axis| span.high[axis].abs_diff(span.low[axis]));
         let bits = u128::BITS - (spans[0] | spans[1]).leading_zeros();
@@ -180,10 +208,16 @@ impl Ground {
     /// that the input has changed.
     pub fn lay(&self, piece: &Coordinates, grid: &mut Vec<Point>) -> Option<()> {
         match piece {
+            Coordinates::Steps { unit, .. } if unit.digits > 0 && matches!(self.length, Length::Binary(_)) => {
+                if piece.count_no_doubles() > 0 {
+                    return None;
+                }
+                self.lay(&Coordinates::Doubles(piece.doubles().into_owned()), grid)?;
+            }
             Coordinates::Steps { steps, unit } => {
                 let factor = match self.length {
                     Length::Decimal(digits) => 10i128.checked_pow(digits.checked_sub(unit.digits)?)?,
-                    Length::Binary(exponent) => power_of_two(0, exponent).filter(|_| unit.digits == 0)?,
+                    Length::Binary(exponent) => power_of_two(0, exponent)?,
                 };
                 for &point in steps {
                     grid.push(self.place(decimal(unit, point), factor)?);
@@ -216,6 +250,26 @@ impl Ground {
 #[inline]
 fn decimal(unit: &Unit, point: [i64; 2]) -> [i128; 2] {
     [0, 1].map(|axis| i128::from(point[axis]) * i128::from(unit.factor) + unit.offset[axis])
+}
+
+/// The step and the span of doubles; `Some(None)` if there are none, and `None` if they have no lattice.
+fn lattice_of(points: &[[f64; 2]]) -> Option<Option<(i32, Span)>> {
+    if points.is_empty() {
+        return Some(None);
+    }
+    let (lattice, grid) = Lattice::of_doubles(points)?;
+    let most = grid.iter().fold([0; 2], |most: [u32; 2], point| [most[0].max(point.x), most[1].max(point.y)]);
+    let low = lattice.offset.map(i128::from);
+    let span = Span { low, high: [0, 1].map(|axis| low[axis] + i128::from(most[axis])) };
+    Some(Some((exponent_of(&lattice), span)))
+}
+
+/// Both spans in the shorter of both steps; `None` if the numbers become too large.
+fn joined(old: Option<(i32, Span)>, (exponent, span): (i32, Span)) -> Option<(i32, Span)> {
+    let (coarse, old) = old.unwrap_or((exponent, span));
+    let finest = coarse.min(exponent);
+    let old = old.times(power_of_two(coarse, finest))?;
+    Some((finest, old.with(span.times(power_of_two(exponent, finest))?)))
 }
 
 fn exponent_of(lattice: &Lattice) -> i32 {
@@ -271,7 +325,10 @@ mod tests {
         assert_eq!(found, (Length::Binary(-2), 5, vec![[2, 0], [1, 20], [0, 4], [4, 0]]));
         let found = ground(&[whole(&[[15, 0]], 1), whole(&[[-3, 7]], 0), Coordinates::Doubles(vec![[2.0, 1.0]])]);
         assert_eq!(found, Ok((Length::Decimal(1), 7, vec![[45, 0], [0, 70], [50, 10]])));
-        assert!(ground(&[whole(&[[15, 0]], 1), halves]).is_err());
+        // Decimals that are doubles have a lattice in common with doubles, and others have none.
+        let found = ground(&[whole(&[[15, 0]], 1), halves.clone()]);
+        assert_eq!(found, Ok((Length::Binary(-1), 2, vec![[2, 2], [0, 0]])));
+        assert!(ground(&[whole(&[[14, 0]], 1), halves]).is_err());
         assert_eq!(ground(&[]), Ok((Length::Decimal(0), 0, vec![])));
     }
 

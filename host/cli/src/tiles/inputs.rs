@@ -6,45 +6,28 @@ use super::digest::Digest;
 use super::manifest::Manifest;
 use crate::arguments::ReadArguments;
 use crate::failure::Failure;
-use crate::formats::{npy, PointFormat};
+use crate::formats::Take;
 use crate::input::Input;
 use crate::path;
 use crate::points::{Coordinates, PointTable};
 use crate::source;
 
-/// Calls `take` with the coordinates of all points of a file, in pieces. The memory holds one piece of an `.npy` file
-/// that is not packed, and all points of any other file. Failures of reading name the file; those of `take` are passed
-/// on.
-pub fn each_piece(
-    path: &Path,
-    read: &ReadArguments,
-    quiet: bool,
-    take: &mut dyn FnMut(&Coordinates) -> Result<(), Failure>,
-) -> Result<(), Failure> {
-    let in_file = |failure: Failure| failure.in_file(path::name(path));
+/// Calls `take` with the coordinates of all points of a file, in pieces as
+/// [`PointFormat::read_pieces`](crate::formats::PointFormat::read_pieces) makes them. Failures of reading name the file;
+/// those of `take` are passed on.
+pub fn each_piece(path: &Path, read: &ReadArguments, quiet: bool, take: Take<'_>) -> Result<(), Failure> {
     if path::is_standard(path) {
         return Err(Failure::usage("the points are read twice, and standard input can be read only once: give a file"));
     }
-    let format = read.from.or_else(|| PointFormat::of_extension(path::extension(path)));
-    if format == Some(PointFormat::Npy) {
-        read.selection(PointFormat::Npy)?;
-        // A failure of `take` is not one of the file.
-        let mut failed = None;
-        let done = Input::open(path, quiet).and_then(|input| {
-            npy::read_pieces(input, &mut |piece| take(piece).inspect_err(|failure| failed = Some(failure.clone())))
-        });
-        return failed.map_or_else(|| done.map_err(in_file), Err);
-    }
-    let table = source::read_points(path, read, quiet)?;
-    let is_rounded = matches!(table.coordinates(), Coordinates::Doubles(_)) && table.rounded() > 0;
-    if is_rounded {
-        return Err(in_file(Failure::input(format!(
-            "{} of its coordinates are not exact as doubles, and there is no common step of up to 64 bits: tiles take \
-             points on a lattice of at most 32 bits, so round the numbers to fewer digits",
-            table.rounded()
-        ))));
-    }
-    take(table.coordinates())
+    let format = source::format_of_points(path, read)?;
+    let selection = read.selection(format)?;
+    // A failure of `take` is not one of the file.
+    let mut failed = None;
+    let done = Input::open(path, quiet).and_then(|input| {
+        let take = &mut |piece: &Coordinates| take(piece).inspect_err(|failure| failed = Some(failure.clone()));
+        format.read_pieces(input, &selection, take)
+    });
+    failed.map_or_else(|| done.map_err(|failure| failure.in_file(path::name(path))), Err)
 }
 
 /// Reads the points of a run again, for a mesh that has them. The memory must hold them.

@@ -33,7 +33,7 @@ mod formats {
     mod bad_structure;
     mod files;
     mod hostile;
-    mod lidar;
+    pub mod lidar;
     mod lidar_hostile;
     mod memory;
     mod packed;

@@ -50,7 +50,7 @@ impl Address {
             return Err("no port is named: write it as in \"serial:/dev/ttyUSB0\"".to_owned());
         }
         let mut address = Self::of_port(port);
-        for choice in choices.items() {
+        for choice in choices.items()? {
             match choice.key {
                 "baud" => address.baud = choice.number(FIRST_RATE..=MAX_RATE)?,
                 "slow" => address.slow = choice.number(1..=MAX_SLOW)?,
@@ -82,6 +82,7 @@ mod tests {
             "serial:?baud=115200",
             "serial:x?baud=9600",
             "serial:x?slow=0",
+            "serial:x?slow=2&slow=3",
             "serial:x?parity=odd",
             "serial:x?baud",
         ] {

@@ -44,7 +44,7 @@ pub fn read<R: Read + Seek + ?Sized>(
     source: &mut R,
     header: &Header,
     packing: &Packing,
-    sieve: &mut Sieve,
+    sieve: &mut Sieve<'_>,
 ) -> Result<(), Failure> {
     let chunks = read_table(source, header, packing)?;
     source.seek(SeekFrom::Start(header.data_start + PLACE_BYTES)).map_err(|error| unreadable(&error))?;
@@ -71,6 +71,11 @@ pub fn read<R: Read + Seek + ?Sized>(
         }
     }
     Ok(())
+}
+
+/// Refuses a file whose table of chunks contradicts its header or its length.
+pub fn check_table<R: Read + Seek + ?Sized>(source: &mut R, header: &Header, packing: &Packing) -> Result<(), Failure> {
+    read_table(source, header, packing).map(drop)
 }
 
 /// The chunks by the table of the file.
@@ -174,7 +179,7 @@ enum Fault {
 }
 
 /// Decodes a chunk of at least one point.
-fn decode(bytes: &[u8], chunk: &Chunk, header: &Header, packing: &Packing, sieve: &mut Sieve) -> Result<(), Fault> {
+fn decode(bytes: &[u8], chunk: &Chunk, header: &Header, packing: &Packing, sieve: &mut Sieve<'_>) -> Result<(), Fault> {
     let mut layered;
     let mut pointwise;
     let decoder: &mut dyn RecordDecompressor<Cursor<&[u8]>> = if packing.is_layered {

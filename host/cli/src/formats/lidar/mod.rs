@@ -16,6 +16,7 @@ use std::io::{Read, Seek, SeekFrom};
 
 use crate::failure::{counted, Failure};
 use crate::formats::selection::Selection;
+use crate::formats::Take;
 use crate::input::{unreadable, Input};
 use crate::points::PointTable;
 
@@ -32,16 +33,47 @@ pub fn read_points(input: Input, selection: &Selection) -> Result<PointTable, Fa
     let mut source = input.into_seekable()?;
     let header = header::read(&mut *source)?;
     let mut sieve = Sieve::new(&header, selection, memory);
-    match &header.packing {
-        Some(record) => chunks::read(&mut *source, &header, &Packing::of(record, &header)?, &mut sieve)?,
-        None => read_plain(&mut *source, &header, &mut sieve)?,
-    }
+    read_all(&mut *source, &header, &mut sieve)?;
     Ok(sieve.into_table())
 }
 
-/// Reads the points of a LAS file. The points must end where the header says that something else begins, or else at the
-/// end of the file, so a count that is too small loses no points silently.
-fn read_plain<R: Read + Seek + ?Sized>(source: &mut R, header: &Header, sieve: &mut Sieve) -> Result<(), Failure> {
+/// Calls `take` with the coordinates of the selected points, in pieces. The memory holds one piece, and one packed chunk
+/// of a LAZ file. An input that is packed as a whole is unpacked into the memory.
+///
+/// # Errors
+/// As for [`read_points`], except that there may be any number of points; or `take` fails.
+pub fn read_pieces(input: Input, selection: &Selection, take: Take<'_>) -> Result<(), Failure> {
+    let mut source = input.into_seekable()?;
+    let header = header::read(&mut *source)?;
+    let mut sieve = Sieve::of_pieces(&header, selection, take);
+    read_all(&mut *source, &header, &mut sieve)?;
+    sieve.finish()
+}
+
+/// The number of points that the header promises, if the bytes of the file have room for them.
+///
+/// # Errors
+/// The header or the table of the chunks cannot be read, or contradicts the length of the file.
+pub fn count_points(input: Input) -> Result<u64, Failure> {
+    let mut source = input.into_seekable()?;
+    let header = header::read(&mut *source)?;
+    match &header.packing {
+        Some(record) => chunks::check_table(&mut *source, &header, &Packing::of(record, &header)?)?,
+        None => check_room(&header)?,
+    }
+    Ok(header.count)
+}
+
+fn read_all<R: Read + Seek + ?Sized>(source: &mut R, header: &Header, sieve: &mut Sieve<'_>) -> Result<(), Failure> {
+    match &header.packing {
+        Some(record) => chunks::read(source, header, &Packing::of(record, header)?, sieve),
+        None => read_plain(source, header, sieve),
+    }
+}
+
+/// Refuses a LAS file whose points do not end where the header says that something else begins, or else at the end of
+/// the file, so a count that is too small loses no points silently.
+fn check_room(header: &Header) -> Result<(), Failure> {
     let &Header { record_bytes, count, data_start, .. } = header;
     let end = header.tail.unwrap_or(header.file_bytes);
     let room = end - data_start;
@@ -56,6 +88,13 @@ fn read_plain<R: Read + Seek + ?Sized>(source: &mut R, header: &Header, sieve: &
             counted(rest as usize, "byte")
         )));
     }
+    Ok(())
+}
+
+/// Reads the points of a LAS file.
+fn read_plain<R: Read + Seek + ?Sized>(source: &mut R, header: &Header, sieve: &mut Sieve<'_>) -> Result<(), Failure> {
+    check_room(header)?;
+    let &Header { record_bytes, count, data_start, .. } = header;
     source.seek(SeekFrom::Start(data_start)).map_err(|error| unreadable(&error))?;
     let block = (BLOCK_BYTES / record_bytes).max(1);
     let mut records = vec![0; block * record_bytes];

@@ -1,9 +1,11 @@
 //! The sieve takes the selected points out of the records of a LAS file.
 
 use std::cmp::Ordering;
+use std::mem;
 
 use crate::failure::Failure;
 use crate::formats::selection::{Bounds, Selection};
+use crate::formats::Take;
 use crate::memory::Memory;
 use crate::number;
 use crate::points::{Coordinates, PointTable};
@@ -11,8 +13,11 @@ use crate::points::{Coordinates, PointTable};
 use super::header::{refuse, Header};
 use super::scale::{Plane, Scale};
 
+/// The number of points from which on they are a piece.
+const PIECE: usize = 1 << 16;
+
 /// The selection, and the points taken so far.
-pub struct Sieve {
+pub struct Sieve<'a> {
     scale: Scale,
     record_bytes: usize,
     /// The byte of a record that has the class, and a mask for the bits of the class in that byte.
@@ -26,6 +31,8 @@ pub struct Sieve {
     seen: u64,
     /// The most points for which there is memory.
     most: u64,
+    /// Takes the points whenever there are enough for a piece.
+    outlet: Option<Take<'a>>,
 }
 
 /// The coordinates of points.
@@ -34,7 +41,17 @@ enum Points {
     Doubles(Vec<[f64; 2]>),
 }
 
-impl Sieve {
+impl Points {
+    /// Takes all points out.
+    fn take(&mut self) -> Coordinates {
+        match self {
+            Self::Steps(plane, steps) => Coordinates::Steps { steps: mem::take(steps), unit: plane.unit },
+            Self::Doubles(doubles) => Coordinates::Doubles(mem::take(doubles)),
+        }
+    }
+}
+
+impl<'a> Sieve<'a> {
     /// Makes the sieve of a file. Its points must fit the memory.
     pub fn new(header: &Header, selection: &Selection, memory: Memory) -> Self {
         let scale = Scale::of(header);
@@ -59,7 +76,13 @@ impl Sieve {
             heights: Vec::new(),
             seen: 0,
             most: memory.most_points(),
+            outlet: None,
         }
+    }
+
+    /// Makes the sieve of a file whose points are taken in pieces. There may be any number of them.
+    pub fn of_pieces(header: &Header, selection: &Selection, take: Take<'a>) -> Self {
+        Self { outlet: Some(take), ..Self::new(header, selection, Memory::ENDLESS) }
     }
 
     /// Whether points are selected by class.
@@ -99,16 +122,22 @@ impl Sieve {
                  or --bounds, or use a machine with more memory"
             )));
         }
-        Ok(())
+        match self.outlet.is_some() && self.heights.len() >= PIECE {
+            true => self.finish(),
+            false => Ok(()),
+        }
+    }
+
+    /// Gives the points that were not taken yet as a piece.
+    pub fn finish(&mut self) -> Result<(), Failure> {
+        self.heights.clear();
+        let Some(take) = &mut self.outlet else { return Ok(()) };
+        take(&self.points.take())
     }
 
     /// The points that were taken.
-    pub fn into_table(self) -> PointTable {
-        let coordinates = match self.points {
-            Points::Steps(plane, steps) => Coordinates::Steps { steps, unit: plane.unit },
-            Points::Doubles(doubles) => Coordinates::Doubles(doubles),
-        };
-        PointTable::of_coordinates("point", coordinates).with_heights(self.heights)
+    pub fn into_table(mut self) -> PointTable {
+        PointTable::of_coordinates("point", self.points.take()).with_heights(self.heights)
     }
 }
 

@@ -3,6 +3,7 @@
 mod damage;
 mod formats;
 mod many;
+mod pieces;
 
 use crate::common::Scratch;
 use incircle_cli::generate::Distribution;

@@ -90,7 +90,7 @@ fn a_limit_of_addresses_ends_in_a_sentence() {
     scratch.write("p.csv.zst", zstd::encode_all(rows.as_bytes(), 0).expect("memory takes all bytes"));
     for name in ["p.csv", "p.csv.zst"] {
         let program = env!("CARGO_BIN_EXE_incircle");
-        let line = format!("ulimit -v 600000 && exec '{program}' triangulate {name} -o m.ele");
+        let line = format!("ulimit -v 600000 && exec '{program}' triangulate {name} -o m.obj");
         let mut command = Command::new("sh");
         command.args(["-c", &line]).current_dir(scratch.path(""));
         let run = Run::of(command.output().expect("the shell starts"));
