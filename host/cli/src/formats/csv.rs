@@ -13,7 +13,7 @@ use crate::failure::{counted, quoted, Failure};
 use crate::formats::blocks::{Blocks, RowEnd};
 use crate::formats::csv_rows::{separator_of, CsvRows, Values};
 use crate::formats::mesh_view::MeshView;
-use crate::formats::{no_byte, Take};
+use crate::formats::pieces::{no_byte, Take};
 use crate::input::Input;
 use crate::memory::Memory;
 use crate::points::{Place, PointTable};

@@ -18,6 +18,7 @@ pub mod npy;
 pub mod npy_writer;
 pub mod npz;
 pub mod obj;
+mod pieces;
 mod plan;
 pub mod ply;
 mod ply_writer;
@@ -36,15 +37,13 @@ use clap::ValueEnum;
 
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::points::{Coordinates, PointTable};
+use crate::points::PointTable;
 
 pub use mesh_view::MeshView;
+pub use pieces::Take;
 pub use plan::PlanTable;
 pub use selection::{Bounds, Selection};
 pub use set::SetFormat;
-
-/// A function that takes the coordinates of the next points of a file.
-pub type Take<'a> = &'a mut dyn FnMut(&Coordinates) -> Result<(), Failure>;
 
 /// Formats that points are read from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -285,14 +284,9 @@ impl MeshFormat {
 fn some_bytes(input: Input) -> Result<Vec<u8>, Failure> {
     let bytes = input.into_bytes()?;
     if bytes.is_empty() {
-        return Err(no_byte());
+        return Err(pieces::no_byte());
     }
     Ok(bytes)
-}
-
-/// The failure of an input of points without a byte.
-fn no_byte() -> Failure {
-    Failure::input("the file is empty: a set without points is a file with a header, such as 'x,y'")
 }
 
 /// The names of formats as a list, such as `csv, xyz or node`.

@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use crate::failure::Failure;
 use crate::formats::array::{Cells, Pieces, Source, Wanted};
-use crate::formats::Take;
+use crate::formats::pieces::Take;
 use crate::input::Input;
 use crate::memory::Memory;
 use crate::points::{Coordinates, Place, PointTable, Unit};

@@ -8,7 +8,7 @@ use std::io::{self, Write};
 
 use crate::failure::{counted, quoted, Failure};
 use crate::formats::blocks::{Blocks, RowEnd};
-use crate::formats::{no_byte, Take};
+use crate::formats::pieces::{no_byte, Take};
 use crate::input::Input;
 use crate::memory::Memory;
 use crate::points::PointTable;

@@ -15,8 +15,8 @@ mod sieve;
 use std::io::{Read, Seek, SeekFrom};
 
 use crate::failure::{counted, Failure};
+use crate::formats::pieces::Take;
 use crate::formats::selection::Selection;
-use crate::formats::Take;
 use crate::input::{unreadable, Input};
 use crate::points::PointTable;
 

@@ -4,8 +4,8 @@ use std::cmp::Ordering;
 use std::mem;
 
 use crate::failure::Failure;
+use crate::formats::pieces::Take;
 use crate::formats::selection::{Bounds, Selection};
-use crate::formats::Take;
 use crate::memory::Memory;
 use crate::number;
 use crate::points::{Coordinates, PointTable};
