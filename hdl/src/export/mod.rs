@@ -196,8 +196,8 @@ pub fn udp_top(
         let [link, chip, device, rgmii_in, rgmii_out] = names;
         let pin_blocks = match pins {
             UdpPins::Gmii => String::new(),
-            UdpPins::Rgmii { delay } => {
-                connected(RgmiiIn::new(delay), &rgmii_in)? + &connected(RgmiiOut::default(), &rgmii_out)?
+            UdpPins::Rgmii { delay, clock_delay } => {
+                connected(RgmiiIn::new(delay), &rgmii_in)? + &connected(RgmiiOut::new(clock_delay), &rgmii_out)?
             }
         };
         if config.engines > 1 {
