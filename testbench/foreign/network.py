@@ -55,16 +55,22 @@ class Board:
     def __init__(self, dut: Any, seed: int = 1) -> None:
         self.dut, self.random = dut, Random(seed)
         dut.reset.value = 1
-        self.phy = RgmiiPhy(dut.txd, dut.tx_ctl, dut.tx_clock, dut.rxd, dut.rx_ctl, dut.rx_clock, speed=1000e6)
+        self.phy_clock = Clock(dut.rx_clock, 8, "ns")
+        self.phy_clock.start()
         Clock(dut.core_clock, PERIOD_PS, "ps").start()
         self.session, self.number = 0, 0
 
     async def reset(self) -> "Board":
-        """Holds the reset, and waits until the core has cleared its memory."""
+        """Holds the reset until all pins are known, and gives the clock of the PHY to the PHY of cocotbext-eth."""
+        self.dut.rx_ctl.value = 0
+        self.dut.rxd.value = 0
+        await ClockCycles(self.dut.core_clock, 20)
+        self.phy_clock.stop()
+        dut = self.dut
+        self.phy = RgmiiPhy(dut.txd, dut.tx_ctl, dut.tx_clock, dut.rxd, dut.rx_ctl, dut.rx_clock, speed=1000e6)
         await ClockCycles(self.dut.core_clock, 20)
         self.dut.reset.value = 0
         await ClockCycles(self.dut.core_clock, 100)
-        self.phy.tx.clear()
         return self
 
     async def send(self, kind: int, payload: bytes, target: bytes = BOARD_MAC, damage: int | None = None) -> None:

@@ -16,6 +16,8 @@ use super::{EtherTransport, VirtualEther};
 
 /// Limit for an answer, in virtual time.
 const LIMIT: Duration = Duration::from_secs(2);
+/// More microseconds than the core takes for a job, or for the jobs that share its memory.
+const LONGEST_JOB_US: u32 = 3000;
 /// Points that the batches of the page have together, about.
 const POINTS: usize = 40_000;
 /// The largest coordinate of the points, plus 1.
@@ -66,6 +68,7 @@ impl Load {
     pub fn measure(self) -> Result<Duration, Box<dyn Error>> {
         let board = NetworkBoard::at_clock(self.config, self.clock_mhz * 1_000_000)?;
         let ether = Rc::new(RefCell::new(VirtualEther::new(board, Duration::ZERO, &NetworkFaults::default())));
+        ether.borrow_mut().set_longest_job(LONGEST_JOB_US);
         let mut device = Device::from_transport(Box::new(EtherTransport::new(Rc::clone(&ether), LIMIT)));
         let mut session = device.session()?;
         let mut random = SplitMix64::new(1);

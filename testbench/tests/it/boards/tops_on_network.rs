@@ -91,7 +91,7 @@ fn every_ethernet_port_answers_who_has_its_address() {
     for board in BOARDS.iter().filter(|board| board.ethernet.is_some()) {
         let mut bench = Bench::new(board.top);
         let question = arp([0xff; 6], 1, HOST, ([0; 6], DEVICE.1));
-        assert_eq!(bench.ask(&question), [], "{}: an answer during the reset", board.name);
+        assert_eq!(bench.ask(&question), Vec::<u8>::new(), "{}: an answer during the reset", board.name);
         (0..STARTED + PHY_WAIT + 100).for_each(|_| bench.period(None));
         assert_eq!(bench.ask(&question), arp(HOST.0, 2, DEVICE, HOST), "{}", board.name);
     }
@@ -114,7 +114,7 @@ fn the_device_waits_for_the_phy_and_its_clock() {
         (0..1000).for_each(|_| bench.period(None));
         bench.phy_gives_clock = true;
         let question = arp([0xff; 6], 1, HOST, ([0; 6], DEVICE.1));
-        assert_eq!(bench.ask(&question[..8]), [], "{}: an answer during the reset", board.name);
+        assert_eq!(bench.ask(&question[..8]), Vec::<u8>::new(), "{}: an answer during the reset", board.name);
         assert_eq!(bench.ask(&question), arp(HOST.0, 2, DEVICE, HOST), "{}", board.name);
     }
 }
