@@ -14,7 +14,7 @@ use std::path::PathBuf;
 use incircle_hdl::export;
 use incircle_hdl::top::{UdpPins, UDP_TOP_NAME};
 use incircle_hdl::udp::UdpParameters;
-use incircle_protocol::{Config, FULL, SMALL};
+use incircle_protocol::{Config, DUAL, FULL, SMALL};
 use verilated::build::{Builder, ModelSource, Optimisation};
 
 /// Root modules: the core, the core behind its serial link, and the core behind its stream link. The one behind a UDP
@@ -51,7 +51,7 @@ fn main() {
             builder = builder.model(ModelSource::new(&name, SERIAL_TOP, verilog).optimisation(Optimisation::Fast));
         }
     }
-    for config in [SMALL, FULL] {
+    for config in [SMALL, FULL, DUAL] {
         let name = format!("network_{}", config.name);
         if is_wanted(&name) {
             let (link, address, prefix) = (network::network_link(config), network::ADDRESS, network::PREFIX);

@@ -1,268 +1,26 @@
 //! The command of the hardware side: exports the core to Verilog, makes bitstreams for boards, and counts the cells of
 //! cores in many families of FPGAs.
 
-use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
-use incircle_hdl::board::sizes::{self, size_name, Family, Sizes, SizesRequest, FAMILIES, SIZES};
-use incircle_hdl::board::{self, Board, BoardError, Clock, Origin, Report, Request, BOARDS};
+mod arguments;
+
+use arguments::{
+    Arguments, BoardArguments, Command, ExportArguments, LinkName, SizesArguments, TopName, SERIAL_FIFO_BYTES,
+    UDP_FIFO_BYTES,
+};
+use clap::Parser;
+use incircle_hdl::board::sizes::{self, Family, Sizes, SizesRequest, FAMILIES, SIZES};
+use incircle_hdl::board::{self, Board, BoardError, BoardLink, Clock, Report, Request, BOARDS, MHZ};
 use incircle_hdl::committed::{self, Top};
-use incircle_hdl::top::UdpPins;
-use incircle_hdl::udp::UdpParameters;
-use incircle_protocol::{Config, LinkConfig, UdpLinkConfig, BEAT_BITS, FULL, NAMED, SILENCE_MS, UDP_PORT};
+use incircle_protocol::{Config, LinkConfig, FULL, SILENCE_MS};
 use std::io::Write;
-use std::net::Ipv4Addr;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
-
-/// Export the incircle core to Verilog, make bitstreams for boards, and count cells in families of FPGAs.
-#[derive(Parser)]
-#[command(name = "incircle-hdl", version, after_help = "Example:\n  incircle-hdl export --config full -o core.v")]
-struct Arguments {
-    #[command(subcommand)]
-    command: Command,
-}
-
-/// Bytes of the receive FIFO unless others are asked for.
-const SERIAL_FIFO_BYTES: u32 = 4_096;
-const UDP_FIFO_BYTES: u32 = 16_384;
-
-#[derive(Subcommand)]
-enum Command {
-    /// Write the Verilog of the core or of a whole device.
-    ///
-    /// Without options the command renews the files in the repository, hdl/verilog/incircle_*.v.
-    Export(ExportArguments),
-    /// Make the bitstream of a board, and a report of its clock and its cells.
-    ///
-    /// The command exports the design, synthesises it, places and routes it with several seeds, and packs the fastest.
-    /// The median of the seeds must meet the clock. The exit code is 0 only if there is a bitstream
-    /// that meets its clock.
-    Board(Box<BoardArguments>),
-    /// Count the cells of cores of many sizes in many families of FPGAs.
-    ///
-    /// Each core is synthesised alone. If the ECP5 is among the families, cores that no board lists are placed on the
-    /// ULX3S-85F with one seed if they fit. The figures go to sizes.json, beside those that are there. If a run is
-    /// stopped, run the same command again: finished steps are not done again.
-    Sizes(SizesArguments),
-}
-
-#[derive(Args)]
-#[command(
-    group = ArgGroup::new("core_size").args(["config", "points"]),
-    after_help = "Examples:\n  incircle-hdl export --config full --top serial -o serial.v\n  \
-                  incircle-hdl export --points 2048 --contexts 12 --engines 2 -o chip.v"
-)]
-struct ExportArguments {
-    /// Configuration: tiny, small, full, large, dual or quad. Default: the ones that the repository holds.
-    #[arg(long, value_parser = config)]
-    config: Option<Config>,
-    /// Number of points that a core of your own size holds, a power of two. Needs --contexts.
-    #[arg(long, requires = "contexts")]
-    points: Option<u32>,
-    /// Number of contexts of a core of your own size, that is, of insertions in progress at a time.
-    #[arg(long, requires = "points", conflicts_with = "config")]
-    contexts: Option<u32>,
-    /// Number of boundary edges that a context of a core of your own size keeps in its list.
-    #[arg(long, default_value_t = FULL.ring, requires = "points", conflicts_with = "config")]
-    ring: u32,
-    /// Number of engines of a chip of your own size, each a core with a memory of its own: 1, 2 or 4.
-    #[arg(long, default_value_t = 1, requires = "points", conflicts_with = "config")]
-    engines: u32,
-    /// File to write; `-` is standard output. Needs --config or --points.
-    #[arg(short, long, requires = "core_size")]
-    out: Option<PathBuf>,
-    /// Add the write port of the triangle memory to the ports, for simulation.
-    #[arg(long, requires = "core_size")]
-    probe: bool,
-    /// Module to export: the core with its two streams of words, or the core behind a serial, stream or UDP link.
-    #[arg(long, value_enum, default_value = "core", requires = "core_size")]
-    top: TopName,
-    /// Clock of the core behind a serial link or a UDP link, in Hz.
-    #[arg(long, default_value_t = 125_000_000, requires = "core_size")]
-    clock_hz: u32,
-    /// Size of the receive FIFO of the serial link or the UDP link in bytes, a power of two. Default: 4096 for the
-    /// serial link, 16384 for the UDP link.
-    #[arg(long, requires = "core_size")]
-    fifo_bytes: Option<u32>,
-    #[command(flatten)]
-    network: NetworkArguments,
-    /// Width of a beat of the stream link in bits: 64 or 128.
-    #[arg(long, default_value_t = 64, value_parser = beat_bits, requires = "core_size")]
-    width: u32,
-}
-
-#[derive(Args)]
-struct NetworkArguments {
-    /// IPv4 address of a device with a UDP link, and the number of bits of it that name the network.
-    #[arg(long, value_name = "A.B.C.D/N", default_value = "192.168.1.50/24", value_parser = network_address)]
-    ip: (Ipv4Addr, u8),
-    /// Ethernet address of the device, which no other device of the network may have.
-    #[arg(long, value_name = "MAC", default_value = "02:00:00:69:43:01", value_parser = ethernet_address)]
-    mac: [u8; 6],
-    /// UDP port at which the device listens.
-    #[arg(long, value_name = "PORT", default_value_t = UDP_PORT)]
-    udp_port: u16,
-    /// Taps of 25 ps by which an ECP5 delays the data of RGMII; or `gmii` for the pins of GMII, for simulation.
-    #[arg(long, value_name = "TAPS", default_value = "0", value_parser = udp_pins)]
-    rgmii_delay: UdpPins,
-}
-
-#[derive(Args)]
-#[command(after_help = "Example:\n  incircle-hdl board ulx3s-85f --out build/ulx3s-85f")]
-struct BoardArguments {
-    /// Name of the board: ulx3s-85f, colorlight-i5 or ecpix-5.
-    #[arg(
-        value_parser = named_board,
-        required_unless_present_any = ["all", "table"],
-        conflicts_with_all = ["all", "table"]
-    )]
-    name: Option<Board>,
-    /// Make a bitstream for every row of the table of boards. The folders are called BOARD for the board's first core,
-    /// and BOARD-CONFIGURATION for the others.
-    #[arg(long, conflicts_with = "table")]
-    all: bool,
-    /// Write the tables in the documents again from the reports of the boards.
-    #[arg(long, conflicts_with_all = ["out", "seeds", "config", "clock", "system", "system_yosys", "renew"])]
-    table: bool,
-    /// Folder for the bitstream, report.json and the output of the tools.
-    #[arg(short, long, required_unless_present = "table")]
-    out: Option<PathBuf>,
-    /// Number of seeds for the placer; their median must meet the clock.
-    #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=99))]
-    seeds: u32,
-    /// Configuration of the core. Default: the first core in the table of the board.
-    #[arg(long, value_parser = config, conflicts_with = "all")]
-    config: Option<Config>,
-    /// Clock to try: a number of MHz; `usual`, the usual clock of the core on the board; or `largest`, the largest
-    /// clock that the board meets. Default: the usual clock, and lower ones while it is missed.
-    #[arg(long, value_name = "MHZ", value_parser = clock)]
-    clock: Option<Clock>,
-    #[command(flatten)]
-    tools: ToolArguments,
-    /// Keep the report in the folder of the board, and renew the tables.
-    #[arg(long)]
-    renew: bool,
-}
-
-#[derive(Args)]
-struct ToolArguments {
-    /// Use yosys, nextpnr-ecp5 and ecppack from PATH instead of the pinned ones.
-    #[arg(long)]
-    system: bool,
-    /// Use yosys from PATH, with the pinned nextpnr-ecp5 and ecppack.
-    #[arg(long, conflicts_with = "system")]
-    system_yosys: bool,
-}
-
-impl ToolArguments {
-    /// The source of the tools that these options name.
-    fn origin(&self) -> Origin {
-        match (self.system, self.system_yosys) {
-            (true, _) => Origin::System,
-            (_, true) => Origin::SystemYosys,
-            _ => Origin::Pinned,
-        }
-    }
-}
-
-#[derive(Args)]
-#[command(after_help = "Example:\n  incircle-hdl sizes --out build/sizes --family nexus --cells")]
-struct SizesArguments {
-    /// Folder for sizes.json and the output of the tools.
-    #[arg(short, long, required_unless_present = "table")]
-    out: Option<PathBuf>,
-    /// Core to measure, several with commas, such as `small` or `2048-points`. Default: all.
-    #[arg(long, value_delimiter = ',', value_parser = size)]
-    size: Vec<Config>,
-    /// Family to synthesise for, several with commas. Default: all.
-    #[arg(long, value_delimiter = ',', value_parser = family)]
-    family: Vec<&'static Family>,
-    /// Only count cells, and place nothing.
-    #[arg(long)]
-    cells: bool,
-    #[command(flatten)]
-    tools: ToolArguments,
-    /// Take the figures over into hdl/sizes.json, and renew docs/sizes.md.
-    #[arg(long)]
-    renew: bool,
-    /// Write docs/sizes.md again from hdl/sizes.json.
-    #[arg(long, conflicts_with_all = ["out", "size", "family", "cells", "system", "system_yosys", "renew"])]
-    table: bool,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum TopName {
-    /// The module incircle_core
-    Core,
-    /// The module incircle_serial_top
-    Serial,
-    /// The module incircle_stream_top
-    Stream,
-    /// The module incircle_udp_top
-    Udp,
-}
-
-fn network_address(text: &str) -> Result<(Ipv4Addr, u8), String> {
-    let parts = text.split_once('/').and_then(|(address, bits)| Some((address.parse().ok()?, bits.parse().ok()?)));
-    parts.ok_or_else(|| "write an IPv4 address and the bits of its network, such as 192.168.1.50/24".into())
-}
-
-fn ethernet_address(text: &str) -> Result<[u8; 6], String> {
-    let bytes = text.split(':').map(|byte| u8::from_str_radix(byte, 16).ok().filter(|_| byte.len() == 2));
-    let bytes = bytes.collect::<Option<Vec<u8>>>().and_then(|bytes| <[u8; 6]>::try_from(bytes).ok());
-    bytes.ok_or_else(|| "write an Ethernet address as six bytes in hexadecimal, such as 02:00:00:69:43:01".into())
-}
-
-fn udp_pins(text: &str) -> Result<UdpPins, String> {
-    if text == "gmii" {
-        return Ok(UdpPins::Gmii);
-    }
-    let delay = text.parse().ok().filter(|delay| *delay < 128);
-    delay.map(|delay| UdpPins::Rgmii { delay }).ok_or_else(|| "write a number of taps from 0 to 127, or gmii".into())
-}
-
-fn config(name: &str) -> Result<Config, String> {
-    let names = NAMED.map(|config| config.name).join(", ");
-    Config::named(name).ok_or_else(|| format!("there is no configuration of this name: choose one of {names}"))
-}
-
-fn family(name: &str) -> Result<&'static Family, String> {
-    let names: Vec<_> = FAMILIES.iter().map(|family| family.name).collect();
-    Family::named(name).ok_or_else(|| format!("there is no family of this name: choose one of {}", names.join(", ")))
-}
-
-fn size(name: &str) -> Result<Config, String> {
-    let names = SIZES.map(size_name).join(", ");
-    let found = SIZES.into_iter().find(|&size| size_name(size) == name);
-    found.ok_or_else(|| format!("there is no size of this name: choose one of {names}"))
-}
-
-fn beat_bits(number: &str) -> Result<u32, String> {
-    let known = BEAT_BITS.into_iter().find(|bits| bits.to_string() == number);
-    known.ok_or_else(|| format!("a beat of a stream has {} or {} bits: choose one of them", BEAT_BITS[0], BEAT_BITS[1]))
-}
-
-fn clock(text: &str) -> Result<Clock, String> {
-    match text {
-        "usual" => Ok(Clock::Usual),
-        "largest" => Ok(Clock::Largest),
-        number => number
-            .parse()
-            .map(Clock::Exactly)
-            .map_err(|_| "a clock is a whole number of MHz, `usual` or `largest`".into()),
-    }
-}
-
-fn named_board(name: &str) -> Result<Board, String> {
-    let names = BOARDS.map(|board| board.name).join(", ");
-    Board::named(name).ok_or_else(|| format!("there is no board of this name: choose one of {names}"))
-}
 
 /// Writes the Verilog of one configuration, or renews the committed files.
 fn export(arguments: ExportArguments) -> Result<(), committed::WriteError> {
     let ExportArguments {
         config, points, contexts, ring, engines, out, probe, top, clock_hz, fifo_bytes, width, ..
     } = arguments;
-    let NetworkArguments { ip: (address, prefix), mac, udp_port: port, rgmii_delay: pins } = arguments.network;
     let own = points.zip(contexts).map(|(points, contexts)| Config { name: "custom", points, ring, contexts, engines });
     let top = match top {
         TopName::Core => Top::Core,
@@ -273,8 +31,7 @@ fn export(arguments: ExportArguments) -> Result<(), committed::WriteError> {
         TopName::Stream => Top::Stream(width),
         TopName::Udp => {
             let fifo_bytes = fifo_bytes.unwrap_or(UDP_FIFO_BYTES);
-            let link = UdpLinkConfig { clock_hz, fifo_bytes, silence_ms: SILENCE_MS, mac };
-            Top::Udp(UdpParameters { link, address, prefix, port }, pins)
+            Top::Udp(arguments.network.parameters(clock_hz, fifo_bytes), arguments.pins.pins())
         }
     };
     if let Some(config) = config.or(own) {
@@ -295,20 +52,12 @@ fn boards(arguments: &BoardArguments) -> Vec<BoardError> {
             Some(board) => {
                 let own = board.cores.first().map(|core| core.config);
                 let config = arguments.config.or(own).unwrap_or(FULL);
-                errors.extend(one_board(arguments, board, config, out).err());
-            }
-            None => {
-                for board in BOARDS {
-                    for (place, core) in board.cores.iter().enumerate() {
-                        let folder = if place == 0 {
-                            board.name.to_owned()
-                        } else {
-                            format!("{}-{}", board.name, core.config.name)
-                        };
-                        errors.extend(one_board(arguments, board, core.config, &out.join(folder)).err());
-                    }
+                match link(arguments) {
+                    Ok(link) => errors.extend(one_board(arguments, board, config, link, out).err()),
+                    Err(error) => errors.push(error),
                 }
             }
+            None => BOARDS.into_iter().for_each(|board| errors.extend(all_cores(arguments, board, out))),
         }
     }
     if arguments.table || arguments.renew {
@@ -318,15 +67,52 @@ fn boards(arguments: &BoardArguments) -> Vec<BoardError> {
     errors
 }
 
-fn one_board(arguments: &BoardArguments, board: Board, config: Config, out: &Path) -> Result<(), BoardError> {
-    let say = |what: &str| complain(&format!("{} with {}: {what}", board.name, config.name));
-    let report_file = match board.report(config) {
+/// Makes all bitstreams of a board, each in a folder of its own, and returns the error of each that failed.
+fn all_cores(arguments: &BoardArguments, board: Board, out: &Path) -> Vec<BoardError> {
+    let mut made = Vec::new();
+    for (place, core) in board.cores.iter().enumerate() {
+        let rest = if place == 0 { String::new() } else { format!("-{}", core.config.name) };
+        made.push((core.config, BoardLink::Serial, rest));
+    }
+    if let (Some(core), Some(_)) = (board.cores.first(), board.ethernet) {
+        made.push((core.config, udp_link(arguments), "-udp".to_owned()));
+    }
+    let errors = made.into_iter().filter_map(|(config, link, rest)| {
+        one_board(arguments, board, config, link, &out.join(format!("{}{rest}", board.name))).err()
+    });
+    errors.collect()
+}
+
+/// The link that the user asked for.
+fn link(arguments: &BoardArguments) -> Result<BoardLink, BoardError> {
+    match arguments.link {
+        LinkName::Serial if arguments.network.are_given() => Err(BoardError::NoAddresses),
+        LinkName::Serial => Ok(BoardLink::Serial),
+        LinkName::Udp => Ok(udp_link(arguments)),
+    }
+}
+
+/// The UDP link; the clock of the board that is made replaces the clock here.
+fn udp_link(arguments: &BoardArguments) -> BoardLink {
+    BoardLink::Udp(arguments.network.parameters(125 * MHZ, UDP_FIFO_BYTES))
+}
+
+fn one_board(
+    arguments: &BoardArguments,
+    board: Board,
+    config: Config,
+    link: BoardLink,
+    out: &Path,
+) -> Result<(), BoardError> {
+    let say = |what: &str| complain(&format!("{}{} with {}: {what}", board.name, link.suffix(), config.name));
+    let report_file = match board.report(config, link.suffix()) {
         None if arguments.renew => return Err(BoardError::NoReport { board: board.name, config: config.name }),
         file => file.filter(|_| arguments.renew),
     };
     let request = Request {
         board,
         config,
+        link,
         seeds: arguments.seeds,
         clock: arguments.clock.unwrap_or(Clock::UsualOrLess),
         out,

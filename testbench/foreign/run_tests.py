@@ -11,7 +11,7 @@ HERE = Path(__file__).resolve().parent
 
 
 class Design(NamedTuple):
-    """A core behind a stream link, and the tests to run; none stands for all."""
+    """A core behind a link, the tests to run, and the module with them; no tests stand for all."""
 
     name: str
     points: int
@@ -19,6 +19,9 @@ class Design(NamedTuple):
     ring: int
     beat_bits: int
     tests: tuple[str, ...] = ()
+    module: str = "test_stream"
+    top: str = "incircle_stream_top"
+    board: tuple[str, ...] = ()
 
 
 # The tests that depend on the width of a beat.
@@ -35,6 +38,7 @@ DESIGNS = [
     Design("tiny", 8, 2, 6, 64),
     Design("wide", 64, 4, 8, 128, WIDTH),
     Design("small", 1024, 16, 32, 64, ("registers_and_slverr", "meshes_under_random_stalls", "batch_side_by_side")),
+    Design("network", 8, 2, 6, 0, (), "test_network", "network_board", ("network_board.v",)),
 ]
 
 
@@ -42,8 +46,8 @@ def run(design: Design, verilog: Path, out: Path) -> int:
     """Builds and tests a design, prints its rows, and returns the number of tests that failed."""
     runner = get_runner("icarus")
     runner.build(
-        sources=[verilog / f"{design.name}.v"],
-        hdl_toplevel="incircle_stream_top",
+        sources=[verilog / f"{design.name}.v", *(HERE / file for file in design.board)],
+        hdl_toplevel=design.top,
         build_dir=out / design.name,
         build_args=["-g2005"],
         timescale=("1ns", "1ps"),
@@ -51,15 +55,15 @@ def run(design: Design, verilog: Path, out: Path) -> int:
         log_file=out / f"{design.name}-build.log",
     )
     results = runner.test(
-        test_module="test_stream",
-        hdl_toplevel="incircle_stream_top",
+        test_module=design.module,
+        hdl_toplevel=design.top,
         build_dir=out / design.name,
         test_dir=out / design.name,
         testcase=list(design.tests) or None,
         extra_env={
             "INCIRCLE_CORE": f"{design.points} {design.contexts} {design.ring} {design.beat_bits}",
             "COCOTB_LOG_LEVEL": "WARNING",
-            # cocotbext-axi 0.1.28 uses names that cocotb 2.1 has but will drop.
+            # cocotbext-axi and cocotbext-eth 0.1.28 use names that cocotb 2.1 has but will drop.
             "PYTHONWARNINGS": "ignore::DeprecationWarning",
             "COCOTB_RANDOM_SEED": "1",
         },

@@ -1,5 +1,6 @@
 //! The errors of a build for a board.
 
+use super::link::PORT_MHZ;
 use crate::export::ExportError;
 use std::path::PathBuf;
 
@@ -71,6 +72,29 @@ pub enum BoardError {
         least_mhz: u32,
         /// The largest clock that the board is tried at, in MHz.
         most_mhz: u32,
+    },
+    /// The board has no Ethernet port.
+    #[error("{board} has no Ethernet port: leave out --link udp, or choose colorlight-i5 or ecpix-5")]
+    NoPort { board: &'static str },
+    /// Addresses are given to a board behind its serial line.
+    #[error("a serial line has no addresses: add --link udp, or leave out --ip, --mac and --udp-port")]
+    NoAddresses,
+    /// The placed design misses the clock of the PHY, which cannot be lowered.
+    #[error(
+        "{board} does not meet the {PORT_MHZ} MHz of its Ethernet port: the median of {} reaches {:.1} MHz; {} says more, \
+         and more --seeds may help",
+        seeds_in_words(*seeds),
+        (10.0 * median_mhz).floor() / 10.0,
+        report.display()
+    )]
+    PortTiming {
+        board: &'static str,
+        /// Number of seeds placed.
+        seeds: usize,
+        /// The median of the clocks that the seeds reach at the port, in MHz.
+        median_mhz: f64,
+        /// The file of the report.
+        report: PathBuf,
     },
     /// No report is kept of this core on this board.
     #[error(

@@ -6,12 +6,13 @@
 
 use super::error::BoardError;
 use super::kept::{hexadecimal, Kept, Key};
+use super::link::{BoardLink, Rgmii, PORT_MHZ};
 use super::mapping::{mapping, placer, FLOORPLAN};
-use super::report::{dividers, Attempt, Bitstream, Cells, Parts, Report, Seed, Serial, Summary, Versions};
+use super::report::{dividers, Attempt, Bitstream, Cells, Network, Parts, Report, Seed, Serial, Summary, Versions};
 use super::tools::{run_strictly, Origin, Tools};
 use super::{constraints, date, readings, workshop, Board};
-use crate::export;
 use crate::files::replace;
+use crate::udp::UdpParameters;
 use incircle_protocol::Config;
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
@@ -40,6 +41,8 @@ pub struct Request<'a> {
     pub board: Board,
     /// Configuration of the core.
     pub config: Config,
+    /// The link between core and host.
+    pub link: BoardLink,
     /// Number of seeds for the placer; the seeds are 1, 2 and so on.
     pub seeds: u32,
     /// The clocks to try.
@@ -71,12 +74,28 @@ impl Placed {
         Summary::of(&self.seeds)
     }
 
-    fn is_met(&self) -> bool {
+    /// The clocks of the Ethernet port; all 0 without one.
+    fn port_summary(&self) -> Summary {
+        Summary::of_clocks(self.seeds.iter().filter_map(|seed| seed.port_fmax_mhz))
+    }
+
+    /// Whether the Ethernet port, if there is one, meets its clock.
+    fn port_is_met(&self) -> bool {
+        self.seeds.iter().all(|seed| seed.port_fmax_mhz.is_none()) || self.port_summary().median >= f64::from(PORT_MHZ)
+    }
+
+    fn core_is_met(&self) -> bool {
         self.summary().median >= f64::from(self.clock_mhz)
     }
 
+    fn is_met(&self) -> bool {
+        self.core_is_met() && self.port_is_met()
+    }
+
+    /// The seed to pack: among those whose Ethernet port meets its clock, the one with the fastest core.
     fn fastest(&self) -> Option<u32> {
-        self.seeds.iter().max_by(|a, b| a.fmax_mhz.total_cmp(&b.fmax_mhz)).map(|seed| seed.seed)
+        let sound = self.seeds.iter().filter(|seed| seed.port_fmax_mhz.is_none_or(|mhz| mhz >= f64::from(PORT_MHZ)));
+        sound.max_by(|a, b| a.fmax_mhz.total_cmp(&b.fmax_mhz)).map(|seed| seed.seed)
     }
 }
 
@@ -86,6 +105,8 @@ impl Placed {
 /// If a tool fails or warns, or none of the clocks is met; in the last case the report is written all the same.
 pub fn build(request: &Request) -> Result<Report, BoardError> {
     let clocks = clocks(request)?;
+    // Wrong parameters are told before any tool is fetched.
+    request.link.device(&request.board, request.config, clocks[0])?;
     let (work, _lock) = workshop::take(request.out)?;
     let tools = Tools::find(request.tools, request.say)?;
     let versions = tools.versions(&work)?;
@@ -105,7 +126,8 @@ pub fn build(request: &Request) -> Result<Report, BoardError> {
         let median = placed.summary().median;
         let within_reach = lower.partition_point(|&clock| f64::from(clock) > median);
         rest = lower.get(within_reach..).unwrap_or_default();
-        if placed.is_met() || rest.is_empty() {
+        // A slower clock of the core does not help the port.
+        if placed.core_is_met() || rest.is_empty() {
             let Toolbox { tools, versions, kept } = toolbox;
             let finished = finish(request, &tools, &work, describe(request, &placed, versions), missed, &placed);
             kept.drop_others()?;
@@ -117,7 +139,7 @@ pub fn build(request: &Request) -> Result<Report, BoardError> {
 
 /// Removes the report and the bitstream of an earlier run, so that nobody flashes them for those of this run.
 fn forget_earlier(request: &Request) -> Result<(), BoardError> {
-    for file in [request.out.join(REPORT), request.out.join(bitstream(request.board))] {
+    for file in [request.out.join(REPORT), request.out.join(bitstream(request))] {
         if file.exists() {
             std::fs::remove_file(&file).map_err(BoardError::file(&file))?;
         }
@@ -126,8 +148,8 @@ fn forget_earlier(request: &Request) -> Result<(), BoardError> {
 }
 
 /// Name of the file with the bitstream.
-fn bitstream(board: Board) -> String {
-    format!("{}.bit", board.name)
+fn bitstream(request: &Request) -> String {
+    format!("{}{}.bit", request.board.name, request.link.suffix())
 }
 
 /// The clocks to try, the largest one first.
@@ -166,14 +188,16 @@ fn place(request: &Request, toolbox: &Toolbox, work: &Path, clock_mhz: u32) -> R
         let key = arguments.iter().fold(design.clone(), |key, argument| key.text(argument));
         let measured = work.join(&report);
         // A report without a clock or cells is no measurement, and is not kept.
-        let check = || readings::fmax(&measured, clock_mhz).and_then(|_| readings::cells(&measured)).map(drop);
+        let read = || readings::fmax(&measured, clock_mhz, request.link.port_clock().map(|pin| (pin, PORT_MHZ)));
+        let check = || read().and_then(|_| readings::cells(&measured)).map(drop);
         let is_kept = toolbox.kept.step(key, work, &[&report, &config], check, || {
             run_strictly(&toolbox.tools.nextpnr, &arguments, work, &format!("place-{seed}.log"))
         })?;
-        let fmax_mhz = readings::fmax(&measured, clock_mhz)?;
+        let (fmax_mhz, port_fmax_mhz) = read()?;
         let kept = if is_kept { ", as an earlier run found" } else { "" };
-        (request.say)(&format!("seed {seed} reaches {fmax_mhz:.1} MHz{kept}"));
-        seeds.push(Seed { seed, fmax_mhz });
+        let port = port_fmax_mhz.map_or(String::new(), |mhz| format!(", the Ethernet port {mhz:.1} MHz"));
+        (request.say)(&format!("seed {seed} reaches {fmax_mhz:.1} MHz{port}{kept}"));
+        seeds.push(Seed { seed, fmax_mhz, port_fmax_mhz });
         (placed, available) = readings::cells(&measured)?;
     }
     let shell = Cells {
@@ -189,22 +213,31 @@ fn place(request: &Request, toolbox: &Toolbox, work: &Path, clock_mhz: u32) -> R
 fn synthesise(request: &Request, toolbox: &Toolbox, work: &Path, clock_mhz: u32) -> Result<(Cells, Cells), BoardError> {
     let board = request.board;
     let pll = board.pll(clock_mhz).ok_or_else(|| BoardError::form(work, "the PLL cannot make this clock"))?;
-    let device = export::serial_top(request.config, board.link(clock_mhz), false)?;
+    let link = request.link;
+    let device = link.device(&board, request.config, clock_mhz)?;
     let written = work.join("device.v");
     std::fs::write(&written, device).map_err(BoardError::file(&written))?;
     let shared = constraints().join("ecp5");
-    let copies = [
+    let mut sources = vec!["device.v", "clock.v", "top.v"];
+    sources.extend(link.source());
+    let mut copies = vec![
         (shared.join("clock.v"), "clock.v"),
         (shared.join(FLOORPLAN), FLOORPLAN),
-        (board.folder().join("top.v"), "top.v"),
-        (board.folder().join("pins.lpf"), "pins.lpf"),
+        (board.folder().join(format!("top{}.v", link.suffix())), "top.v"),
+        (board.folder().join(format!("pins{}.lpf", link.suffix())), "pins.lpf"),
     ];
+    copies.extend(link.source().map(|name| (shared.join(name), name)));
     for (from, to) in copies {
         std::fs::copy(&from, work.join(to)).map_err(BoardError::file(from))?;
     }
     let counts = "counts.txt";
-    let mut script =
-        format!("read_verilog -D INCIRCLE_ECP5 -D {} device.v clock.v top.v; {}", pll.define(), mapping(board.top));
+    let mut script = format!(
+        "read_verilog -D INCIRCLE_ECP5 -D {}{} {}; {}",
+        pll.define(),
+        link.defines(),
+        sources.join(" "),
+        mapping(&link.top(&board))
+    );
     if board.has_floorplan(request.config) {
         script += &format!("; script {FLOORPLAN}");
     }
@@ -213,7 +246,7 @@ fn synthesise(request: &Request, toolbox: &Toolbox, work: &Path, clock_mhz: u32)
         script += &format!("; tee -a {counts} select -count t:{cell}");
         script += &format!("; tee -a {counts} select -count {CORE} t:{cell} %i");
     }
-    let sources = ["device.v", "clock.v", "top.v", FLOORPLAN];
+    sources.push(FLOORPLAN);
     let key = Key::default().text(&toolbox.versions.yosys).text(&script);
     let key = sources.iter().try_fold(key, |key, source| key.file(&work.join(source)))?;
     let counted = work.join(counts);
@@ -249,6 +282,10 @@ fn finish(
     if report.met {
         return Ok(report);
     }
+    if placed.core_is_met() {
+        let (board, seeds) = (request.board.name, report.seeds.len());
+        return Err(BoardError::PortTiming { board, seeds, median_mhz: placed.port_summary().median, report: file });
+    }
     let median_mhz = report.fmax_mhz.median;
     Err(BoardError::Timing {
         board: request.board.name,
@@ -268,7 +305,10 @@ fn finish(
 fn describe(request: &Request, placed: &Placed, tools: Versions) -> Report {
     let Placed { clock_mhz, cells, .. } = *placed;
     let (board, config) = (request.board, request.config);
-    let link = board.link(clock_mhz);
+    let (serial, network) = match request.link {
+        BoardLink::Serial => (Some(serial(&board, clock_mhz)), None),
+        BoardLink::Udp(parameters) => (None, board.ethernet.map(|port| network(parameters, port, placed))),
+    };
     Report {
         board: board.name.into(),
         device: board.device.into(),
@@ -285,20 +325,40 @@ fn describe(request: &Request, placed: &Placed, tools: Versions) -> Report {
         contexts: config.contexts,
         engines: config.engines,
         cells,
-        serial: Serial {
-            bridge: board.bridge.into(),
-            bits_per_second: board.bridge_rate.min(link.max_rate()),
-            fifo_bytes: link.fifo_bytes,
-        },
+        serial,
+        network,
         pll: board.pll(clock_mhz).map(dividers).unwrap_or_default(),
         tools,
         bitstream: None,
     }
 }
 
+fn serial(board: &Board, clock_mhz: u32) -> Serial {
+    let link = board.link(clock_mhz);
+    Serial {
+        bridge: board.bridge.into(),
+        bits_per_second: board.bridge_rate.min(link.max_rate()),
+        fifo_bytes: link.fifo_bytes,
+    }
+}
+
+fn network(UdpParameters { link, address, prefix, port }: UdpParameters, pins: Rgmii, placed: &Placed) -> Network {
+    let mac: Vec<_> = link.mac.iter().map(|byte| format!("{byte:02x}")).collect();
+    Network {
+        phy: pins.phy.into(),
+        ip: format!("{address}/{prefix}"),
+        mac: mac.join(":"),
+        udp_port: port,
+        fifo_bytes: link.fifo_bytes,
+        rgmii_delay: pins.delay,
+        rgmii_clock_delay: pins.clock_delay,
+        fmax_mhz: placed.port_summary(),
+    }
+}
+
 /// Makes the bitstream from a placed seed.
 fn pack(request: &Request, tools: &Tools, work: &Path, seed: u32) -> Result<Bitstream, BoardError> {
-    let file = bitstream(request.board);
+    let file = bitstream(request);
     let config = format!("seed-{seed}.config");
     run_strictly(&tools.ecppack, &["--compress", "--input", &config, "--bit", &file], work, "pack.log")?;
     let packed: PathBuf = work.join(&file);

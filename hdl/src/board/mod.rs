@@ -2,7 +2,7 @@
 //!
 //! A board is a folder under `constraints/` with its pins (`pins.lpf`), a thin top module (`top.v`), a README and a
 //! report for each core that was measured: `report.json` for the board's first core, `report-quad.json` and the like
-//! for others. [`BOARDS`] holds what the command must know besides. [`build`] makes
+//! for others. A board with an Ethernet port also has `pins-udp.lpf`, `top-udp.v`, and `report-udp.json` and the like. [`BOARDS`] holds what the command must know besides. [`build`] makes
 //! a bitstream, and [`renew_tables`] writes the tables of the documents from the reports. [`sizes`] compares cores of
 //! many sizes in many families of FPGAs, with the same tools.
 
@@ -11,6 +11,7 @@ mod error;
 mod flow;
 mod json;
 mod kept;
+mod link;
 mod mapping;
 mod pll;
 mod readings;
@@ -22,9 +23,10 @@ mod workshop;
 
 pub use error::BoardError;
 pub use flow::{build, Clock, Request};
+pub use link::{BoardLink, Rgmii};
 pub use mapping::mapping;
 pub use pll::{Pll, MHZ};
-pub use report::{Attempt, Bitstream, Cells, Parts, Report, Seed, Serial, Summary, Versions};
+pub use report::{Attempt, Bitstream, Cells, Network, Parts, Report, Seed, Serial, Summary, Versions};
 pub use table::{documents, held_text, pages, renew_tables};
 pub use tools::Origin;
 
@@ -72,6 +74,8 @@ pub struct Board {
     pub bridge: &'static str,
     /// The highest rate of that chip or probe, in bits per second.
     pub bridge_rate: u32,
+    /// The Ethernet port, if the board has one.
+    pub ethernet: Option<Rgmii>,
 }
 
 /// All boards; the first one is the reference.
@@ -89,6 +93,7 @@ pub const BOARDS: [Board; 3] = [
         fifo_bytes: 16384,
         bridge: "FT231X",
         bridge_rate: 3_000_000,
+        ethernet: None,
     },
     Board {
         name: "colorlight-i5",
@@ -103,6 +108,8 @@ pub const BOARDS: [Board; 3] = [
         fifo_bytes: 4096,
         bridge: "DAPLink",
         bridge_rate: 115_200,
+        // litex-boards' target delays nothing on the way to the PHY, and LiteEth received data by 2 ns unless told else.
+        ethernet: Some(Rgmii { phy: "B50612D", delay: 80, clock_delay: 0 }),
     },
     Board {
         name: "ecpix-5",
@@ -117,6 +124,8 @@ pub const BOARDS: [Board; 3] = [
         fifo_bytes: 16384,
         bridge: "FT2232H",
         bridge_rate: 12_000_000,
+        // litex-boards' target delays no received data, and LiteEth the clock to the PHY by 2 ns unless told else.
+        ethernet: Some(Rgmii { phy: "gigabit PHY", delay: 0, clock_delay: 80 }),
     },
 ];
 
@@ -133,11 +142,12 @@ impl Board {
         self.cores.iter().find(|core| core.config == config).copied().unwrap_or(BoardCore { config, usual_mhz })
     }
 
-    /// The file with the report on a core of this configuration; `None` if such reports are not kept.
-    pub fn report(&self, config: Config) -> Option<PathBuf> {
+    /// The file with the report on a core of this configuration; `None` if such reports are not kept. `suffix` is that
+    /// of the link, see [`BoardLink::suffix`].
+    pub fn report(&self, config: Config, suffix: &str) -> Option<PathBuf> {
         let place = self.cores.iter().position(|core| core.config == config)?;
-        let name = if place == 0 { "report.json".to_owned() } else { format!("report-{}.json", config.name) };
-        Some(self.folder().join(name))
+        let core = if place == 0 { String::new() } else { format!("-{}", config.name) };
+        Some(self.folder().join(format!("report{core}{suffix}.json")))
     }
 
     /// The folder of the board.

@@ -45,19 +45,31 @@ fn counts_of(text: &str) -> Result<(Cells, Cells), String> {
     Ok((core, all))
 }
 
-/// The highest frequency of the board's one clock, in MHz.
-pub(super) fn fmax(path: &Path, clock_mhz: u32) -> Result<f64, BoardError> {
-    fmax_of(&json::read(path)?, clock_mhz).map_err(|reason| BoardError::form(path, reason))
+/// The highest frequencies of a board in MHz: of the core's clock, and of the clock of the Ethernet port if `port` gives
+/// the name of its pin and its constraint.
+pub(super) fn fmax(path: &Path, clock_mhz: u32, port: Option<(&str, u32)>) -> Result<(f64, Option<f64>), BoardError> {
+    fmax_of(&json::read(path)?, clock_mhz, port).map_err(|reason| BoardError::form(path, reason))
 }
 
-/// The highest frequency in a report, whose constraint must be `clock_mhz`: nextpnr derives the constraint from the
-/// pins and the PLL.
-fn fmax_of(report: &Value, clock_mhz: u32) -> Result<f64, String> {
+/// The highest frequencies in a report, whose constraints must be those that were asked for: nextpnr derives them from
+/// the pins and the PLL.
+fn fmax_of(report: &Value, clock_mhz: u32, port: Option<(&str, u32)>) -> Result<(f64, Option<f64>), String> {
     let clocks = report.get("fmax").and_then(Value::as_object).ok_or("it has no fmax")?;
-    let mut clocks = clocks.values();
-    let (Some(clock), None) = (clocks.next(), clocks.next()) else {
-        return Err("a board has one clock, and it does not name one".into());
+    let (ports, cores): (Vec<_>, Vec<_>) =
+        clocks.iter().partition(|(name, _)| port.is_some_and(|(pin, _)| name.contains(pin)));
+    let of_port = match (port, ports.as_slice()) {
+        (None, _) => None,
+        (Some((_, mhz)), [(_, clock)]) => Some(achieved(clock, mhz)?),
+        (Some((pin, _)), _) => return Err(format!("the Ethernet port has one clock, and it names none of pin {pin}")),
     };
+    let [(_, clock)] = cores.as_slice() else {
+        return Err("a core has one clock, and it does not name one".into());
+    };
+    Ok((achieved(clock, clock_mhz)?, of_port))
+}
+
+/// The frequency that a clock reaches, whose constraint must be `clock_mhz`.
+fn achieved(clock: &Value, clock_mhz: u32) -> Result<f64, String> {
     let number = |key: &str| clock.get(key).and_then(Value::as_f64);
     let constraint = number("constraint").ok_or("its clock has no constraint")?;
     // nextpnr counts in whole picoseconds, so the constraint differs a little.
@@ -106,11 +118,23 @@ mod tests {
     #[test]
     fn the_clock_is_the_one_that_was_meant() {
         let clock = json!({"achieved": 89.3, "constraint": 60.002});
-        assert_eq!(fmax_of(&json!({"fmax": {"clock": clock}}), 60), Ok(89.3));
-        assert!(fmax_of(&json!({"fmax": {"clock": clock}}), 65).unwrap_err().contains("is to be 65 MHz"));
-        assert!(fmax_of(&json!({"fmax": {"a": clock, "b": clock}}), 60).unwrap_err().contains("one clock"));
-        assert!(fmax_of(&json!({"fmax": {}}), 60).is_err());
-        assert!(fmax_of(&json!({}), 60).is_err());
+        assert_eq!(fmax_of(&json!({"fmax": {"clock": clock}}), 60, None), Ok((89.3, None)));
+        assert!(fmax_of(&json!({"fmax": {"clock": clock}}), 65, None).unwrap_err().contains("is to be 65 MHz"));
+        assert!(fmax_of(&json!({"fmax": {"a": clock, "b": clock}}), 60, None).unwrap_err().contains("one clock"));
+        assert!(fmax_of(&json!({"fmax": {}}), 60, None).is_err());
+        assert!(fmax_of(&json!({}), 60, None).is_err());
+    }
+
+    #[test]
+    fn the_clock_of_the_port_is_told_apart_by_its_pin() {
+        let (core, phy) =
+            (json!({"achieved": 130.5, "constraint": 125.0}), json!({"achieved": 140.25, "constraint": 125.0}));
+        let both = json!({"fmax": {"$glbnet$clock": core, "$glbnet$rx_pin$TRELLIS_IO_IN": phy}});
+        assert_eq!(fmax_of(&both, 125, Some(("rx_pin", 125))), Ok((130.5, Some(140.25))));
+        assert!(fmax_of(&both, 125, None).unwrap_err().contains("one clock"));
+        assert!(fmax_of(&both, 125, Some(("rx_pin", 120))).unwrap_err().contains("is to be 120 MHz"));
+        let alone = json!({"fmax": {"$glbnet$clock": core}});
+        assert!(fmax_of(&alone, 125, Some(("rx_pin", 125))).unwrap_err().contains("names none of pin rx_pin"));
     }
 
     #[test]

@@ -39,8 +39,12 @@ pub struct Report {
     pub engines: u32,
     /// The cells of the parts of the design.
     pub cells: Parts,
-    /// The serial line of the board.
-    pub serial: Serial,
+    /// The serial line of the board, if that is the link.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub serial: Option<Serial>,
+    /// The Ethernet port of the board, if that is the link.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub network: Option<Network>,
     /// The dividers of the PLL: input, loop, output.
     pub pll: [u32; 3],
     pub tools: Versions,
@@ -54,6 +58,9 @@ pub struct Seed {
     pub seed: u32,
     /// The clock that the seed reaches, in MHz.
     pub fmax_mhz: f64,
+    /// The clock that the Ethernet port reaches, in MHz, if that is the link; it must be 125.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub port_fmax_mhz: Option<f64>,
 }
 
 /// A summary of the clocks that several seeds reach, in MHz.
@@ -112,6 +119,27 @@ pub struct Serial {
     pub fifo_bytes: u32,
 }
 
+/// The Ethernet port of a board, and the addresses of the device behind it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Network {
+    /// Type of the PHY.
+    pub phy: String,
+    /// IPv4 address, with the bits of it that name the network, as in `192.168.1.50/24`.
+    pub ip: String,
+    /// Ethernet address, as in `02:00:00:69:43:01`.
+    pub mac: String,
+    /// UDP port at which the device listens.
+    pub udp_port: u16,
+    /// Size of the receive FIFO in bytes.
+    pub fifo_bytes: u32,
+    /// Taps of 25 ps by which the FPGA delays the data from the PHY.
+    pub rgmii_delay: u8,
+    /// Taps of 25 ps by which the FPGA delays the clock to the PHY.
+    pub rgmii_clock_delay: u8,
+    /// The clocks that the seeds reach at the port, in MHz.
+    pub fmax_mhz: Summary,
+}
+
 /// Versions of the tools, in the words of the tools.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Versions {
@@ -133,7 +161,12 @@ pub struct Bitstream {
 impl Summary {
     /// The summary of these seeds, all 0 if there are none.
     pub fn of(seeds: &[Seed]) -> Self {
-        let mut reached: Vec<_> = seeds.iter().map(|seed| seed.fmax_mhz).collect();
+        Self::of_clocks(seeds.iter().map(|seed| seed.fmax_mhz))
+    }
+
+    /// The summary of these clocks, all 0 if there are none.
+    pub fn of_clocks(clocks: impl Iterator<Item = f64>) -> Self {
+        let mut reached: Vec<_> = clocks.collect();
         reached.sort_by(f64::total_cmp);
         let at = |place: usize| reached.get(place).copied().unwrap_or_default();
         let last = reached.len().saturating_sub(1);
@@ -178,7 +211,8 @@ mod tests {
     #[test]
     fn medians() {
         let summary = |reached: &[f64]| {
-            let seeds: Vec<_> = reached.iter().map(|&fmax_mhz| Seed { seed: 1, fmax_mhz }).collect();
+            let seeds: Vec<_> =
+                reached.iter().map(|&fmax_mhz| Seed { seed: 1, fmax_mhz, port_fmax_mhz: None }).collect();
             Summary::of(&seeds)
         };
         assert_eq!(summary(&[]), Summary { min: 0.0, median: 0.0, max: 0.0 });

@@ -2,7 +2,8 @@
 //! that nobody types a figure.
 
 use super::error::{seeds_in_words, BoardError};
-use super::report::{Cells, Parts, Report, Summary};
+use super::link::BoardLink;
+use super::report::{Cells, Network, Parts, Report, Serial, Summary};
 use super::{constraints, repository, Board, BoardCore, BOARDS};
 use incircle_protocol::Config;
 use std::path::PathBuf;
@@ -11,6 +12,9 @@ use std::path::PathBuf;
 const BEGIN: &str = "<!-- made by `cargo run --release -p incircle-hdl -- board --table` -->\n";
 /// The line behind a table that this command makes.
 const END: &str = "<!-- end -->\n";
+
+/// The suffix of the reports on cores behind the Ethernet port of a board.
+const UDP_SUFFIX: &str = "-udp";
 
 /// The row of the table of cycles that the tables quote.
 const POINT_SET: &str = "uniform";
@@ -26,17 +30,27 @@ pub fn documents() -> Vec<PathBuf> {
 /// # Errors
 /// If a document, a report or the table of cycles cannot be read or understood.
 pub fn pages() -> Result<Vec<(PathBuf, String)>, BoardError> {
-    let rows = BOARDS.into_iter().flat_map(|board| board.cores.iter().map(move |&core| (board, core)));
-    let measured: Vec<Row> = rows
-        .map(|(board, core)| Ok(Row { board, core, measurement: measurement(&board, core.config)? }))
-        .collect::<Result<_, BoardError>>()?;
-    let single = BOARDS.iter().map(|board| details(measured.iter().filter(|row| row.board.name == board.name)));
+    let measured = rows(BoardLink::Serial.suffix())?;
+    let mut behind_ethernet = rows(UDP_SUFFIX)?;
+    behind_ethernet.retain(|row| row.measurement.is_some());
+    let of = |rows: &'_ [Row], board: &Board, of: fn(&[&Row]) -> String| {
+        of(&rows.iter().filter(|row| row.board.name == board.name).collect::<Vec<_>>())
+    };
+    let single = BOARDS
+        .iter()
+        .map(|board| of(&measured, board, details) + &of(&behind_ethernet, board, details_behind_ethernet));
     let tables = std::iter::once(overview(&measured)).chain(single);
     let fill = |(path, table): (PathBuf, String)| {
         let text = with_table(&path, BEGIN, &table)?;
         Ok((path, text))
     };
     documents().into_iter().zip(tables).map(fill).collect()
+}
+
+/// The cores of all boards, with the measurements behind the link of this suffix.
+fn rows(suffix: &str) -> Result<Vec<Row>, BoardError> {
+    let cores = BOARDS.into_iter().flat_map(|board| board.cores.iter().map(move |&core| (board, core)));
+    cores.map(|(board, core)| Ok(Row { board, core, measurement: measurement(&board, core.config, suffix)? })).collect()
 }
 
 /// The text of a document with this table behind the line `begin`, up to [`END`].
@@ -129,8 +143,8 @@ pub(super) fn sizes(engines: u32, points: u32, contexts: u32) -> String {
     }
 }
 
-fn measurement(board: &Board, config: Config) -> Result<Option<Measurement>, BoardError> {
-    let Some(path) = board.report(config).filter(|path| path.exists()) else {
+fn measurement(board: &Board, config: Config, suffix: &str) -> Result<Option<Measurement>, BoardError> {
+    let Some(path) = board.report(config, suffix).filter(|path| path.exists()) else {
         return Ok(None);
     };
     let report = Report::read(&path)?;
@@ -221,7 +235,7 @@ fn overview_row(Row { board, core, measurement }: &Row) -> String {
         measurement.cycles(),
         measurement.rate(),
         measurement.batch_rates(),
-        serial.bits_per_second,
+        serial.as_ref().map_or(0, |serial| serial.bits_per_second),
     )
 }
 
@@ -231,8 +245,8 @@ fn tools(report: &Report) -> String {
 }
 
 /// The tables of one board: first the board's own core, then the others, each under a heading.
-fn details<'r>(rows: impl Iterator<Item = &'r Row>) -> String {
-    let section = |(place, row): (usize, &Row)| {
+fn details(rows: &[&Row]) -> String {
+    let section = |(place, row): (usize, &&Row)| {
         let heading = if place == 0 { String::new() } else { format!("\n### With `{}`\n", row.core.config.name) };
         let Some(measurement) = &row.measurement else {
             return format!("{heading}\nNot placed.\n");
@@ -241,7 +255,19 @@ fn details<'r>(rows: impl Iterator<Item = &'r Row>) -> String {
             readings(measurement).into_iter().map(|(name, value)| format!("| {name} | {value} |\n")).collect();
         format!("{heading}{}\n| | |\n|---|---|\n{readings}", resources(&measurement.report.cells))
     };
-    rows.enumerate().map(section).collect()
+    rows.iter().enumerate().map(section).collect()
+}
+
+/// The tables of one board behind its Ethernet port, each under a heading.
+fn details_behind_ethernet(rows: &[&Row]) -> String {
+    let sections = rows.iter().filter_map(|row| {
+        let measurement = row.measurement.as_ref()?;
+        let readings: String =
+            readings(measurement).into_iter().map(|(name, value)| format!("| {name} | {value} |\n")).collect();
+        let heading = format!("\n### With `{}` behind Ethernet\n", row.core.config.name);
+        Some(format!("{heading}{}\n| | |\n|---|---|\n{readings}", resources(&measurement.report.cells)))
+    });
+    sections.collect()
 }
 
 /// The rows that say how much of the device the core and the shell take.
@@ -263,6 +289,7 @@ fn resources(cells: &Parts) -> String {
 
 /// The other figures of a board, each with its name.
 fn readings(measurement: &Measurement) -> [(&'static str, String); 10] {
+    let (link_name, link) = link(&measurement.report);
     let report = &measurement.report;
     let seeds: Vec<_> = report.seeds.iter().map(|seed| format!("{:.1} (seed {})", seed.fmax_mhz, seed.seed)).collect();
     let bitstream = report.bitstream.as_ref();
@@ -277,17 +304,33 @@ fn readings(measurement: &Measurement) -> [(&'static str, String); 10] {
             "million points a second of the core alone, in batches of jobs of 200 / 1,000 / 2,000 / 4,000",
             measurement.batch_rates(),
         ),
-        (
-            "serial",
-            format!(
-                "{} bit/s ({}), FIFO of {} bytes",
-                report.serial.bits_per_second, report.serial.bridge, report.serial.fifo_bytes
-            ),
-        ),
+        (link_name, link),
         (
             "bitstream, SHA-256",
             bitstream.map_or("none".into(), |made| format!("`{}`, {} bytes", made.sha256, made.bytes)),
         ),
         ("measured", format!("{}, {}, ecppack {}", report.date, tools(report), report.tools.ecppack)),
     ]
+}
+
+/// What a report says of the link, with a name.
+fn link(report: &Report) -> (&'static str, String) {
+    if let Some(Serial { bridge, bits_per_second, fifo_bytes }) = &report.serial {
+        return ("serial", format!("{bits_per_second} bit/s ({bridge}), FIFO of {fifo_bytes} bytes"));
+    }
+    let of_network = |network: &Network| {
+        format!(
+            "{} at `{}`, `{}`, UDP port {}, FIFO of {} bytes; data from the PHY delayed by {} taps of 25 ps, clock to the \
+             PHY by {}; Fmax of the seeds at the port {} MHz, 125 MHz needed",
+            network.phy,
+            network.ip,
+            network.mac,
+            network.udp_port,
+            network.fifo_bytes,
+            network.rgmii_delay,
+            network.rgmii_clock_delay,
+            three(network.fmax_mhz)
+        )
+    };
+    ("Ethernet", report.network.as_ref().map_or_else(String::new, of_network))
 }

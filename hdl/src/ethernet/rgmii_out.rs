@@ -1,11 +1,13 @@
 //! The sending pins of RGMII: puts the bytes of GMII on the pins at both edges of the clock.
 //!
 //! 1. The low half of a byte is on the pins while the clock is high, the high half while the clock is low. The pin of
-//!    the clock follows the clock itself, so the PHY, or the board, must delay it by about 2 ns.
+//!    the clock follows the clock itself, so that something must delay it by about 2 ns: the PHY, the board, or the pin.
+//! 2. With `INCIRCLE_ECP5` defined, `DELAY` taps of 25 ps, 0 to 127, delay the pin of the clock. The right number is a
+//!    matter of the board.
 //!
 //! Latency: a byte that is valid before an edge is on the pins behind the next edge.
 //!
-//! Source: RGMII 1.3 and 2.0; Lattice, ECP5 High-Speed I/O Interface, ODDRX1F. Without `INCIRCLE_ECP5` the Verilog has
+//! Source: RGMII 1.3 and 2.0; Lattice, ECP5 High-Speed I/O Interface, ODDRX1F and DELAYG. Without `INCIRCLE_ECP5` the Verilog has
 //! plain registers, and a choice by the level of the clock.
 
 use super::types::Byte;
@@ -22,8 +24,20 @@ pub struct RgmiiOut {
     pub clock_pin: Signal<Out, Bit>,
     pub control: Signal<Out, Bit>,
     pub pins: Signal<Out, Bits<4>>,
+    _delay: u8,
     _first: u64,
     _held: u64,
+}
+
+impl RgmiiOut {
+    /// Pins whose clock is delayed by this many taps on an ECP5.
+    ///
+    /// # Panics
+    /// If there are more than 127 taps.
+    pub fn new(delay: u8) -> Self {
+        assert!(delay < 128, "a pin of an ECP5 is delayed by 0 to 127 taps, not {delay}");
+        Self { _delay: delay, ..Self::default() }
+    }
 }
 
 impl Logic for RgmiiOut {
@@ -46,22 +60,29 @@ impl Logic for RgmiiOut {
     }
 
     fn hdl(&self) -> Verilog {
-        Verilog::Custom(
+        let delayed = match self._delay {
+            0 => "wire clock_out = out[5];\n".to_string(),
+            delay => format!(
+                "wire clock_out;\nDELAYG #(.DEL_MODE(\"USER_DEFINED\"), .DEL_VALUE({delay})) delay_line (\
+                 .A(out[5]), .Z(clock_out));\n"
+            ),
+        };
+        Verilog::Custom(format!(
             "\
 `ifdef INCIRCLE_ECP5
-wire [5:0] high = {1'b1, data_valid, data[3:0]};
-wire [5:0] low = {1'b0, data_valid, data[7:4]};
+wire [5:0] high = {{1'b1, data_valid, data[3:0]}};
+wire [5:0] low = {{1'b0, data_valid, data[7:4]}};
 wire [5:0] out;
 genvar pin;
 generate for (pin = 0; pin < 6; pin = pin + 1) begin : each_pin
 ODDRX1F both_edges (.D0(high[pin]), .D1(low[pin]), .SCLK(clock), .RST(1'b0), .Q(out[pin]));
 end endgenerate
-always @(*) {clock_pin, control, pins} = out;
+{delayed}always @(*) {{clock_pin, control, pins}} = {{clock_out, out[4:0]}};
 `else
 reg [8:0] first;
 reg [8:0] held;
 always @(posedge clock) begin
-    first <= {data_valid, data};
+    first <= {{data_valid, data}};
     held <= first;
 end
 always @(*) begin
@@ -71,7 +92,6 @@ always @(*) begin
 end
 `endif
 "
-            .into(),
-        )
+        ))
     }
 }

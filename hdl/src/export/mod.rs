@@ -196,8 +196,8 @@ pub fn udp_top(
         let [link, chip, device, rgmii_in, rgmii_out] = names;
         let pin_blocks = match pins {
             UdpPins::Gmii => String::new(),
-            UdpPins::Rgmii { delay } => {
-                connected(RgmiiIn::new(delay), &rgmii_in)? + &connected(RgmiiOut::default(), &rgmii_out)?
+            UdpPins::Rgmii { delay, clock_delay } => {
+                connected(RgmiiIn::new(delay), &rgmii_in)? + &connected(RgmiiOut::new(clock_delay), &rgmii_out)?
             }
         };
         if config.engines > 1 {
@@ -205,7 +205,12 @@ pub fn udp_top(
             let inside = udp_device(config, parameters, parts.link)? + &engines(config, parts.chip)?;
             return Ok(inside + &pin_blocks + &parts.udp(pins));
         }
-        let inside = connected(UdpTop::new(config, parameters)?, &device)?;
+        let inside = match answer_pointer_bits(config) {
+            8 => connected(UdpTop::<8>::new(config, parameters)?, &device)?,
+            12 => connected(UdpTop::<12>::new(config, parameters)?, &device)?,
+            13 => connected(UdpTop::<13>::new(config, parameters)?, &device)?,
+            _ => connected(UdpTop::<14>::new(config, parameters)?, &device)?,
+        };
         Ok(inside + &pin_blocks + &udp_wrapper(&device, pins, with_probe))
     })
 }
@@ -215,7 +220,24 @@ pub fn udp_top(
 /// # Errors
 /// If a parameter is out of range, or the design is not fit for export.
 pub fn udp_device(config: Config, parameters: UdpParameters, name: &str) -> Result<String, ExportError> {
-    connected(UdpDevice::new(config, parameters)?, name)
+    match answer_pointer_bits(config) {
+        8 => connected(UdpDevice::<8>::new(config, parameters)?, name),
+        12 => connected(UdpDevice::<12>::new(config, parameters)?, name),
+        13 => connected(UdpDevice::<13>::new(config, parameters)?, name),
+        _ => connected(UdpDevice::<14>::new(config, parameters)?, name),
+    }
+}
+
+/// Number of bits of a pointer of the FIFO between core and UDP link. The FIFO holds the mesh of all points of the chip,
+/// three words a point and two words an entry, but 8,192 entries at most, the mesh of 5,400 points: more block RAM is
+/// not left on the boards.
+fn answer_pointer_bits(config: Config) -> usize {
+    match config.points * config.engines {
+        0..=64 => 8,
+        65..=1024 => 12,
+        1025..=2048 => 13,
+        _ => 14,
+    }
 }
 
 /// Runs `work` in a thread with a large stack: a device is built by value, in several copies of 300 kB an engine, too

@@ -47,6 +47,8 @@ pub struct AsyncFifo<const P: usize, const D: usize> {
     write_seen: Synchroniser<Bits<P>>,
     write_count: DFF<Bits<P>>,
     write_gray: DFF<Bits<P>>,
+    /// The Gray code of the pointer behind the next entry, so that no addition lies between the pointer and `full`.
+    next_gray: DFF<Bits<P>>,
     full: DFF<Bit>,
     read_count: DFF<Bits<P>>,
     read_gray: DFF<Bits<P>>,
@@ -57,9 +59,8 @@ pub struct AsyncFifo<const P: usize, const D: usize> {
     shown: DFF<Bit>,
     takes: Signal<Local, Bit>,
     after_write: Signal<Local, Bits<P>>,
-    write_ahead: Signal<Local, Bits<P>>,
-    write_half: Signal<Local, Bits<P>>,
-    write_code: Signal<Local, Bits<P>>,
+    second_write: Signal<Local, Bits<P>>,
+    second_half: Signal<Local, Bits<P>>,
     full_code: Signal<Local, Bits<P>>,
     moves: Signal<Local, Bit>,
     fetches: Signal<Local, Bit>,
@@ -69,6 +70,7 @@ pub struct AsyncFifo<const P: usize, const D: usize> {
     read_code: Signal<Local, Bits<P>>,
     nothing: Parameter<Bits<P>>,
     one: Parameter<Bits<P>>,
+    two: Parameter<Bits<P>>,
     /// A pointer that is a whole round ahead differs in these bits of its Gray code.
     round: Parameter<Bits<P>>,
 }
@@ -87,6 +89,7 @@ impl<const P: usize, const D: usize> AsyncFifo<P, D> {
             memory: DualClockMemory::new(P - 1, D),
             nothing: Parameter::new(Bits::default()),
             one: Parameter::new(Bits::from(1)),
+            two: Parameter::new(Bits::from(2)),
             round: Parameter::new(Bits::from(3 << (P - 2))),
             ..Self::default()
         }
@@ -96,7 +99,7 @@ impl<const P: usize, const D: usize> AsyncFifo<P, D> {
 impl<const P: usize, const D: usize> Logic for AsyncFifo<P, D> {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, write_clock, write_count, write_gray, full);
+        dff_setup!(self, write_clock, write_count, write_gray, next_gray, full);
         dff_setup!(self, read_clock, read_count, read_gray, empty, fetched, shown);
         clock!(self, write_clock, read_seen);
         clock!(self, read_clock, write_seen);
@@ -113,19 +116,20 @@ impl<const P: usize, const D: usize> Logic for AsyncFifo<P, D> {
         self.memory.write_data.next = self.push_data.val();
         self.memory.write_enable.next = self.takes.val();
         self.after_write.next = self.write_count.q.val() + self.one.val();
-        self.write_ahead.next = self.write_count.q.val();
-        if self.takes.val() {
-            self.write_ahead.next = self.after_write.val();
-        }
-        self.write_half.next = self.write_ahead.val() >> self.one.val();
-        self.write_code.next = self.write_ahead.val() ^ self.write_half.val();
+        self.second_write.next = self.write_count.q.val() + self.two.val();
+        self.second_half.next = self.second_write.val() >> self.one.val();
         self.full_code.next = self.read_seen.received.val() ^ self.round.val();
-        self.write_count.d.next = self.write_ahead.val();
-        self.write_gray.d.next = self.write_code.val();
-        self.full.d.next = self.write_code.val() == self.full_code.val();
+        self.full.d.next = self.write_gray.q.val() == self.full_code.val();
+        if self.takes.val() {
+            self.write_count.d.next = self.after_write.val();
+            self.write_gray.d.next = self.next_gray.q.val();
+            self.next_gray.d.next = self.second_write.val() ^ self.second_half.val();
+            self.full.d.next = self.next_gray.q.val() == self.full_code.val();
+        }
         if self.write_reset.val() {
             self.write_count.d.next = self.nothing.val();
             self.write_gray.d.next = self.nothing.val();
+            self.next_gray.d.next = self.one.val();
             self.full.d.next = true;
         }
 

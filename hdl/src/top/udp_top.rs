@@ -1,5 +1,7 @@
 //! A whole device: the core behind a UDP link, with the pins of a PHY in the form of GMII.
 //!
+//! P is the number of bits of a pointer of the FIFO for answers; see [`UdpDevice`].
+//!
 //! 1. `reset` is needed once, after power-up, for 8 clocks of each of the two clocks, and may change at any time.
 
 use super::core::Core;
@@ -11,7 +13,7 @@ use crate::udp::{UdpDevice, UdpError, UdpParameters};
 use incircle_protocol::Config;
 
 #[derive(LogicBlock, Default)]
-pub struct UdpTop {
+pub struct UdpTop<const P: usize> {
     /// Clock of the PHY's bytes, 125 MHz; clock of the core; reset, active high.
     pub port_clock: Signal<In, Clock>,
     pub core_clock: Signal<In, Clock>,
@@ -27,10 +29,10 @@ pub struct UdpTop {
     /// The write port of the triangle memory, in the core's clock, for simulation.
     pub write: Signal<Out, Write>,
     core: Core,
-    device: UdpDevice,
+    device: UdpDevice<P>,
 }
 
-impl UdpTop {
+impl<const P: usize> UdpTop<P> {
     /// The device of a configuration of the core and of the link.
     ///
     /// # Errors
@@ -40,7 +42,7 @@ impl UdpTop {
     }
 }
 
-impl Logic for UdpTop {
+impl<const P: usize> Logic for UdpTop<P> {
     #[hdl_gen]
     fn update(&mut self) {
         clock!(self, core_clock, core);

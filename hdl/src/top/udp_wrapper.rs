@@ -27,6 +27,8 @@ pub enum UdpPins {
     Rgmii {
         /// Taps of 25 ps, 0 to 127, by which an ECP5 delays the data that comes.
         delay: u8,
+        /// Taps, 0 to 127, by which an ECP5 delays the clock to the PHY.
+        clock_delay: u8,
     },
 }
 

@@ -7,6 +7,9 @@ pub type ByteIndex = Bits<11>;
 /// Index of a byte before the words: 12 bytes of addresses, then the 16 bytes of the header.
 pub type HeadIndex = Bits<5>;
 
+/// Number of bits of an [`AnswerEntry`].
+pub(super) const ANSWER_ENTRY_BITS: usize = 66;
+
 crate::packed! {
     /// What the bytes of a datagram say by themselves, valid when the datagram ends.
     pub struct DatagramVerdict {
@@ -74,6 +77,13 @@ crate::packed! {
         pub is_busy: bool,
         /// State of the check sum over all words of the session.
         pub digest: Bits<32>,
+    }
+
+    /// One or two words of an answer on their way from the core to the link, as the core offers them.
+    pub struct AnswerEntry {
+        pub data: Bits<64>,
+        pub both: bool,
+        pub last: bool,
     }
 
     /// The place of a byte in a datagram to the host.

@@ -1,24 +1,38 @@
 //! All that a device with a UDP link has beside its core: the Ethernet port and the link, with the crossing of clocks
-//! between them.
+//! between them, and a FIFO for answers.
+//!
+//! The core gives words several times faster than the cable takes them, and inserts nothing while words wait. So the
+//! FIFO takes the answers of a job, and the core goes on with the next job while the cable carries them. P is the number
+//! of bits of a pointer of the FIFO, which holds `2^(P-1)` entries of one or two words.
 //!
 //! 1. `reset` is needed once, after power-up, for 8 clocks of each of the two clocks. It may change at any time: each
 //!    clock has a synchroniser for it.
 //! 2. The addresses of the device are constants.
+//! 3. A reset of the core empties the FIFO. It lasts for the length of a datagram at least, as the FIFO asks.
 //!
-//! Latency: that of the port and of the link.
+//! Latency: that of the port and of the link, and five clocks of the core for an answer.
+//!
+//! ```text
+//! PHY <-> UdpPort <-> UdpLink -------------------> core
+//!                        ^                          |
+//!                        +------- AsyncFifo <-------+
+//! ```
 
+use super::types::{AnswerEntry, ANSWER_ENTRY_BITS};
 use super::udp_link::UdpLink;
 use super::udp_parameters::{UdpError, UdpParameters};
 use crate::commands::{AnswerSink, CommandSource};
 use crate::ethernet::types::Station;
 use crate::ethernet::UdpPort;
-use crate::leaf::{Parameter, Synchroniser};
+use crate::leaf::{Parameter, Synchroniser, Unpack};
 use crate::prelude::*;
 use crate::serial::types::{Byte, Lamps};
+use crate::serial::CommandProgress;
+use crate::stream::AsyncFifo;
 use incircle_protocol::Config;
 
 #[derive(LogicBlock, Default)]
-pub struct UdpDevice {
+pub struct UdpDevice<const P: usize> {
     /// Clock of the PHY's bytes, 125 MHz; clock of the core; reset, active high.
     pub port_clock: Signal<In, Clock>,
     pub core_clock: Signal<In, Clock>,
@@ -38,13 +52,22 @@ pub struct UdpDevice {
     pub device_busy: Signal<In, Bit>,
     port: UdpPort,
     link: UdpLink,
+    answers: AsyncFifo<P, ANSWER_ENTRY_BITS>,
+    answer: Unpack<AnswerEntry, ANSWER_ENTRY_BITS>,
+    /// Whether the core itself is busy: its answers may still wait when it has begun the next command.
+    progress: CommandProgress,
+    /// The core gave the last word of an answer one clock earlier.
+    ended: DFF<Bit>,
     port_resets: Synchroniser<Bit>,
     core_resets: Synchroniser<Bit>,
     station: Parameter<Station>,
     lamps: Signal<Local, Lamps>,
+    entry: Signal<Local, AnswerEntry>,
+    is_offered: Signal<Local, Bit>,
+    takes_answer: Signal<Local, Bit>,
 }
 
-impl UdpDevice {
+impl<const P: usize> UdpDevice<P> {
     /// The port and the link of a core of this configuration.
     ///
     /// # Errors
@@ -54,16 +77,18 @@ impl UdpDevice {
         Ok(Self {
             port: UdpPort::new(),
             link: UdpLink::new(config, link)?,
+            answers: AsyncFifo::new(),
             station: Parameter::new(parameters.station()),
             ..Self::default()
         })
     }
 }
 
-impl Logic for UdpDevice {
+impl<const P: usize> Logic for UdpDevice<P> {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, core_clock, link, core_resets);
+        dff_setup!(self, core_clock, ended);
+        clock!(self, core_clock, link, core_resets, progress);
         clock!(self, port_clock, port_resets);
         self.core_resets.sent.next = self.reset.val();
         self.port_resets.sent.next = self.reset.val();
@@ -92,12 +117,36 @@ impl Logic for UdpDevice {
         self.command.valid.next = self.link.command.valid.val();
         self.command.data.next = self.link.command.data.val();
         self.link.command.ready.next = self.command.ready.val();
-        self.link.response.valid.next = self.response.valid.val();
-        self.link.response.data.next = self.response.data.val();
-        self.link.response.both.next = self.response.both.val();
-        self.link.response.last.next = self.response.last.val();
-        self.response.ready.next = self.link.response.ready.val();
-        self.link.device_busy.next = self.device_busy.val();
+
+        self.answers.write_clock.next = self.core_clock.val();
+        self.answers.read_clock.next = self.core_clock.val();
+        self.answers.write_reset.next = self.link.core_reset.val();
+        self.answers.read_reset.next = self.link.core_reset.val();
+        self.is_offered.next = self.response.valid.val() & (!self.link.core_reset.val());
+        self.takes_answer.next = !self.answers.is_full.val();
+        self.entry.next.data = self.response.data.val();
+        self.entry.next.both = self.response.both.val();
+        self.entry.next.last = self.response.last.val();
+        self.answers.push.next = self.is_offered.val();
+        self.answers.push_data.next = self.entry.val().into();
+        self.response.ready.next = self.takes_answer.val();
+        self.answer.bits.next = self.answers.data.val();
+        self.link.response.valid.next = self.answers.valid.val();
+        self.link.response.data.next = self.answer.value.val().data;
+        self.link.response.both.next = self.answer.value.val().both;
+        self.link.response.last.next = self.answer.value.val().last;
+        self.answers.pop.next = self.answers.valid.val() & self.link.response.ready.val();
+
+        self.progress.reset.next = self.link.core_reset.val();
+        self.progress.takes.next =
+            self.link.command.valid.val() & self.command.ready.val() & (!self.link.core_reset.val());
+        self.progress.word.next = self.link.command.data.val();
+        self.progress.offers_last.next = self.is_offered.val() & self.response.last.val();
+        self.progress.takes_answer.next = self.takes_answer.val();
+        self.ended.d.next = self.is_offered.val() & self.response.last.val() & self.takes_answer.val();
+        self.progress.answer_ended.next = self.ended.q.val();
+        self.link.device_busy.next =
+            self.device_busy.val() | self.progress.is_busy.val() | (!self.answers.is_empty.val());
         self.lamps.next.alive = self.link.lamps.val().alive;
         self.lamps.next.busy = self.link.lamps.val().busy | self.port.on_the_way.val().to_the_reader;
         self.lamps.next.error = self.link.lamps.val().error;

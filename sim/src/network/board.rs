@@ -70,6 +70,15 @@ impl NetworkBoard {
     /// # Errors
     /// The board is not part of this build.
     pub fn new(config: Config) -> Result<Self, SimError> {
+        Self::at_clock(config, network_link(config).clock_hz)
+    }
+
+    /// A board whose core has a clock of its own, in Hz. The board still counts its silence in clocks of
+    /// [`network_link`](super::network_link), so a faster clock makes the silence shorter.
+    ///
+    /// # Errors
+    /// The board is not part of this build.
+    pub fn at_clock(config: Config, clock_hz: u32) -> Result<Self, SimError> {
         let model = Model::new(description(config)?);
         let ports = Ports {
             port_clock: model.port("port_clock")?,
@@ -86,7 +95,7 @@ impl NetworkBoard {
             link,
             model,
             ports,
-            core_ps: 1_000_000_000_000 / u64::from(link.clock_hz.max(1)),
+            core_ps: 1_000_000_000_000 / u64::from(clock_hz.max(1)),
             next: [0, 0],
             wire: VecDeque::new(),
             line: Vec::new(),

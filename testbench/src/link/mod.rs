@@ -8,6 +8,7 @@ mod goodput;
 mod jobs;
 mod served;
 mod soak;
+mod throughput;
 mod virtual_ether;
 mod virtual_line;
 
@@ -15,6 +16,7 @@ pub use goodput::{document, measure, Goodput, Way, RATES, TARGET};
 pub use jobs::{is_one_mesh, random_points};
 pub use served::Served;
 pub use soak::{soak, Soak, SoakReport};
+pub use throughput::{throughput_document, Load};
 pub use virtual_ether::{EtherTransport, VirtualEther};
 pub use virtual_line::{VirtualLine, VirtualTransport};
 

@@ -15,7 +15,8 @@ use incircle_testkit::{Network, NetworkFaults};
 
 /// Nanoseconds between two looks at the host and the network.
 const SLICE_NS: u64 = 1000;
-/// Slices after which a silent cable means that only the host can go on: longer than the core takes for a job.
+/// Slices after which a silent cable means that only the host can go on, unless others are asked for: longer than the
+/// core takes for the jobs of most tests.
 const QUIET: u32 = 250;
 /// Jobs that the library may send ahead.
 const JOBS_AHEAD: usize = 8;
@@ -30,6 +31,7 @@ pub struct VirtualEther {
     out: Vec<Vec<u8>>,
     /// Slices since something was on its way, and nanoseconds that passed for host and network but not for the board.
     quiet: u32,
+    most_quiet: u32,
     skipped: u64,
 }
 
@@ -45,8 +47,15 @@ impl VirtualEther {
             host: SocketAddrV4::new(Ipv4Addr::new(10, 0, 0, 2), 40_000),
             out: Vec::new(),
             quiet: 0,
+            most_quiet: QUIET,
             skipped: 0,
         }
+    }
+
+    /// Simulates every clock for up to this many microseconds of a silent cable. The core must not take longer for a job:
+    /// time without clocks would pass for it.
+    pub fn set_longest_job(&mut self, microseconds: u32) {
+        self.most_quiet = microseconds;
     }
 
     /// The virtual time since the start.
@@ -117,7 +126,7 @@ impl VirtualEther {
             }
             self.quiet = 0;
         }
-        if self.quiet > QUIET && self.board.waiting() == 0 {
+        if self.quiet > self.most_quiet && self.board.waiting() == 0 {
             let wake = self.protocol.next_wake().map(|wake| wake.as_nanos() as u64);
             let next = [wake, self.down.next_at(), self.up.next_at()].into_iter().flatten().min();
             self.skipped += next.map_or(0, |next| next.saturating_sub(now));

@@ -4,7 +4,7 @@ use super::super::flow::Toolbox;
 use super::super::json;
 use super::super::kept::{Kept, Key};
 use super::super::tools::{run, Tools};
-use super::super::{build, date, workshop, BoardError, Clock, Origin, Report, Request, BOARDS};
+use super::super::{build, date, workshop, BoardError, BoardLink, Clock, Origin, Report, Request, BOARDS};
 use super::family::{Family, FamilyCells};
 use super::figures::{size_name, Placed, Size, Sizes};
 use crate::export;
@@ -96,14 +96,14 @@ fn counts(path: &Path, family: &Family) -> Result<FamilyCells, BoardError> {
 /// there, or if the core has more points than `full`, since the block memories of the device do not suffice.
 fn place(request: &SizesRequest, config: Config) -> Result<Option<Placed>, BoardError> {
     let [board, ..] = BOARDS;
-    let is_listed = BOARDS.iter().any(|board| board.report(config).is_some());
+    let is_listed = BOARDS.iter().any(|board| board.report(config, BoardLink::Serial.suffix()).is_some());
     if is_listed || config.points > FULL.points {
         return Ok(None);
     }
     let say = |what: &str| (request.say)(&format!("{} on {}: {what}", size_name(config), board.name));
     let out = request.out.join(format!("{}-{}", board.name, size_name(config)));
-    let clock = Clock::Usual;
-    let placing = Request { board, config, seeds: 1, clock, out: &out, tools: request.tools, say: &say };
+    let (link, clock) = (BoardLink::Serial, Clock::Usual);
+    let placing = Request { board, config, link, seeds: 1, clock, out: &out, tools: request.tools, say: &say };
     let report = match build(&placing) {
         // A seed that misses the clock of the board is a figure like any other.
         Err(BoardError::Timing { report, .. }) => Report::read(&report)?,

@@ -1,7 +1,7 @@
 //! Makes the tables of `docs/sizes.md`.
 
 use super::super::table::{batch_cycles, sizes, with_table};
-use super::super::{repository, BoardError, Report, BOARDS};
+use super::super::{repository, BoardError, BoardLink, Report, BOARDS};
 use super::family::{Family, FamilyCells, FAMILIES};
 use super::figures::{figures, Size, Sizes};
 use std::path::PathBuf;
@@ -87,7 +87,7 @@ fn clocks(size: &Size) -> Result<String, BoardError> {
 fn of_board(size: &Size) -> Result<Option<(f64, String)>, BoardError> {
     let Some(config) = size.config() else { return Ok(None) };
     for board in BOARDS {
-        if let Some(path) = board.report(config).filter(|path| path.exists()) {
+        if let Some(path) = board.report(config, BoardLink::Serial.suffix()).filter(|path| path.exists()) {
             let report = Report::read(&path)?;
             if report.met {
                 return Ok(Some((f64::from(report.clock_mhz), board.title.to_owned())));

@@ -55,7 +55,7 @@ fn the_fastest_seed_is_packed_if_the_median_meets_the_clock() {
     let (report, said) = make(&out, &[], "119.0 127.5 121.0");
     assert!(report.met && report.missed.is_empty());
     assert_eq!((report.clock_mhz, report.picked_seed), (120, Some(2)));
-    assert_eq!(report.seeds[0], Seed { seed: 1, fmax_mhz: 119.0 });
+    assert_eq!(report.seeds[0], Seed { seed: 1, fmax_mhz: 119.0, port_fmax_mhz: None });
     assert_eq!(report.fmax_mhz, Summary { min: 119.0, median: 121.0, max: 127.5 });
     let bitstream = report.bitstream.unwrap();
     let bytes = std::fs::read(out.join(&bitstream.file)).unwrap();

@@ -34,15 +34,22 @@ fn pins(top: &str) -> BTreeSet<String> {
     pins
 }
 
+/// Every board with the suffix of each of its links.
+fn links() -> impl Iterator<Item = (Board, &'static str)> {
+    let serial = BOARDS.into_iter().map(|board| (board, ""));
+    serial.chain(BOARDS.into_iter().filter(|board| board.ethernet.is_some()).map(|board| (board, "-udp")))
+}
+
 #[test]
 fn every_pin_has_a_site_and_a_kind() {
-    for board in BOARDS {
-        let (top, lpf) = (file(&board, "top.v"), file(&board, "pins.lpf"));
+    for (board, link) in links() {
+        let (top, lpf) = (file(&board, &format!("top{link}.v")), file(&board, &format!("pins{link}.lpf")));
         let pins = pins(&top);
         assert!(pins.len() >= 6, "{}: {pins:?}", board.name);
         assert_eq!(constrained(&lpf, "LOCATE COMP"), pins, "{}", board.name);
         assert_eq!(constrained(&lpf, "IOBUF PORT"), pins, "{}", board.name);
-        assert!(top.contains(&format!("module {} (", board.top)), "{}", board.name);
+        let module = format!("module {}{} (", board.top, link.replace('-', "_"));
+        assert!(top.contains(&module), "{}: no {module}", board.name);
         let sites: Vec<_> = lpf.lines().filter_map(|line| line.strip_prefix("LOCATE")?.split('"').nth(3)).collect();
         assert_eq!(sites.iter().collect::<BTreeSet<_>>().len(), pins.len(), "{}: one site for two pins", board.name);
         let readme = file(&board, "README.md");
@@ -57,11 +64,15 @@ fn every_pin_has_a_site_and_a_kind() {
 
 #[test]
 fn the_oscillator_is_constrained_as_the_pll_is_computed() {
-    for board in BOARDS {
-        let lpf = file(&board, "pins.lpf");
-        let constraint = format!("{:.1} MHZ;", f64::from(board.oscillator_hz) / 1e6);
+    for (board, link) in links() {
+        let lpf = file(&board, &format!("pins{link}.lpf"));
+        let oscillator = format!("{:.1} MHZ;", f64::from(board.oscillator_hz) / 1e6);
+        let phy = "FREQUENCY PORT \"rgmii_rx_clock\" 125.0 MHZ;";
         let lines: Vec<_> = lpf.lines().filter(|line| line.starts_with("FREQUENCY PORT")).collect();
-        assert!(lines.len() == 1 && lines[0].ends_with(&constraint), "{}: {lines:?}", board.name);
+        assert!(lines[0].ends_with(&oscillator), "{}: {lines:?}", board.name);
+        assert_eq!(&lines[1..], if link.is_empty() { &[][..] } else { &[phy] }, "{}", board.name);
+    }
+    for board in BOARDS {
         let clocks = board.clocks(board.most_mhz);
         assert!(clocks.len() > 10 && clocks.is_sorted_by(|a, b| a > b), "{}: {clocks:?}", board.name);
         assert!(clocks.contains(&125), "{}: {clocks:?}", board.name);
@@ -82,7 +93,7 @@ fn tables_are_what_the_reports_say() {
 #[test]
 fn reports_are_whole() {
     for (board, core) in BOARDS.into_iter().flat_map(|board| board.cores.iter().map(move |&core| (board, core))) {
-        let path = board.report(core.config).expect("a core of the board");
+        let path = board.report(core.config, "").expect("a core of the board");
         if !path.exists() {
             continue;
         }

@@ -30,6 +30,8 @@ struct Sent {
 pub(super) struct News {
     /// Number of datagrams that are newly acknowledged.
     pub taken: usize,
+    /// Whether the FIFO has more room than was known.
+    pub has_more_room: bool,
     /// Time at which the last of them was sent, if it was sent once: only then does it tell the round trip.
     pub left_at: Option<Duration>,
 }
@@ -120,6 +122,12 @@ impl Sender {
         (self.sent.is_empty() && short >= LEAST.min(wanted)).then_some(short)
     }
 
+    /// Whether the device has taken all that went out, and has no room for the rest. Only a `Poll` tells when there is
+    /// room again, because the device does not speak while its core takes words out of the FIFO.
+    pub fn is_starved(&self) -> bool {
+        self.sent.is_empty() && !self.stream.is_empty() && self.next_length().is_none()
+    }
+
     /// Whether a datagram may go out now.
     pub fn has_due(&self) -> bool {
         self.next_length().is_some()
@@ -149,7 +157,7 @@ impl Sender {
     pub fn acknowledge(&mut self, expected: u32, free: usize, digest: Option<u32>) -> Result<Option<News>, UdpFault> {
         let taken = u64::from(expected).checked_sub(self.base).and_then(|taken| usize::try_from(taken).ok());
         let Some(taken) = taken.filter(|&taken| taken <= self.sent.len()) else { return Ok(None) };
-        let mut news = News { taken, left_at: None };
+        let mut news = News { taken, has_more_room: free > self.free, left_at: None };
         for sent in self.sent.drain(..taken) {
             self.taken_digest = sent.digest;
             self.taken_bytes += sent.payload.len() as u64;
@@ -199,13 +207,30 @@ mod tests {
         sender.go_back();
         assert_eq!(next(&mut sender), Some((0, 1440)));
         // A datagram that was sent twice tells no round trip.
-        assert_eq!(sender.acknowledge(1, 1400, None), Ok(Some(News { taken: 1, left_at: None })));
+        assert_eq!(sender.acknowledge(1, 1400, None), Ok(Some(News { taken: 1, has_more_room: false, left_at: None })));
         assert_eq!(next(&mut sender), None);
         assert_eq!(sender.acknowledge(0, 9000, None), Ok(None), "overtaken");
         assert_eq!(sender.acknowledge(3, 9000, None), Ok(None), "more than was sent");
         sender.acknowledge(1, 3000, None).expect("sound");
         assert_eq!((next(&mut sender), next(&mut sender)), (Some((1, 1440)), Some((2, 1128))));
         assert_eq!(sender.resent(), 2);
+    }
+
+    #[test]
+    fn a_full_fifo_starves_the_sender_until_it_has_room() {
+        let mut sender = Sender::default();
+        assert!(!sender.is_starved(), "there is nothing to send");
+        sender.push(&Command::Insert { count: 600, points: vec![7; 600] });
+        sender.acknowledge(0, 2000, Some(0)).expect("sound");
+        assert_eq!(next(&mut sender), Some((0, 1440)));
+        assert!(!sender.is_starved(), "an acknowledgement is due");
+        let digest = sender.sent[0].digest;
+        sender.acknowledge(1, 20, Some(digest)).expect("sound");
+        assert_eq!(next(&mut sender), None);
+        assert!(sender.is_starved());
+        let news = sender.acknowledge(1, 900, Some(digest)).expect("sound").expect("up to date");
+        assert!(news.has_more_room && news.taken == 0);
+        assert!(!sender.is_starved() && next(&mut sender) == Some((1, 900)));
     }
 
     #[test]

@@ -2,3 +2,4 @@
 
 mod acorn;
 mod tops;
+mod tops_on_network;

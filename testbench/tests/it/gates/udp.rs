@@ -28,7 +28,7 @@ const MOST_TABLES: u64 = 2200;
 
 #[test]
 fn devices_with_a_udp_link_pass_lint_and_synthesis() {
-    let rgmii = UdpPins::Rgmii { delay: 80 };
+    let rgmii = UdpPins::Rgmii { delay: 80, clock_delay: 80 };
     let devices: [(Config, UdpPins, bool); 4] =
         [(TINY, UdpPins::Gmii, true), (SMALL, UdpPins::Gmii, false), (SMALL, rgmii, false), (DUAL, rgmii, false)];
     for (config, pins, with_probe) in devices {

@@ -114,7 +114,7 @@ impl UdpProtocol {
         let Some(news) = self.sender.acknowledge(header.expected, usize::from(header.free), digest)? else {
             return Ok(false);
         };
-        if news.taken > 0 {
+        if news.taken > 0 || news.has_more_room {
             self.trips.shorten();
         }
         if let Some(left_at) = news.left_at {

@@ -14,6 +14,9 @@ const GREET_FOR: Duration = Duration::from_secs(3);
 const ASK_EVERY: Duration = Duration::from_millis(50);
 /// Time beyond the device's silence after which the host believes that the device has forgotten the session.
 const SILENCE_SLACK: Duration = Duration::from_millis(300);
+/// Least time until the host asks whether a full FIFO has room again: the core takes a datagram of points out of it in
+/// about this time.
+const STARVED_FOR: Duration = Duration::from_micros(50);
 /// Most times that the host sends `Close`.
 const CLOSES: u32 = 3;
 /// Time from one `Close` to the next.
@@ -66,7 +69,9 @@ impl UdpProtocol {
 
     /// Time at which the next `Poll` is due.
     fn poll_at(&self) -> Duration {
-        self.last_heard.max(self.last_said) + self.trips.patience(Duration::ZERO).min(self.silence / 8)
+        let usual = self.trips.patience(Duration::ZERO);
+        let patience = if self.sender.is_starved() { usual.min(self.trips.repeated(STARVED_FOR)) } else { usual };
+        self.last_heard.max(self.last_said) + patience.min(self.silence / 8)
     }
 
     fn say_hello(&mut self, since: Duration, due: Duration, opens: bool, now: Duration, out: &mut Vec<Vec<u8>>) {
