@@ -260,6 +260,7 @@ module incircle_stream_top_link$answers(write_clock,write_reset,push,push_data,i
     // Constant declarations
     localparam  nothing = 10'b0;
     localparam  one = 10'b1;
+    localparam  two = 10'b10;
     localparam  round = 10'b1100000000;
     
     // Stub signals
@@ -283,6 +284,9 @@ module incircle_stream_top_link$answers(write_clock,write_reset,push,push_data,i
     reg  [9:0] write_gray$d;
     wire  [9:0] write_gray$q;
     reg  write_gray$clock;
+    reg  [9:0] next_gray$d;
+    wire  [9:0] next_gray$q;
+    reg  next_gray$clock;
     reg  full$d;
     wire  full$q;
     reg  full$clock;
@@ -305,9 +309,8 @@ module incircle_stream_top_link$answers(write_clock,write_reset,push,push_data,i
     // Local signals
     reg  takes;
     reg  [9:0] after_write;
-    reg  [9:0] write_ahead;
-    reg  [9:0] write_half;
-    reg  [9:0] write_code;
+    reg  [9:0] second_write;
+    reg  [9:0] second_half;
     reg  [9:0] full_code;
     reg  moves;
     reg  fetches;
@@ -347,6 +350,11 @@ module incircle_stream_top_link$answers(write_clock,write_reset,push,push_data,i
         .q(write_gray$q),
         .clock(write_gray$clock)
     );
+    incircle_stream_top_link$answers$next_gray next_gray(
+        .d(next_gray$d),
+        .q(next_gray$q),
+        .clock(next_gray$clock)
+    );
     incircle_stream_top_link$answers$full full(
         .d(full$d),
         .q(full$q),
@@ -382,9 +390,11 @@ module incircle_stream_top_link$answers(write_clock,write_reset,push,push_data,i
     always @(*) begin
         write_count$clock = write_clock;
         write_gray$clock = write_clock;
+        next_gray$clock = write_clock;
         full$clock = write_clock;
         write_count$d = write_count$q;
         write_gray$d = write_gray$q;
+        next_gray$d = next_gray$q;
         full$d = full$q;
         read_count$clock = read_clock;
         read_gray$clock = read_clock;
@@ -409,19 +419,20 @@ module incircle_stream_top_link$answers(write_clock,write_reset,push,push_data,i
         memory$write_data = push_data;
         memory$write_enable = takes;
         after_write = write_count$q + one;
-        write_ahead = write_count$q;
-        if (takes) begin
-            write_ahead = after_write;
-        end
-        write_half = write_ahead >> one;
-        write_code = write_ahead ^ write_half;
+        second_write = write_count$q + two;
+        second_half = second_write >> one;
         full_code = read_seen$received ^ round;
-        write_count$d = write_ahead;
-        write_gray$d = write_code;
-        full$d = write_code == full_code;
+        full$d = write_gray$q == full_code;
+        if (takes) begin
+            write_count$d = after_write;
+            write_gray$d = next_gray$q;
+            next_gray$d = second_write ^ second_half;
+            full$d = next_gray$q == full_code;
+        end
         if (write_reset) begin
             write_count$d = nothing;
             write_gray$d = nothing;
+            next_gray$d = one;
             full$d = 1'b1;
         end
         valid = shown$q;
@@ -542,6 +553,25 @@ module incircle_stream_top_link$answers$memory(write_clock,write_address,write_d
         end
     end
 endmodule // incircle_stream_top_link$answers$memory
+
+
+module incircle_stream_top_link$answers$next_gray(d,q,clock);
+    
+    // Module arguments
+    input wire  [9:0] d;
+    output reg  [9:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 10'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_link$answers$next_gray
 
 
 module incircle_stream_top_link$answers$read_count(d,q,clock);
@@ -2725,6 +2755,7 @@ module incircle_stream_top_link$commands(write_clock,write_reset,push,push_data,
     // Constant declarations
     localparam  nothing = 10'b0;
     localparam  one = 10'b1;
+    localparam  two = 10'b10;
     localparam  round = 10'b1100000000;
     
     // Stub signals
@@ -2748,6 +2779,9 @@ module incircle_stream_top_link$commands(write_clock,write_reset,push,push_data,
     reg  [9:0] write_gray$d;
     wire  [9:0] write_gray$q;
     reg  write_gray$clock;
+    reg  [9:0] next_gray$d;
+    wire  [9:0] next_gray$q;
+    reg  next_gray$clock;
     reg  full$d;
     wire  full$q;
     reg  full$clock;
@@ -2770,9 +2804,8 @@ module incircle_stream_top_link$commands(write_clock,write_reset,push,push_data,
     // Local signals
     reg  takes;
     reg  [9:0] after_write;
-    reg  [9:0] write_ahead;
-    reg  [9:0] write_half;
-    reg  [9:0] write_code;
+    reg  [9:0] second_write;
+    reg  [9:0] second_half;
     reg  [9:0] full_code;
     reg  moves;
     reg  fetches;
@@ -2812,6 +2845,11 @@ module incircle_stream_top_link$commands(write_clock,write_reset,push,push_data,
         .q(write_gray$q),
         .clock(write_gray$clock)
     );
+    incircle_stream_top_link$commands$next_gray next_gray(
+        .d(next_gray$d),
+        .q(next_gray$q),
+        .clock(next_gray$clock)
+    );
     incircle_stream_top_link$commands$full full(
         .d(full$d),
         .q(full$q),
@@ -2847,9 +2885,11 @@ module incircle_stream_top_link$commands(write_clock,write_reset,push,push_data,
     always @(*) begin
         write_count$clock = write_clock;
         write_gray$clock = write_clock;
+        next_gray$clock = write_clock;
         full$clock = write_clock;
         write_count$d = write_count$q;
         write_gray$d = write_gray$q;
+        next_gray$d = next_gray$q;
         full$d = full$q;
         read_count$clock = read_clock;
         read_gray$clock = read_clock;
@@ -2874,19 +2914,20 @@ module incircle_stream_top_link$commands(write_clock,write_reset,push,push_data,
         memory$write_data = push_data;
         memory$write_enable = takes;
         after_write = write_count$q + one;
-        write_ahead = write_count$q;
-        if (takes) begin
-            write_ahead = after_write;
-        end
-        write_half = write_ahead >> one;
-        write_code = write_ahead ^ write_half;
+        second_write = write_count$q + two;
+        second_half = second_write >> one;
         full_code = read_seen$received ^ round;
-        write_count$d = write_ahead;
-        write_gray$d = write_code;
-        full$d = write_code == full_code;
+        full$d = write_gray$q == full_code;
+        if (takes) begin
+            write_count$d = after_write;
+            write_gray$d = next_gray$q;
+            next_gray$d = second_write ^ second_half;
+            full$d = next_gray$q == full_code;
+        end
         if (write_reset) begin
             write_count$d = nothing;
             write_gray$d = nothing;
+            next_gray$d = one;
             full$d = 1'b1;
         end
         valid = shown$q;
@@ -3007,6 +3048,25 @@ module incircle_stream_top_link$commands$memory(write_clock,write_address,write_
         end
     end
 endmodule // incircle_stream_top_link$commands$memory
+
+
+module incircle_stream_top_link$commands$next_gray(d,q,clock);
+    
+    // Module arguments
+    input wire  [9:0] d;
+    output reg  [9:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 10'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_link$commands$next_gray
 
 
 module incircle_stream_top_link$commands$read_count(d,q,clock);

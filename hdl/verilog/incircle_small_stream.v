@@ -26244,6 +26244,7 @@ module incircle_stream_top_logic$link$answers(write_clock,write_reset,push,push_
     // Constant declarations
     localparam  nothing = 10'b0;
     localparam  one = 10'b1;
+    localparam  two = 10'b10;
     localparam  round = 10'b1100000000;
     
     // Stub signals
@@ -26267,6 +26268,9 @@ module incircle_stream_top_logic$link$answers(write_clock,write_reset,push,push_
     reg  [9:0] write_gray$d;
     wire  [9:0] write_gray$q;
     reg  write_gray$clock;
+    reg  [9:0] next_gray$d;
+    wire  [9:0] next_gray$q;
+    reg  next_gray$clock;
     reg  full$d;
     wire  full$q;
     reg  full$clock;
@@ -26289,9 +26293,8 @@ module incircle_stream_top_logic$link$answers(write_clock,write_reset,push,push_
     // Local signals
     reg  takes;
     reg  [9:0] after_write;
-    reg  [9:0] write_ahead;
-    reg  [9:0] write_half;
-    reg  [9:0] write_code;
+    reg  [9:0] second_write;
+    reg  [9:0] second_half;
     reg  [9:0] full_code;
     reg  moves;
     reg  fetches;
@@ -26331,6 +26334,11 @@ module incircle_stream_top_logic$link$answers(write_clock,write_reset,push,push_
         .q(write_gray$q),
         .clock(write_gray$clock)
     );
+    incircle_stream_top_logic$link$answers$next_gray next_gray(
+        .d(next_gray$d),
+        .q(next_gray$q),
+        .clock(next_gray$clock)
+    );
     incircle_stream_top_logic$link$answers$full full(
         .d(full$d),
         .q(full$q),
@@ -26366,9 +26374,11 @@ module incircle_stream_top_logic$link$answers(write_clock,write_reset,push,push_
     always @(*) begin
         write_count$clock = write_clock;
         write_gray$clock = write_clock;
+        next_gray$clock = write_clock;
         full$clock = write_clock;
         write_count$d = write_count$q;
         write_gray$d = write_gray$q;
+        next_gray$d = next_gray$q;
         full$d = full$q;
         read_count$clock = read_clock;
         read_gray$clock = read_clock;
@@ -26393,19 +26403,20 @@ module incircle_stream_top_logic$link$answers(write_clock,write_reset,push,push_
         memory$write_data = push_data;
         memory$write_enable = takes;
         after_write = write_count$q + one;
-        write_ahead = write_count$q;
-        if (takes) begin
-            write_ahead = after_write;
-        end
-        write_half = write_ahead >> one;
-        write_code = write_ahead ^ write_half;
+        second_write = write_count$q + two;
+        second_half = second_write >> one;
         full_code = read_seen$received ^ round;
-        write_count$d = write_ahead;
-        write_gray$d = write_code;
-        full$d = write_code == full_code;
+        full$d = write_gray$q == full_code;
+        if (takes) begin
+            write_count$d = after_write;
+            write_gray$d = next_gray$q;
+            next_gray$d = second_write ^ second_half;
+            full$d = next_gray$q == full_code;
+        end
         if (write_reset) begin
             write_count$d = nothing;
             write_gray$d = nothing;
+            next_gray$d = one;
             full$d = 1'b1;
         end
         valid = shown$q;
@@ -26526,6 +26537,25 @@ module incircle_stream_top_logic$link$answers$memory(write_clock,write_address,w
         end
     end
 endmodule // incircle_stream_top_logic$link$answers$memory
+
+
+module incircle_stream_top_logic$link$answers$next_gray(d,q,clock);
+    
+    // Module arguments
+    input wire  [9:0] d;
+    output reg  [9:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 10'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_logic$link$answers$next_gray
 
 
 module incircle_stream_top_logic$link$answers$read_count(d,q,clock);
@@ -28709,6 +28739,7 @@ module incircle_stream_top_logic$link$commands(write_clock,write_reset,push,push
     // Constant declarations
     localparam  nothing = 10'b0;
     localparam  one = 10'b1;
+    localparam  two = 10'b10;
     localparam  round = 10'b1100000000;
     
     // Stub signals
@@ -28732,6 +28763,9 @@ module incircle_stream_top_logic$link$commands(write_clock,write_reset,push,push
     reg  [9:0] write_gray$d;
     wire  [9:0] write_gray$q;
     reg  write_gray$clock;
+    reg  [9:0] next_gray$d;
+    wire  [9:0] next_gray$q;
+    reg  next_gray$clock;
     reg  full$d;
     wire  full$q;
     reg  full$clock;
@@ -28754,9 +28788,8 @@ module incircle_stream_top_logic$link$commands(write_clock,write_reset,push,push
     // Local signals
     reg  takes;
     reg  [9:0] after_write;
-    reg  [9:0] write_ahead;
-    reg  [9:0] write_half;
-    reg  [9:0] write_code;
+    reg  [9:0] second_write;
+    reg  [9:0] second_half;
     reg  [9:0] full_code;
     reg  moves;
     reg  fetches;
@@ -28796,6 +28829,11 @@ module incircle_stream_top_logic$link$commands(write_clock,write_reset,push,push
         .q(write_gray$q),
         .clock(write_gray$clock)
     );
+    incircle_stream_top_logic$link$commands$next_gray next_gray(
+        .d(next_gray$d),
+        .q(next_gray$q),
+        .clock(next_gray$clock)
+    );
     incircle_stream_top_logic$link$commands$full full(
         .d(full$d),
         .q(full$q),
@@ -28831,9 +28869,11 @@ module incircle_stream_top_logic$link$commands(write_clock,write_reset,push,push
     always @(*) begin
         write_count$clock = write_clock;
         write_gray$clock = write_clock;
+        next_gray$clock = write_clock;
         full$clock = write_clock;
         write_count$d = write_count$q;
         write_gray$d = write_gray$q;
+        next_gray$d = next_gray$q;
         full$d = full$q;
         read_count$clock = read_clock;
         read_gray$clock = read_clock;
@@ -28858,19 +28898,20 @@ module incircle_stream_top_logic$link$commands(write_clock,write_reset,push,push
         memory$write_data = push_data;
         memory$write_enable = takes;
         after_write = write_count$q + one;
-        write_ahead = write_count$q;
-        if (takes) begin
-            write_ahead = after_write;
-        end
-        write_half = write_ahead >> one;
-        write_code = write_ahead ^ write_half;
+        second_write = write_count$q + two;
+        second_half = second_write >> one;
         full_code = read_seen$received ^ round;
-        write_count$d = write_ahead;
-        write_gray$d = write_code;
-        full$d = write_code == full_code;
+        full$d = write_gray$q == full_code;
+        if (takes) begin
+            write_count$d = after_write;
+            write_gray$d = next_gray$q;
+            next_gray$d = second_write ^ second_half;
+            full$d = next_gray$q == full_code;
+        end
         if (write_reset) begin
             write_count$d = nothing;
             write_gray$d = nothing;
+            next_gray$d = one;
             full$d = 1'b1;
         end
         valid = shown$q;
@@ -28991,6 +29032,25 @@ module incircle_stream_top_logic$link$commands$memory(write_clock,write_address,
         end
     end
 endmodule // incircle_stream_top_logic$link$commands$memory
+
+
+module incircle_stream_top_logic$link$commands$next_gray(d,q,clock);
+    
+    // Module arguments
+    input wire  [9:0] d;
+    output reg  [9:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 10'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_logic$link$commands$next_gray
 
 
 module incircle_stream_top_logic$link$commands$read_count(d,q,clock);

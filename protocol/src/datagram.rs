@@ -25,6 +25,8 @@ pub const MAX_HOST_DATAGRAM: usize = DATAGRAM_HEADER_BYTES + 4 * MAX_DATAGRAM_WO
 /// Longest datagram to the host in bytes, the last one of a long answer: with the headers of UDP and IPv4 it fills the
 /// 1,500 bytes of an Ethernet frame.
 pub const MAX_DEVICE_DATAGRAM: usize = DATAGRAM_HEADER_BYTES + DATAGRAM_ANSWER_BYTES + 4 * MAX_DATAGRAM_WORDS + 8;
+/// Most words of answers that a device keeps in its FIFO while its core goes on: 8,192 entries of two words.
+pub const UDP_KEPT_WORDS: usize = 16_384;
 /// Number of words of the greeting of the UDP link, and of the words in a `Hello` to the device.
 pub const UDP_GREETING_WORDS: usize = 14;
 /// Number of answer words that a device keeps while they wait for their datagram.

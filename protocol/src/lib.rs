@@ -34,7 +34,7 @@ pub use counters::{latency_bucket, latency_of_bucket, Counter, COUNTER_WORDS, LA
 pub use datagram::{
     DeviceDatagram, DeviceHeader, HostDatagram, HostHeader, UdpGreeting, UdpLinkConfig, DATAGRAM_ANSWER_BYTES,
     DATAGRAM_HEADER_BYTES, MAX_DATAGRAM_WORDS, MAX_DEVICE_DATAGRAM, MAX_HOST_DATAGRAM, UDP_ANSWER_WORDS,
-    UDP_GREETING_WORDS, UDP_LINK_MAGIC, UDP_LINK_VERSION, UDP_PORT,
+    UDP_GREETING_WORDS, UDP_KEPT_WORDS, UDP_LINK_MAGIC, UDP_LINK_VERSION, UDP_PORT,
 };
 pub use frame::{
     rate_step, DeviceFrame, Greeting, HostFrame, LinkConfig, LinkConfigError, ANSWER_HEADER_BYTES, BREAK_MS, CRC_BYTES,

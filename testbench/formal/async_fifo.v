@@ -42,6 +42,7 @@ reg [P-1:0] popped = 0;
 always @(posedge read_clock) popped <= read_reset ? 0 : popped + pop;
 
 wire [P-1:0] w = write_count$q, r = read_count$q;
+wire [P-1:0] w_next = w + 1'd1;
 wire [P-1:0] w1 = number(write_seen_first), w2 = number(write_seen$received);
 wire [P-1:0] r1 = number(read_seen_first), r2 = number(read_seen$received);
 wire [P-1:0] w_w1 = w - w1, w1_w2 = w1 - w2, w2_r = w2 - r;
@@ -57,7 +58,7 @@ always @(*) begin
     end
     // The invariants that make the promises inductive.
     if (is_reset) begin
-        if (write_began) assert (w == 0 && write_gray$q == 0 && full$q);
+        if (write_began) assert (w == 0 && write_gray$q == 0 && next_gray$q == 1 && full$q);
         if (read_began) assert (r == 0 && read_gray$q == 0 && empty$q && !fetched$q && !shown$q && popped == 0);
         if (!both_began) assert (write_edges == 0 && read_edges == 0);
         if (write_edges >= 1) assert (read_seen_first == 0);
@@ -67,6 +68,7 @@ always @(*) begin
     end else begin
         assert (write_began && read_began);
         assert (number(write_gray$q) == w && number(read_gray$q) == r);
+        assert (number(next_gray$q) == w_next);
         assert ({2'b0, w_w1} + w1_w2 + w2_r <= DEPTH);
         assert ({2'b0, w_r} + r_r1 + r1_r2 <= DEPTH);
         if (!full$q) assert (w_r2 != DEPTH);

@@ -1,6 +1,6 @@
 //! Makes Ethernet frames of datagrams: puts Ethernet, IPv4 and UDP headers before the payload.
 //!
-//! 1. The receiver's addresses are the first 12 bytes of the datagram as `DatagramSlots` holds it.
+//! 1. The receiver's addresses are the first 12 bytes of the datagram as `DatagramQueue` holds it.
 //! 2. The header of IPv4 has identification 0, "do not fragment" and a time to live of 64. The check sum of UDP is 0,
 //!    which means that there is none.
 //! 3. After `begins` a byte comes at every clock, until `byte_is_last`. `MacOut` says when the first one comes.

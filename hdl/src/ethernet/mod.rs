@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! in:  MacIn -> ByteRoles -> FrameMatch, DatagramCheck -> DatagramGate
-//! out: DatagramSlots -> DatagramSender, and Responder for ARP and echo -> SendChoice -> MacOut
+//! out: DatagramQueue -> DatagramSender, and Responder for ARP and echo -> SendChoice -> MacOut
 //! pins: RgmiiIn and RgmiiOut; registers of the PHY: MdioWriter
 //! ```
 //! All but the two crossings runs in the clock of the PHY, 125 MHz, a byte a clock.
@@ -11,8 +11,8 @@ mod byte_crc;
 mod byte_roles;
 mod datagram_check;
 mod datagram_gate;
+mod datagram_queue;
 mod datagram_sender;
-mod datagram_slots;
 mod frame_match;
 mod header_bytes;
 mod mac_in;
@@ -31,8 +31,8 @@ pub use byte_crc::ByteCrc;
 pub use byte_roles::{ByteRoles, RoleRow};
 pub use datagram_check::DatagramCheck;
 pub use datagram_gate::DatagramGate;
+pub use datagram_queue::DatagramQueue;
 pub use datagram_sender::{DatagramPhase, DatagramSender};
-pub use datagram_slots::DatagramSlots;
 pub use frame_match::FrameMatch;
 pub use header_bytes::HeaderBytes;
 pub use mac_in::{FrameState, MacIn};

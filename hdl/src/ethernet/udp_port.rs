@@ -3,7 +3,7 @@
 //!
 //! 1. Received datagrams come as entries, as [`DatagramGate`](super::DatagramGate) describes them: bytes, and an end
 //!    that says whether the bytes before it count. Datagrams to send are taken as
-//!    [`DatagramSlots`](super::DatagramSlots) describes them.
+//!    [`DatagramQueue`](super::DatagramQueue) describes them.
 //! 2. What is not for this device, or not sound, has no effect on anything that comes later.
 //! 3. If the reader is slower than the wire, datagrams are lost as a whole. The FIFO holds 2,050 entries.
 //! 4. Both resets are held together, at least for three clocks of either.
@@ -16,14 +16,14 @@
 //!                     |              |
 //!                     +--------> Responder -> SendChoice -> MacOut -> PHY
 //!                                                 |
-//! bytes -> DatagramSlots -> DatagramSender -------+
+//! bytes -> DatagramQueue -> DatagramSender -------+
 //! ```
 
 use super::byte_roles::ByteRoles;
 use super::datagram_check::DatagramCheck;
 use super::datagram_gate::DatagramGate;
+use super::datagram_queue::DatagramQueue;
 use super::datagram_sender::DatagramSender;
-use super::datagram_slots::DatagramSlots;
 use super::frame_match::FrameMatch;
 use super::mac_in::MacIn;
 use super::mac_out::MacOut;
@@ -66,7 +66,7 @@ pub struct UdpPort {
     gate: DatagramGate,
     entries: AsyncFifo<12, 9>,
     responder: Responder,
-    slots: DatagramSlots,
+    queue: DatagramQueue,
     sender: DatagramSender,
     choice: SendChoice,
     mac_out: MacOut,
@@ -75,7 +75,7 @@ pub struct UdpPort {
 impl UdpPort {
     /// A port that holds no datagram.
     pub fn new() -> Self {
-        Self { entries: AsyncFifo::new(), slots: DatagramSlots::new(), ..Self::default() }
+        Self { entries: AsyncFifo::new(), queue: DatagramQueue::new(), ..Self::default() }
     }
 }
 
@@ -141,20 +141,20 @@ impl Logic for UdpPort {
             & self.check.state.val().header_is_right
             & self.check.state.val().is_whole;
 
-        self.slots.write_clock.next = self.core_clock.val();
-        self.slots.write_reset.next = self.core_reset.val();
-        self.slots.byte_valid.next = self.byte_valid.val();
-        self.slots.byte_data.next = self.byte_data.val();
-        self.slots.byte_is_last.next = self.byte_is_last.val();
-        self.slots.byte_drops.next = self.byte_drops.val();
-        self.byte_ready.next = self.slots.byte_ready.val();
-        self.slots.read_clock.next = self.port_clock.val();
-        self.slots.read_reset.next = self.port_reset.val();
-        self.sender.holds.next = self.slots.holds.val();
-        self.sender.length.next = self.slots.length.val();
-        self.sender.read_data.next = self.slots.read_data.val();
-        self.slots.read_index.next = self.sender.read_index.val();
-        self.slots.lets_go.next = self.sender.lets_go.val();
+        self.queue.write_clock.next = self.core_clock.val();
+        self.queue.write_reset.next = self.core_reset.val();
+        self.queue.byte_valid.next = self.byte_valid.val();
+        self.queue.byte_data.next = self.byte_data.val();
+        self.queue.byte_is_last.next = self.byte_is_last.val();
+        self.queue.byte_drops.next = self.byte_drops.val();
+        self.byte_ready.next = self.queue.byte_ready.val();
+        self.queue.read_clock.next = self.port_clock.val();
+        self.queue.read_reset.next = self.port_reset.val();
+        self.sender.holds.next = self.queue.holds.val();
+        self.sender.length.next = self.queue.length.val();
+        self.sender.read_data.next = self.queue.read_data.val();
+        self.queue.read_index.next = self.sender.read_index.val();
+        self.queue.lets_go.next = self.sender.lets_go.val();
 
         self.choice.answer_waits.next = self.responder.waits.val();
         self.choice.answer_data.next = self.responder.byte_data.val();

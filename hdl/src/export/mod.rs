@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use incircle_protocol::{Config, ConfigError, LinkConfig, LinkConfigError, UdpLinkConfig, BEAT_BITS};
+use incircle_protocol::{Config, ConfigError, LinkConfig, LinkConfigError, UdpLinkConfig, BEAT_BITS, UDP_KEPT_WORDS};
 use rust_hdl_core::check_error::CheckError;
 use rust_hdl_core::prelude::*;
 
@@ -229,14 +229,14 @@ pub fn udp_device(config: Config, parameters: UdpParameters, name: &str) -> Resu
 }
 
 /// Number of bits of a pointer of the FIFO between core and UDP link. The FIFO holds the mesh of all points of the chip,
-/// three words a point and two words an entry, but 8,192 entries at most, the mesh of 5,400 points: more block RAM is
-/// not left on the boards.
+/// three words a point and two words an entry, but [`UDP_KEPT_WORDS`] at most, the mesh of 5,400 points: more block RAM
+/// is not left on the boards.
 fn answer_pointer_bits(config: Config) -> usize {
     match config.points * config.engines {
         0..=64 => 8,
         65..=1024 => 12,
         1025..=2048 => 13,
-        _ => 14,
+        _ => const { (UDP_KEPT_WORDS / 2).ilog2() as usize + 1 },
     }
 }
 

@@ -145,8 +145,11 @@ impl<const P: usize> Logic for UdpDevice<P> {
         self.progress.takes_answer.next = self.takes_answer.val();
         self.ended.d.next = self.is_offered.val() & self.response.last.val() & self.takes_answer.val();
         self.progress.answer_ended.next = self.ended.q.val();
-        self.link.device_busy.next =
-            self.device_busy.val() | self.progress.is_busy.val() | (!self.answers.is_empty.val());
+        // An entry is on its way through the FIFO until the reader has fetched it, and from then on not empty.
+        self.link.device_busy.next = self.device_busy.val()
+            | self.progress.is_busy.val()
+            | (!self.answers.is_fetched.val())
+            | (!self.answers.is_empty.val());
         self.lamps.next.alive = self.link.lamps.val().alive;
         self.lamps.next.busy = self.link.lamps.val().busy | self.port.on_the_way.val().to_the_reader;
         self.lamps.next.error = self.link.lamps.val().error;

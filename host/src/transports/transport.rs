@@ -112,13 +112,24 @@ pub struct Capabilities {
     /// Whether meshes are read with `Triangles`, which leaves out the neighbours and so half of the words. Clear it for
     /// a transport that only knows `Read`, such as one that asks again for parts of an answer.
     pub packs_records: bool,
+    /// Words of answers that the device keeps for the line while its core goes on, or `usize::MAX` where the core does not
+    /// wait for the line. Jobs are put side by side only while their meshes fit, because a core inserts nothing while its
+    /// answers wait.
+    pub kept_words: usize,
     /// Speed of the transport.
     pub pace: Pace,
 }
 
 impl Default for Capabilities {
     fn default() -> Self {
-        Self { takes_ahead: false, jobs_ahead: 2, any_order: false, packs_records: true, pace: Pace::default() }
+        Self {
+            takes_ahead: false,
+            jobs_ahead: 2,
+            any_order: false,
+            packs_records: true,
+            kept_words: usize::MAX,
+            pace: Pace::default(),
+        }
     }
 }
 

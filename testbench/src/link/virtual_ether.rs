@@ -18,8 +18,6 @@ const SLICE_NS: u64 = 1000;
 /// Slices after which a silent cable means that only the host can go on, unless others are asked for: longer than the
 /// core takes for the jobs of most tests.
 const QUIET: u32 = 250;
-/// Jobs that the library may send ahead.
-const JOBS_AHEAD: usize = 8;
 
 /// A host, a network and a board.
 pub struct VirtualEther {
@@ -174,7 +172,7 @@ impl Transport for EtherTransport {
     }
 
     fn capabilities(&self) -> Capabilities {
-        Capabilities { takes_ahead: true, jobs_ahead: JOBS_AHEAD, ..Capabilities::default() }
+        self.ether.borrow().protocol.capabilities()
     }
 }
 

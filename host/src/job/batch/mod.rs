@@ -20,7 +20,7 @@ use super::prepare::prepare;
 use super::watch::tell;
 use incircle_geometry::Order;
 use incircle_geometry::Point;
-use incircle_protocol::Identity;
+use incircle_protocol::{Command, Identity, RecordRange};
 use plan::{Part, Plan};
 
 /// Most points of a job that is done beside others: in a group, whose records are read with one command, or in one of
@@ -65,7 +65,8 @@ impl<'b> Batch<'b> {
     pub(crate) fn run(mut self) -> Result<(Done, Vec<Option<u32>>), JobError> {
         let (jobs, options) = (self.carrier.jobs, self.carrier.options);
         let has_teams = self.carrier.identity.protocol_version >= FIRST_VERSION_WITH_TEAMS;
-        let plan = Plan::new(self.contexts, self.carrier.identity.capacity, has_teams);
+        let plan =
+            Plan::new(self.contexts, self.carrier.identity.capacity, has_teams).sharing_at_most(self.kept_points());
         let (small, mut exclusive) = self.divide(&plan);
         let groups = self.group(&plan, small, &mut exclusive)?;
         let Self { mut carrier, mut done, left, .. } = self;
@@ -76,6 +77,14 @@ impl<'b> Batch<'b> {
             carrier.carry(&mut done, |carrier, done| next_load(carrier, &mut groups, done))
         })?;
         Ok((done, left))
+    }
+
+    /// Number of points whose mesh the device keeps for the line while its core goes on.
+    fn kept_points(&self) -> usize {
+        // A point stands for two records.
+        let two = Command::<()>::Triangles(RecordRange { first: 0, count: 2 });
+        let words = two.payload_words(self.carrier.channel.layout()).max(1);
+        self.carrier.channel.capabilities().kept_words / usize::try_from(words).unwrap_or(usize::MAX)
     }
 
     /// The jobs that may share the memory, and the exclusive ones.

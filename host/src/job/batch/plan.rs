@@ -103,6 +103,8 @@ pub(super) struct Plan {
     most_of_team: u32,
     /// Points that the device holds.
     capacity: usize,
+    /// Most points of jobs that share the memory.
+    most_shared: usize,
 }
 
 impl Plan {
@@ -111,7 +113,14 @@ impl Plan {
     pub(super) fn new(contexts: u32, capacity: u32, has_teams: bool) -> Self {
         let contexts = contexts.max(1);
         let most_of_team = if has_teams { contexts } else { 1 };
-        Self { rounds: rounds(contexts), most_of_team, capacity: capacity as usize }
+        let capacity = capacity as usize;
+        Self { rounds: rounds(contexts), most_of_team, capacity, most_shared: capacity }
+    }
+
+    /// The same plan with at most so many points in jobs that share the memory: those whose mesh the device can keep for
+    /// the line.
+    pub(super) fn sharing_at_most(self, points: usize) -> Self {
+        Self { most_shared: self.most_shared.min(points), ..self }
     }
 
     /// Whether jobs of this many points may share the memory: with some size of teams, as many of them as fit side by
@@ -120,7 +129,7 @@ impl Plan {
     pub(super) fn shares(&self, points: usize) -> bool {
         let exclusive = self.exclusive(points).0;
         (1..=self.most_of_team).any(|contexts| {
-            let most = self.most_jobs(contexts).min(self.capacity / points.max(1));
+            let most = self.most_jobs(contexts).min(self.most_shared / points.max(1));
             most >= least_jobs(contexts) && self.group_with(&vec![points; most], contexts) <= most as u64 * exclusive
         })
     }
@@ -187,7 +196,7 @@ impl Plan {
     /// The groups with teams of this size that fit and begin with the first of these jobs: the number of jobs, and the
     /// cost without the read-out.
     fn groups<'a>(&'a self, lengths: &'a [usize], contexts: u32) -> impl Iterator<Item = (usize, u64)> + use<'a> {
-        let (capacity, longest) = (self.capacity, lengths.first().map_or(0, |&first| first));
+        let (most_shared, longest) = (self.most_shared, lengths.first().map_or(0, |&first| first));
         let mut full = 0;
         let mut clocks = COMMANDS + contention(longest, contexts) * TEAM_CONTENTION / 100;
         let most = lengths.len().min(self.most_jobs(contexts));
@@ -197,7 +206,7 @@ impl Plan {
             // Each job takes as many places as the longest. Only the last round leaves out the jobs that are shorter.
             (jobs, clocks, jobs * longest.saturating_sub(1) + full)
         });
-        let fitting = steps.take_while(move |&(_, _, sent)| sent <= capacity);
+        let fitting = steps.take_while(move |&(_, _, sent)| sent <= most_shared);
         fitting.filter(move |&(jobs, ..)| jobs >= least_jobs(contexts)).map(|(jobs, clocks, _)| (jobs, clocks))
     }
 

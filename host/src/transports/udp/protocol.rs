@@ -6,14 +6,14 @@ mod transmit;
 
 use std::time::Duration;
 
-use incircle_protocol::{answer_head, Command, Identity, Opcode, UdpGreeting, IDENTITY_WORDS};
+use incircle_protocol::{answer_head, Command, Identity, Opcode, UdpGreeting, IDENTITY_WORDS, UDP_KEPT_WORDS};
 
 use super::fault::UdpFault;
 use super::reader::Reader;
 use super::sender::Sender;
 use super::unit::Answer;
-use crate::transports::is_begun_as;
 use crate::transports::round_trip::{RoundTrip, TripBounds};
+use crate::transports::{is_begun_as, Capabilities};
 
 /// Bytes of answers that are awaited at a time unless the socket says how much it keeps.
 const WINDOW_BYTES: usize = 64 * 1024;
@@ -25,6 +25,9 @@ const TRIP_BOUNDS: TripBounds = TripBounds {
     least_slack: Duration::from_micros(500),
     poll_every: Duration::from_millis(100),
 };
+
+/// Most jobs under way: enough small ones for the round trip through a switch.
+const JOBS_AHEAD: usize = 8;
 
 /// Choices for a [`UdpProtocol`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -129,6 +132,16 @@ impl UdpProtocol {
             polled: None,
             statistics: UdpStatistics::default(),
             resent_before: 0,
+        }
+    }
+
+    /// The abilities of a transport over this link.
+    pub fn capabilities(&self) -> Capabilities {
+        Capabilities {
+            takes_ahead: true,
+            jobs_ahead: JOBS_AHEAD,
+            kept_words: UDP_KEPT_WORDS,
+            ..Capabilities::default()
         }
     }
 

@@ -56,6 +56,8 @@ pub(super) struct Reader {
     /// Number up to which the device has sent answers.
     horizon: u64,
     awaited_words: usize,
+    /// The window was full, and more than half of it is still awaited.
+    is_filled: bool,
     /// Answers of finished units.
     ready: VecDeque<Answer>,
     /// Share of units with a lost answer, of 256.
@@ -81,6 +83,7 @@ impl Reader {
             first: 0,
             horizon: 0,
             awaited_words: 0,
+            is_filled: false,
             ready: VecDeque::new(),
             lossy: 0,
             goes_ahead: true,
@@ -92,7 +95,7 @@ impl Reader {
     /// Begins a session: the device has forgotten everything, and units that were not begun will be sent.
     pub fn begin_session(&mut self, layout: Layout) {
         self.layout = layout;
-        (self.first, self.horizon, self.awaited_words) = (0, 0, 0);
+        (self.first, self.horizon, self.awaited_words, self.is_filled) = (0, 0, 0, false);
         (self.current, self.memory) = (None, None);
         self.asked.clear();
     }
@@ -149,8 +152,13 @@ impl Reader {
         self.ready.pop_front()
     }
 
-    /// Sends the questions that may be sent.
+    /// Sends the questions that may be sent. Once the window is full, half of it must come before more is asked, so that
+    /// a datagram carries many questions: each datagram costs both sides a receipt.
     pub fn ask_more(&mut self, sender: &mut Sender) -> Result<(), UdpFault> {
+        self.is_filled &= self.awaited_words > self.window / 2;
+        if self.is_filled {
+            return Ok(());
+        }
         loop {
             let unit = self.units.iter_mut().find(|unit| Some(unit.number) == self.current && unit.is_started);
             let due = unit.and_then(|unit| unit.due().map(|question| (unit, question)));
@@ -162,6 +170,7 @@ impl Reader {
             };
             let words = ANSWER_HEAD_WORDS + unit.questions.get(question).map_or(0, |question| question.words);
             if self.awaited_words > 0 && self.awaited_words + words > self.window {
+                self.is_filled = true;
                 return Ok(());
             }
             let (number, run) = (unit.number, unit.run);

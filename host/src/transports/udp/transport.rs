@@ -25,8 +25,6 @@ const BURST: usize = 64;
 const LONGEST_WAIT: Duration = Duration::from_millis(100);
 /// Shortest time in one call of the system: a timeout of 0 would mean none.
 const SHORTEST_WAIT: Duration = Duration::from_micros(50);
-/// Most jobs under way: enough small ones for the round trip through a switch.
-const JOBS_AHEAD: usize = 8;
 /// Time limit for closing the session.
 const GOODBYE: Duration = Duration::from_millis(100);
 
@@ -240,7 +238,7 @@ impl Transport for UdpTransport {
     }
 
     fn capabilities(&self) -> Capabilities {
-        Capabilities { takes_ahead: true, jobs_ahead: JOBS_AHEAD, ..Capabilities::default() }
+        self.protocol.capabilities()
     }
 
     fn recover(&mut self, _deadline: Instant) -> Result<bool, TransportError> {

@@ -104,8 +104,10 @@ fn the_fifo_is_proven() {
 fn faults_of_the_fifo_are_found() {
     let text = fifo::<3>();
     for fault in [
-        ("full$d = write_code == full_code;", "full$d = 1'b0;"),
-        ("full$d = write_code == full_code;", "full$d = write_code == read_seen$received;"),
+        ("full$d = next_gray$q == full_code;", "full$d = 1'b0;"),
+        ("full$d = next_gray$q == full_code;", "full$d = next_gray$q == read_seen$received;"),
+        ("full$d = write_gray$q == full_code;", "full$d = 1'b0;"),
+        ("next_gray$d = second_write ^ second_half;", "next_gray$d = second_write;"),
         ("empty$d = read_code == write_seen$received;", "empty$d = read_gray$q == write_seen$received;"),
         ("memory$read_address = read_count$q;", "memory$read_address = read_ahead;"),
         ("memory$write_enable = takes;", "memory$write_enable = push;"),

@@ -34,7 +34,7 @@ const ELSEWHERE: [(&str, &str, &str); 48] = [
     ("ethernet/datagram_check", "blocks/ethernet/udp_port", "lengths and check sums of frames, right and wrong"),
     ("ethernet/datagram_gate", "blocks/ethernet/udp_port", "the entries, also to a reader that is too slow"),
     ("ethernet/datagram_sender", "blocks/ethernet/udp_port", "the headers of the frames that go out"),
-    ("ethernet/datagram_slots", "blocks/ethernet/udp_port", "the datagrams that go out, at any ratio of the clocks"),
+    ("ethernet/datagram_queue", "blocks/ethernet/udp_port", "the datagrams that go out, at any ratio of the clocks"),
     ("ethernet/frame_match", "blocks/ethernet/udp_port", "the headers of frames, right and wrong"),
     ("ethernet/header_bytes", "blocks/ethernet/udp_port", "the headers of the frames that go out"),
     ("ethernet/own_bytes", "blocks/ethernet/udp_port", "the addresses in the frames that go out"),

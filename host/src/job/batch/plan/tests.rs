@@ -256,3 +256,16 @@ fn parts_are_halves_only_where_that_saves_clocks() {
     // A set of 4,000 points on the four engines of `quad`.
     assert_eq!(Plan::new(16, 2048, true).part_size(1000), 500);
 }
+
+#[test]
+fn meshes_that_the_device_cannot_keep_are_not_put_side_by_side() {
+    let plan = |kept| Plan::new(FULL.contexts, FULL.points, true).sharing_at_most(kept);
+    assert_eq!(plan(usize::MAX).divide(&[1000; 8]), [Part::Group { jobs: 8, contexts: 2 }]);
+    let points_of = |part: &Part| part.jobs() * 1000;
+    for kept in [5461, 3000] {
+        let parts = plan(kept).divide(&[1000; 8]);
+        assert!(parts.iter().all(|part| points_of(part) <= kept), "{parts:?}");
+    }
+    assert!(plan(8192).shares(4000) && !plan(5461).shares(4000));
+    assert_eq!(plan(5461).divide(&[4000, 4000]), [Part::Exclusive; 2]);
+}

@@ -451,6 +451,31 @@ fn datagrams_go_out_to_whom_they_are_for_at_the_pace_of_the_wire() {
 }
 
 #[test]
+fn short_datagrams_between_long_ones_cost_no_more_than_their_own_time() {
+    let mut random = SplitMix64::new(15);
+    for periods in [PERIODS[0], PERIODS[1]] {
+        let mut rig = Rig::new(Verilog::new("ethernet_udp_port", 10), periods, 10);
+        let mut expected = Vec::new();
+        for run in 0..60 {
+            let to = Party::random(&mut random);
+            let length = if run % 3 == 0 { 1472 } else { 40 + random.below(5) as usize };
+            let payload: Vec<u8> = (0..length).map(|_| random.below(256) as u8).collect();
+            let bytes = [to.bytes(), payload.clone()].concat();
+            let last = bytes.len() - 1;
+            rig.sends.extend(bytes.into_iter().enumerate().map(|(place, byte)| (byte, place == last)));
+            expected.push(sealed(udp(DEVICE, (to.mac, to.address, to.port), &payload, false)));
+        }
+        rig.rest();
+        let (first, last) = (rig.frames[3].1, rig.frames[57].1);
+        let sent: Vec<Vec<u8>> = rig.frames.into_iter().map(|frame| frame.0).collect();
+        assert_eq!(sent, expected);
+        // A long frame and two short ones take 1,538 and at most twice 110 clocks, and a few to be filled and begun.
+        let clocks = (last - first) / 18;
+        assert!(clocks <= 1538 + 2 * 110 + 40, "{clocks} clocks for a long and two short frames at {periods:?}");
+    }
+}
+
+#[test]
 fn a_datagram_that_is_dropped_leaves_no_trace() {
     let mut random = SplitMix64::new(14);
     for periods in PERIODS {
