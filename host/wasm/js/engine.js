@@ -1,40 +1,13 @@
 // The border to the module of WebAssembly: buffers in, lists and messages out.
 // `module.js` is made by `build`: it holds the bytes of the module as base64, so that nothing is fetched at run time.
+import {open} from './border.js';
 import encoded from './module.js';
 
-const bytes = Uint8Array.from(atob(encoded), (letter) => letter.charCodeAt(0));
-const engine = new WebAssembly.Instance(new WebAssembly.Module(bytes)).exports;
+/** The functions of the module, the check of what they return, and the copies of their lists. */
+export const {engine, checked, lists} = open(encoded);
 
 /** The most points that fit into the indices of half-edges. */
 export const MAX_POINTS = Math.floor((2 ** 31 - 1) / 6);
-
-/** The functions of the module. */
-export {engine};
-
-/** The message of the call that failed. */
-function message() {
-    const text = new Uint8Array(engine.memory.buffer, engine.message(), engine.message_length());
-    return new TextDecoder().decode(text);
-}
-
-/** The number that a call returned, or an exception if it failed. Lists stay until `lists` or `forget` is called. */
-export function checked(result) {
-    if (result !== -2) return result;
-    const text = message();
-    engine.forget();
-    throw new RangeError(text);
-}
-
-/** Copies of the first lists of the last call. The buffers of the module are dropped. */
-export function lists(count) {
-    const copies = [];
-    for (let number = 0; number < count; number++) {
-        const length = engine.list_length(number);
-        copies.push(new Uint32Array(engine.memory.buffer, engine.list(number), length).slice());
-    }
-    engine.forget();
-    return copies;
-}
 
 /** Checks a coordinate and returns it. */
 export function coordinate(name, value) {
