@@ -35,6 +35,12 @@ export function triangulate(coords: Coordinates): Mesh;
 /** Proves with the independent validator that the mesh of the points is canonical; throws if it is not. */
 export function verify(coords: Coordinates): void;
 
+/**
+ * The edges of the canonical mesh whose two triangles have all four corners on one circle, as pairs of indices: a
+ * triangulation with the other diagonal is Delaunay too, and the tie rule alone decided.
+ */
+export function ties(coords: Coordinates): Uint32Array;
+
 export type Domain = 'all' | 'holes' | 'even-odd' | 'non-zero';
 /** The canonical mesh with pairs of indices as edges. Throws a `RangeError` if constraints cross. */
 export function constrain(coords: Coordinates, pairs: number[] | Uint32Array, domain?: Domain):

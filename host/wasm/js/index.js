@@ -52,6 +52,13 @@ export function verify(coords) {
     engine.forget();
 }
 
+/** The edges of the canonical mesh that the tie rule alone decided, as pairs of indices. */
+export function ties(coords) {
+    givePoints(coords);
+    checked(engine.ties());
+    return lists(1)[0];
+}
+
 const DOMAINS = ['all', 'holes', 'even-odd', 'non-zero'];
 
 /** The canonical mesh with pairs of indices forced in as edges, cut to a domain. */
