@@ -4,5 +4,7 @@ mod dependencies;
 mod documents;
 mod glossary;
 mod import_circles;
+mod licences;
 mod mirror;
+mod public_api;
 mod rules;
