@@ -31,8 +31,8 @@ function isList(value) {
         !(value instanceof BigInt64Array) && !(value instanceof BigUint64Array);
 }
 
-/** Checks a list of coordinates, x and y of each point in turn, and writes it into the module. */
-export function givePoints(coords) {
+/** Checks a list of coordinates, x and y of each point in turn, and returns the number of points. */
+function countOf(coords) {
     if (!isList(coords)) throw new TypeError('coordinates must be an Array or a typed array of numbers, and not of bigint');
     if (coords.length % 2 !== 0) throw new RangeError(`${coords.length} coordinates are an odd number: give x and y of each point`);
     const count = coords.length / 2;
@@ -40,9 +40,26 @@ export function givePoints(coords) {
     if (Array.isArray(coords)) {
         for (let k = 0; k < coords.length; k++) coordinate(`coordinate ${k}`, coords[k]);
     }
-    const place = engine.room_for_points(count);
+    return count;
+}
+
+/** Checks a list of coordinates and writes it to the address that the module gives. */
+function write(coords, room) {
+    const count = countOf(coords);
+    const place = room(count);
     if (place === 0) throw new RangeError(`there is no memory for ${count} points: give fewer at a time`);
     new Float64Array(engine.memory.buffer, place, coords.length).set(coords);
+}
+
+/** Checks the points of a set and writes them into the module. */
+export function givePoints(coords) {
+    write(coords, engine.room_for_points);
+}
+
+/** Checks places that are no points of the set and writes them into the module. */
+export function givePlaces(coords) {
+    for (let k = 0; isList(coords) && k < coords.length; k++) coordinate(`coordinate ${k} of the holes`, coords[k]);
+    write(coords, engine.room_for_places);
 }
 
 /** Checks pairs of indices and writes them into the module. */
