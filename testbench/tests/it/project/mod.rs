@@ -5,6 +5,7 @@ mod documents;
 mod glossary;
 mod import_circles;
 mod licences;
+mod manifests;
 mod mirror;
 mod public_api;
 mod rules;
