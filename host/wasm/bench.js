@@ -1,20 +1,37 @@
-// Times of Incircle and delaunator on the same Float64Array, best of five, in turn. The argument is the number of points.
+// Times of Incircle and delaunator on the same Float64Array, in turn, in Node.js or in a browser. The argument is the
+// number of points.
 import Delaunator from 'delaunator';
 import Incircle, {triangulate} from './js/index.js';
 import {random} from './tests/random.js';
 
-const coords = random(Number(process.argv[2] ?? 1e6), 1);
-const rivals = {
-    'Incircle, with half-edges': () => new Incircle(coords),
-    'triangulate, canonical': () => triangulate(coords),
-    'delaunator': () => new Delaunator(coords),
+const RIVALS = {
+    'triangulate, canonical': (coords) => triangulate(coords),
+    'Incircle, with half-edges': (coords) => new Incircle(coords),
+    'delaunator': (coords) => new Delaunator(coords),
 };
-const best = {};
-for (let round = 0; round < 5; round++) {
-    for (const [name, run] of Object.entries(rivals)) {
+
+/** The time of each rival in milliseconds, in one round. */
+export function round(coords) {
+    return Object.fromEntries(Object.entries(RIVALS).map(([name, run]) => {
         const start = performance.now();
-        run();
-        best[name] = Math.min(best[name] ?? Infinity, performance.now() - start);
-    }
+        run(coords);
+        return [name, performance.now() - start];
+    }));
 }
-for (const [name, time] of Object.entries(best)) console.log(`${name}: ${time.toFixed(0)} ms`);
+
+/** The best times of two rounds. */
+export function best(one, other) {
+    return Object.fromEntries(Object.entries(other).map(([name, time]) => [name, Math.min(time, one[name] ?? Infinity)]));
+}
+
+/** The points of a comparison. */
+export function points(count) {
+    return random(count, 1);
+}
+
+if (globalThis.process?.argv[1]?.endsWith('bench.js')) {
+    const coords = points(Number(process.argv[2] ?? 1e6));
+    let times = {};
+    for (let k = 0; k < 5; k++) times = best(times, round(coords));
+    for (const [name, time] of Object.entries(times)) console.log(`${name}: ${time.toFixed(0)} ms`);
+}

@@ -210,3 +210,14 @@ pub const COMPLETIONS_LONG: &str = "\
 Examples:
   incircle completions bash > incircle.bash
   incircle completions zsh > _incircle";
+
+/// End of `incircle man -h`.
+pub const MAN: &str = "\
+Example:
+  incircle man triangulate | man -l -";
+
+/// End of `incircle man --help`.
+pub const MAN_LONG: &str = "\
+Examples:
+  incircle man triangulate | man -l -
+  incircle man tile split > incircle-tile-split.1";

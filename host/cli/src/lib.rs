@@ -81,6 +81,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Info(arguments) => commands::info::run(arguments),
         Command::Devices(arguments) => commands::devices::run(arguments),
         Command::Completions(arguments) => commands::completions::run(arguments),
+        Command::Man(arguments) => commands::man::run(arguments),
     });
     match result.and_then(|()| interrupt::done()) {
         Ok(()) => ExitCode::SUCCESS,

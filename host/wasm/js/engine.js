@@ -1,40 +1,13 @@
 // The border to the module of WebAssembly: buffers in, lists and messages out.
 // `module.js` is made by `build`: it holds the bytes of the module as base64, so that nothing is fetched at run time.
+import {open} from './border.js';
 import encoded from './module.js';
 
-const bytes = Uint8Array.from(atob(encoded), (letter) => letter.charCodeAt(0));
-const engine = new WebAssembly.Instance(new WebAssembly.Module(bytes)).exports;
+/** The functions of the module, the check of what they return, and the copies of their lists. */
+export const {engine, checked, lists} = open(encoded);
 
 /** The most points that fit into the indices of half-edges. */
 export const MAX_POINTS = Math.floor((2 ** 31 - 1) / 6);
-
-/** The functions of the module. */
-export {engine};
-
-/** The message of the call that failed. */
-function message() {
-    const text = new Uint8Array(engine.memory.buffer, engine.message(), engine.message_length());
-    return new TextDecoder().decode(text);
-}
-
-/** The number that a call returned, or an exception if it failed. Lists stay until `lists` or `forget` is called. */
-export function checked(result) {
-    if (result !== -2) return result;
-    const text = message();
-    engine.forget();
-    throw new RangeError(text);
-}
-
-/** Copies of the first lists of the last call. The buffers of the module are dropped. */
-export function lists(count) {
-    const copies = [];
-    for (let number = 0; number < count; number++) {
-        const length = engine.list_length(number);
-        copies.push(new Uint32Array(engine.memory.buffer, engine.list(number), length).slice());
-    }
-    engine.forget();
-    return copies;
-}
 
 /** Checks a coordinate and returns it. */
 export function coordinate(name, value) {
@@ -58,8 +31,8 @@ function isList(value) {
         !(value instanceof BigInt64Array) && !(value instanceof BigUint64Array);
 }
 
-/** Checks a list of coordinates, x and y of each point in turn, and writes it into the module. */
-export function givePoints(coords) {
+/** Checks a list of coordinates, x and y of each point in turn, and returns the number of points. */
+function countOf(coords) {
     if (!isList(coords)) throw new TypeError('coordinates must be an Array or a typed array of numbers, and not of bigint');
     if (coords.length % 2 !== 0) throw new RangeError(`${coords.length} coordinates are an odd number: give x and y of each point`);
     const count = coords.length / 2;
@@ -67,9 +40,26 @@ export function givePoints(coords) {
     if (Array.isArray(coords)) {
         for (let k = 0; k < coords.length; k++) coordinate(`coordinate ${k}`, coords[k]);
     }
-    const place = engine.room_for_points(count);
+    return count;
+}
+
+/** Checks a list of coordinates and writes it to the address that the module gives. */
+function write(coords, room) {
+    const count = countOf(coords);
+    const place = room(count);
     if (place === 0) throw new RangeError(`there is no memory for ${count} points: give fewer at a time`);
     new Float64Array(engine.memory.buffer, place, coords.length).set(coords);
+}
+
+/** Checks the points of a set and writes them into the module. */
+export function givePoints(coords) {
+    write(coords, engine.room_for_points);
+}
+
+/** Checks places that are no points of the set and writes them into the module. */
+export function givePlaces(coords) {
+    for (let k = 0; isList(coords) && k < coords.length; k++) coordinate(`coordinate ${k} of the holes`, coords[k]);
+    write(coords, engine.room_for_places);
 }
 
 /** Checks pairs of indices and writes them into the module. */

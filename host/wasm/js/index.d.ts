@@ -27,17 +27,73 @@ export default class Incircle<T extends Coordinates = Coordinates> {
     duplicates: Uint32Array;
     /** Triangulates again after `coords` was changed. */
     update(): void;
+    /** The Voronoi cells, clipped to a rectangle: left, low, right, high. The rectangle from (0, 0) to (960, 500) by default. */
+    voronoi(bounds?: Bounds): Voronoi;
 }
 export {Incircle};
+
+/** A rectangle: least x, least y, greatest x, greatest y. */
+export type Bounds = ArrayLike<number>;
+
+/** What cells are drawn on: a canvas, or anything with these calls. */
+export interface Pen {
+    moveTo(x: number, y: number): void;
+    lineTo(x: number, y: number): void;
+    closePath(): void;
+    rect(x: number, y: number, width: number, height: number): void;
+}
+
+/**
+ * The Voronoi cells of a set in the shape of d3-delaunay. The neighbours of a cell are exact; its corners are computed in
+ * doubles, each from its point, and so are right to some units in the last place of the size of the cell.
+ */
+export class Voronoi {
+    constructor(delaunay: Incircle, bounds?: Bounds);
+    readonly delaunay: Incircle;
+    xmin: number;
+    ymin: number;
+    xmax: number;
+    ymax: number;
+    /** The centre of the circle of each triangle, x and y in turn. */
+    circumcenters: Float64Array;
+    /** The corners of a cell within the rectangle, the first once more at the end; `null` if no part lies within it. */
+    cellPolygon(point: number): [number, number][] | null;
+    /** All cells that have a part within the rectangle, each with the index of its point. */
+    cellPolygons(): Generator<[number, number][] & {index: number}>;
+    /** The points whose cells share an edge within the rectangle. O(neighbours). */
+    neighbors(point: number): Generator<number>;
+    /** Whether a place is no nearer to any other point than to this one. */
+    contains(point: number, x: number, y: number): boolean;
+    /** Computes everything again after `delaunay.update()`. */
+    update(): this;
+    /** Draws the edges of all cells, or returns them as the path of an SVG. */
+    render(): string | null;
+    render(pen: Pen): void;
+    /** Draws the rectangle. */
+    renderBounds(): string | null;
+    renderBounds(pen: Pen): void;
+    /** Draws the border of a cell. */
+    renderCell(point: number): string | null;
+    renderCell(point: number, pen: Pen): void;
+}
 
 /** The canonical mesh of a set of points, O(n) on even sets. */
 export function triangulate(coords: Coordinates): Mesh;
 /** Proves with the independent validator that the mesh of the points is canonical; throws if it is not. */
 export function verify(coords: Coordinates): void;
 
+/**
+ * The edges of the canonical mesh whose two triangles have all four corners on one circle, as pairs of indices: a
+ * triangulation with the other diagonal is Delaunay too, and the tie rule alone decided.
+ */
+export function ties(coords: Coordinates): Uint32Array;
+
 export type Domain = 'all' | 'holes' | 'even-odd' | 'non-zero';
-/** The canonical mesh with pairs of indices as edges. Throws a `RangeError` if constraints cross. */
-export function constrain(coords: Coordinates, pairs: number[] | Uint32Array, domain?: Domain):
+/**
+ * The canonical mesh with pairs of indices as edges, cut to a domain. For the domain `holes`, `holes` has a place in each
+ * hole, x and y in turn. Throws a `RangeError` if constraints cross, or if a place lies in no part of the hull.
+ */
+export function constrain(coords: Coordinates, pairs: number[] | Uint32Array, domain?: Domain, holes?: Coordinates):
     {triangles: Uint32Array; regions: Uint32Array};
 /** The triangles of a polygon; `holes` has the first vertex of each hole. */
 export function earcut(vertices: Coordinates, holes?: number[]): Uint32Array;
@@ -50,7 +106,14 @@ export class Triangulation {
     static from<P>(points: ArrayLike<P>, getX?: (point: P) => number, getY?: (point: P) => number): Triangulation;
     /** The number of living points. */
     readonly size: number;
-    /** Inserts a point and returns its index, which is never used again. */
+    /**
+     * Inserts a point and returns its index, which is never used again.
+     *
+     * The mesh takes about 83 bytes a point, and its lists double when they are full. If the browser does not give the
+     * module the memory for that, the module stops with a `WebAssembly.RuntimeError`, and no call of the package works
+     * afterwards. A module has at most 4 GiB: about 20 million points. To be refused with a `RangeError` instead, make
+     * the mesh of all its points at once; that is checked before the work.
+     */
     insert(x: number, y: number): number;
     delete(point: number): void;
     move(point: number, x: number, y: number): void;

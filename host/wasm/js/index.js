@@ -1,4 +1,5 @@
-import {checked, coordinate, engine, givePairs, givePoints, index, lists} from './engine.js';
+import {checked, coordinate, engine, givePairs, givePlaces, givePoints, index, lists} from './engine.js';
+import {Voronoi} from './voronoi.js';
 
 const first = (point) => point[0];
 const second = (point) => point[1];
@@ -33,9 +34,14 @@ export default class Incircle {
         this.duplicates = duplicates;
         this.halfedges = new Int32Array(halfedges.buffer);
     }
+
+    /** The Voronoi cells of the points, clipped to a rectangle. */
+    voronoi(bounds) {
+        return new Voronoi(this, bounds);
+    }
 }
 
-export {Incircle};
+export {Incircle, Voronoi};
 
 /** The canonical mesh: counter-clockwise where y grows upwards, sorted, the same as that of every other back end. */
 export function triangulate(coords) {
@@ -52,14 +58,25 @@ export function verify(coords) {
     engine.forget();
 }
 
+/** The edges of the canonical mesh that the tie rule alone decided, as pairs of indices. */
+export function ties(coords) {
+    givePoints(coords);
+    checked(engine.ties());
+    return lists(1)[0];
+}
+
 const DOMAINS = ['all', 'holes', 'even-odd', 'non-zero'];
 
-/** The canonical mesh with pairs of indices forced in as edges, cut to a domain. */
-export function constrain(coords, pairs, domain = 'all') {
+/** The canonical mesh with pairs of indices forced in as edges, cut to a domain. `holes` has a place in each hole. */
+export function constrain(coords, pairs, domain = 'all', holes = []) {
     const number = DOMAINS.indexOf(domain);
     if (number < 0) throw new RangeError(`${String(domain)} is no domain: give ${DOMAINS.join(', ')}`);
+    if (holes.length > 0 && domain !== 'holes') {
+        throw new RangeError(`the domain ${domain} takes no holes, and ${holes.length / 2} are given: give the domain 'holes'`);
+    }
     try {
         givePairs(pairs);
+        givePlaces(holes);
         givePoints(coords);
         checked(engine.constrained(number));
         const [triangles, regions] = lists(2);

@@ -16,6 +16,7 @@ pub const FAILED: f64 = -2.0;
 #[derive(Default)]
 struct Border {
     points: Points,
+    places: Points,
     indices: Vec<u32>,
     lists: Vec<Vec<u32>>,
     message: String,
@@ -47,6 +48,18 @@ pub extern "C" fn room_for_points(count: usize) -> usize {
         let Some(points) = zeros(count) else { return 0 };
         border.points = points;
         border.points.as_ptr() as usize
+    })
+}
+
+/// Makes room for `count` places that are no points of the set, and returns the address to which x and y of each are to
+/// be written, or 0.
+#[no_mangle]
+pub extern "C" fn room_for_places(count: usize) -> usize {
+    BORDER.with_borrow_mut(|border| {
+        border.places = Vec::new();
+        let Some(places) = zeros(count) else { return 0 };
+        border.places = places;
+        border.places.as_ptr() as usize
     })
 }
 
@@ -94,6 +107,11 @@ pub extern "C" fn forget() {
 /// Takes the points that JavaScript has written.
 pub fn points() -> Points {
     BORDER.with_borrow_mut(|border| std::mem::take(&mut border.points))
+}
+
+/// Takes the places that JavaScript has written.
+pub fn places() -> Points {
+    BORDER.with_borrow_mut(|border| std::mem::take(&mut border.places))
 }
 
 /// Takes the indices that JavaScript has written.

@@ -4,16 +4,18 @@
 use incircle_geometry::constraints::{constrain, Domain, Plan};
 
 use crate::batch::{flat, mesh_of};
-use crate::border::{give, indices, points, told};
+use crate::border::{give, indices, places, points, told};
 
 /// Triangulates the points in the buffer with the pairs of the buffer of indices as edges, and lists the triangles and
-/// the region of each. `domain` is the number of a domain in the order of [`Domain::ALL`].
+/// the region of each. `domain` is the number of a domain in the order of [`Domain::ALL`], and the buffer of places has a
+/// place in each hole of [`Domain::Holes`].
 #[no_mangle]
 pub extern "C" fn constrained(domain: usize) -> f64 {
     let constraints = indices();
+    let holes = places();
     let made = mesh_of(points()).and_then(|mesh| {
         let domain = Domain::ALL.get(domain).copied().ok_or("there is no such domain")?;
-        let plan = Plan { domain, ..Plan::new(constraints.as_chunks().0) };
+        let plan = Plan { domain, holes: &holes, ..Plan::new(constraints.as_chunks().0) };
         constrain(&mesh, &plan).map_err(|error| error.to_string())
     });
     told(made.map(|made| {

@@ -6,7 +6,7 @@ import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import test from 'node:test';
 import earcutOfMapbox from 'earcut';
-import Incircle, {Triangulation, constrain, earcut, triangulate, usedBytes, verify} from '../js/index.js';
+import Incircle, {Triangulation, constrain, earcut, ties, triangulate, usedBytes, verify} from '../js/index.js';
 import {random} from './random.js';
 
 test('the triangles are those of the command, byte for byte', () => {
@@ -83,6 +83,31 @@ test('a polygon with a hole is triangulated as by earcut, in area', () => {
     assert.equal(area(theirs), 91);
     assert.deepEqual([...constrain([0, 0, 4, -1, 8, 0, 4, 1], [0, 2]).triangles], [0, 1, 2, 0, 2, 3]);
     assert.throws(() => constrain([0, 0, 4, 0, 4, 4, 0, 4], [0, 2, 1, 3]), /cross/);
+});
+
+test('holes are cut out of a domain by places in them', () => {
+    const vertices = [0, 0, 10, 0, 10, 10, 0, 10, 3, 3, 6, 3, 6, 6, 3, 6];
+    const rings = [0, 1, 1, 2, 2, 3, 3, 0, 4, 5, 5, 6, 6, 7, 7, 4];
+    const whole = constrain(vertices, rings, 'holes');
+    const cut = constrain(vertices, rings, 'holes', [4, 5]);
+    assert.equal(whole.triangles.length / 3, 10);
+    assert.equal(cut.triangles.length / 3, 8);
+    assert.deepEqual(cut.triangles, earcut(vertices, [4]));
+    assert.throws(() => constrain(vertices, rings, 'holes', Float64Array.of(4, 5, 1, 1)), /domain is empty/);
+    assert.throws(() => constrain(vertices, rings, 'holes', [40, 5]), /hole 0/);
+    assert.throws(() => constrain(vertices, rings, 'holes', [4, 3]), /hole 0/);
+    assert.throws(() => constrain(vertices, rings, 'holes', [4, NaN]), /coordinate 1 of the holes is NaN/);
+    assert.throws(() => constrain(vertices, rings, 'holes', [4]), /1 coordinates/);
+    assert.throws(() => constrain(vertices, rings, 'even-odd', [4, 5]), /takes no holes/);
+});
+
+test('ties are the edges whose other diagonal would be Delaunay, too', () => {
+    assert.deepEqual([...ties([0, 0, 1, 0, 1, 1, 0, 1, 9, 3])], [2, 0]);
+    assert.equal(ties(random(1000, 2)).length, 0);
+    assert.deepEqual([...ties([0, 0, 1, 0, 1, 1, 0, 1 + 2 ** -52])], []);
+    // The diagonals of the regular lattice of the command's mesh: one for each square.
+    const grid = Float64Array.from({length: 242}, (_, k) => (k % 2 ? Math.floor(k / 22) : (k / 2) % 11));
+    assert.equal(ties(grid).length / 2, 100);
 });
 
 test('bad input is refused with its numbers, and nothing leaks', () => {

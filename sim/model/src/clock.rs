@@ -27,6 +27,7 @@ mod ring;
 mod seeder;
 mod solo;
 mod starter;
+mod view;
 mod watchdog;
 mod wires;
 
@@ -42,6 +43,7 @@ use wires::Registers;
 pub use defect::Defect;
 pub use memory::Write;
 pub use ports::{Inputs, Outputs};
+pub use view::{Activity, ContextView, VisitView};
 
 /// The state of the core at a clock.
 #[derive(Clone, Debug)]

@@ -21,6 +21,6 @@ pub mod stream;
 pub mod udp;
 
 pub use chip::ChipModel;
-pub use clock::{ClockModel, Defect, Inputs, Outputs, Write};
+pub use clock::{Activity, ClockModel, ContextView, Defect, Inputs, Outputs, VisitView, Write};
 pub use command::{CommandModel, ModelError};
 pub use mesh::{Approach, Counts, Insertion, Mesh, Record};

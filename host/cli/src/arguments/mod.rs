@@ -123,6 +123,9 @@ pub enum Command {
     /// Print a completion script for a shell
     #[command(after_help = help::COMPLETIONS, after_long_help = help::COMPLETIONS_LONG)]
     Completions(CompletionsArguments),
+    /// Print a page for 'man', of the command or of a subcommand
+    #[command(after_help = help::MAN, after_long_help = help::MAN_LONG)]
+    Man(ManArguments),
 }
 
 /// The arguments of `incircle triangulate`.
@@ -348,6 +351,14 @@ pub struct CompletionsArguments {
     /// Shell
     #[arg(value_enum)]
     pub shell: clap_complete::Shell,
+}
+
+/// The arguments of `incircle man`.
+#[derive(Debug, Args)]
+pub struct ManArguments {
+    /// Subcommand, such as 'triangulate' or 'tile split'; without one, the page of the whole command
+    #[arg(value_name = "SUBCOMMAND")]
+    pub path: Vec<String>,
 }
 
 #[cfg(test)]

@@ -21,6 +21,7 @@ mod commands {
     mod generate_numbers;
     mod interpolate;
     mod lloyd;
+    mod man;
     mod replay;
     mod tile;
     mod triangulate_large;

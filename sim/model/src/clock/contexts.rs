@@ -105,7 +105,7 @@ impl Contexts {
         }
     }
 
-    fn take_outcome(&mut self, was: &Registers, outcome: &Outcome, defect: Option<Defect>) {
+    pub(super) fn take_outcome(&mut self, was: &Registers, outcome: &Outcome, defect: Option<Defect>) {
         let context = outcome.context;
         let bit = 1 << context;
         if outcome.sleeps {

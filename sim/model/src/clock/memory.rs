@@ -119,6 +119,12 @@ impl Memory {
         (true, false)
     }
 
+    /// The context that holds the lock of a record, if one does.
+    pub(super) fn lock_holder(&self, id: u32) -> Option<usize> {
+        let place = id as usize % self.locks.len();
+        self.locks[place].then(|| self.holders[place])
+    }
+
     /// The record of this id. Ids wrap at the depth of the memory, which ignores the address bits above.
     pub(super) fn record(&self, id: u32) -> Record {
         self.records[id as usize % self.records.len()]

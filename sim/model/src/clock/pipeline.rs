@@ -34,6 +34,13 @@ pub(super) struct Visit {
     pub record: u32,
 }
 
+impl Visit {
+    /// Whether this is a root visit, which takes a lock and turns no record.
+    pub(super) fn is_root(&self) -> bool {
+        self.locks && !self.rotates
+    }
+}
+
 /// One to three visits that one completion asks for.
 ///
 /// The second visit is for the entry after that of the first, and the third for the entry after that of the second.
@@ -91,6 +98,11 @@ impl Bundle {
         let [_, n1, n2] = done.record.n;
         let first = Visit { after: y, cavity_entry: y, cavity_record: done.visit.record, record: n1, ..done.visit };
         Self { first, count: 2, second_after: done.visit.after, second_record: n2, third_record: 0 }
+    }
+
+    /// The visits of the bundle, in the order of their issue.
+    pub(super) fn visits(&self) -> impl Iterator<Item = Visit> + '_ {
+        (0..self.count).map(|place| self.visit(place))
     }
 
     /// The visit at this place of the bundle.
@@ -155,6 +167,16 @@ impl Pipeline {
 
     pub(super) fn completion(&self) -> Option<Completion> {
         self.stages[self.head]
+    }
+
+    /// The visits in stages, issue register and queue, in the order in which they complete.
+    pub(super) fn visits(&self) -> impl Iterator<Item = Visit> + '_ {
+        let waiting = self.queue.iter().enumerate().flat_map(|(number, bundle)| {
+            let issued = if number == 0 { self.place } else { 0 };
+            bundle.visits().skip(issued as usize)
+        });
+        let (older, newer) = self.stages.split_at(self.head);
+        newer.iter().chain(older).flatten().map(|done| done.visit).chain(self.issued).chain(waiting)
     }
 
     /// Whether a visit reads the memories in this clock.

@@ -12,6 +12,7 @@ mod clock {
     mod hang;
     mod orders;
     mod read_out;
+    mod view;
     mod waiting;
     mod watchdog;
 }

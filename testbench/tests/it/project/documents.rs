@@ -217,7 +217,7 @@ fn the_book_has_every_page() {
     }
 }
 
-fn metadata() -> Metadata {
+pub(super) fn metadata() -> Metadata {
     MetadataCommand::new()
         .manifest_path(root().join("Cargo.toml"))
         .other_options(["--locked".to_string()])

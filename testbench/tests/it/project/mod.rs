@@ -4,5 +4,8 @@ mod dependencies;
 mod documents;
 mod glossary;
 mod import_circles;
+mod licences;
+mod manifests;
 mod mirror;
+mod public_api;
 mod rules;
