@@ -16,6 +16,7 @@ mod counters;
 mod datagram;
 mod frame;
 mod layout;
+mod living;
 mod status;
 mod stream;
 
@@ -42,8 +43,11 @@ pub use frame::{
     MAX_DEVICE_FRAME, MAX_FIFO_BYTES, MAX_LINK_CLOCK_HZ, MAX_PAYLOAD, MAX_SILENCE_MS, MAX_STEP, MIN_FIFO_BYTES,
     MIN_LINK_CLOCK_HZ, PHASE_BITS, SILENCE_MS, STATUS_BAD_RATE, STATUS_BUSY, STATUS_DROPPED, STATUS_OPEN, WINDOW,
 };
-pub use layout::{Identity, InsertReport, Layout, ENGINES_SHIFT, IDENTITY_WORDS, INSERT_REPORT_WORDS, NARROW_ID_BITS};
-pub use status::Status;
+pub use layout::{
+    Identity, InsertReport, Layout, ENGINES_SHIFT, FEATURES_SHIFT, IDENTITY_WORDS, INSERT_REPORT_WORDS, NARROW_ID_BITS,
+};
+pub use living::{part_head, part_item, part_outcome, Located, RunKind, FEATURE_RUNS, ITEM_NUMBERS, OUTCOME_SHIFT};
+pub use status::{Outcome, Status};
 pub use stream::{
     StreamRegister, BEAT_BITS, CONTROL_RESET, ERROR_ANSWER_STATUS, ERROR_PARTIAL_BEAT, REGISTER_SPACE,
     STREAM_FIFO_BEATS, STREAM_STATUS_BUSY, STREAM_STATUS_ERROR, STREAM_STATUS_RESETTING, STREAM_STATUS_RUNS,

@@ -113,6 +113,7 @@ impl CommandModel {
                 contexts: 1,
                 engines: 1,
                 ring_capacity,
+                features: 0,
             },
             layout: Layout::of(coord_bits, capacity),
             mesh: Mesh::new(capacity, ring_capacity),
@@ -257,7 +258,7 @@ impl CommandModel {
             }
             // In the model by commands, insertions take no time.
             Some(Opcode::Latencies) => self.answer(opcode, Status::Ok, &[0; protocol::LATENCY_BUCKETS]),
-            None => self.answer(opcode, Status::UnknownOpcode, &[]),
+            Some(_) | None => self.answer(opcode, Status::UnknownOpcode, &[]),
         }
     }
 

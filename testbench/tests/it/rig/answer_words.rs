@@ -79,7 +79,7 @@ impl Asked {
 
     pub fn answer(&self) -> Answer {
         let end = u64::from(self.first) + u64::from(self.count);
-        let (status, length, payload) = match Opcode::from_u8(self.opcode) {
+        let (status, length, payload) = match Opcode::of_every_device(self.opcode) {
             None => (Status::UnknownOpcode, 0, Some(vec![])),
             Some(Opcode::Clear) if self.is_refused => (Status::BadContexts, 0, Some(vec![])),
             Some(Opcode::Clear) => (Status::Ok, 0, Some(vec![])),
@@ -112,6 +112,7 @@ impl Asked {
                     contexts: self.contexts,
                     engines: self.engines,
                     ring_capacity: self.ring,
+                    features: 0,
                 };
                 (Status::Ok, 7, Some(identity.to_words().to_vec()))
             }
