@@ -4,6 +4,7 @@
 mod common;
 
 mod protocol_readme;
+mod runs;
 
 mod clock {
     mod batch;
@@ -18,6 +19,7 @@ mod clock {
 
 mod mesh {
     mod approach;
+    mod changes;
     mod insertion;
 }
 

@@ -80,7 +80,6 @@ impl Asked {
     pub fn answer(&self) -> Answer {
         let end = u64::from(self.first) + u64::from(self.count);
         let (status, length, payload) = match Opcode::of_every_device(self.opcode) {
-            None => (Status::UnknownOpcode, 0, Some(vec![])),
             Some(Opcode::Clear) if self.is_refused => (Status::BadContexts, 0, Some(vec![])),
             Some(Opcode::Clear) => (Status::Ok, 0, Some(vec![])),
             Some(Opcode::Read | Opcode::Triangles) if end > u64::from(self.report.records) => {
@@ -128,6 +127,8 @@ impl Asked {
                 };
                 (status, 5, Some(self.report.to_words().to_vec()))
             }
+            // The core does not have the runs.
+            Some(_) | None => (Status::UnknownOpcode, 0, Some(vec![])),
         };
         Answer { opcode: self.opcode, status, length, payload }
     }
