@@ -142,6 +142,7 @@
 //! | a time limit, a progress bar, a cancel button | [`Options`] with [`Session::triangulate_with`] |
 //! | small sets one after the other, such as points that move | [`Triangulator`], which keeps its memory |
 //! | points that come, go or move, or questions about places | [`Triangulation`], which changes with them |
+//! | the same with the mesh on a device | [`Session::living`], with the trait [`LivingMesh`] |
 //! | edges that must be in the mesh, or triangles inside polygons | [`constraints::constrain`] |
 //! | the region nearest to each point, clipped to a polygon | [`voronoi`], with the mesh of grid points |
 //! | points spread evenly over a region | [`lloyd::relax`], with grid points and a [`voronoi::Clip`] |
@@ -177,7 +178,7 @@ mod limit;
 pub mod quantize;
 pub mod transports;
 
-pub use device::{Device, DeviceAddress, Fleet, Session};
+pub use device::{Device, DeviceAddress, Fleet, LivingMesh, LivingSession, Session};
 pub use error::{DeviceFault, Error, ErrorKind, Shown, TransportError};
 pub use incircle_geometry::constraints;
 pub use incircle_geometry::cpu::{Error as TriangulatorError, Triangulator};

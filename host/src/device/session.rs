@@ -6,6 +6,7 @@ use incircle_protocol::Identity;
 
 use super::backend::{Backend, JobLeft, Terms, Together};
 use super::lay::{lay, Asked};
+use super::living::LivingSession;
 use crate::error::Error;
 use crate::job::watch::{tell, PartListener};
 use crate::job::{Options, Progress, Solution, Stage};
@@ -222,6 +223,15 @@ impl<'d> Session<'d> {
             solutions[grid] = Some(self.triangulate_owned(points, &options).map_err(in_job(job(grid)))?);
         }
         Ok(solutions.into_iter().flatten().collect())
+    }
+
+    /// Begins a mesh that lives on the device, without points. See [`LivingMesh`](crate::LivingMesh) for an example.
+    ///
+    /// # Errors
+    /// [`Error::NoRuns`] if the device cannot change a mesh that stands. Of the devices of this library only the back
+    /// end `model` can; on the processor use [`Triangulation`](crate::Triangulation).
+    pub fn living(&mut self) -> Result<LivingSession<'_>, Error> {
+        LivingSession::new(self.backend, self.identity)
     }
 
     /// Clocks of the device since it was opened; `None` unless the device is a simulated core,
