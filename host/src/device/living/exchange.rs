@@ -1,5 +1,7 @@
 //! Commands to a device with a mesh that lives, and the checks of its answers.
 
+use std::time::Duration;
+
 use incircle_protocol::{
     infinite_vertex, part_item, part_outcome, Clear, Command, Identity, InsertReport, Layout, Located, Opcode, Outcome,
     RecordRange, RunKind, INSERT_REPORT_WORDS,
@@ -17,14 +19,15 @@ pub(super) struct LivingDevice<'d> {
     backend: &'d mut dyn Backend,
     pub(super) identity: Identity,
     layout: Layout,
+    timeout: Option<Duration>,
 }
 
 /// The answer to the one item of a run: its outcome, and the words behind it.
 type Part = (Outcome, Located);
 
 impl<'d> LivingDevice<'d> {
-    pub(super) fn new(backend: &'d mut dyn Backend, identity: Identity) -> Self {
-        Self { backend, identity, layout: Layout::of(identity.coord_bits, identity.capacity) }
+    pub(super) fn new(backend: &'d mut dyn Backend, identity: Identity, timeout: Option<Duration>) -> Self {
+        Self { backend, identity, layout: Layout::of(identity.coord_bits, identity.capacity), timeout }
     }
 
     pub(super) fn name(&self) -> String {
@@ -33,9 +36,9 @@ impl<'d> LivingDevice<'d> {
 
     /// Makes the mesh of these points, which are different and begin with three that span a triangle. Their vertices
     /// are 0, 1, 2 and so on.
-    pub(super) fn load(&mut self, points: &[Point]) -> Result<(), Error> {
+    pub(super) fn load(&mut self, points: &[Point], contexts: u32) -> Result<(), Error> {
         let mut words = Vec::new();
-        self.exchange(Command::Clear(Clear::one_mesh(0)), points.len(), &mut words)?;
+        self.exchange(Command::Clear(Clear::one_mesh(contexts)), points.len(), &mut words)?;
         let mut sent = Vec::with_capacity(points.len() * self.layout.point_words);
         points.iter().for_each(|&point| self.put_point(point, &mut sent));
         self.exchange(Command::insert(&sent, self.layout), points.len(), &mut words)?;
@@ -115,7 +118,8 @@ impl<'d> LivingDevice<'d> {
     }
 
     fn exchange(&mut self, command: Command<&[u32]>, points: usize, words: &mut Vec<u32>) -> Result<(), Error> {
-        let limit = Limit::of(Options::default_timeout(points).saturating_mul(self.backend.slow()));
+        let usual = || Options::default_timeout(points).saturating_mul(self.backend.slow());
+        let limit = Limit::of(self.timeout.unwrap_or_else(usual));
         self.backend.exchange(command, words, limit)
     }
 

@@ -11,6 +11,7 @@ mod session;
 use crate::error::Error;
 use incircle_geometry::living::{Location, Triangulation};
 use incircle_geometry::{Mesh, PlanePoint};
+pub(super) use session::Choices;
 pub use session::LivingSession;
 
 /// A Delaunay triangulation that can be asked and changed, wherever its mesh is kept.

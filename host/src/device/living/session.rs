@@ -1,6 +1,8 @@
 //! A mesh that lives on a device.
 
-use incircle_protocol::{Identity, Outcome, RunKind, FEATURE_RUNS};
+use std::time::Duration;
+
+use incircle_protocol::{Identity, Outcome, RunKind};
 
 use super::exchange::LivingDevice;
 use super::names::Names;
@@ -10,6 +12,16 @@ use crate::error::{DeviceFault, Error};
 use crate::job::prepare::prepare;
 use incircle_geometry::living::Location;
 use incircle_geometry::{Mesh, Order, Point};
+
+/// The choices of the caller for a mesh that lives on a device.
+#[derive(Clone, Copy)]
+pub(crate) struct Choices {
+    /// Limit for one exchange with the device; `None` for the usual one.
+    pub(crate) timeout: Option<Duration>,
+    /// Order of insertion where many points are given to the device at once, and the contexts that work then.
+    pub(crate) order: Order,
+    pub(crate) contexts: u32,
+}
 
 /// A mesh that lives on a device, with the methods of [`LivingMesh`].
 ///
@@ -28,6 +40,7 @@ use incircle_geometry::{Mesh, Order, Point};
 ///   calls fail: open the device again.
 pub struct LivingSession<'d> {
     device: LivingDevice<'d>,
+    choices: Choices,
     names: Names,
     /// The place of each vertex that the device has had since it was loaded; `None` for those that are free.
     vertices: Vec<Option<Point>>,
@@ -38,13 +51,10 @@ pub struct LivingSession<'d> {
 }
 
 impl<'d> LivingSession<'d> {
-    pub(crate) fn new(backend: &'d mut dyn Backend, identity: Identity) -> Result<Self, Error> {
-        if identity.features & FEATURE_RUNS == 0 {
-            return Err(Error::NoRuns { device: backend.name() });
-        }
-        let device = LivingDevice::new(backend, identity);
+    pub(crate) fn new(backend: &'d mut dyn Backend, identity: Identity, choices: Choices) -> Self {
+        let device = LivingDevice::new(backend, identity, choices.timeout);
         let (vertices, free) = (Vec::new(), Vec::new());
-        Ok(Self { device, names: Names::default(), vertices, free, is_loaded: false })
+        Self { device, choices, names: Names::default(), vertices, free, is_loaded: false }
     }
 
     /// The vertices of the triangle, edge or vertex at a place, each with its weight there: the value at the place, by
@@ -195,12 +205,12 @@ impl<'d> LivingSession<'d> {
         self.vertices.clear();
         self.free.clear();
         let places: Vec<Point> = self.names.places().keys().copied().collect();
-        let prepared = prepare(&places, Order::default(), self.device.identity.contexts);
+        let prepared = prepare(&places, self.choices.order, self.choices.contexts);
         if prepared.collinear {
             return Ok(());
         }
         let points: Vec<Point> = prepared.order.iter().map(|&place| places[place as usize]).collect();
-        self.device.load(&points)?;
+        self.device.load(&points, self.choices.contexts)?;
         for (vertex, &point) in (0..).zip(&points) {
             self.names.set_vertex(point, vertex);
         }
