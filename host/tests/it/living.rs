@@ -50,7 +50,8 @@ impl Script<'_> {
     fn step(&mut self, random: &mut SplitMix64, growth: u64) {
         let place = random.pick(&self.places);
         let index = random.below_u32(self.host.next_index() + 1);
-        let is_full = self.count() == self.capacity && self.host.indices().iter().all(|&k| self.host.point(k) != Some(place));
+        let is_full =
+            self.count() == self.capacity && self.host.indices().iter().all(|&k| self.host.point(k) != Some(place));
         match random.below(10) {
             action if action < growth => {
                 self.log.push(format!("insert {place}"));

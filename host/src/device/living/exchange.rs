@@ -73,11 +73,7 @@ impl<'d> LivingDevice<'d> {
 
     /// The triangles and the hull of the mesh, in canonical form. `ranks` has the index in `points` of each vertex of
     /// the device that is in the mesh.
-    pub(super) fn read(
-        &mut self,
-        ranks: &[Option<u32>],
-        points: &[Point],
-    ) -> Result<(Vec<[u32; 3]>, Vec<u32>), Error> {
+    pub(super) fn read(&mut self, ranks: &[Option<u32>], points: &[Point]) -> Result<(Vec<[u32; 3]>, Vec<u32>), Error> {
         let living: Vec<u32> = ranks.iter().copied().flatten().collect();
         let records = 2 * living.len() as u32 - 2;
         let mut words = Vec::new();

@@ -81,7 +81,8 @@ fn weights_give_the_value_of_a_plane_at_every_place() {
         let located = incircle_protocol::Located::from_words(&part[1..]);
         let pairs = located.vertices.into_iter().zip(located.weights);
         let sum: i128 = located.weights.iter().map(|&weight| i128::from(weight)).sum();
-        let weighed = pairs.map(|(vertex, weight)| value(at[vertex as usize][0], at[vertex as usize][1]) * i128::from(weight));
+        let weighed =
+            pairs.map(|(vertex, weight)| value(at[vertex as usize][0], at[vertex as usize][1]) * i128::from(weight));
         assert!(sum > 0);
         assert_eq!(weighed.sum::<i128>(), value(x, y) * sum, "at {x} {y}: {part:x?}");
     }
