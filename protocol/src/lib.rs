@@ -17,6 +17,7 @@ mod datagram;
 mod frame;
 mod layout;
 mod living;
+mod opcode;
 mod status;
 mod stream;
 
@@ -24,7 +25,7 @@ pub use cobs::decode_reverse_cobs;
 pub use command::{
     answer_engine, answer_head, answer_header, answer_opcode, answer_status, answer_tag, batch_word, clear_word,
     command_contexts, command_meshes, command_opcode, command_starts_batch, command_tag, command_word, signed_header,
-    Clear, Command, CommandReader, Meshes, Opcode, RecordRange, ANSWER_HEAD_WORDS, CLEAR_BATCH, CLEAR_MESHES_SHIFT,
+    Clear, Command, CommandReader, Meshes, RecordRange, ANSWER_HEAD_WORDS, CLEAR_BATCH, CLEAR_MESHES_SHIFT,
     CLEAR_TAG_SHIFT, COMMAND_HEAD_WORDS, MAX_SIDE_BY_SIDE, PADDING,
 };
 pub use config::{
@@ -47,6 +48,7 @@ pub use layout::{
     Identity, InsertReport, Layout, ENGINES_SHIFT, FEATURES_SHIFT, IDENTITY_WORDS, INSERT_REPORT_WORDS, NARROW_ID_BITS,
 };
 pub use living::{part_head, part_item, part_outcome, Located, RunKind, FEATURE_RUNS, ITEM_NUMBERS, OUTCOME_SHIFT};
+pub use opcode::Opcode;
 pub use status::{Outcome, Status};
 pub use stream::{
     StreamRegister, BEAT_BITS, CONTROL_RESET, ERROR_ANSWER_STATUS, ERROR_PARTIAL_BEAT, REGISTER_SPACE,

@@ -6,8 +6,8 @@
 //!
 //! A device has these commands if its [`Identity`](crate::Identity) has the feature [`FEATURE_RUNS`].
 
-use crate::command::Opcode;
 use crate::layout::Layout;
+use crate::opcode::Opcode;
 use crate::status::Outcome;
 
 /// The bit of [`Identity::features`](crate::Identity::features) of a device that takes runs.
@@ -86,6 +86,16 @@ impl RunKind {
             Self::Locate => 4,
             Self::Interpolate => 10,
             Self::Nearest | Self::InsertAs | Self::Delete | Self::Move => 2,
+        }
+    }
+}
+
+impl Opcode {
+    /// The opcode of this number if it is one of a command that every device has, which the runs are not.
+    pub const fn of_every_device(value: u8) -> Option<Self> {
+        match Self::from_u8(value) {
+            Some(opcode) if RunKind::of(opcode).is_none() => Some(opcode),
+            _ => None,
         }
     }
 }

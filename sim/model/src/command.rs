@@ -2,15 +2,15 @@
 //!
 //! Hardware twin: the core behind its command port and responder, without clocks.
 
+mod awaited;
 mod read_out;
 mod runs;
 
 use crate::mesh::Mesh;
 use crate::predicate::Point;
+use awaited::{Awaited, Range, Reading};
 use incircle_protocol as protocol;
 use protocol::{answer_header, signed_header, Counter, Identity, InsertReport, Layout, Opcode, RunKind, Status};
-use read_out::{Range, Reading};
-use runs::Run;
 use std::collections::VecDeque;
 use std::fmt;
 
@@ -58,20 +58,6 @@ impl fmt::Display for ModelError {
 }
 
 impl std::error::Error for ModelError {}
-
-/// The meaning of the next word. The model reads commands with code of its own and not with the protocol's
-/// `CommandReader`, because the core's reading is compared with the model's, which must share no code with a
-/// host that writes commands.
-#[derive(Clone, Copy, Debug)]
-enum Awaited {
-    Command,
-    InsertCount,
-    Points { left: u32 },
-    ReadFirst(Range),
-    ReadCount(Range, u32),
-    RunCount(RunKind),
-    Items(Run),
-}
 
 /// A model that is driven by whole commands. Each command is carried out when its last word arrives.
 #[derive(Debug)]

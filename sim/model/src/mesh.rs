@@ -4,6 +4,7 @@
 mod approach;
 mod cavity;
 mod change;
+mod filling;
 mod free;
 mod hole;
 mod question;
@@ -15,10 +16,9 @@ mod walk;
 use crate::predicate::{orient2d, Point};
 pub use approach::Approach;
 use cavity::Cavity;
-pub use change::Changed;
 use free::FreeRecords;
 use hole::Hole;
-use incircle_protocol::infinite_vertex;
+use incircle_protocol::{infinite_vertex, Outcome};
 pub use record::Record;
 
 /// Number of records of a first triangle: the triangle and three ghost triangles.
@@ -36,6 +36,9 @@ pub enum Insertion {
     /// The point was refused: the memory is full, or the first three points were collinear.
     Refused,
 }
+
+/// What a change of a standing mesh did: its outcome, and the vertex that the answer names.
+pub type Changed = (Outcome, u32);
 
 /// Numbers of events since the last clear; see `incircle_protocol::Counter`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

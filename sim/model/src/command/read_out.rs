@@ -1,31 +1,9 @@
 //! The read-out: records become words in windows, as the host takes them.
 
+use super::awaited::{Range, Reading};
 use super::CommandModel;
 use crate::mesh::Record;
 use incircle_protocol::{Opcode, Status};
-
-/// The part of the records that a command reads.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Range {
-    /// Whole records by their ids, the free ones included.
-    Records,
-    /// The vertices of the records that are not free, counted in the order of their ids.
-    Vertices,
-}
-
-/// A range that is being read.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Reading {
-    range: Range,
-    /// Id of the next record that has not been turned into words yet.
-    next: u32,
-    /// Number of records to come.
-    pub(super) left: u32,
-}
-
-impl Reading {
-    pub(super) const NONE: Self = Self { range: Range::Records, next: 0, left: 0 };
-}
 
 impl CommandModel {
     /// Begins the read-out of `count` records from the first on, or answers that there are not so many.

@@ -1,25 +1,9 @@
 //! Runs: questions and changes of a mesh that stands, item by item.
 
-use super::{Awaited, CommandModel};
+use super::awaited::{Awaited, Run, MOST_ITEM_WORDS};
+use super::CommandModel;
 use crate::predicate::Point;
 use incircle_protocol::{part_head, Located, Outcome, RunKind, Status};
-
-/// Largest number of words of an item.
-const MOST_ITEM_WORDS: usize = 3;
-
-/// A run whose items are being taken.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Run {
-    kind: RunKind,
-    /// Number of items done, and still to come.
-    done: u32,
-    left: u32,
-    /// Why the items are taken and nothing is done.
-    refusal: Option<Status>,
-    /// The words of the item of which only a part has come, and their number.
-    words: [u32; MOST_ITEM_WORDS],
-    filled: usize,
-}
 
 /// An item: its vertex and its point, as far as its kind has them.
 struct Item {

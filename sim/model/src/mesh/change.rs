@@ -1,12 +1,10 @@
 //! Changes of a standing mesh, vertex by vertex. The vertices have the ids that the host chooses.
 
 use super::hole::{Across, Filling, RingEdge};
-use super::{Insertion, Mesh, Record};
+use super::record::Record;
+use super::{Changed, Insertion, Mesh};
 use crate::predicate::{finite_conflict, orient2d, Point};
 use incircle_protocol::Outcome;
-
-/// What a change did: its outcome, and the vertex that the answer names.
-pub type Changed = (Outcome, u32);
 
 impl Mesh {
     /// Inserts a point as this vertex.
