@@ -80,6 +80,27 @@
 //! # Ok::<(), incircle::living::Error>(())
 //! ```
 //!
+//! # Points that change on a device
+//!
+//! A device that can keep a mesh does so in a [`LivingSession`], which shares the trait [`LivingMesh`] with
+//! [`Triangulation`]. Of the devices of this library only the model can.
+//!
+//! ```
+//! use incircle::living::Location;
+//! use incircle::{Device, LivingMesh, Point};
+//!
+//! let mut device = Device::open("model")?;
+//! let mut session = device.session()?;
+//! let mut mesh = session.living()?;
+//! mesh.insert_all(&[[0, 0], [8, 0], [8, 8], [0, 8], [4, 4]].map(Point::from))?;
+//! assert_eq!(mesh.nearest(Point::new(4, 0))?, Some(0));
+//! mesh.move_to(4, Point::new(4, 5))?;
+//! assert_eq!(mesh.locate(Point::new(4, 2))?, Location::Triangle([0, 1, 4]));
+//! mesh.delete(4)?;
+//! assert_eq!(mesh.mesh()?.triangles, [[0, 1, 2], [0, 2, 3]]);
+//! # Ok::<(), incircle::Error>(())
+//! ```
+//!
 //! # Edges that must be there
 //!
 //! Roads, coastlines and outlines are edges of a mesh, whose triangles may be those of a domain alone; see
@@ -142,6 +163,7 @@
 //! | a time limit, a progress bar, a cancel button | [`Options`] with [`Session::triangulate_with`] |
 //! | small sets one after the other, such as points that move | [`Triangulator`], which keeps its memory |
 //! | points that come, go or move, or questions about places | [`Triangulation`], which changes with them |
+//! | the same with the mesh on a device | [`Session::living`], with the trait [`LivingMesh`] |
 //! | edges that must be in the mesh, or triangles inside polygons | [`constraints::constrain`] |
 //! | the region nearest to each point, clipped to a polygon | [`voronoi`], with the mesh of grid points |
 //! | points spread evenly over a region | [`lloyd::relax`], with grid points and a [`voronoi::Clip`] |
@@ -177,7 +199,7 @@ mod limit;
 pub mod quantize;
 pub mod transports;
 
-pub use device::{Device, DeviceAddress, Fleet, Session};
+pub use device::{Device, DeviceAddress, Fleet, LivingMesh, LivingSession, Session};
 pub use error::{DeviceFault, Error, ErrorKind, Shown, TransportError};
 pub use incircle_geometry::constraints;
 pub use incircle_geometry::cpu::{Error as TriangulatorError, Triangulator};

@@ -2,52 +2,12 @@
 
 use crate::counters::{COUNTER_WORDS, LATENCY_BUCKETS};
 use crate::layout::{Layout, IDENTITY_WORDS, INSERT_REPORT_WORDS};
+use crate::living::RunKind;
+use crate::opcode::Opcode;
 use crate::status::Status;
-
-/// The number of a command, in the top byte of its first word. The other bits of that word are zero unless the
-/// command's own entry says otherwise.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(u8)]
-pub enum Opcode {
-    /// Ask the device for its [`Identity`](crate::Identity). No arguments.
-    Hello = 1,
-    /// Forget all points, triangles and counters, and begin the job that a [`Clear`] describes. No arguments, no
-    /// payload. The time does not depend on what the device holds.
-    Clear = 2,
-    /// Insert points. The arguments are the number of points and the points themselves. The answer, an
-    /// [`InsertReport`](crate::InsertReport), comes when the last point is in.
-    Insert = 3,
-    /// Read triangle records. The arguments are the first id and the number of records. The answer has the records, or
-    /// [`Status::BadRange`](crate::Status::BadRange) and no payload if the range goes beyond the last record.
-    Read = 4,
-    /// Read the counters. No arguments; the answer has [`COUNTER_WORDS`](crate::COUNTER_WORDS) words.
-    Counters = 5,
-    /// Read the histogram of insertion latencies. No arguments; the answer has one word for each of the
-    /// [`LATENCY_BUCKETS`](crate::LATENCY_BUCKETS) buckets.
-    Latencies = 6,
-    /// Read the vertices of triangle records without their neighbours. The arguments are those of [`Opcode::Read`]; the
-    /// answer has the ids as [`Layout::triangles_words`](crate::Layout::triangles_words) packs them.
-    Triangles = 7,
-}
 
 /// A command word that does nothing and has no answer. Links whose beats hold several words fill the last beat with it.
 pub const PADDING: u32 = 0;
-
-impl Opcode {
-    /// The opcode of this number, if there is one.
-    pub const fn from_u8(value: u8) -> Option<Self> {
-        Some(match value {
-            1 => Self::Hello,
-            2 => Self::Clear,
-            3 => Self::Insert,
-            4 => Self::Read,
-            5 => Self::Counters,
-            6 => Self::Latencies,
-            7 => Self::Triangles,
-            _ => return None,
-        })
-    }
-}
 
 /// The first word of a command, without the bits that only `Clear` uses.
 pub const fn command_word(opcode: Opcode) -> u32 {
@@ -199,9 +159,9 @@ pub const ANSWER_HEAD_WORDS: usize = 2;
 /// Largest number of words that a command has in front of its points.
 pub const COMMAND_HEAD_WORDS: usize = 3;
 
-/// A command with its arguments; each variant is described at the [`Opcode`] of its name. `P` holds the
-/// points of an `Insert`: a slice or a list of words as [`Layout::point_to_words`] packs them, or `()` if the
-/// points are kept elsewhere.
+/// A command with its arguments; each variant is described at the [`Opcode`] of its name, and `Run` stands for the six
+/// runs. `P` holds the points of an `Insert` or the items of a run: a slice or a list of words, in which points are as
+/// [`Layout::point_to_words`] packs them, or `()` if the words are kept elsewhere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Command<P> {
     Hello,
@@ -211,6 +171,7 @@ pub enum Command<P> {
     Counters,
     Latencies,
     Triangles(RecordRange),
+    Run { kind: RunKind, count: u32, items: P },
 }
 
 /// A range of triangle records with consecutive ids.
@@ -232,10 +193,11 @@ impl<P> Command<P> {
             Self::Counters => Opcode::Counters,
             Self::Latencies => Opcode::Latencies,
             Self::Triangles(_) => Opcode::Triangles,
+            Self::Run { kind, .. } => kind.opcode(),
         }
     }
 
-    /// The command without its points.
+    /// The command without its points or items.
     pub const fn bare(&self) -> Command<()> {
         match self {
             Self::Hello => Command::Hello,
@@ -245,10 +207,11 @@ impl<P> Command<P> {
             Self::Counters => Command::Counters,
             Self::Latencies => Command::Latencies,
             Self::Triangles(range) => Command::Triangles(*range),
+            Self::Run { kind, count, .. } => Command::Run { kind: *kind, count: *count, items: () },
         }
     }
 
-    /// The same command with its points converted by `form`.
+    /// The same command with its points or items converted by `form`.
     pub fn map<Q>(self, form: impl FnOnce(P) -> Q) -> Command<Q> {
         match self {
             Self::Hello => Command::Hello,
@@ -258,24 +221,26 @@ impl<P> Command<P> {
             Self::Counters => Command::Counters,
             Self::Latencies => Command::Latencies,
             Self::Triangles(range) => Command::Triangles(range),
+            Self::Run { kind, count, items } => Command::Run { kind, count, items: form(items) },
         }
     }
 
-    /// The words in front of the points, and how many of them the command uses.
+    /// The words in front of the points or items, and how many of them the command uses.
     pub const fn head(&self) -> ([u32; COMMAND_HEAD_WORDS], usize) {
         let word = command_word(self.opcode());
         match self {
             Self::Clear(clear) => ([clear.word(), 0, 0], 1),
-            Self::Insert { count, .. } => ([word, *count, 0], 2),
+            Self::Insert { count, .. } | Self::Run { count, .. } => ([word, *count, 0], 2),
             Self::Read(range) | Self::Triangles(range) => ([word, range.first, range.count], 3),
             Self::Hello | Self::Counters | Self::Latencies => ([word, 0, 0], 1),
         }
     }
 
-    /// Number of words of points that follow the head.
+    /// Number of words of points or items that follow the head.
     pub const fn point_words(&self, layout: Layout) -> u64 {
         match self {
             Self::Insert { count, .. } => *count as u64 * layout.point_words as u64,
+            Self::Run { kind, count, .. } => *count as u64 * kind.item_words(layout) as u64,
             _ => 0,
         }
     }
@@ -291,6 +256,7 @@ impl<P> Command<P> {
             Self::Counters => COUNTER_WORDS as u64,
             Self::Latencies => LATENCY_BUCKETS as u64,
             Self::Triangles(range) => layout.packed_words(range.count),
+            Self::Run { kind, count, .. } => *count as u64 * kind.part_words() as u64,
         }
     }
 }
@@ -303,15 +269,23 @@ impl<P: AsRef<[u32]>> Command<P> {
         Self::Insert { count: (points.as_ref().len() / layout.point_words) as u32, points }
     }
 
-    /// The same command, borrowing the points of this one.
+    /// A run of the items in these words, which must be whole items of this layout, as the points of an `Insert`.
+    pub fn run(kind: RunKind, items: P, layout: Layout) -> Self {
+        let words = kind.item_words(layout);
+        debug_assert!(items.as_ref().len().is_multiple_of(words), "the words are whole items");
+        Self::Run { kind, count: (items.as_ref().len() / words) as u32, items }
+    }
+
+    /// The same command, borrowing the points or items of this one.
     pub fn borrowed(&self) -> Command<&[u32]> {
         self.bare().map(|()| self.points())
     }
 
-    /// The words of the points; empty for every command but `Insert`.
+    /// The words of the points of an `Insert` or the items of a run; empty for every other command.
     pub fn points(&self) -> &[u32] {
         match self {
             Self::Insert { points, .. } => points.as_ref(),
+            Self::Run { items, .. } => items.as_ref(),
             _ => &[],
         }
     }
@@ -334,8 +308,8 @@ pub const fn answer_head(opcode: Opcode, payload_words: u32) -> [u32; ANSWER_HEA
     [answer_header(opcode as u8, Status::Ok), payload_words]
 }
 
-/// Reads the heads of commands from a stream, word by word. After the head of an `Insert`, the caller takes the points
-/// from the stream itself before it hands over the next word.
+/// Reads the heads of commands from a stream, word by word. After the head of an `Insert` or a run, the caller takes the
+/// points or items from the stream itself before it hands over the next word.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CommandReader {
     words: [u32; COMMAND_HEAD_WORDS],
@@ -371,110 +345,11 @@ impl CommandReader {
             (Opcode::Read, &[first, count]) => Command::Read(RecordRange { first, count }),
             (Opcode::Triangles, &[first, count]) => Command::Triangles(RecordRange { first, count }),
             (Opcode::Insert | Opcode::Read | Opcode::Triangles, _) => return None,
+            (_, &[count]) => Command::Run { kind: RunKind::of(opcode)?, count, items: () },
+            _ => return None,
         }))
     }
 }
 
 #[cfg(test)]
-mod tests {
-    extern crate std;
-
-    use super::*;
-    use std::vec;
-    use std::vec::Vec;
-
-    const NARROW: Layout = Layout { point_words: 1, record_words: 3 };
-    const WIDE: Layout = Layout { point_words: 2, record_words: 6 };
-    const RANGE: RecordRange = RecordRange { first: 7, count: 11 };
-
-    fn commands(layout: Layout) -> [Command<Vec<u32>>; 10] {
-        [
-            Command::Hello,
-            Command::Clear(Clear::one_mesh(3)),
-            Command::Clear(Clear::batch(255)),
-            Command::Clear(Clear { contexts: 16, meshes: Meshes::SideBySide(4), tag: 0xa5 }),
-            Command::insert(vec![0x0400_0000, 0, 5, 6], layout),
-            Command::insert(vec![], layout),
-            Command::Read(RANGE),
-            Command::Counters,
-            Command::Latencies,
-            Command::Triangles(RANGE),
-        ]
-    }
-
-    fn words(command: &Command<Vec<u32>>) -> Vec<u32> {
-        let mut words = Vec::new();
-        command.encode(&mut words);
-        words
-    }
-
-    #[test]
-    fn what_is_written_is_read() {
-        for layout in [NARROW, WIDE] {
-            for command in commands(layout) {
-                let (words, points) = (words(&command), command.points().len());
-                assert_eq!((words.len(), points as u64), (command.words(), command.point_words(layout)));
-                let mut reader = CommandReader::default();
-                let heads = [PADDING].iter().chain(&words[..words.len() - points]);
-                let read: Vec<_> = heads.filter_map(|&word| reader.take(word)).collect();
-                assert_eq!(read, [Ok(command.bare())]);
-                assert_eq!(command.borrowed().map(<[u32]>::to_vec), command);
-            }
-        }
-    }
-
-    #[test]
-    fn every_command_has_the_words_of_the_page() {
-        let page: [&[u32]; 10] = [
-            &[0x0100_0000],
-            &[0x0200_0003],
-            &[0x0200_01ff],
-            &[0x02a5_0910],
-            &[0x0300_0000, 4, 0x0400_0000, 0, 5, 6],
-            &[0x0300_0000, 0],
-            &[0x0400_0000, 7, 11],
-            &[0x0500_0000],
-            &[0x0600_0000],
-            &[0x0700_0000, 7, 11],
-        ];
-        assert_eq!(commands(NARROW).map(|command| words(&command)), page);
-        assert_eq!(words(&commands(WIDE)[4])[..2], [0x0300_0000, 2]);
-    }
-
-    #[test]
-    fn every_answer_has_its_length() {
-        let lengths = |layout| commands(layout).map(|command| command.payload_words(layout));
-        assert_eq!(lengths(NARROW), [7, 0, 0, 0, 5, 5, 33, 25, 128, 17]);
-        assert_eq!(lengths(WIDE), [7, 0, 0, 0, 5, 5, 66, 25, 128, 33]);
-        let all = RecordRange { first: 0, count: u32::MAX };
-        let commands = [Command::<()>::Read(all), Command::Triangles(all)];
-        assert_eq!(commands.map(|command| command.payload_words(WIDE)), [6, 3].map(|ids| ids * u64::from(u32::MAX)));
-        assert_eq!(answer_head(Opcode::Read, 9), [0x0400_0000, 9]);
-    }
-
-    #[test]
-    fn a_header_names_its_engine_and_its_job() {
-        let header = signed_header(answer_header(3, Status::Stuck), 2, 0xc1);
-        assert_eq!(header, 0x0306_02c1);
-        assert_eq!((answer_opcode(header), answer_status(header)), (3, 6));
-        assert_eq!((answer_engine(header), answer_tag(header)), (2, 0xc1));
-        assert_eq!(signed_header(header, 0, 0), answer_header(3, Status::Stuck));
-    }
-
-    #[test]
-    fn numbers_that_the_word_cannot_name_become_the_largest() {
-        let clear = Clear { contexts: 1000, meshes: Meshes::SideBySide(1000), tag: 0 };
-        let named = Clear { contexts: 255, meshes: Meshes::SideBySide(MAX_SIDE_BY_SIDE), tag: 0 };
-        assert_eq!(Clear::from_word(clear.word()), named);
-        // Outside a batch, nothing is said of the meshes.
-        assert_eq!(Clear::from_word(0x0200_fe03), Clear::one_mesh(3));
-    }
-
-    #[test]
-    fn an_unknown_opcode_has_no_arguments() {
-        let mut reader = CommandReader::default();
-        assert_eq!(reader.take(0x2a00_0000), Some(Err(42)));
-        assert_eq!(reader.take(1), Some(Err(0)));
-        assert_eq!(reader.take(0x0100_0000), Some(Ok(Command::Hello)));
-    }
-}
+mod tests;

@@ -6,6 +6,9 @@ pub const IDENTITY_WORDS: usize = 7;
 /// Lowest bit of the number of engines in the sixth word of an identity.
 pub const ENGINES_SHIFT: u32 = 8;
 
+/// Lowest bit of the features in the seventh word of an identity.
+pub const FEATURES_SHIFT: u32 = 16;
+
 /// The properties that a device reports, in the order of their words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Identity {
@@ -26,10 +29,14 @@ pub struct Identity {
     /// Number of boundary edges that a context's list holds. A point with a longer boundary becomes a
     /// solo insertion, by flips.
     pub ring_capacity: u32,
+    /// What the device has beyond the commands of every device, a bit each:
+    /// [`FEATURE_RUNS`](crate::FEATURE_RUNS). All other bits are 0, and a host does not look at them.
+    pub features: u32,
 }
 
 impl Identity {
-    /// The identity as words, in the order of the fields; contexts and engines share a word.
+    /// The identity as words, in the order of the fields. Contexts and engines share a word, and so do boundary edges and
+    /// features.
     pub const fn to_words(self) -> [u32; IDENTITY_WORDS] {
         [
             self.magic,
@@ -38,7 +45,7 @@ impl Identity {
             self.coord_bits,
             self.capacity,
             self.contexts_word(),
-            self.ring_capacity,
+            self.features << FEATURES_SHIFT | self.ring_capacity,
         ]
     }
 
@@ -48,7 +55,7 @@ impl Identity {
     }
 
     /// The identity from words in the order of the fields. No value is checked. A device of version 1.2 says 0 in place
-    /// of the number of engines, and has one.
+    /// of the number of engines, and has one; it has no features.
     pub const fn from_words(words: [u32; IDENTITY_WORDS]) -> Self {
         let engines = words[5] >> ENGINES_SHIFT;
         Self {
@@ -59,7 +66,8 @@ impl Identity {
             capacity: words[4],
             contexts: words[5] & ((1 << ENGINES_SHIFT) - 1),
             engines: if engines == 0 { 1 } else { engines },
-            ring_capacity: words[6],
+            ring_capacity: words[6] & ((1 << FEATURES_SHIFT) - 1),
+            features: words[6] >> FEATURES_SHIFT,
         }
     }
 }

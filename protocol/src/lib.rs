@@ -16,6 +16,8 @@ mod counters;
 mod datagram;
 mod frame;
 mod layout;
+mod living;
+mod opcode;
 mod status;
 mod stream;
 
@@ -23,7 +25,7 @@ pub use cobs::decode_reverse_cobs;
 pub use command::{
     answer_engine, answer_head, answer_header, answer_opcode, answer_status, answer_tag, batch_word, clear_word,
     command_contexts, command_meshes, command_opcode, command_starts_batch, command_tag, command_word, signed_header,
-    Clear, Command, CommandReader, Meshes, Opcode, RecordRange, ANSWER_HEAD_WORDS, CLEAR_BATCH, CLEAR_MESHES_SHIFT,
+    Clear, Command, CommandReader, Meshes, RecordRange, ANSWER_HEAD_WORDS, CLEAR_BATCH, CLEAR_MESHES_SHIFT,
     CLEAR_TAG_SHIFT, COMMAND_HEAD_WORDS, MAX_SIDE_BY_SIDE, PADDING,
 };
 pub use config::{
@@ -42,8 +44,12 @@ pub use frame::{
     MAX_DEVICE_FRAME, MAX_FIFO_BYTES, MAX_LINK_CLOCK_HZ, MAX_PAYLOAD, MAX_SILENCE_MS, MAX_STEP, MIN_FIFO_BYTES,
     MIN_LINK_CLOCK_HZ, PHASE_BITS, SILENCE_MS, STATUS_BAD_RATE, STATUS_BUSY, STATUS_DROPPED, STATUS_OPEN, WINDOW,
 };
-pub use layout::{Identity, InsertReport, Layout, ENGINES_SHIFT, IDENTITY_WORDS, INSERT_REPORT_WORDS, NARROW_ID_BITS};
-pub use status::Status;
+pub use layout::{
+    Identity, InsertReport, Layout, ENGINES_SHIFT, FEATURES_SHIFT, IDENTITY_WORDS, INSERT_REPORT_WORDS, NARROW_ID_BITS,
+};
+pub use living::{part_head, part_item, part_outcome, Located, RunKind, FEATURE_RUNS, ITEM_NUMBERS, OUTCOME_SHIFT};
+pub use opcode::Opcode;
+pub use status::{Outcome, Status};
 pub use stream::{
     StreamRegister, BEAT_BITS, CONTROL_RESET, ERROR_ANSWER_STATUS, ERROR_PARTIAL_BEAT, REGISTER_SPACE,
     STREAM_FIFO_BEATS, STREAM_STATUS_BUSY, STREAM_STATUS_ERROR, STREAM_STATUS_RESETTING, STREAM_STATUS_RUNS,

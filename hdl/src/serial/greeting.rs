@@ -73,6 +73,7 @@ impl Greeting {
             contexts: config.contexts,
             engines: config.engines,
             ring_capacity: config.ring,
+            features: 0,
         };
         let max_rate = link.max_rate();
         GreetingWords {

@@ -67,6 +67,7 @@ fn words(config: Config, link: UdpLinkConfig) -> [u32; incircle_protocol::UDP_GR
         contexts: config.contexts,
         engines: config.engines,
         ring_capacity: config.ring,
+        features: 0,
     };
     let (magic, link_version) = (UDP_LINK_MAGIC, UDP_LINK_VERSION);
     UdpGreeting { magic, link_version, clock_hz, fifo_bytes, silence_ms, mac, identity }.to_words()

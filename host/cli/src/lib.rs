@@ -28,6 +28,7 @@ mod output;
 mod path;
 mod plan;
 mod planned;
+mod player;
 mod points;
 mod progress;
 mod report;

@@ -284,6 +284,8 @@ const fn opcode_name(opcode: Opcode) -> &'static str {
         Opcode::Read | Opcode::Triangles => "the read-out",
         Opcode::Counters => "the reading of counters",
         Opcode::Latencies => "the reading of latencies",
+        Opcode::Locate | Opcode::Interpolate | Opcode::Nearest => "the questions about places",
+        Opcode::InsertAs | Opcode::Delete | Opcode::Move => "the changes of vertices",
     }
 }
 
@@ -297,5 +299,6 @@ const fn status_meaning(status: Status) -> &'static str {
         Status::Full => "the memory is full",
         Status::BadContexts => "the contexts that were asked for are more than it has, or the jobs do not divide them",
         Status::Stuck => "insertions have stopped making progress",
+        Status::NoMesh => "there is no mesh to ask or change",
     }
 }

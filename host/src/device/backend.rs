@@ -1,8 +1,8 @@
 //! The trait of a back end: what does the jobs of a session.
 
-use incircle_protocol::Identity;
+use incircle_protocol::{Command, Identity, Opcode};
 
-use crate::error::Error;
+use crate::error::{DeviceFault, Error};
 use crate::job::{Answer, Options, Solution};
 use crate::limit::Limit;
 use incircle_geometry::lattice::Numbers;
@@ -41,6 +41,18 @@ pub(crate) trait Backend {
 
     /// Does those of many jobs that go well together, and returns the others.
     fn triangulate_together(&mut self, jobs: Vec<Vec<Point>>, terms: Terms<'_>) -> Result<Together, Error>;
+
+    /// Sends one command and receives the payload of its answer, for a mesh that lives on the device.
+    fn exchange(&mut self, command: Command<&[u32]>, payload: &mut Vec<u32>, limit: Limit) -> Result<(), Error> {
+        let _ = (command, payload, limit);
+        Err(Error::NoRuns { device: self.name() })
+    }
+
+    /// Turns a wrong answer into an error, after which nothing more is asked of the device.
+    fn distrust(&mut self, opcode: Opcode, fault: DeviceFault) -> Error {
+        let _ = (opcode, fault);
+        Error::OutOfStep { device: self.name() }
+    }
 }
 
 /// The terms on which a job is done. The session has already checked the points and the number of contexts.

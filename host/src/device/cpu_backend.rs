@@ -152,6 +152,7 @@ pub(crate) fn identity(threads: u32) -> Identity {
         contexts: threads,
         engines: 1,
         ring_capacity: 0,
+        features: 0,
     }
 }
 

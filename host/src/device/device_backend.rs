@@ -1,10 +1,10 @@
 //! The back end of every device that takes commands.
 
-use incircle_protocol::Identity;
+use incircle_protocol::{Clear, Command, Identity, Opcode};
 
 use super::backend::{Backend, JobLeft, Terms, Together};
-use crate::commands::CommandChannel;
-use crate::error::Error;
+use crate::commands::{Came, CommandChannel};
+use crate::error::{DeviceFault, Error};
 use crate::job::answer::Answer;
 use crate::job::batch::Batch;
 use crate::job::flight::{Carrier, Done};
@@ -20,11 +20,13 @@ use incircle_geometry::Point;
 /// A device behind a transport.
 pub(crate) struct DeviceBackend {
     channel: CommandChannel,
+    /// The tag of the mesh that lives on the device.
+    living_tag: u8,
 }
 
 impl DeviceBackend {
     pub(crate) fn new(transport: Box<dyn Transport>) -> Self {
-        Self { channel: CommandChannel::new(transport) }
+        Self { channel: CommandChannel::new(transport), living_tag: 0 }
     }
 
     fn carrier<'c>(&'c mut self, jobs: &'c [Vec<Point>], terms: &Terms<'c>) -> Carrier<'c> {
@@ -93,5 +95,24 @@ impl Backend for DeviceBackend {
             }
         }
         Ok(together)
+    }
+
+    fn exchange(&mut self, command: Command<&[u32]>, payload: &mut Vec<u32>, limit: Limit) -> Result<(), Error> {
+        let command = match command {
+            Command::Clear(clear) => {
+                self.living_tag = self.channel.new_tag();
+                Command::Clear(Clear { tag: self.living_tag, ..clear })
+            }
+            command => command,
+        };
+        self.channel.submit(self.living_tag, &[command], limit)?;
+        match self.channel.receive(self.living_tag, &command, payload, limit)? {
+            Came::Whole => Ok(()),
+            Came::Stuck(_) => Err(self.channel.distrust(command.opcode(), DeviceFault::AllStuck { engines: 1 })),
+        }
+    }
+
+    fn distrust(&mut self, opcode: Opcode, fault: DeviceFault) -> Error {
+        self.channel.distrust(opcode, fault)
     }
 }

@@ -8,6 +8,8 @@
 //!
 //! A [`Fleet`](fleet::Fleet) has a session on each of several devices, for the parts of one set.
 //!
+//! A [`LivingSession`] keeps a mesh that lives on a device, with the methods of a triangulation on the host.
+//!
 //! A [`Session`](session::Session) checks points and options and sets the time limit. Everything else about a job is up
 //! to the back end.
 
@@ -18,10 +20,12 @@ mod device_backend;
 mod fleet;
 mod in_parts;
 mod lay;
+mod living;
 mod open;
 mod session;
 
 pub use address::DeviceAddress;
 pub use fleet::Fleet;
+pub use living::{LivingMesh, LivingSession};
 pub use open::Device;
 pub use session::Session;

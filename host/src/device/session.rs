@@ -2,10 +2,11 @@
 
 use std::ops::ControlFlow;
 
-use incircle_protocol::Identity;
+use incircle_protocol::{Identity, FEATURE_RUNS};
 
 use super::backend::{Backend, JobLeft, Terms, Together};
 use super::lay::{lay, Asked};
+use super::living::{Choices, LivingSession};
 use crate::error::Error;
 use crate::job::watch::{tell, PartListener};
 use crate::job::{Options, Progress, Solution, Stage};
@@ -222,6 +223,37 @@ impl<'d> Session<'d> {
             solutions[grid] = Some(self.triangulate_owned(points, &options).map_err(in_job(job(grid)))?);
         }
         Ok(solutions.into_iter().flatten().collect())
+    }
+
+    /// Whether the device can keep a mesh that lives. Of the devices of this library only the back end `model` can; on
+    /// the processor use [`Triangulation`](crate::Triangulation).
+    pub fn keeps_living_meshes(&self) -> bool {
+        self.identity.features & FEATURE_RUNS != 0
+    }
+
+    /// Begins a mesh that lives on the device, without points. See [`LivingMesh`](crate::LivingMesh) for an example.
+    ///
+    /// # Errors
+    /// [`Error::NoRuns`] unless the device [can](Self::keeps_living_meshes).
+    pub fn living(&mut self) -> Result<LivingSession<'_>, Error> {
+        self.living_with(&Options::default())
+    }
+
+    /// The same with options. [`Options::timeout`] is the limit for each call that asks the device something.
+    /// [`Options::order`] and [`Options::contexts`] count where many points are given to the device at once, and the
+    /// listener hears nothing.
+    ///
+    /// # Errors
+    /// [`Error::NoRuns`] unless the device [can](Self::keeps_living_meshes), and [`Error::Contexts`] for more contexts
+    /// than it has.
+    pub fn living_with(&mut self, options: &Options<'_>) -> Result<LivingSession<'_>, Error> {
+        if !self.keeps_living_meshes() {
+            return Err(Error::NoRuns { device: self.backend.name() });
+        }
+        let contexts = options.contexts.unwrap_or(self.identity.contexts);
+        self.check_job(0, contexts)?;
+        let choices = Choices { timeout: options.timeout, order: options.order, contexts };
+        Ok(LivingSession::new(self.backend, self.identity, choices))
     }
 
     /// Clocks of the device since it was opened; `None` unless the device is a simulated core,

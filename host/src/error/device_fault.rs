@@ -78,6 +78,26 @@ pub enum DeviceFault {
         /// Words of payload that are due.
         expected: u32,
     },
+    /// The answer to an item of a run does not begin with the number of the item and an outcome.
+    #[error("the answer to item {item} of a run starts with {found:#010x}, which is not its number with an outcome")]
+    Part {
+        /// Number of the item.
+        item: u32,
+        /// First word of its answer.
+        found: u32,
+    },
+    /// An item of a run has an outcome that a sound device does not give to it.
+    #[error("an item has the outcome {found}, which is impossible for what was asked of its mesh")]
+    Outcome {
+        /// Number of the outcome.
+        found: u8,
+    },
+    /// The answer to a question names a vertex that is not in the mesh.
+    #[error("it names vertex {vertex}, which is not in its mesh")]
+    NoSuchVertex {
+        /// Vertex id in the answer.
+        vertex: u32,
+    },
     /// A count in the insertion report does not agree with the points that were sent.
     #[error("it counts {found} {what} where {expected} are due")]
     Count {

@@ -16,6 +16,7 @@ pub use shown::Shown;
 pub use transport_error::TransportError;
 
 use incircle_geometry::lattice::Lattice;
+use incircle_geometry::living::Error as LivingError;
 
 /// An error of the library.
 ///
@@ -140,6 +141,40 @@ pub enum Error {
         /// Most points of a job.
         max: usize,
     },
+    /// A place does not fit the bits of the device that has the mesh.
+    #[error(
+        "the place ({x}, {y}) is not on the grid of {device}, whose coordinates of {coord_bits} bits end at {max}: \
+         use a device with more coordinate bits or quantise the points", max = (1u64 << coord_bits) - 1
+    )]
+    OffGrid {
+        /// Horizontal coordinate of the place.
+        x: u32,
+        /// Vertical coordinate of the place.
+        y: u32,
+        /// Bits of a coordinate of the device.
+        coord_bits: u32,
+        /// Name of the device.
+        device: String,
+    },
+    /// The device that has the mesh has no room for another place. The mesh is as before.
+    #[error("all {capacity} places that {device} can hold have points: delete some, or use a larger device")]
+    MemoryFull {
+        /// Different places that the device can hold.
+        capacity: u32,
+        /// Name of the device.
+        device: String,
+    },
+    /// The device cannot change a mesh that stands.
+    #[error(
+        "{device} cannot keep a mesh that lives: use the back end model, or a Triangulation, which is on the processor"
+    )]
+    NoRuns {
+        /// Name of the device.
+        device: String,
+    },
+    /// A change of a mesh that lives is refused. The mesh is as before.
+    #[error(transparent)]
+    Living(#[from] LivingError),
     /// No contexts, or more than the device has.
     #[error("{device} cannot work with {asked} contexts: choose {}, or leave the choice out", from_one_to(*contexts))]
     Contexts {
@@ -252,11 +287,16 @@ impl Error {
             | Self::NotFinite { .. }
             | Self::NotInteger { .. }
             | Self::OutOfGrid { .. }
+            | Self::OffGrid { .. }
             | Self::Extent { .. } => ErrorKind::BadInput,
-            Self::Scale { .. } | Self::CoordBits(_) | Self::Contexts { .. } | Self::Model(_) => ErrorKind::BadChoice,
+            Self::Living(LivingError::TooManyPoints | LivingError::IndicesUsedUp) => ErrorKind::Capacity,
+            Self::Living(_) => ErrorKind::BadInput,
+            Self::Scale { .. } | Self::CoordBits(_) | Self::Contexts { .. } | Self::Model(_) | Self::NoRuns { .. } => {
+                ErrorKind::BadChoice
+            }
             Self::Address { .. } | Self::Open { .. } => ErrorKind::DeviceNotFound,
             Self::Link { source: TransportError::Other { kind, .. }, .. } => *kind,
-            Self::TooManyPoints { .. } => ErrorKind::Capacity,
+            Self::TooManyPoints { .. } | Self::MemoryFull { .. } => ErrorKind::Capacity,
             Self::Link { .. } | Self::OutOfStep { .. } => ErrorKind::Link,
             Self::Timeout { .. } => ErrorKind::Timeout,
             Self::Device { .. } => ErrorKind::Device,

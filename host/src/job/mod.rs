@@ -12,7 +12,7 @@
 //! way: [`flight`] sends a load, checks the answers, and tries once more after a passing fault.
 
 pub(crate) mod answer;
-mod assemble;
+pub(crate) mod assemble;
 pub(crate) mod batch;
 mod counters;
 pub(crate) mod deal;

@@ -50,6 +50,7 @@ mod tests {
             contexts: 1,
             engines,
             ring_capacity: 32,
+            features: 0,
         };
         for version in [1 << 16 | 2, 1 << 16 | 3] {
             assert_eq!(check_identity(&identity(version, 1)), Ok(()));

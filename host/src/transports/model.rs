@@ -28,7 +28,7 @@ impl ModelTransport {
     pub fn new(coord_bits: u32, capacity: u32) -> Result<Self, Error> {
         let model = CommandModel::new(coord_bits, capacity, RING_CAPACITY)
             .map_err(|refusal| Error::Model(refusal.to_string()))?;
-        Ok(Self { model })
+        Ok(Self { model: model.with_runs() })
     }
 }
 

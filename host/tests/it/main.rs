@@ -6,6 +6,7 @@ mod cpu;
 mod fleet;
 mod hostile;
 mod in_parts;
+mod living;
 mod numbers;
 mod oracle;
 mod quantize;

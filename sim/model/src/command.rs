@@ -2,10 +2,15 @@
 //!
 //! Hardware twin: the core behind its command port and responder, without clocks.
 
+mod awaited;
+mod read_out;
+mod runs;
+
 use crate::mesh::Mesh;
 use crate::predicate::Point;
+use awaited::{Awaited, Range, Reading};
 use incircle_protocol as protocol;
-use protocol::{answer_header, signed_header, Counter, Identity, InsertReport, Layout, Opcode, Status};
+use protocol::{answer_header, signed_header, Counter, Identity, InsertReport, Layout, Opcode, RunKind, Status};
 use std::collections::VecDeque;
 use std::fmt;
 
@@ -54,25 +59,6 @@ impl fmt::Display for ModelError {
 
 impl std::error::Error for ModelError {}
 
-/// The meaning of the next word. The model reads commands with code of its own and not with the protocol's
-/// `CommandReader`, because the core's reading is compared with the model's, which must share no code with a
-/// host that writes commands.
-#[derive(Clone, Copy, Debug)]
-enum Awaited {
-    Command,
-    InsertCount,
-    Points { left: u32 },
-    ReadFirst(Range),
-    ReadCount(Range, u32),
-}
-
-/// The part of the records that a command reads.
-#[derive(Clone, Copy, Debug)]
-enum Range {
-    Records,
-    Vertices,
-}
-
 /// A model that is driven by whole commands. Each command is carried out when its last word arrives.
 #[derive(Debug)]
 pub struct CommandModel {
@@ -87,8 +73,7 @@ pub struct CommandModel {
     /// First word of a point of two words, if a piece of the command stream ended between them.
     half_point: Option<u32>,
     answers: VecDeque<u32>,
-    /// The range being read: records from the first number up to the second have not been turned into words yet.
-    reading: (Range, u32, u32),
+    reading: Reading,
 }
 
 impl CommandModel {
@@ -113,6 +98,7 @@ impl CommandModel {
                 contexts: 1,
                 engines: 1,
                 ring_capacity,
+                features: 0,
             },
             layout: Layout::of(coord_bits, capacity),
             mesh: Mesh::new(capacity, ring_capacity),
@@ -121,7 +107,7 @@ impl CommandModel {
             engine: 0,
             half_point: None,
             answers: VecDeque::new(),
-            reading: (Range::Records, 0, 0),
+            reading: Reading::NONE,
         })
     }
 
@@ -130,6 +116,14 @@ impl CommandModel {
     #[must_use]
     pub fn with_contexts(mut self, contexts: u32) -> Self {
         self.identity.contexts = contexts.clamp(1, 255);
+        self
+    }
+
+    /// The same model with the commands for a mesh that stands, the runs, which its identity then offers. Cores do not
+    /// have them.
+    #[must_use]
+    pub fn with_runs(mut self) -> Self {
+        self.identity.features |= protocol::FEATURE_RUNS;
         self
     }
 
@@ -147,7 +141,7 @@ impl CommandModel {
 
     /// Whether a command has begun and its answer has not been handed out completely.
     pub fn is_busy(&self) -> bool {
-        !self.is_between_commands() || !self.answers.is_empty() || self.reading.1 != self.reading.2
+        !self.is_between_commands() || !self.answers.is_empty() || self.reading.left != 0
     }
 
     /// Whether the next word begins a command.
@@ -179,6 +173,14 @@ impl CommandModel {
                     self.take_read(range, first, word);
                     after
                 }
+                Awaited::RunCount(kind) => {
+                    self.begin_run(kind, word);
+                    after
+                }
+                Awaited::Items(run) => {
+                    self.take_item_word(run, word);
+                    after
+                }
             };
         }
     }
@@ -199,50 +201,18 @@ impl CommandModel {
         filled
     }
 
-    /// Turns the next records of the range being read into words; false if none is left.
-    ///
-    /// Only a window is converted at a time, so reading a large mesh takes no memory of the mesh's size. The window has
-    /// an even number of records, so that its ids fill whole words.
-    fn read_on(&mut self) -> bool {
-        const WINDOW: u32 = 4096;
-        let (range, first, end) = self.reading;
-        if first == end {
-            return false;
-        }
-        let stop = end.min(first.saturating_add(WINDOW));
-        let records = &self.mesh.records()[first as usize..stop as usize];
-        match range {
-            Range::Records => {
-                for record in records {
-                    let words = self.layout.record_to_words(record.v, record.n, false);
-                    self.answers.extend(&words[..self.layout.record_words]);
-                }
-            }
-            Range::Vertices => {
-                let length = self.layout.triangles_words(stop - first).unwrap_or(0);
-                let mut words = vec![0; length as usize];
-                for (place, record) in records.iter().enumerate() {
-                    self.layout.vertices_to_words(record.v, &mut words, place);
-                }
-                self.answers.extend(words);
-            }
-        }
-        self.reading.1 = stop;
-        true
-    }
-
-    /// Converts the rest of the range being read, before another answer or a change of the mesh.
-    fn finish_reading(&mut self) {
-        while self.read_on() {}
-    }
-
     fn take_command(&mut self, word: u32) {
         if word == protocol::PADDING {
             return;
         }
         self.finish_reading();
         let opcode = protocol::command_opcode(word);
-        match Opcode::from_u8(opcode) {
+        let known = if self.identity.features & protocol::FEATURE_RUNS == 0 {
+            Opcode::of_every_device(opcode)
+        } else {
+            Opcode::from_u8(opcode)
+        };
+        match known {
             Some(Opcode::Hello) => {
                 let words = self.identity.to_words();
                 self.answer(opcode, Status::Ok, &words);
@@ -257,6 +227,10 @@ impl CommandModel {
             }
             // In the model by commands, insertions take no time.
             Some(Opcode::Latencies) => self.answer(opcode, Status::Ok, &[0; protocol::LATENCY_BUCKETS]),
+            Some(other) => match RunKind::of(other) {
+                Some(kind) => self.awaited = Awaited::RunCount(kind),
+                None => self.answer(opcode, Status::UnknownOpcode, &[]),
+            },
             None => self.answer(opcode, Status::UnknownOpcode, &[]),
         }
     }
@@ -335,10 +309,10 @@ impl CommandModel {
         let counts = self.mesh.counts();
         let report = InsertReport {
             arrived: counts.arrived,
-            inserted: counts.insertions,
+            inserted: self.mesh.vertices(),
             duplicates: counts.duplicates,
             refused: counts.refused,
-            records: self.mesh.records().len() as u32,
+            records: self.mesh.live_records(),
         };
         let status = match (self.mesh.is_collinear(), counts.refused) {
             (true, _) => Status::Collinear,
@@ -346,21 +320,6 @@ impl CommandModel {
             (false, _) => Status::Full,
         };
         self.answer(Opcode::Insert as u8, status, &report.to_words());
-    }
-
-    fn take_read(&mut self, range: Range, first: u32, count: u32) {
-        let records = self.mesh.records().len() as u32;
-        let (opcode, length) = match range {
-            Range::Records => (Opcode::Read as u8, count.checked_mul(self.layout.record_words as u32)),
-            Range::Vertices => (Opcode::Triangles as u8, self.layout.triangles_words(count)),
-        };
-        match (first.checked_add(count), length) {
-            (Some(end), Some(length)) if end <= records => {
-                self.begin_answer(opcode, Status::Ok, length);
-                self.reading = (range, first, end);
-            }
-            _ => self.answer(opcode, Status::BadRange, &[]),
-        }
     }
 
     fn counter_words(&self) -> [u32; protocol::COUNTER_WORDS] {

@@ -23,4 +23,4 @@ pub mod udp;
 pub use chip::ChipModel;
 pub use clock::{Activity, ClockModel, ContextView, Defect, Inputs, Outputs, VisitView, Write};
 pub use command::{CommandModel, ModelError};
-pub use mesh::{Approach, Counts, Insertion, Mesh, Record};
+pub use mesh::{Approach, Changed, Counts, Insertion, Mesh, Record};

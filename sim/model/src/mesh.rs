@@ -3,6 +3,11 @@
 
 mod approach;
 mod cavity;
+mod change;
+mod filling;
+mod free;
+mod hole;
+mod question;
 mod record;
 mod solo;
 mod star;
@@ -11,7 +16,9 @@ mod walk;
 use crate::predicate::{orient2d, Point};
 pub use approach::Approach;
 use cavity::Cavity;
-use incircle_protocol::infinite_vertex;
+use free::FreeRecords;
+use hole::Hole;
+use incircle_protocol::{infinite_vertex, Outcome};
 pub use record::Record;
 
 /// Number of records of a first triangle: the triangle and three ghost triangles.
@@ -29,6 +36,9 @@ pub enum Insertion {
     /// The point was refused: the memory is full, or the first three points were collinear.
     Refused,
 }
+
+/// What a change of a standing mesh did: its outcome, and the vertex that the answer names.
+pub type Changed = (Outcome, u32);
 
 /// Numbers of events since the last clear; see `incircle_protocol::Counter`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -52,12 +62,18 @@ pub struct Mesh {
     infinite: u32,
     points: Vec<Point>,
     records: Vec<Record>,
+    /// For each point that has arrived, whether it is a vertex of the mesh.
+    is_vertex: Vec<bool>,
+    free: FreeRecords,
     /// The hint of each job: the record at which its next walk starts, which holds the point that was inserted or found
     /// last. There is one job unless a batch is in progress.
     starts: Vec<u32>,
     collinear: bool,
     counts: Counts,
+    /// Number of vertices taken out of the mesh since the last clear; those that were put back by a move count.
+    deletions: u32,
     cavity: Cavity,
+    hole: Hole,
 }
 
 impl Mesh {
@@ -68,10 +84,14 @@ impl Mesh {
             infinite: infinite_vertex(capacity),
             points: Vec::new(),
             records: Vec::new(),
+            is_vertex: Vec::new(),
+            free: FreeRecords::default(),
             starts: vec![0],
             collinear: false,
             counts: Counts::default(),
+            deletions: 0,
             cavity: Cavity::new(ring_capacity),
+            hole: Hole::default(),
         }
     }
 
@@ -85,15 +105,38 @@ impl Mesh {
     pub fn clear_for(&mut self, jobs: u32) {
         self.points.clear();
         self.records.clear();
+        self.is_vertex.clear();
+        self.free.clear();
         // Ids of the first records of each job, which exist as soon as the job has three points.
         self.starts = (0..jobs.max(1)).map(|job| SEED_RECORDS * job).collect();
         self.collinear = false;
         self.counts = Counts::default();
+        self.deletions = 0;
     }
 
-    /// All records, in the order of their ids. There are none before the third point.
+    /// All records, in the order of their ids, the free ones included. There are none before the third point.
     pub fn records(&self) -> &[Record] {
         &self.records
+    }
+
+    /// Number of records that are not free: `2 n - 2` for `n` vertices.
+    pub fn live_records(&self) -> u32 {
+        self.records.len() as u32 - self.free.len()
+    }
+
+    /// Whether a record is free: its triangle was deleted, and no other has its id yet.
+    pub fn is_free(&self, record: &Record) -> bool {
+        record.v == [self.infinite; 3]
+    }
+
+    /// Number of vertices of the mesh; from the third point on the first two count.
+    pub fn vertices(&self) -> u32 {
+        self.counts.insertions - self.deletions
+    }
+
+    /// Whether there is one mesh to ask and to change: three points span a triangle, and no batch is in progress.
+    pub fn can_change(&self) -> bool {
+        self.starts.len() == 1 && !self.records.is_empty()
     }
 
     /// Numbers of events since the last clear.
@@ -137,6 +180,7 @@ impl Mesh {
         let id = self.counts.arrived;
         self.counts.arrived += 1;
         self.points.push(p);
+        self.is_vertex.push(false);
         Some(id)
     }
 
@@ -158,6 +202,7 @@ impl Mesh {
             Record { v: [b, a, inf], n: [id(2), id(1), id(0)] },
         ]);
         self.counts.insertions += 3;
+        self.is_vertex[first as usize..first as usize + 3].fill(true);
         Insertion::Inserted
     }
 
@@ -183,7 +228,18 @@ impl Mesh {
             self.insert_solo(id, p, root);
         }
         self.counts.insertions += 1;
+        self.is_vertex[id as usize] = true;
         Insertion::Inserted
+    }
+
+    /// The id for a record beyond those that an insertion replaces: a free one, or one that no record has had.
+    fn new_record(&mut self) -> u32 {
+        // So many records are there when the memory is full of vertices.
+        let are_all_used = self.records.len() as u32 >= 2 * self.capacity - 2;
+        self.free.take(are_all_used).unwrap_or_else(|| {
+            self.records.push(Record::default());
+            self.records.len() as u32 - 1
+        })
     }
 
     /// The slot of the infinite vertex in a ghost triangle, or `None` for a finite triangle.

@@ -79,7 +79,14 @@ impl NullDevice {
             Command::Read(_) | Command::Triangles(_) | Command::Counters | Command::Latencies => {
                 self.answer(command.opcode(), &[], command.payload_words(self.layout) as usize);
             }
+            // The identity does not offer runs.
+            Command::Run { kind, .. } => self.refuse(kind.opcode() as u8),
         }
+    }
+
+    fn refuse(&mut self, opcode: u8) {
+        let head = [answer_header(opcode, Status::UnknownOpcode)].into();
+        self.answers.push_back(Answer { head, zeros: self.beat - WORD });
     }
 
     /// Answers an `Insert` whose points have all come.
@@ -118,10 +125,7 @@ impl Beats for NullDevice {
             rest = after;
             match self.commands.take(u32::from_le_bytes(*word)) {
                 Some(Ok(command)) => self.begin(command),
-                Some(Err(opcode)) => self.answers.push_back(Answer {
-                    head: [answer_header(opcode, Status::UnknownOpcode)].into(),
-                    zeros: self.beat - WORD,
-                }),
+                Some(Err(opcode)) => self.refuse(opcode),
                 None => {}
             }
         }

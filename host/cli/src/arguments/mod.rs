@@ -90,7 +90,7 @@ pub enum Command {
     Tile(TileArguments),
     /// Carry out a script of changes and questions on a mesh that lives
     ///
-    /// The CPU makes all changes and answers all questions. A back end other than 'cpu' only makes
+    /// The back ends 'cpu' and 'model' make all changes and answer all questions. Any other only makes
     /// the mesh at the end, from the points that live then; the bytes are the same.
     #[command(verbatim_doc_comment, after_help = help::REPLAY, after_long_help = help::REPLAY_LONG)]
     Replay(ReplayArguments),

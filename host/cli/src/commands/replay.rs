@@ -14,8 +14,8 @@ use crate::formats::MeshFormat;
 use crate::lattice::{self, Laid, Numbers};
 use crate::output::{self, Output, Written};
 use crate::path::{self, is_standard};
-use crate::progress::CountMeter;
-use crate::script::{self, Answer, Film, Played, Script, FORMS};
+use crate::player::{self, Player};
+use crate::script::{self, Answer, Film, Script, FORMS};
 use crate::watch::{seconds_json, total, Watch};
 use crate::{interrupt, solve, source};
 
@@ -40,20 +40,27 @@ pub fn run(arguments: &ReplayArguments) -> Result<(), Failure> {
     watch.ended("quantise");
     // A device that cannot be opened ends the run before the work.
     let mut film = arguments.film.is_some().then(|| Film::plan(&script, arguments.frames)).transpose()?;
-    let mut device = open(&choice, &numbers, arguments)?;
+    let mut device = open(&choice, &numbers, script.most_living, arguments)?;
     watch.ended("open");
-    let played = play(&script, &laid.numbers, film.as_mut(), device.is_none(), arguments.quiet)?;
+    let player = Player { script: &script, film: film.as_mut(), quiet: arguments.quiet };
+    let lives = device.as_mut().map_or(Ok(false), |device| player::keeps_living_meshes(device, check_bits))?;
+    let played = match (&mut device, &laid.numbers) {
+        (Some(device), Numbers::Grid(points)) if lives => player.play_on(device, points, &arguments.job),
+        (device, numbers) => player.play(numbers, device.is_none()),
+    };
+    let played = played.map_err(in_file)?;
     watch.ended("replay");
     let mesh = match &mut device {
-        Some(device) => {
+        Some(device) if !lives => {
             let solved = solve::triangulate(device, &numbers, check_bits, &arguments.job, arguments.quiet);
             solved.map_err(in_file)?.0
         }
-        None => played.mesh,
+        _ => played.mesh,
     };
     watch.ended("triangulate");
-    let told = Told { script: &script, laid: &laid, mesh: &mesh, living: living.len(), device, film: film.as_ref() };
-    let written = outputs.write(&script, &living, &mesh, &played.answers, film.as_ref())?;
+    let (living_count, film) = (living.len(), film.as_ref());
+    let told = Told { script: &script, laid: &laid, mesh: &mesh, living: living_count, device, lives, film };
+    let written = outputs.write(&script, &living, &mesh, &played.answers, film)?;
     watch.ended("write");
     output::finish(written, || told.tell(arguments, &watch.stages))
 }
@@ -80,31 +87,20 @@ fn check_bits(laid: &Laid<'_>, bits: u32, device: &str) -> Result<(), Failure> {
     })
 }
 
-/// Opens the device that makes the mesh at the end; `None` for the back end `cpu`, where the triangulation that takes
-/// the changes gives the mesh.
-fn open(choice: &Choice, living: &Numbers<'_>, arguments: &ReplayArguments) -> Result<Option<Backend>, Failure> {
-    let room = choice.room_for(living);
+/// Opens the device of the run; `None` for the back end `cpu`, where the triangulation that takes the changes gives the
+/// mesh. `most_living` is the most points that live at one time.
+fn open(
+    choice: &Choice,
+    living: &Numbers<'_>,
+    most_living: usize,
+    arguments: &ReplayArguments,
+) -> Result<Option<Backend>, Failure> {
+    // A model keeps the mesh throughout.
+    let is_model = matches!(choice.address, DeviceAddress::Model { .. });
+    let room = if is_model { most_living } else { choice.room_for(living) };
     let backend = backend::open_with_room(choice, Some(room), None, arguments.job.timeout)?;
     backend.check_job(&arguments.job)?;
     Ok(Some(backend).filter(|backend| !backend.takes_all_numbers()))
-}
-
-/// Carries out a script on the numbers of its places.
-fn play(
-    script: &Script,
-    numbers: &Numbers<'_>,
-    film: Option<&mut Film>,
-    wants_mesh: bool,
-    quiet: bool,
-) -> Result<Played, Failure> {
-    let meter = CountMeter::new(script.commands.len() as u64, "replaying", "commands", quiet);
-    let played = interrupt::working(|| match numbers {
-        Numbers::Grid(points) => script::play(script, points, film, wants_mesh, &meter),
-        Numbers::Whole(points) => script::play(script, points, film, wants_mesh, &meter),
-        Numbers::Doubles(points) => script::play(script, points, film, wants_mesh, &meter),
-    });
-    interrupt::check()?;
-    played
 }
 
 /// The outputs of a run, checked before the work.
@@ -179,6 +175,8 @@ struct Told<'a> {
     living: usize,
     /// The device that made the mesh; `None` for the back end `cpu`.
     device: Option<Backend>,
+    /// Whether the device took the changes and the questions as well.
+    lives: bool,
     film: Option<&'a Film>,
 }
 
@@ -205,13 +203,18 @@ impl Told<'_> {
             "duplicates": self.mesh.duplicates.len(),
             "triangles": self.mesh.triangles.len(),
             "hull": self.mesh.hull.len(),
-            "changes_by": "cpu",
-            "mesh_by": self.device.as_ref().map_or("cpu", |device| device.name),
+            "changes_by": if self.lives { self.mesh_by() } else { "cpu" },
+            "mesh_by": self.mesh_by(),
             "config": self.device.as_ref().and_then(|device| device.config).map(|config| config.name),
             "lattice": self.laid.to_json(),
             "film": self.film.map(|film| json!({ "frames": film.frames.len(), "commands_per_frame": film.every })),
             "seconds": seconds_json(stages),
         })
+    }
+
+    /// The name of the back end that made the mesh.
+    fn mesh_by(&self) -> &'static str {
+        self.device.as_ref().map_or("cpu", |device| device.name)
     }
 
     fn lines(&self, stages: &[(&'static str, Duration)]) -> Vec<String> {
@@ -225,10 +228,10 @@ impl Told<'_> {
             let every = counted(film.every, "command");
             format!("film: {}, one after every {every}", counted(film.frames.len(), "frame"))
         }));
-        let by = self
-            .device
-            .as_ref()
-            .map_or_else(|| "cpu".to_owned(), |device| format!("changes and answers by cpu, mesh by {}", device.name));
+        let by = match self.mesh_by() {
+            device if self.lives || device == "cpu" => device.to_owned(),
+            device => format!("changes and answers by cpu, mesh by {device}"),
+        };
         lines.push(format!(
             "{}, {}, {} on the hull; {by}, {:.3} s",
             counted(self.living, "living point"),

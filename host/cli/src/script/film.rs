@@ -1,7 +1,6 @@
 //! The frames of a film of a script.
 
-use incircle::living::Triangulation;
-use incircle::PlanePoint;
+use incircle::{Error, LivingMesh, PlanePoint};
 
 use super::{Command, Script};
 use crate::failure::Failure;
@@ -83,18 +82,22 @@ impl Film {
     }
 
     /// Adds the frame after so many commands.
-    pub fn take<P: PlanePoint>(&mut self, mesh: &Triangulation<P>, done: usize) {
-        let place = |index: u32| self.place_of[index as usize];
+    pub fn take<P: PlanePoint>(&mut self, mesh: &mut impl LivingMesh<P>, done: usize) -> Result<(), Error> {
+        let (indices, mesh) = (mesh.indices(), mesh.mesh()?);
+        let place = |rank: u32| self.place_of[indices[rank as usize] as usize];
+        let mut is_vertex = vec![true; indices.len()];
+        mesh.duplicates.iter().for_each(|duplicate| is_vertex[duplicate.index as usize] = false);
         let skipped = self.asked.len().saturating_sub(MOST_ASKED);
         let frame = Frame {
             commands: done,
-            living: mesh.len(),
-            triangles: mesh.triangles().map(|triangle| triangle.map(place)).collect(),
-            hull: mesh.hull().map(place).collect(),
-            points: mesh.vertices().map(place).collect(),
+            living: indices.len(),
+            triangles: mesh.triangles.iter().map(|triangle| triangle.map(place)).collect(),
+            hull: mesh.hull.iter().copied().map(place).collect(),
+            points: (0u32..).zip(is_vertex).filter(|vertex| vertex.1).map(|vertex| place(vertex.0)).collect(),
             asked: self.asked[skipped..].to_vec(),
         };
         self.asked.clear();
         self.frames.push(frame);
+        Ok(())
     }
 }

@@ -1,13 +1,12 @@
 //! Carrying out a script on a mesh that lives.
 
-use incircle::living::{Error, Triangulation};
-use incircle::PlanePoint;
+use incircle::{Error, LivingMesh, PlanePoint};
 
 use super::answer::Answer;
 use super::film::Film;
 use super::{Command, Script};
 use crate::connections::Connections;
-use crate::failure::{Exit, Failure};
+use crate::failure::{failure_of, Failure};
 use crate::interrupt;
 use crate::progress::CountMeter;
 
@@ -23,20 +22,21 @@ pub struct Played {
     pub mesh: Connections,
 }
 
-/// Carries out a script. `points` are its places in the numbers in which they are triangulated.
+/// Carries out a script on a mesh without points. `points` are its places in the numbers in which they are triangulated.
 ///
 /// The frames of the script are added to `film`, if there is one. The mesh at the end is made only if `wants_mesh`.
 /// Without a film, the insertions at the start of a script are made in one step, which takes a fraction of the time.
 pub fn play<P: PlanePoint>(
     script: &Script,
     points: &[P],
+    mesh: &mut impl LivingMesh<P>,
     mut film: Option<&mut Film>,
     wants_mesh: bool,
     meter: &CountMeter,
 ) -> Result<Played, Failure> {
     let is_insertion = |command: &&Command| **command == Command::Insert;
     let lead = if film.is_some() { 0 } else { script.commands.iter().take_while(is_insertion).count() };
-    let mut mesh = Triangulation::from(points[..lead].iter().copied()).map_err(failure_of)?;
+    mesh.insert_all(&points[..lead]).map_err(|error| failure_at(&error, mesh.next_index() as usize))?;
     meter.advance(lead as u64);
     let mut answers = Vec::new();
     let mut place = lead;
@@ -50,21 +50,25 @@ pub fn play<P: PlanePoint>(
                 film.note(command, place as u32);
             }
             place += usize::from(command.has_place());
-            answers.extend(step(&mut mesh, command, point).map_err(failure_of)?);
+            answers.extend(step(mesh, command, point).map_err(|error| failure_at(&error, done))?);
             done += 1;
             if let Some(film) = film.as_deref_mut().filter(|film| film.is_due(done)) {
-                film.take(&mesh, done);
+                film.take(mesh, done).map_err(|error| failure_of(&error))?;
             }
         }
         meter.advance(slice.len() as u64);
     }
-    let mesh = if wants_mesh { Connections::of_mesh(mesh.mesh()) } else { Connections::default() };
+    let mesh = if wants_mesh {
+        Connections::of_mesh(mesh.mesh().map_err(|error| failure_of(&error))?)
+    } else {
+        Connections::default()
+    };
     Ok(Played { answers, mesh })
 }
 
 /// Carries out a command, and returns the answer to a question. `point` is the place of the command, if it has one.
 fn step<P: PlanePoint>(
-    mesh: &mut Triangulation<P>,
+    mesh: &mut impl LivingMesh<P>,
     command: Command,
     point: Option<P>,
 ) -> Result<Option<Answer>, Error> {
@@ -72,15 +76,16 @@ fn step<P: PlanePoint>(
         (Command::Insert, Some(point)) => mesh.insert(point).map(|_| None),
         (Command::Delete(index), _) => mesh.delete(index).map(|()| None),
         (Command::Move(index), Some(point)) => mesh.move_to(index, point).map(|()| None),
-        (Command::Locate, Some(point)) => Ok(Some(Answer::Located(mesh.locate(point)))),
-        (Command::Nearest, Some(point)) => Ok(Some(Answer::Nearest(mesh.nearest(point)))),
+        (Command::Locate, Some(point)) => Ok(Some(Answer::Located(mesh.locate(point)?))),
+        (Command::Nearest, Some(point)) => Ok(Some(Answer::Nearest(mesh.nearest(point)?))),
         // The reader gives each such command a place.
         (_, None) => Ok(None),
     }
 }
 
-/// The failure of a change. The reader refuses all that the triangulation would refuse, so there is none but by a fault
-/// in the program.
-fn failure_of(error: Error) -> Failure {
-    Failure::new(Exit::Capacity, error.to_string())
+/// The failure of the command with this number, counted from 0. The reader refuses all that no triangulation takes, so
+/// what is left is a memory that is full, and faults of a device.
+fn failure_at(error: &Error, number: usize) -> Failure {
+    let failure = failure_of(error);
+    Failure { message: format!("command {}: {}", number + 1, failure.message), ..failure }
 }

@@ -1,5 +1,6 @@
 //! Tests that no bytes make the reader of scripts, or a replay, panic.
 
+use incircle::Triangulation;
 use incircle_testkit::SplitMix64;
 
 use super::{play, read, Film, Recipe, Script, ScriptWriter, FORMS};
@@ -39,9 +40,9 @@ fn replay(script: &Script) {
     let mut film = Film::plan(script, Some(7)).expect("few points");
     let meter = CountMeter::new(0, "", "", true);
     let played = match &laid.numbers {
-        Numbers::Grid(points) => play(script, points, Some(&mut film), true, &meter),
-        Numbers::Whole(points) => play(script, points, Some(&mut film), true, &meter),
-        Numbers::Doubles(points) => play(script, points, Some(&mut film), true, &meter),
+        Numbers::Grid(points) => play(script, points, &mut Triangulation::new(), Some(&mut film), true, &meter),
+        Numbers::Whole(points) => play(script, points, &mut Triangulation::new(), Some(&mut film), true, &meter),
+        Numbers::Doubles(points) => play(script, points, &mut Triangulation::new(), Some(&mut film), true, &meter),
     };
     let played = played.expect("the reader checked all commands");
     let counts = script.counts();

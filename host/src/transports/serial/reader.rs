@@ -324,6 +324,8 @@ impl Exchange {
             }
             // Parts of an answer are asked for again, and a part of packed triangles may end within a word.
             Command::Triangles(_) => return Err(SerialFault::Command("the serial link only reads whole records")),
+            // A question is sent again if its answer is lost, and would change the mesh twice.
+            Command::Run { .. } => return Err(SerialFault::Command("the serial link takes no runs")),
             // Inserting no points brings the report of the points before them once more.
             Command::Insert { .. } => Command::Insert { count: 0, points: [] },
             command => command.map(|()| []),

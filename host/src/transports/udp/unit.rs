@@ -106,6 +106,8 @@ impl Unit {
                 Command::Insert { .. } if command.points().len() as u64 != command.point_words(layout) => {
                     return Err(UdpFault::Command("the points of this command are laid out for another device"));
                 }
+                // A question is sent again if its answer is lost, and would change the mesh twice.
+                Command::Run { .. } => return Err(UdpFault::Command("the UDP link takes no runs")),
                 &Command::Read(range) | &Command::Triangles(range) => {
                     questions_of(index, command, range, layout, &mut self.questions)?;
                 }

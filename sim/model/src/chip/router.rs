@@ -98,7 +98,7 @@ impl JobRouter {
         self.state = match self.state {
             State::Command => {
                 self.opcode = command_opcode(word);
-                match Opcode::from_u8(self.opcode) {
+                match Opcode::of_every_device(self.opcode) {
                     Some(Opcode::Insert) => State::Count,
                     Some(Opcode::Read | Opcode::Triangles) => State::First,
                     _ => State::Command,

@@ -47,7 +47,7 @@ impl Answer {
 /// Status and payload length of the answer to the command in the command port.
 fn head(was: &Registers) -> (Status, u32) {
     let command = &was.command;
-    match Opcode::from_u8(command.opcode) {
+    match Opcode::of_every_device(command.opcode) {
         Some(Opcode::Hello) => (Status::Ok, protocol::IDENTITY_WORDS as u32),
         Some(Opcode::Clear) if command.is_refused => (Status::BadContexts, 0),
         Some(Opcode::Clear) => (Status::Ok, 0),
@@ -72,13 +72,13 @@ fn head(was: &Registers) -> (Status, u32) {
                 (Status::BadRange, 0)
             }
         }
-        None => (Status::UnknownOpcode, 0),
+        Some(_) | None => (Status::UnknownOpcode, 0),
     }
 }
 
 /// A word of a payload other than a read-out.
 fn payload(was: &Registers, latencies: &Latencies, config: Config, index: usize) -> u32 {
-    match Opcode::from_u8(was.command.opcode) {
+    match Opcode::of_every_device(was.command.opcode) {
         Some(Opcode::Hello) => Identity {
             magic: protocol::MAGIC,
             protocol_version: protocol::PROTOCOL_VERSION,
@@ -88,6 +88,7 @@ fn payload(was: &Registers, latencies: &Latencies, config: Config, index: usize)
             contexts: config.contexts,
             engines: config.engines,
             ring_capacity: config.ring,
+            features: 0,
         }
         .to_words()[index],
         Some(Opcode::Insert) => InsertReport {

@@ -153,7 +153,7 @@ impl CommandPort {
                 jobs => Check { contexts, jobs, sum: 0 },
             });
         }
-        self.state = match Opcode::from_u8(opcode) {
+        self.state = match Opcode::of_every_device(opcode) {
             Some(Opcode::Insert) => State::Count,
             Some(Opcode::Read | Opcode::Triangles) => State::First,
             _ => State::Answer,

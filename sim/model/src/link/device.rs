@@ -119,5 +119,6 @@ pub fn core_identity(config: Config) -> Identity {
         contexts: config.contexts,
         engines: config.engines,
         ring_capacity: config.ring,
+        features: 0,
     }
 }

@@ -65,6 +65,11 @@ impl Cavity {
         }
     }
 
+    /// Number of entries for which the list has room.
+    pub(super) fn capacity(&self) -> usize {
+        self.capacity.into()
+    }
+
     pub(super) fn start(&mut self, root: u32, n: [u32; 3]) {
         self.queue.clear();
         self.inner.clear();

@@ -46,12 +46,11 @@ impl Mesh {
 
     /// Replaces `root` by three triangles at `p`, and corrects the neighbours outside at once.
     fn split(&mut self, p: u32, root: u32, old: &Record) {
-        let second = self.records.len() as u32;
-        let third = second + 1;
+        let (second, third) = (self.new_record(), self.new_record());
         let [v0, v1, v2] = old.v;
         self.records[root as usize] = Record { v: [p, v1, v2], n: [old.n[0], second, third] };
-        self.records.push(Record { v: [p, v2, v0], n: [old.n[1], third, root] });
-        self.records.push(Record { v: [p, v0, v1], n: [old.n[2], root, second] });
+        self.records[second as usize] = Record { v: [p, v2, v0], n: [old.n[1], third, root] };
+        self.records[third as usize] = Record { v: [p, v0, v1], n: [old.n[2], root, second] };
         for (outer, id) in [(old.n[1], second), (old.n[2], third)] {
             let slot = self.records[outer as usize].slot_of(root);
             self.records[outer as usize].n[slot] = id;

@@ -44,13 +44,7 @@ impl Mesh {
     pub(super) fn commit(&mut self, p: u32) {
         let cavity = std::mem::replace(&mut self.cavity, Cavity::new(0));
         self.counts.cavity_triangles += u32::from(cavity.count) - 2;
-        let mut inner = cavity.inner.iter();
-        let mut fresh = |records: &mut Vec<Record>| {
-            inner.next().copied().unwrap_or_else(|| {
-                records.push(Record::default());
-                records.len() as u32 - 1
-            })
-        };
+        let mut inner = cavity.inner.iter().copied();
         let first = cavity.entries[0];
         let first_id = first.cavity_record;
         let (mut entry, mut id) = (cavity.entries[usize::from(first.after)], 0);
@@ -63,7 +57,7 @@ impl Mesh {
         let mut pending = None::<(Entry, u32, u32)>;
         while !is_last {
             id = if entry.cavity_record == before_record || entry.cavity_record == first.cavity_record {
-                fresh(&mut self.records)
+                inner.next().unwrap_or_else(|| self.new_record())
             } else {
                 entry.cavity_record
             };

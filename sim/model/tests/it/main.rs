@@ -4,6 +4,7 @@
 mod common;
 
 mod protocol_readme;
+mod runs;
 
 mod clock {
     mod batch;
@@ -19,6 +20,7 @@ mod clock {
 
 mod mesh {
     mod approach;
+    mod changes;
     mod insertion;
 }
 

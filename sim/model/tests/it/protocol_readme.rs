@@ -3,7 +3,7 @@
 
 use incircle_model::{ClockModel, CommandModel, Inputs};
 use incircle_protocol::{
-    answer_opcode, answer_status, latency_bucket, latency_of_bucket, Config, Counter, Layout, Opcode, Status,
+    answer_opcode, answer_status, latency_bucket, latency_of_bucket, Config, Counter, Layout, Opcode, Outcome, Status,
     CORE_COORD_BITS, COUNTER_WORDS, FIRST_ROUND, LATENCY_BUCKETS, PROTOCOL_VERSION, SMALL, TINY,
 };
 use std::collections::BTreeSet;
@@ -19,6 +19,8 @@ struct Exchange {
     capacity: u32,
     ring: u32,
     contexts: u32,
+    /// Whether the device takes runs, which no core does.
+    runs: bool,
     steps: Vec<Step>,
 }
 
@@ -57,6 +59,7 @@ fn exchange(block: &str) -> Exchange {
         capacity: parameter(heading, "capacity"),
         ring: parameter(heading, "ring"),
         contexts: if heading.contains("contexts=") { parameter(heading, "contexts") } else { 1 },
+        runs: heading.split_whitespace().any(|word| word == "runs"),
         steps,
     }
 }
@@ -73,8 +76,11 @@ fn hex(words: &[u32]) -> String {
 
 #[test]
 fn the_model_by_commands_says_it() {
-    for Exchange { coord_bits, capacity, ring, contexts, steps } in exchanges() {
+    for Exchange { coord_bits, capacity, ring, contexts, runs, steps } in exchanges() {
         let mut model = CommandModel::new(coord_bits, capacity, ring).expect("possible").with_contexts(contexts);
+        if runs {
+            model = model.with_runs();
+        }
         for (sent, expected) in steps {
             model.send(&sent);
             let mut said = vec![0; expected.len() + 100];
@@ -139,7 +145,7 @@ fn forget_clocks(said: &mut [u32]) -> u64 {
 fn a_core_with_as_many_contexts_says_it() {
     let (mut replayed, mut clocks) = (0, 0);
     for exchange in exchanges() {
-        if exchange.coord_bits != CORE_COORD_BITS {
+        if exchange.coord_bits != CORE_COORD_BITS || exchange.runs {
             continue;
         }
         let config = Config { points: exchange.capacity, ring: exchange.ring, contexts: exchange.contexts, ..TINY };
@@ -166,8 +172,8 @@ fn every_opcode_status_and_layout_is_shown() {
             statuses.insert(answer_status(answer[0]));
         }
     }
-    assert_eq!(opcodes, BTreeSet::from([1, 2, 3, 4, 5, 6, 7]));
-    assert_eq!(statuses, BTreeSet::from([0, 1, 2, 3, 4, 5]));
+    assert_eq!(opcodes, (1..=13).collect());
+    assert_eq!(statuses, BTreeSet::from([0, 1, 2, 3, 4, 5, 7]));
     assert_eq!(record_words, BTreeSet::from([3, 6]));
     let small = &exchanges()[0];
     assert_eq!((small.capacity, small.ring), (SMALL.points, SMALL.ring));
@@ -178,6 +184,7 @@ fn the_tables_have_the_numbers_of_the_crate() {
     let mut rows: Vec<String> = Vec::new();
     rows.extend((0..=255).filter_map(Opcode::from_u8).map(|it| format!("| {} | `{it:?}` |", it as u8)));
     rows.extend((0..=255).filter_map(Status::from_u8).map(|it| format!("| {} | `{it:?}` |", it as u8)));
+    rows.extend((0..=255).filter_map(Outcome::from_u8).map(|it| format!("| {} | `{it:?}` |", it as u8)));
     use Counter::*;
     rows.extend(
         [

@@ -79,8 +79,7 @@ impl Asked {
 
     pub fn answer(&self) -> Answer {
         let end = u64::from(self.first) + u64::from(self.count);
-        let (status, length, payload) = match Opcode::from_u8(self.opcode) {
-            None => (Status::UnknownOpcode, 0, Some(vec![])),
+        let (status, length, payload) = match Opcode::of_every_device(self.opcode) {
             Some(Opcode::Clear) if self.is_refused => (Status::BadContexts, 0, Some(vec![])),
             Some(Opcode::Clear) => (Status::Ok, 0, Some(vec![])),
             Some(Opcode::Read | Opcode::Triangles) if end > u64::from(self.report.records) => {
@@ -112,6 +111,7 @@ impl Asked {
                     contexts: self.contexts,
                     engines: self.engines,
                     ring_capacity: self.ring,
+                    features: 0,
                 };
                 (Status::Ok, 7, Some(identity.to_words().to_vec()))
             }
@@ -127,6 +127,8 @@ impl Asked {
                 };
                 (status, 5, Some(self.report.to_words().to_vec()))
             }
+            // The core does not have the runs.
+            Some(_) | None => (Status::UnknownOpcode, 0, Some(vec![])),
         };
         Answer { opcode: self.opcode, status, length, payload }
     }

@@ -114,7 +114,7 @@ impl Reference {
                     let contexts = if asked == 0 { shape.contexts } else { asked };
                     self.checked = Some(check(contexts, word));
                 }
-                match Opcode::from_u8(opcode) {
+                match Opcode::of_every_device(opcode) {
                     Some(Opcode::Insert) => self.wants.push_back(Meaning::Count),
                     Some(Opcode::Read | Opcode::Triangles) => self.wants.extend([Meaning::First, Meaning::Count]),
                     _ => self.answers = true,

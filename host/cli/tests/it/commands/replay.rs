@@ -157,6 +157,37 @@ fn devices_make_the_same_mesh() {
 }
 
 #[test]
+fn the_model_keeps_the_mesh() {
+    let scratch = Scratch::new();
+    scratch.run("generate tracks -n 100 --frames 20 --seed 9 -o s.txt").ok();
+    scratch.run("replay s.txt -o cpu.ele --answers cpu.txt --film cpu.svg -q").ok();
+    let run = scratch.run("replay s.txt -o m.ele --answers m.txt --film m.svg --backend model --json").ok();
+    for (model, cpu) in [("m.ele", "cpu.ele"), ("m.txt", "cpu.txt"), ("m.svg", "cpu.svg")] {
+        assert!(scratch.read(model) == scratch.read(cpu), "{model}");
+    }
+    let report: Value = serde_json::from_str(&run.stdout).expect("JSON");
+    assert_eq!((&report["changes_by"], &report["mesh_by"]), (&"model".into(), &"model".into()));
+    let run = scratch.run("replay s.txt -o m.ele --backend model").ok();
+    assert!(run.stderr.contains(" on the hull; model, "), "{run:?}");
+}
+
+#[test]
+fn a_full_memory_ends_the_run() {
+    let scratch = Scratch::new();
+    let square = "insert 0 0\ninsert 9 0\ninsert 9 9\ninsert 0 9\n";
+    // A duplicate takes no room, and neither does a point in the place of a deleted one.
+    scratch.write("s.txt", format!("{square}insert 9 9\ndelete 0\ninsert 1 1\nmove 4 5 5\n"));
+    let full = "all 4 places that model can hold have points: delete some, or use a larger device";
+    let run = "replay s.txt -o m.ele --backend model?capacity=4";
+    scratch.run(run).fails(7, &["s.txt: command 8: ", full]);
+    scratch.write("s.txt", format!("{square}insert 5 5\n"));
+    scratch.run(run).fails(7, &["s.txt: command 5: ", full]);
+    scratch.write("s.txt", format!("{square}insert 9 9\ndelete 0\ninsert 1 1\nmove 4 1 1\nmove 1 8 1\n"));
+    scratch.run(run).ok();
+    scratch.run("verify s.txt m.ele --script -q").ok();
+}
+
+#[test]
 fn devices_refuse_what_they_cannot_hold() {
     let scratch = Scratch::new();
     // The question alone needs 17 bits.

@@ -3,5 +3,6 @@
 pub mod batches;
 pub mod bench;
 pub mod mesh_check;
+pub mod sphere;
 
 pub use incircle_testkit::{words as sets, Random32 as Random};

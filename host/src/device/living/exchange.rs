@@ -1,0 +1,130 @@
+//! Commands to a device with a mesh that lives, and the checks of its answers.
+
+use std::time::Duration;
+
+use incircle_protocol::{
+    infinite_vertex, part_item, part_outcome, Clear, Command, Identity, InsertReport, Layout, Located, Opcode, Outcome,
+    RecordRange, RunKind, INSERT_REPORT_WORDS,
+};
+
+use crate::device::backend::Backend;
+use crate::error::{DeviceFault, Error};
+use crate::job::assemble::Assembly;
+use crate::job::Options;
+use crate::limit::Limit;
+use incircle_geometry::Point;
+
+/// A device that takes runs.
+pub(super) struct LivingDevice<'d> {
+    backend: &'d mut dyn Backend,
+    pub(super) identity: Identity,
+    layout: Layout,
+    timeout: Option<Duration>,
+}
+
+/// The answer to the one item of a run: its outcome, and the words behind it.
+type Part = (Outcome, Located);
+
+impl<'d> LivingDevice<'d> {
+    pub(super) fn new(backend: &'d mut dyn Backend, identity: Identity, timeout: Option<Duration>) -> Self {
+        Self { backend, identity, layout: Layout::of(identity.coord_bits, identity.capacity), timeout }
+    }
+
+    pub(super) fn name(&self) -> String {
+        self.backend.name()
+    }
+
+    /// Makes the mesh of these points, which are different and begin with three that span a triangle. Their vertices
+    /// are 0, 1, 2 and so on.
+    pub(super) fn load(&mut self, points: &[Point], contexts: u32) -> Result<(), Error> {
+        let mut words = Vec::new();
+        self.exchange(Command::Clear(Clear::one_mesh(contexts)), points.len(), &mut words)?;
+        let mut sent = Vec::with_capacity(points.len() * self.layout.point_words);
+        points.iter().for_each(|&point| self.put_point(point, &mut sent));
+        self.exchange(Command::insert(&sent, self.layout), points.len(), &mut words)?;
+        let report = InsertReport::from_words(first_of::<INSERT_REPORT_WORDS>(&words));
+        let (count, records) = (points.len() as u32, 2 * points.len() as u32 - 2);
+        for (what, found, expected) in [
+            ("points inserted", report.inserted, count),
+            ("points arrived", report.arrived, count),
+            ("records", report.records, records),
+        ] {
+            if found != expected {
+                return Err(self.distrust(Opcode::Insert, DeviceFault::Count { what, found, expected }));
+            }
+        }
+        Ok(())
+    }
+
+    /// Does a run of one item, and returns its answer.
+    pub(super) fn ask(&mut self, kind: RunKind, vertex: Option<u32>, point: Option<Point>) -> Result<Part, Error> {
+        let (mut item, mut words) = (Vec::new(), Vec::new());
+        item.extend(vertex);
+        if let Some(point) = point {
+            self.put_point(point, &mut item);
+        }
+        self.exchange(Command::run(kind, &item, self.layout), 1, &mut words)?;
+        let head = words.first().copied().unwrap_or(u32::MAX);
+        match Outcome::from_u8(part_outcome(head)) {
+            Some(outcome) if part_item(head) == 0 => Ok((outcome, Located::from_words(words.get(1..).unwrap_or(&[])))),
+            _ => Err(self.distrust(kind.opcode(), DeviceFault::Part { item: 0, found: head })),
+        }
+    }
+
+    /// The triangles and the hull of the mesh, in canonical form. `ranks` has the index in `points` of each vertex of
+    /// the device that is in the mesh.
+    pub(super) fn read(&mut self, ranks: &[Option<u32>], points: &[Point]) -> Result<(Vec<[u32; 3]>, Vec<u32>), Error> {
+        let living: Vec<u32> = ranks.iter().copied().flatten().collect();
+        let records = 2 * living.len() as u32 - 2;
+        let mut words = Vec::new();
+        self.exchange(Command::Triangles(RecordRange { first: 0, count: records }), living.len(), &mut words)?;
+        self.assemble(ranks, &living, points, &words).map_err(|fault| self.distrust(Opcode::Triangles, fault))
+    }
+
+    /// Checks the records in the words, and makes the mesh of them.
+    fn assemble(
+        &self,
+        ranks: &[Option<u32>],
+        living: &[u32],
+        points: &[Point],
+        words: &[u32],
+    ) -> Result<(Vec<[u32; 3]>, Vec<u32>), DeviceFault> {
+        let infinite = infinite_vertex(self.identity.capacity);
+        // The number of each vertex among those that are in the mesh.
+        let mut numbers = vec![u32::MAX; ranks.len()];
+        let of_living = ranks.iter().zip(&mut numbers).filter(|(rank, _)| rank.is_some());
+        of_living.zip(0..).for_each(|((_, place), number)| *place = number);
+        let mut assembly = Assembly::new(living, points, self.identity.capacity);
+        for record in 0..2 * living.len() - 2 {
+            let vertices = self.layout.vertices_from_words(words, record);
+            let number = |vertex: u32| match numbers.get(vertex as usize) {
+                _ if vertex == infinite => Ok(infinite),
+                Some(&number) if number != u32::MAX => Ok(number),
+                _ => Err(DeviceFault::VertexOutOfRange { record, vertex, points: living.len() }),
+            };
+            let [a, b, c] = vertices;
+            assembly.take_vertices(record, [number(a)?, number(b)?, number(c)?])?;
+        }
+        assembly.finish()
+    }
+
+    /// Takes a wrong answer as a fault of the device, which is not asked again.
+    pub(super) fn distrust(&mut self, opcode: Opcode, fault: DeviceFault) -> Error {
+        self.backend.distrust(opcode, fault)
+    }
+
+    fn exchange(&mut self, command: Command<&[u32]>, points: usize, words: &mut Vec<u32>) -> Result<(), Error> {
+        let usual = || Options::default_timeout(points).saturating_mul(self.backend.slow());
+        let limit = Limit::of(self.timeout.unwrap_or_else(usual));
+        self.backend.exchange(command, words, limit)
+    }
+
+    fn put_point(&self, point: Point, words: &mut Vec<u32>) {
+        words.extend(&self.layout.point_to_words(point.x, point.y)[..self.layout.point_words]);
+    }
+}
+
+/// The first words of a payload, whose length has been checked.
+fn first_of<const N: usize>(words: &[u32]) -> [u32; N] {
+    std::array::from_fn(|place| words.get(place).copied().unwrap_or(0))
+}

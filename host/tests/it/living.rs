@@ -1,0 +1,227 @@
+//! A mesh that lives on a device against [`Triangulation`], which brute force holds: the same answers and the same
+//! meshes after every command, on sets that are full of ties.
+
+use incircle::living::{Error as Refusal, Location, Triangulation};
+use incircle::{Device, Error, ErrorKind, LivingMesh, LivingSession, Point};
+use incircle_testkit::SplitMix64;
+
+/// The places of a script: small lattices, lines, points of a circle.
+fn places(random: &mut SplitMix64) -> Vec<Point> {
+    let side = 2 + random.below_u32(5);
+    match random.below(8) {
+        0 => (0..8).map(|k| Point::new(2 * k, k)).collect(),
+        1 => (0..8).map(|k| Point::new(3, k)).chain([Point::new(1, 4), Point::new(4, 4)]).collect(),
+        2 => {
+            let far = [(0, 5), (3, 4), (4, 3), (5, 0)];
+            let all = far.iter().flat_map(|&(x, y)| [(x, y), (-x, y), (x, -y), (-x, -y), (0, 0)]);
+            all.map(|(x, y)| Point::new((5 + x) as u32, (5 + y) as u32)).collect()
+        }
+        _ => (0..side * side).map(|cell| Point::new(cell / side, cell % side)).collect(),
+    }
+}
+
+/// A script on a device and on the host.
+struct Script<'d> {
+    device: LivingSession<'d>,
+    host: Triangulation<Point>,
+    places: Vec<Point>,
+    capacity: usize,
+    log: Vec<String>,
+    refused: u32,
+}
+
+impl Script<'_> {
+    /// Number of different places with points.
+    fn count(&self) -> usize {
+        self.host.vertices().count()
+    }
+
+    fn load(&mut self, random: &mut SplitMix64) {
+        let points: Vec<Point> = (0..random.below(20)).map(|_| random.pick(&self.places)).collect();
+        self.log.push(format!("{points:?}"));
+        // A prefix goes in if the rest does not fit.
+        let result = self.device.insert_all(&points);
+        let taken = self.device.next_index() as usize;
+        self.host = Triangulation::from(points[..taken].iter().copied()).expect("a triangulation");
+        assert_eq!(result.is_ok(), taken == points.len());
+        assert!(result.is_ok() || self.count() == self.capacity, "{result:?}");
+    }
+
+    fn step(&mut self, random: &mut SplitMix64, growth: u64) {
+        let place = random.pick(&self.places);
+        let index = random.below_u32(self.host.next_index() + 1);
+        let is_full =
+            self.count() == self.capacity && self.host.indices().iter().all(|&k| self.host.point(k) != Some(place));
+        match random.below(10) {
+            action if action < growth => {
+                self.log.push(format!("insert {place}"));
+                match self.device.insert(place) {
+                    Ok(given) => assert_eq!(self.host.insert(place), Ok(given), "{:?}", self.log),
+                    Err(error) => self.refuse(&error, is_full),
+                }
+            }
+            8 | 9 => {
+                self.log.push(format!("move {index} {place}"));
+                match self.device.move_to(index, place) {
+                    Ok(()) => assert_eq!(self.host.move_to(index, place), Ok(()), "{:?}", self.log),
+                    Err(Error::Living(refusal)) => assert_eq!(self.host.move_to(index, place), Err(refusal)),
+                    Err(error) => self.refuse(&error, is_full),
+                }
+            }
+            _ => {
+                self.log.push(format!("delete {index}"));
+                match self.device.delete(index) {
+                    Ok(()) => assert_eq!(self.host.delete(index), Ok(()), "{:?}", self.log),
+                    Err(Error::Living(refusal)) => assert_eq!(self.host.delete(index), Err(refusal)),
+                    Err(error) => panic!("{error}: {:?}", self.log),
+                }
+            }
+        }
+    }
+
+    fn refuse(&mut self, error: &Error, is_full: bool) {
+        assert!(matches!(error, Error::MemoryFull { .. }) && is_full, "{error}: {:?}", self.log);
+        assert_eq!(error.kind(), ErrorKind::Capacity);
+        self.refused += 1;
+    }
+
+    fn check(&mut self, random: &mut SplitMix64) {
+        let mesh = self.device.mesh().unwrap_or_else(|error| panic!("{error}: {:?}", self.log));
+        assert_eq!(mesh, self.host.mesh(), "{:?}", self.log);
+        assert_eq!(self.device.indices(), self.host.indices());
+        for q in [random.pick(&self.places), Point::new(random.below_u32(9), random.below_u32(9))] {
+            let located = self.device.locate(q).expect("an answer");
+            assert_eq!(located, self.host.locate(q), "locate {q}: {:?}", self.log);
+            assert_eq!(self.device.nearest(q).expect("an answer"), self.host.nearest(q), "nearest {q}: {:?}", self.log);
+            self.check_weights(q, located);
+        }
+    }
+
+    /// The weights give the coordinates of the place, and are those of the corners that `locate` names.
+    fn check_weights(&mut self, q: Point, located: Location) {
+        let weights = self.device.weights(q).expect("an answer");
+        let mut named: Vec<u32> = weights.iter().map(|&(index, _)| index).collect();
+        named.sort_unstable();
+        let mut expected = match located {
+            Location::Vertex(one) => vec![one],
+            Location::Edge(ends) => ends.to_vec(),
+            Location::Triangle(corners) => corners.to_vec(),
+            Location::Outside(_) | Location::None => vec![],
+        };
+        if self.host.triangles().next().is_none() {
+            expected.clear();
+        }
+        expected.sort_unstable();
+        assert_eq!(named, expected, "weights {q}: {:?}", self.log);
+        let sum: u64 = weights.iter().map(|&(_, weight)| weight).sum();
+        let at = |index: u32| self.host.point(index).expect("a living point");
+        let mean = |axis: fn(Point) -> u32| weights.iter().map(|&(k, w)| w * u64::from(axis(at(k)))).sum::<u64>();
+        if sum > 0 {
+            assert_eq!([mean(|p| p.x), mean(|p| p.y)], [q.x, q.y].map(|value| sum * u64::from(value)));
+        }
+    }
+}
+
+/// Runs scripts, and returns how often the memory was full.
+fn run(seed: u64, scripts: usize) -> u32 {
+    let mut random = SplitMix64::new(seed);
+    let mut refused = 0;
+    for number in 0..scripts {
+        let capacity = [1 << 20, 6, 16][number % 3];
+        // Points of 20 bits take two words, and wide records six.
+        let bits = [4, 16, 20][number / 3 % 3];
+        let mut device = Device::model(bits, capacity).expect("a model");
+        let mut session = device.session().expect("a session");
+        let mut script = Script {
+            device: session.living().expect("the model takes runs"),
+            host: Triangulation::new(),
+            places: places(&mut random),
+            capacity: capacity as usize,
+            log: vec![],
+            refused: 0,
+        };
+        let growth = 2 + random.below(6);
+        if random.once_in(2) {
+            script.load(&mut random);
+        }
+        for _ in 0..5 + random.below(25) {
+            script.step(&mut random, growth);
+            script.check(&mut random);
+        }
+        refused += script.refused;
+    }
+    refused
+}
+
+#[test]
+fn ten_thousand_scripts_on_the_model_agree_with_the_host() {
+    let refused = run(251, 10_000);
+    assert!(refused > 100, "the memory was full {refused} times");
+}
+
+/// `INCIRCLE_SCRIPTS` says how many scripts run.
+#[test]
+#[ignore = "takes as long as the variable INCIRCLE_SCRIPTS says"]
+fn many_scripts_on_the_model_agree_with_the_host() {
+    let scripts = std::env::var("INCIRCLE_SCRIPTS").ok().and_then(|text| text.parse().ok());
+    run(252, scripts.unwrap_or(100_000));
+}
+
+/// The hub of a wheel has more neighbours than the list of the device. The caller does not see that.
+#[test]
+fn a_vertex_with_many_neighbours_is_deleted_and_moved() {
+    let mut device = Device::model(16, 200).expect("a model");
+    let mut session = device.session().expect("a session");
+    let mut mesh = session.living().expect("the model takes runs");
+    let mut host = Triangulation::new();
+    // Points of a parabola, and a point that sees them all.
+    let rim = (0..80u32).map(|k| Point::new(300 + k, 1000 + k * k / 2));
+    let points: Vec<Point> = [Point::new(60_000, 100)].into_iter().chain(rim).collect();
+    mesh.insert_all(&points).expect("room");
+    points.iter().for_each(|&point| assert!(host.insert(point).is_ok()));
+    assert!(host.neighbors(0).expect("a point").count() > 40);
+    for to in [Point::new(60_001, 100), Point::new(0, 0), Point::new(60_000, 90)] {
+        mesh.move_to(0, to).expect("a move");
+        host.move_to(0, to).expect("a move");
+        assert_eq!(mesh.mesh().expect("a mesh"), host.mesh());
+    }
+    mesh.delete(0).expect("a deletion");
+    host.delete(0).expect("a deletion");
+    assert_eq!(mesh.mesh().expect("a mesh"), host.mesh());
+}
+
+#[test]
+fn what_a_device_cannot_take_leaves_its_mesh_as_it_was() {
+    let mut device = Device::model(8, 4).expect("a model");
+    let mut session = device.session().expect("a session");
+    let mut mesh = session.living().expect("the model takes runs");
+    let square = [[0, 0], [9, 0], [9, 9], [0, 9]].map(Point::from);
+    mesh.insert_all(&square).expect("room");
+    let before = mesh.mesh().expect("a mesh");
+    let full = mesh.insert(Point::new(4, 5)).expect_err("no room");
+    assert_eq!(full.to_string(), "all 4 places that model can hold have points: delete some, or use a larger device");
+    let off = [mesh.insert(Point::new(256, 0)).err(), mesh.move_to(0, Point::new(0, 256)).err()];
+    let asked = [mesh.locate(Point::new(300, 0)).err(), mesh.nearest(Point::new(0, 1 << 31)).err()];
+    for error in off.into_iter().chain(asked) {
+        let error = error.expect("off the grid");
+        assert!(matches!(error, Error::OffGrid { coord_bits: 8, .. }), "{error}");
+        assert_eq!(error.kind(), ErrorKind::BadInput);
+        assert!(error.to_string().contains("end at 255"));
+    }
+    assert!(matches!(mesh.delete(4), Err(Error::Living(Refusal::Unknown { index: 4, next: 4 }))));
+    // A duplicate needs no room.
+    assert_eq!(mesh.insert(square[2]).expect("a duplicate"), 4);
+    mesh.delete(4).expect("a deletion");
+    assert!(matches!(mesh.delete(4), Err(Error::Living(Refusal::Deleted { index: 4 }))));
+    assert_eq!(mesh.mesh().expect("a mesh"), before);
+}
+
+#[test]
+fn devices_without_runs_say_so() {
+    for address in ["cpu", "clock?config=tiny"] {
+        let mut device = Device::open(address).expect("a device");
+        let mut session = device.session().expect("a session");
+        let error = session.living().err().expect("no runs");
+        assert!(matches!(error, Error::NoRuns { .. }) && error.kind() == ErrorKind::BadChoice, "{error}");
+    }
+}
