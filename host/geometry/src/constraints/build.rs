@@ -7,7 +7,7 @@ use super::constrained::Constrained;
 use super::crossing::Place;
 use super::domain::{Boundary, Parts};
 use super::error::Error;
-use super::force::Stop;
+use super::force::{step, Stop};
 use super::network::Network;
 use super::pieces::Pieces;
 use crate::cpu::view::view_of_32_bits;
@@ -158,13 +158,13 @@ fn force_all<S: Site>(network: &mut Network<'_, S>, ends: &[[u32; 2]]) -> Result
     for (constraint, &[from, to]) in (0..).zip(ends) {
         let mut at = from;
         while at != to {
-            let next = network.step(at, to).map_err(|stop| match stop {
+            let next = step(network, at, to).map_err(|stop| match stop {
                 Stop::Crossing(edge) => {
                     let other = parts.iter().find(|(piece, _)| *piece == edge);
                     // Every fixed edge is a piece.
                     other.map_or(Ended::Error(Error::NoMesh), |&(_, other)| Ended::Crossing([other, constraint]))
                 }
-                Stop::Error(error) => Ended::Error(error),
+                Stop::NoMesh => Ended::Error(Error::NoMesh),
             })?;
             check_room(parts.len()).map_err(Ended::Error)?;
             parts.push(([at.min(next), at.max(next)], constraint));

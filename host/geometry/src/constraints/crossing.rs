@@ -120,7 +120,7 @@ impl Place {
 
     /// The crossing of the lines through two pairs of points that are not parallel, given as whole numbers where they
     /// are, and as doubles.
-    pub(super) fn of(ends: [[Option<[i64; 2]>; 2]; 2], rounded: [[[f64; 2]; 2]; 2]) -> Self {
+    pub(crate) fn of(ends: [[Option<[i64; 2]>; 2]; 2], rounded: [[[f64; 2]; 2]; 2]) -> Self {
         match ends {
             [[Some(a), Some(b)], [Some(c), Some(d)]] => exact([a, b, c, d].map(|point| point.map(i128::from)))
                 .map_or_else(|| Self::About(about(rounded)), Self::Exact),

@@ -10,6 +10,7 @@ use alloc::vec::Vec;
 
 use super::error::Error;
 use super::locate::Found;
+use super::fixed_mesh::FixedMesh;
 use super::network::Network;
 use super::pieces::Pieces;
 use crate::living::plane::Side;

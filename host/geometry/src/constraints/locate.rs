@@ -2,6 +2,7 @@
 
 use core::cmp::Ordering;
 
+use super::fixed_mesh::FixedMesh;
 use super::network::Network;
 use crate::living::plane::{Side, INFINITE};
 use crate::site::Site;

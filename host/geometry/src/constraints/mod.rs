@@ -12,20 +12,21 @@
 //! | the triangles of a `.poly` file of Shewchuk's Triangle | the same with [`Domain::Holes`] and the holes |
 //! | constraints in the mesh of a device | [`constrain_numbers`] |
 //!
-//! **How it works, file by file.** `build` has the steps. `network` links the triangles of a mesh, marks fixed edges and
-//! flips free ones; `force` brings a constraint into it; `pieces` collects what constraints became; `crossing` works
+//! **How it works, file by file.** `build` has the steps. `network` links the triangles of a mesh and marks fixed
+//! edges; `fixed_mesh` flips free ones; `force` brings a constraint in; `pieces` collects what constraints became; `crossing` works
 //! out where two of them cross; `domain` floods the parts between them, and `locate` finds holes and regions.
 
 mod build;
 mod constrain;
 mod constrained;
-mod crossing;
+pub(crate) mod crossing;
 mod domain;
 mod error;
-mod force;
+pub(crate) mod fixed_mesh;
+pub(crate) mod force;
 mod locate;
 mod network;
-mod pieces;
+pub(crate) mod pieces;
 #[cfg(test)]
 mod tests;
 

@@ -14,7 +14,7 @@ pub struct Pieces {
 
 impl Pieces {
     /// Collects edges, each with both ends in rising order and the number of a constraint. O(n log n).
-    pub(super) fn of(mut parts: Vec<([u32; 2], u32)>) -> Self {
+    pub(crate) fn of(mut parts: Vec<([u32; 2], u32)>) -> Self {
         parts.sort_unstable();
         parts.dedup();
         let mut pieces = Self::default();

@@ -22,6 +22,10 @@ impl<P: PlanePoint> Triangulation<P> {
     /// The canonical mesh of the living points: the same as [`cpu::triangulate`](crate::cpu::triangulate) gives for
     /// them in the order of their indices.
     ///
+    /// While there are constraints, it is the canonical constrained mesh of all triangles of the hull, as
+    /// [`constrain`](crate::constraints::constrain) makes it. To take the triangles of a domain, give that function this
+    /// mesh with the constraints.
+    ///
     /// Indices in the mesh count the living points: index `k` in the mesh is that of the point
     /// [`indices()`](Self::indices)`[k]`. O(n log n).
     ///
@@ -51,7 +55,7 @@ impl<P: PlanePoint> Triangulation<P> {
             }
         }
         let rank = |vertex: u32| ranks[vertex as usize];
-        let finite = base.plane.iter().filter(|(_, triangle)| triangle.infinite_slot().is_none());
+        let finite = self.shown().plane.iter().filter(|(_, triangle)| triangle.infinite_slot().is_none());
         let triangles = finite.map(|(_, triangle)| smallest_first(triangle.vertices.map(rank))).collect();
         Mesh::new(points, sorted(triangles, indices.len()), self.hull_ranks(rank), duplicates)
     }

@@ -13,17 +13,29 @@ use crate::plane_point::PlanePoint;
 impl<P: PlanePoint> Level<P> {
     /// Adds a vertex at a place that is no vertex yet; returns its number.
     pub(super) fn add(&mut self, point: P, name: u32, place: Place) -> u32 {
+        self.add_among(point, name, place, |_| false)
+    }
+
+    /// Adds a vertex to a mesh in which some edges are fixed, given by their ends: no cavity reaches across them.
+    pub(super) fn add_among(
+        &mut self,
+        point: P,
+        name: u32,
+        place: Place,
+        is_fixed: impl Fn([u32; 2]) -> bool,
+    ) -> u32 {
         let vertex = self.allocate(point, name);
         match place {
-            Place::Triangle(root) | Place::Outside(root) => self.add_to_plane(vertex, root),
-            Place::Edge(side) => self.add_to_plane(vertex, side.triangle()),
+            Place::Triangle(root) | Place::Outside(root) => self.add_to_plane(vertex, root, is_fixed),
+            Place::Edge(side) => self.add_to_plane(vertex, side.triangle(), is_fixed),
             Place::Between(..) | Place::Nowhere | Place::Vertex(_) => self.add_to_line(vertex),
         }
         vertex
     }
 
-    fn add_to_plane(&mut self, vertex: u32, root: u32) {
-        self.collect_cavity(vertex, root);
+    #[inline(always)]
+    fn add_to_plane(&mut self, vertex: u32, root: u32, is_fixed: impl Fn([u32; 2]) -> bool) {
+        self.collect_cavity(vertex, root, is_fixed);
         let border = core::mem::take(&mut self.border);
         let mut dead = core::mem::take(&mut self.dead);
         // A star has two triangles more than its cavity had.
@@ -45,7 +57,8 @@ impl<P: PlanePoint> Level<P> {
     }
 
     /// Collects the triangles in conflict with a new vertex, and the border around them, counter-clockwise.
-    fn collect_cavity(&mut self, vertex: u32, root: u32) {
+    #[inline(always)]
+    fn collect_cavity(&mut self, vertex: u32, root: u32, is_fixed: impl Fn([u32; 2]) -> bool) {
         let q = self.site(vertex);
         self.dead.clear();
         self.border.clear();
@@ -54,7 +67,7 @@ impl<P: PlanePoint> Level<P> {
         self.stack.extend([2, 1, 0].map(|slot| Side::new(root, slot)));
         while let Some(side) = self.stack.pop() {
             let outside = self.plane.across(side);
-            if self.conflicts(outside.triangle(), q) {
+            if !is_fixed(self.plane.ends(side)) && self.conflicts(outside.triangle(), q) {
                 self.dead.push(outside.triangle());
                 self.stack.extend([outside.last(), outside.next()]);
             } else {

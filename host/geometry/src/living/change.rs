@@ -47,9 +47,12 @@ impl<P: PlanePoint> Triangulation<P> {
     /// O(log n + k²) expected for a vertex with `k` neighbours.
     ///
     /// # Errors
-    /// No living point has the index.
+    /// No living point has the index, the point is an end of a constraint, or constraints cross there and would have no
+    /// point at their crossing.
     pub fn delete(&mut self, index: u32) -> Result<(), Error> {
-        let vertex = self.names.remove(index).ok_or_else(|| self.missing(index))?;
+        let vertex = self.vertex(index)?;
+        self.check_removal(index, vertex)?;
+        self.names.remove(index);
         self.detach(index, vertex);
         Ok(())
     }
@@ -58,9 +61,11 @@ impl<P: PlanePoint> Triangulation<P> {
     ///
     /// A short move that turns no triangle over costs a few flips; another costs a deletion and an insertion. A point
     /// that is moved to the place of another becomes its duplicate, and the place has the lower of both indices.
+    /// Constraints that end at the point follow it.
     ///
     /// # Errors
-    /// No living point has the index, or the place has a coordinate that is infinite or not a number.
+    /// No living point has the index, the place has a coordinate that is infinite or not a number, or constraints would
+    /// cross at a place that is no point. The mesh stays as it was.
     pub fn move_to(&mut self, index: u32, point: P) -> Result<(), Error> {
         let vertex = self.vertex(index)?;
         let q = point.site();
@@ -70,16 +75,24 @@ impl<P: PlanePoint> Triangulation<P> {
         if q == self.base().site(vertex) {
             return Ok(());
         }
+        if self.constraints.is_some() {
+            return self.move_with_constraints(index, vertex, point);
+        }
+        self.move_vertex(index, vertex, point);
+        Ok(())
+    }
+
+    /// Moves a point whose vertex constraints do not hold.
+    pub(super) fn move_vertex(&mut self, index: u32, vertex: u32, point: P) {
         if self.is_shared(vertex) || !self.shift(vertex, point) {
             self.names.remove(index);
             self.detach(index, vertex);
             self.attach(index, point);
         }
-        Ok(())
     }
 
     /// Whether several points have the place of a vertex.
-    fn is_shared(&self, vertex: u32) -> bool {
+    pub(super) fn is_shared(&self, vertex: u32) -> bool {
         self.first_duplicate(vertex).is_some()
     }
 
@@ -94,7 +107,7 @@ impl<P: PlanePoint> Triangulation<P> {
 
     /// Puts the point of an index into the mesh.
     pub(super) fn attach(&mut self, index: u32, point: P) {
-        let place = self.find(point.site());
+        let (place, near) = self.find_with_vertex(point.site());
         if let Place::Vertex(vertex) = place {
             self.names.set(index, vertex);
             let name = &mut self.levels[0].vertices[vertex as usize].name;
@@ -102,6 +115,9 @@ impl<P: PlanePoint> Triangulation<P> {
             *name = index.min(*name);
             self.duplicates.insert((vertex, duplicate));
             return;
+        }
+        if let Some(own) = &mut self.constraints {
+            own.mesh.add(point, index, near);
         }
         let vertex = self.levels[0].add(point, index, place);
         self.names.set(index, vertex);
@@ -121,6 +137,9 @@ impl<P: PlanePoint> Triangulation<P> {
             if self.hint.get() == vertex {
                 let neighbour = self.base().some_neighbor(vertex);
                 self.hint.set(neighbour.unwrap_or(0));
+            }
+            if let Some(own) = &mut self.constraints {
+                own.mesh.remove(vertex);
             }
             self.levels[0].remove(vertex);
         }
@@ -156,6 +175,9 @@ impl<P: PlanePoint> Triangulation<P> {
         let from = self.base().site(vertex);
         if !self.levels[0].shift(vertex, point) {
             return false;
+        }
+        if let Some(own) = &mut self.constraints {
+            own.mesh.shift(vertex, point, self.levels[0].vertices[vertex as usize].name);
         }
         let mut below = vertex;
         for number in 1..=Self::top_of(vertex) {

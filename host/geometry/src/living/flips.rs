@@ -11,6 +11,15 @@ use crate::site::Site;
 impl<P: PlanePoint> Level<P> {
     /// Moves a vertex if its star stays a star and it is not on the hull; says whether it has moved.
     pub(super) fn shift(&mut self, vertex: u32, point: P) -> bool {
+        let has_moved = self.shift_in_star(vertex, point);
+        if has_moved {
+            self.repair();
+        }
+        has_moved
+    }
+
+    /// The same without the flips: the edges that may have to be flipped are then on the stack.
+    pub(super) fn shift_in_star(&mut self, vertex: u32, point: P) -> bool {
         if !self.is_plane() {
             return false;
         }
@@ -30,7 +39,6 @@ impl<P: PlanePoint> Level<P> {
             let inside = self.plane.across(edge.outside);
             self.stack.extend([inside, inside.next()]);
         }
-        self.repair();
         true
     }
 

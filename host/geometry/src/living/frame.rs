@@ -61,7 +61,8 @@ impl<P: PlanePoint> Triangulation<P> {
     /// their indices.
     ///
     /// If the steps are short against the distances between neighbours, this is quicker than a new triangulation; if
-    /// not, one is made. The result is the same either way. O(n) where few points have to be inserted anew.
+    /// not, one is made. The result is the same either way. O(n) where few points have to be inserted anew. Constraints
+    /// follow their points, and are all forced anew.
     ///
     /// ```
     /// let mut mesh = incircle_geometry::Triangulation::from([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]])?;
@@ -71,7 +72,8 @@ impl<P: PlanePoint> Triangulation<P> {
     /// ```
     ///
     /// # Errors
-    /// The list does not have one place for each living point, or a coordinate is infinite or not a number.
+    /// The list does not have one place for each living point, a coordinate is infinite or not a number, or constraints
+    /// would cross at a place that is no point. The mesh stays as it was.
     pub fn move_all(&mut self, places: &[P]) -> Result<(), Error> {
         if places.len() != self.len() {
             return Err(Error::WrongCount { given: places.len(), living: self.len() });
@@ -79,14 +81,19 @@ impl<P: PlanePoint> Triangulation<P> {
         if let Some(position) = places.iter().position(|place| !place.site().is_finite()) {
             return Err(Error::NotFiniteAt { position });
         }
+        if self.constraints.is_some() {
+            let mut moved = self.without_constraints();
+            moved.move_all(places)?;
+            self.constraints().try_for_each(|(number, ends)| moved.put_constraint(number, ends))?;
+            *self = moved;
+            return Ok(());
+        }
         let all_live = self.next as usize == places.len();
         let indices = if all_live { Vec::new() } else { self.indices() };
         let index = |position: u32| if all_live { position } else { indices[position as usize] };
         let ranks = if all_live { Ranks::Dense } else { Ranks::of(&indices) };
         if !self.sweep(&ranks, places) {
-            let next = self.next;
-            *self = Self::new();
-            self.next = next;
+            *self = Self { next: self.next, next_constraint: self.next_constraint, ..Self::new() };
             self.load(places, index)?;
         }
         Ok(())
@@ -191,6 +198,8 @@ impl<P: PlanePoint> Triangulation<P> {
                 self.levels[0].vertices[vertex as usize].name = new;
             }
         }
+        // The ends of constraints live.
+        self.rename_ends(|old| indices.binary_search(&old).map_or(old, |new| new as u32));
         self.names = names;
         self.next = indices.len() as u32;
         indices

@@ -30,14 +30,9 @@ impl<P: PlanePoint> Level<P> {
     fn remove_from_plane(&mut self, vertex: u32) {
         self.collect_star(vertex);
         let mut border = core::mem::take(&mut self.border);
-        let is_on_hull = border.iter().any(|edge| edge.from == INFINITE);
-        // All points can only lie on one line if all others are around this one.
-        if is_on_hull && border.len() == self.count {
-            let left: Vec<u32> = border.iter().map(|edge| edge.from).filter(|&from| from != INFINITE).collect();
-            if self.fold(&left) {
-                self.border = border;
-                return;
-            }
+        if self.folds(&border) {
+            self.border = border;
+            return;
         }
         if border.len() > LARGE {
             self.fill_large(&border);
@@ -48,6 +43,16 @@ impl<P: PlanePoint> Level<P> {
         while let Some(triangle) = self.dead.pop() {
             self.plane.release(triangle);
         }
+    }
+
+    /// Puts all vertices but one, whose border is given, onto a line, if they lie on one; says whether they do.
+    pub(super) fn folds(&mut self, border: &[Border]) -> bool {
+        // All points can only lie on one line if all others are around this one.
+        if border.len() != self.count || border.iter().all(|edge| edge.from != INFINITE) {
+            return false;
+        }
+        let left: Vec<u32> = border.iter().map(|edge| edge.from).filter(|&from| from != INFINITE).collect();
+        self.fold(&left)
     }
 
     /// A triangle to be set, which takes the number of a dead one.
@@ -157,7 +162,7 @@ impl<P: PlanePoint> Level<P> {
 
     /// Makes a triangle, given the other side of the edge between its first two corners.
     #[inline(always)]
-    fn make(&mut self, corners: [u32; 3], outside: Side) -> u32 {
+    pub(super) fn make(&mut self, corners: [u32; 3], outside: Side) -> u32 {
         let triangle = self.next_made();
         self.plane.set(triangle, corners, [Side::new(0, 0); 3]);
         self.plane.link(Side::new(triangle, 2), outside);

@@ -15,7 +15,7 @@ impl<P: PlanePoint> Triangulation<P> {
 
     /// All triangles, each counter-clockwise with its smallest index first, in no order that is promised.
     pub fn triangles(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
-        let finite = self.base().plane.iter().filter(|(_, triangle)| triangle.infinite_slot().is_none());
+        let finite = self.shown().plane.iter().filter(|(_, triangle)| triangle.infinite_slot().is_none());
         finite.map(|(_, triangle)| smallest_first(triangle.vertices.map(|vertex| self.name(vertex))))
     }
 
@@ -28,7 +28,7 @@ impl<P: PlanePoint> Triangulation<P> {
     /// # Ok::<(), incircle_geometry::living::Error>(())
     /// ```
     pub fn edges(&self) -> impl Iterator<Item = [u32; 2]> + '_ {
-        let base = self.base();
+        let base = self.shown();
         let sides = base.plane.iter().flat_map(|(triangle, _)| (0..3).map(move |slot| Side::new(triangle, slot)));
         let ends = sides.map(|side| base.plane.ends(side)).filter(|&[from, to]| from < to && to != INFINITE);
         let line = base.line.values().zip(base.line.values().skip(1)).map(|(&one, &other)| [one, other]);
@@ -42,7 +42,7 @@ impl<P: PlanePoint> Triangulation<P> {
     /// among them. While all points lie on one line, all places in lexicographic order. O(h) for `h` of them, beside
     /// the iteration.
     pub fn hull(&self) -> impl Iterator<Item = u32> + '_ {
-        let base = self.base();
+        let base = self.shown();
         let ghosts = || base.ghosts(base.plane.ghost);
         let first = ghosts().min_by_key(|&ghost| self.name(base.hull_vertex(ghost)));
         let corners = first.into_iter().flat_map(|first| base.ghosts(first)).map(|ghost| base.hull_vertex(ghost));
@@ -64,7 +64,7 @@ impl<P: PlanePoint> Triangulation<P> {
     /// No living point has the index.
     pub fn neighbors(&self, index: u32) -> Result<impl Iterator<Item = u32> + '_, Error> {
         let vertex = self.vertex(index)?;
-        let base = self.base();
+        let base = self.shown();
         let ring = self.star_from_first(vertex).map(|side| base.plane.ends(side)[0]);
         let (before, after) = base.beside_on_line(vertex);
         let all = before.into_iter().chain(after).chain(ring.filter(|&vertex| vertex != INFINITE));
@@ -84,7 +84,7 @@ impl<P: PlanePoint> Triangulation<P> {
     /// No living point has the index.
     pub fn star(&self, index: u32) -> Result<impl Iterator<Item = [u32; 3]> + '_, Error> {
         let vertex = self.vertex(index)?;
-        let ends = self.star_from_first(vertex).map(|side| self.base().plane.ends(side));
+        let ends = self.star_from_first(vertex).map(|side| self.shown().plane.ends(side));
         let finite = ends.filter(|ends| !ends.contains(&INFINITE));
         Ok(finite.map(move |[from, to]| [vertex, from, to].map(|vertex| self.name(vertex))))
     }
@@ -92,7 +92,7 @@ impl<P: PlanePoint> Triangulation<P> {
     /// The sides opposite a vertex, counter-clockwise, from the one at which the answers about the vertex begin. None
     /// while all vertices lie on one line.
     fn star_from_first(&self, vertex: u32) -> impl Iterator<Item = Side> + '_ {
-        let base = self.base();
+        let base = self.shown();
         let rank = |&side: &Side| match base.plane.ends(side) {
             // The ghost triangle before the first triangle of a vertex on the hull.
             [INFINITE, _] => None,

@@ -8,6 +8,7 @@
 //! |---|---|---|
 //! | a first set of points | [`Triangulation::from`] | O(n) on even sets, about 1 µs a point |
 //! | a change of one point | [`insert`], [`delete`], [`move_to`] | 0.3 µs near the last place, some µs elsewhere |
+//! | an edge that must be there | [`insert_constraint`], [`remove_constraint`] | O(n) for the first; see there |
 //! | all points at other places | [`move_all`] | 0.2 µs a point for short steps |
 //! | what a place is | [`locate`] | 0.1 µs near the last place, some µs elsewhere |
 //! | the points near a place | [`nearest`], [`k_nearest`] | O(k log k) beside `locate` |
@@ -19,6 +20,8 @@
 //! [`insert`]: Triangulation::insert
 //! [`delete`]: Triangulation::delete
 //! [`move_to`]: Triangulation::move_to
+//! [`insert_constraint`]: Triangulation::insert_constraint
+//! [`remove_constraint`]: Triangulation::remove_constraint
 //! [`move_all`]: Triangulation::move_all
 //! [`locate`]: Triangulation::locate
 //! [`nearest`]: Triangulation::nearest
@@ -39,12 +42,16 @@
 //! `large_hole` remove one, `flips` moves one, and `sweep` moves all. `triangulation` is a Delaunay hierarchy of such
 //! levels, in which about one vertex in 32 is also in the level above, chosen by a hash of its number. `names` keeps
 //! which vertex has the point of an index. `load` and `link` take the mesh of the CPU triangulator over, and `answer`
-//! gives a mesh back. All predicates are exact and contain the tie rule (`site`).
+//! gives a mesh back. `constrain` has the constraints, and `constrained` the mesh with them: `parts` says which edges are
+//! fixed, `straight` walks in it, and `ears` removes a vertex. All predicates are exact and contain the tie rule (`site`).
 
 mod answer;
 mod cavity;
 mod change;
 mod climb;
+mod constrain;
+mod constrained;
+mod ears;
 mod error;
 mod flips;
 mod frame;
@@ -57,11 +64,13 @@ mod link;
 mod load;
 mod names;
 mod near;
+mod parts;
 pub(crate) mod plane;
 mod queries;
 mod rectangle;
 mod segment;
 mod star;
+mod straight;
 mod sweep;
 #[cfg(test)]
 mod tests;

@@ -45,9 +45,9 @@ impl<P: PlanePoint> Triangulation<P> {
         if !q.is_finite() {
             return Location::None;
         }
-        let (base, name) = (self.base(), |vertex| self.name(vertex));
+        let (base, name) = (self.shown(), |vertex| self.name(vertex));
         let sorted = |[one, other]: [u32; 2]| [one.min(other), one.max(other)];
-        match self.find(q) {
+        match self.find_shown(q) {
             Place::Vertex(vertex) => Location::Vertex(name(vertex)),
             Place::Edge(side) => Location::Edge(sorted(base.plane.ends(side).map(name))),
             Place::Between(one, other) => Location::Edge(sorted([one, other].map(name))),

@@ -33,7 +33,7 @@ impl<P: PlanePoint> Triangulation<P> {
     /// # Ok::<(), incircle_geometry::living::Error>(())
     /// ```
     pub fn segment(&self, a: P, b: P) -> Vec<[u32; 3]> {
-        let (a, b, base) = (a.site(), b.site(), self.base());
+        let (a, b, base) = (a.site(), b.site(), self.shown());
         let mut crossed = Vec::new();
         if !a.is_finite() || !b.is_finite() || !base.is_plane() {
             return crossed;
@@ -63,7 +63,7 @@ struct Crossing<'m, P: PlanePoint> {
 
 impl<P: PlanePoint> Crossing<'_, P> {
     fn site(&self, vertex: u32) -> P::Site {
-        self.mesh.base().site(vertex)
+        self.mesh.shown().site(vertex)
     }
 
     /// The side of the line on which a vertex lies.
@@ -84,13 +84,13 @@ impl<P: PlanePoint> Crossing<'_, P> {
 
     /// The triangle of a side, unless it is a ghost triangle.
     fn at_triangle(&self, side: Side) -> Option<At> {
-        let is_ghost = self.mesh.base().plane.get(side.triangle()).infinite_slot().is_some();
+        let is_ghost = self.mesh.shown().plane.get(side.triangle()).infinite_slot().is_some();
         (!is_ghost).then_some(At::Triangle(side.triangle()))
     }
 
     fn start(&self) -> Option<At> {
-        let plane = &self.mesh.base().plane;
-        match self.mesh.find(self.a) {
+        let plane = &self.mesh.shown().plane;
+        match self.mesh.find_shown(self.a) {
             Place::Triangle(triangle) => Some(At::Triangle(triangle)),
             Place::Vertex(vertex) => self.at_vertex(vertex),
             // A segment without length that lies in an edge crosses nothing.
@@ -110,7 +110,7 @@ impl<P: PlanePoint> Crossing<'_, P> {
 
     /// Enters the hull from outside, given the first of the hull edges that are visible from `a`.
     fn enter(&self, first: u32) -> Option<At> {
-        let base = self.mesh.base();
+        let base = self.mesh.shown();
         for ghost in base.ghosts(first).take_while(|&ghost| base.is_beyond(ghost, self.a)) {
             let slot = base.plane.get(ghost).slot_of(INFINITE);
             let ends = base.plane.hull_edge(ghost, slot);
@@ -128,7 +128,7 @@ impl<P: PlanePoint> Crossing<'_, P> {
 
     /// Goes on from a triangle whose inside is crossed; `None` if the segment ends in it or on its border.
     fn leave_triangle(&self, triangle: u32) -> Option<At> {
-        let plane = &self.mesh.base().plane;
+        let plane = &self.mesh.shown().plane;
         for side in (0..3).map(|slot| Side::new(triangle, slot)) {
             let ends = plane.ends(side);
             let turns = ends.map(|end| self.turn(end));
@@ -146,7 +146,7 @@ impl<P: PlanePoint> Crossing<'_, P> {
 
     /// Goes on from a vertex: through one of the triangles around it, or along an edge.
     fn leave_vertex(&self, vertex: u32) -> Option<At> {
-        let (base, site) = (self.mesh.base(), self.site(vertex));
+        let (base, site) = (self.mesh.shown(), self.site(vertex));
         for side in base.star(vertex) {
             let [from, to] = base.plane.ends(side);
             if from == INFINITE {

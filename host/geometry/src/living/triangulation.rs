@@ -1,10 +1,12 @@
 //! The triangulation that can be changed: its parts, and finding places in it.
 
+use alloc::boxed::Box;
 use alloc::collections::BTreeSet;
 use alloc::vec;
 use alloc::vec::Vec;
 use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
+use super::constrain::Constraints;
 use super::error::Error;
 use super::level::Level;
 use super::names::Names;
@@ -70,6 +72,10 @@ pub struct Triangulation<P: PlanePoint> {
     /// The index of the next point.
     pub(super) next: u32,
     pub(super) hint: Hint,
+    /// None while there are no constraints.
+    pub(super) constraints: Option<Box<Constraints<P>>>,
+    /// The number of the next constraint.
+    pub(super) next_constraint: u32,
 }
 
 impl<P: PlanePoint> Default for Triangulation<P> {
@@ -87,6 +93,8 @@ impl<P: PlanePoint> Triangulation<P> {
             duplicates: BTreeSet::new(),
             next: 0,
             hint: Hint::default(),
+            constraints: None,
+            next_constraint: 0,
         }
     }
 
@@ -116,9 +124,11 @@ impl<P: PlanePoint> Triangulation<P> {
         self.next
     }
 
-    /// The bytes of memory that the triangulation takes, without the few that duplicates take.
+    /// The bytes of memory that the triangulation takes, without the few that duplicates and the numbers of constraints
+    /// take.
     pub fn bytes(&self) -> usize {
-        let levels: usize = self.levels.iter().map(Level::bytes).sum();
+        let constrained = self.constraints.iter().map(|own| &own.mesh.level);
+        let levels: usize = self.levels.iter().chain(constrained).map(Level::bytes).sum();
         levels + self.names.bytes() + size_of::<Self>()
     }
 

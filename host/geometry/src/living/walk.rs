@@ -51,7 +51,7 @@ impl<P: PlanePoint> Level<P> {
 
     /// A side of a triangle that is no ghost triangle, near the given one.
     #[inline]
-    fn finite_side(&self, side: Side) -> Side {
+    pub(super) fn finite_side(&self, side: Side) -> Side {
         match self.plane.get(side.triangle()).infinite_slot() {
             Some(slot) => self.plane.across(Side::new(side.triangle(), slot)),
             None => side,
@@ -100,7 +100,7 @@ impl<P: PlanePoint> Level<P> {
     }
 
     /// The first ghost triangle, counter-clockwise, of those whose edges are visible, given one of them.
-    fn first_visible(&self, mut ghost: u32, q: P::Site) -> u32 {
+    pub(super) fn first_visible(&self, mut ghost: u32, q: P::Site) -> u32 {
         loop {
             let before = self.plane.last_ghost(ghost);
             if !self.is_beyond(before, q) {

@@ -2,6 +2,7 @@
 
 mod brute;
 mod changes;
+mod constraints;
 mod frames;
 mod reports;
 mod scripts;

@@ -137,7 +137,7 @@ impl<P: PlanePoint + core::fmt::Debug + PartialEq> Script<P> {
         }
     }
 
-    fn check(&self, random: &mut SplitMix64) {
+    pub fn check(&self, random: &mut SplitMix64) {
         let (mesh, brute) = (&self.mesh, &self.brute);
         structure::check(mesh);
         let found = mesh.mesh();
@@ -215,11 +215,11 @@ impl<P: PlanePoint + core::fmt::Debug + PartialEq> Script<P> {
     }
 }
 
-fn doubles(p: Point) -> [f64; 2] {
+pub fn doubles(p: Point) -> [f64; 2] {
     [p.x, p.y].map(|value| f64::from(value) * 2f64.powi(-340) - 2f64.powi(-338))
 }
 
-fn integers(p: Point) -> [i64; 2] {
+pub fn integers(p: Point) -> [i64; 2] {
     [p.x, p.y].map(|value| (i64::from(value) << 58) - (1 << 60))
 }
 

@@ -22,6 +22,14 @@ pub fn check<P: PlanePoint>(mesh: &Triangulation<P>) {
             }
         }
     }
+    if let Some(own) = &mesh.constraints {
+        check_level(&own.mesh.level);
+        assert_eq!(vertices(&own.mesh.level), vertices(mesh.base()));
+        for (edge, constraint) in own.mesh.parts.iter() {
+            assert!(mesh.constraints().any(|(number, _)| number == constraint));
+            assert!(own.mesh.level.adjacent(edge[0]).any(|other| other == edge[1]), "{edge:?} is no edge");
+        }
+    }
     assert_eq!(mesh.names.len(), mesh.base().count + mesh.duplicates.len());
     assert!(mesh
         .duplicates
