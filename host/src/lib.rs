@@ -144,6 +144,7 @@
 //! | points that come, go or move, or questions about places | [`Triangulation`], which changes with them |
 //! | edges that must be in the mesh, or triangles inside polygons | [`constraints::constrain`] |
 //! | the region nearest to each point, clipped to a polygon | [`voronoi`], with the mesh of grid points |
+//! | grid points and a clip from points of any numbers | [`GridSet`] |
 //! | points spread evenly over a region | [`lloyd::relax`], with grid points and a [`voronoi::Clip`] |
 //! | values between points, such as heights | [`interpolate::Surface`], with the mesh of the points |
 //! | many small sets at once | [`Session::triangulate_batch`]: a device works on them side by side |
@@ -172,6 +173,7 @@
 mod commands;
 mod device;
 mod error;
+mod grid_set;
 mod job;
 mod limit;
 pub mod quantize;
@@ -179,6 +181,7 @@ pub mod transports;
 
 pub use device::{Device, DeviceAddress, Fleet, Session};
 pub use error::{DeviceFault, Error, ErrorKind, Shown, TransportError};
+pub use grid_set::{GridSet, GridSetError};
 pub use incircle_geometry::constraints;
 pub use incircle_geometry::cpu::{Error as TriangulatorError, Triangulator};
 pub use incircle_geometry::lattice::{Lattice, Step};
