@@ -14,9 +14,12 @@ use clap::{Parser, Subcommand, ValueEnum};
 use incircle_model::stream::{ModelCore, StreamModel};
 use incircle_protocol::{Config, FULL, SMALL};
 use incircle_sim::faults::FaultSpec;
+use incircle_sim::network::ADDRESS;
 use incircle_sim::pcie::{Beats, Card, CardDirectory, CardFaultSpec, CardFigures, NullDevice, PinCard};
 use incircle_sim::serial::{board_link, Board, PinBoard, QuickBoard};
-use incircle_sim::serve::{serve, serve_network, Figures, NetworkFigures, NetworkService, Service};
+use incircle_sim::serve::{
+    serve, serve_network, serve_tap, Figures, NetworkFigures, NetworkService, Service, TapFigures,
+};
 use incircle_testkit::NetworkFaults;
 
 /// Number of clocks of the trial run, which measures how slow the simulation is.
@@ -103,6 +106,10 @@ enum Task {
         /// Leave out the pins: run the software model, which has one context and no clock.
         #[arg(long)]
         fast: bool,
+        /// Put the board behind this TAP device of Linux instead of a UDP port: the kernel's own ARP, ICMP and UDP talk
+        /// to its pins.
+        #[arg(long, value_name = "NAME", conflicts_with_all = ["listen", "fault", "fast"])]
+        tap: Option<String>,
     },
 }
 
@@ -132,7 +139,8 @@ impl Core {
 fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Task::Layout { waveform } => write_layout(&waveform),
-        Task::ServeUdp { listen, config, fault, fast } => run_network(config.config(), listen, fault, fast),
+        Task::ServeUdp { config, tap: Some(tap), .. } => run_tap(config.config(), &tap),
+        Task::ServeUdp { listen, config, fault, fast, tap: None } => run_network(config.config(), listen, fault, fast),
         Task::Serve { link, config, fault, fast, slow } => run(config.config(), link, fault, fast, slow),
         Task::ServePcie { dir, config, fault, width, fast, null } => {
             let kind = if null {
@@ -168,6 +176,17 @@ fn run_network(
     };
     let NetworkFigures { to_device, to_host, faults } = serve_network(&service, &stops, ready)?;
     eprintln!("incircle-sim: {to_device} datagrams to the device, {to_host} to hosts, {faults} faults");
+    Ok(())
+}
+
+fn run_tap(config: Config, tap: &str) -> Result<(), Box<dyn Error>> {
+    let stops = stops()?;
+    let ready = || {
+        let what = "simulated at its pins behind the TAP device";
+        say_ready(&format!("an incircle device on the network, {}, {what} {tap}: open udp:{ADDRESS}", config.name));
+    };
+    let TapFigures { to_device, to_host } = serve_tap(tap, config, &stops, ready)?;
+    eprintln!("incircle-sim: {to_device} frames to the device, {to_host} to the kernel");
     Ok(())
 }
 

@@ -1,6 +1,6 @@
 //! The errors of a build for a board.
 
-use super::link::PORT_MHZ;
+use super::port::PORT_MHZ;
 use crate::export::ExportError;
 use std::path::PathBuf;
 

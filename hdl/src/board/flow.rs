@@ -6,8 +6,9 @@
 
 use super::error::BoardError;
 use super::kept::{hexadecimal, Kept, Key};
-use super::link::{BoardLink, Rgmii, PORT_MHZ};
+use super::link::BoardLink;
 use super::mapping::{mapping, placer, FLOORPLAN};
+use super::port::{Rgmii, PORT_MHZ};
 use super::report::{dividers, Attempt, Bitstream, Cells, Network, Parts, Report, Seed, Serial, Summary, Versions};
 use super::tools::{run_strictly, Origin, Tools};
 use super::{constraints, date, readings, workshop, Board};

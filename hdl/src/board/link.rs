@@ -1,30 +1,16 @@
 //! The link between the core of a board and its host: which files of the board's folder belong to it, and its parameters.
 
-use super::{Board, BoardError, MHZ};
+use super::error::BoardError;
+use super::pll::MHZ;
+use super::port::Rgmii;
+use super::Board;
 use crate::export;
 use crate::top::UdpPins;
 use crate::udp::UdpParameters;
 use incircle_protocol::Config;
 
-/// Clock of the PHY in MHz, for both directions of gigabit Ethernet.
-pub(super) const PORT_MHZ: u32 = 125;
-
 /// Bits of the count of clocks for which the PHY is held in reset: 11.6 ms at 180 MHz, and longer at slower clocks.
 const PHY_WAIT_BITS: u32 = 21;
-
-/// The Ethernet port of a board, with the pins of RGMII.
-///
-/// PHYs and boards differ in which side delays a clock against its data. The delays are those that public files of the
-/// board use, and nobody has tried them with this core.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Rgmii {
-    /// Type of the PHY.
-    pub phy: &'static str,
-    /// Taps of 25 ps, 0 to 127, by which the FPGA delays the data from the PHY.
-    pub delay: u8,
-    /// Taps of 25 ps, 0 to 127, by which the FPGA delays the clock to the PHY.
-    pub clock_delay: u8,
-}
 
 /// The link that joins the core of a board to its host.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

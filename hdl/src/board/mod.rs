@@ -2,9 +2,10 @@
 //!
 //! A board is a folder under `constraints/` with its pins (`pins.lpf`), a thin top module (`top.v`), a README and a
 //! report for each core that was measured: `report.json` for the board's first core, `report-quad.json` and the like
-//! for others. A board with an Ethernet port also has `pins-udp.lpf`, `top-udp.v`, and `report-udp.json` and the like. [`BOARDS`] holds what the command must know besides. [`build`] makes
-//! a bitstream, and [`renew_tables`] writes the tables of the documents from the reports. [`sizes`] compares cores of
-//! many sizes in many families of FPGAs, with the same tools.
+//! for others. A board with an Ethernet port also has `pins-udp.lpf`, `top-udp.v`, and `report-udp.json` and the like.
+//! [`BOARDS`] holds what the command must know besides. [`build`] makes a bitstream, and [`renew_tables`] writes the
+//! tables of the documents from the reports. [`sizes`] compares cores of many sizes in many families of FPGAs, with the
+//! same tools.
 
 mod date;
 mod error;
@@ -14,6 +15,7 @@ mod kept;
 mod link;
 mod mapping;
 mod pll;
+mod port;
 mod readings;
 mod report;
 pub mod sizes;
@@ -23,9 +25,10 @@ mod workshop;
 
 pub use error::BoardError;
 pub use flow::{build, Clock, Request};
-pub use link::{BoardLink, Rgmii};
+pub use link::BoardLink;
 pub use mapping::mapping;
 pub use pll::{Pll, MHZ};
+pub use port::Rgmii;
 pub use report::{Attempt, Bitstream, Cells, Network, Parts, Report, Seed, Serial, Summary, Versions};
 pub use table::{documents, held_text, pages, renew_tables};
 pub use tools::Origin;

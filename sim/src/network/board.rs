@@ -6,7 +6,7 @@ use std::net::{Ipv4Addr, SocketAddrV4};
 use incircle_protocol::{Config, UdpLinkConfig};
 use verilated::{Model, ModelDescription, PortId};
 
-use super::frame::{datagram_of, framed};
+use super::frame::{datagram_of, frame_of, framed, on_cable};
 use super::parameters::{network_link, ADDRESS, PORT};
 use crate::error::SimError;
 use crate::models;
@@ -35,7 +35,8 @@ pub struct NetworkBoard {
     wire: VecDeque<Option<u8>>,
     /// The bytes of the frame that the board is sending.
     line: Vec<u8>,
-    received: VecDeque<(SocketAddrV4, Vec<u8>)>,
+    /// Frames that the board has sent, with preamble and check sum.
+    sent: VecDeque<Vec<u8>>,
     /// Clocks of the PHY since something was on the cable.
     quiet: u64,
 }
@@ -99,7 +100,7 @@ impl NetworkBoard {
             next: [0, 0],
             wire: VecDeque::new(),
             line: Vec::new(),
-            received: VecDeque::new(),
+            sent: VecDeque::new(),
             quiet: 0,
         };
         board.press_reset();
@@ -114,7 +115,7 @@ impl NetworkBoard {
         self.model.set(self.ports.reset, 0);
         self.run(SETTLING * self.core_ps / 1000);
         self.line.clear();
-        self.received.clear();
+        self.sent.clear();
         // After a reset no session is open, so no silence must pass before the board is at rest.
         self.quiet = self.rests_after() + 1;
     }
@@ -144,6 +145,11 @@ impl NetworkBoard {
         self.send_frame(&framed(from, to, mac, datagram));
     }
 
+    /// Puts a sound frame on the cable; `frame` has neither preamble nor check sum.
+    pub fn send_sound_frame(&mut self, frame: &[u8]) {
+        self.send_frame(&on_cable(frame));
+    }
+
     /// Puts the bytes of any frame on the cable, with its preamble and its check sum.
     pub fn send_frame(&mut self, bytes: &[u8]) {
         self.wire.extend(bytes.iter().map(|byte| Some(*byte)));
@@ -155,15 +161,30 @@ impl NetworkBoard {
         self.wire.len()
     }
 
-    /// Takes the next datagram of the board, and the address to which it goes.
+    /// Takes the next datagram of the board, and the address to which it goes. Other frames before it are dropped.
     pub fn receive(&mut self) -> Option<(SocketAddrV4, Vec<u8>)> {
-        self.received.pop_front()
+        loop {
+            let datagram = datagram_of(&self.sent.pop_front()?);
+            if datagram.is_some() {
+                return datagram;
+            }
+        }
+    }
+
+    /// Takes the next sound frame of the board, of any kind, without preamble and check sum.
+    pub fn receive_frame(&mut self) -> Option<Vec<u8>> {
+        loop {
+            let line = self.sent.pop_front()?;
+            if let Some(frame) = frame_of(&line) {
+                return Some(frame.to_vec());
+            }
+        }
     }
 
     /// Whether nothing passes the cable and no session is open, so that passing time would change nothing. The pins do
     /// not show the session, so the board is at rest only when the silence must have ended it.
     pub fn is_at_rest(&self) -> bool {
-        self.wire.is_empty() && self.line.is_empty() && self.received.is_empty() && self.quiet > self.rests_after()
+        self.wire.is_empty() && self.line.is_empty() && self.sent.is_empty() && self.quiet > self.rests_after()
     }
 
     /// Lets this many nanoseconds pass.
@@ -214,8 +235,7 @@ impl NetworkBoard {
             return;
         }
         if !self.line.is_empty() {
-            self.received.extend(datagram_of(&self.line));
-            self.line.clear();
+            self.sent.push_back(std::mem::take(&mut self.line));
         }
     }
 }

@@ -32,16 +32,28 @@ pub(super) fn framed(from: SocketAddrV4, to: SocketAddrV4, to_mac: [u8; 6], data
         frame.extend(field);
     }
     frame.extend(datagram);
+    on_cable(&frame)
+}
+
+/// The bytes of a frame on the cable, from the preamble to the check sum. Short frames are padded.
+pub(super) fn on_cable(frame: &[u8]) -> Vec<u8> {
+    let mut frame = frame.to_vec();
     frame.resize(frame.len().max(SHORTEST), 0);
     let sum = Crc32::of(&frame).to_le_bytes();
     [&PREAMBLE[..], &frame, &sum].concat()
 }
 
-/// Receiver and bytes of the datagram in a frame from the cable, or `None` if the frame is damaged or carries none.
-pub(super) fn datagram_of(line: &[u8]) -> Option<(SocketAddrV4, Vec<u8>)> {
+/// The frame in bytes from the cable, without preamble and check sum, or `None` if it is damaged.
+pub(super) fn frame_of(line: &[u8]) -> Option<&[u8]> {
     let frame = line.strip_prefix(&PREAMBLE)?;
     let (frame, sum) = frame.split_at_checked(frame.len().checked_sub(4)?)?;
-    if Crc32::of(frame).to_le_bytes() != sum || frame.len() < HEADERS || frame[12..15] != [8, 0, 0x45] {
+    (Crc32::of(frame).to_le_bytes() == sum).then_some(frame)
+}
+
+/// Receiver and bytes of the datagram in a frame from the cable, or `None` if the frame is damaged or carries none.
+pub(super) fn datagram_of(line: &[u8]) -> Option<(SocketAddrV4, Vec<u8>)> {
+    let frame = frame_of(line)?;
+    if frame.len() < HEADERS || frame[12..15] != [8, 0, 0x45] {
         return None;
     }
     let word = |at: usize| u16::from_be_bytes([frame[at], frame[at + 1]]);

@@ -5,4 +5,4 @@ mod frame;
 mod parameters;
 
 pub use board::NetworkBoard;
-pub use parameters::network_link;
+pub use parameters::{network_link, ADDRESS};

@@ -6,7 +6,9 @@
 
 mod network;
 mod on_network;
+mod on_tap;
 mod pace;
+mod tap;
 mod terminal;
 
 use std::io;
@@ -18,6 +20,7 @@ use crate::faults::{FaultSpec, Proxy};
 use crate::serial::Board;
 
 pub use network::{serve_network, NetworkError, NetworkFigures, NetworkService};
+pub use on_tap::{serve_tap, TapError, TapFigures};
 use pace::Pace;
 pub use terminal::LinkError;
 use terminal::Terminal;

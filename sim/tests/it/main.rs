@@ -5,5 +5,6 @@ mod serve {
     mod network;
     mod pcie;
     mod service;
+    mod tap;
     mod terminal;
 }

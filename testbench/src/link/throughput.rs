@@ -12,7 +12,7 @@ use incircle_protocol::{Config, DUAL, FULL, SMALL};
 use incircle_sim::network::NetworkBoard;
 use incircle_testkit::{NetworkFaults, SplitMix64};
 
-use super::{EtherTransport, VirtualEther};
+use super::virtual_ether::{EtherTransport, VirtualEther};
 
 /// Limit for an answer, in virtual time.
 const LIMIT: Duration = Duration::from_secs(2);

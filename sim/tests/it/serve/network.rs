@@ -22,7 +22,7 @@ fn listen(socket: &UdpSocket) -> ToHost {
     ToHost::from_bytes(&bytes[..length]).expect("a datagram")
 }
 
-fn ask(socket: &UdpSocket, kind: HostDatagram, words: &[u32]) -> ToHost {
+pub fn ask(socket: &UdpSocket, kind: HostDatagram, words: &[u32]) -> ToHost {
     socket.send(&ToDevice { session: 7, kind, number: 0, words: words.to_vec() }.to_bytes()).unwrap();
     listen(socket)
 }

@@ -8,6 +8,8 @@ use verilated::{Model, PortId};
 /// Clocks of the board until its reset has surely ended, and clocks for which the PHY is held in reset then.
 const STARTED: usize = 100 + 2 + 255 + 2;
 const PHY_WAIT: usize = 1 << 6;
+/// Clocks of the PHY until the values with which the registers at the pins woke up have left them.
+const WAKING: usize = 4;
 
 /// The addresses of the device in `build/boards.rs`, and those of a host.
 const DEVICE: ([u8; 6], [u8; 4]) = (incircle_blocks::QUICK_UDP_LINK.mac, [10, 0, 7, 2]);
@@ -91,6 +93,7 @@ fn every_ethernet_port_answers_who_has_its_address() {
     for board in BOARDS.iter().filter(|board| board.ethernet.is_some()) {
         let mut bench = Bench::new(board.top);
         let question = arp([0xff; 6], 1, HOST, ([0; 6], DEVICE.1));
+        (0..WAKING).for_each(|_| bench.period(None));
         assert_eq!(bench.ask(&question), Vec::<u8>::new(), "{}: an answer during the reset", board.name);
         (0..STARTED + PHY_WAIT + 100).for_each(|_| bench.period(None));
         assert_eq!(bench.ask(&question), arp(HOST.0, 2, DEVICE, HOST), "{}", board.name);
@@ -113,6 +116,7 @@ fn the_device_waits_for_the_phy_and_its_clock() {
         // Without the clock of the PHY the device stays in reset; with it the device answers soon.
         (0..1000).for_each(|_| bench.period(None));
         bench.phy_gives_clock = true;
+        (0..WAKING).for_each(|_| bench.period(None));
         let question = arp([0xff; 6], 1, HOST, ([0; 6], DEVICE.1));
         assert_eq!(bench.ask(&question[..8]), Vec::<u8>::new(), "{}: an answer during the reset", board.name);
         assert_eq!(bench.ask(&question), arp(HOST.0, 2, DEVICE, HOST), "{}", board.name);

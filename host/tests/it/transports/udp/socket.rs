@@ -16,7 +16,8 @@ use incircle_protocol::{UdpLinkConfig, FULL};
 const LINK: UdpLinkConfig =
     UdpLinkConfig { clock_hz: 120_000_000, fifo_bytes: 16_384, silence_ms: 2000, mac: [2, 0, 0, 0, 0, 1] };
 
-/// A device that listens at a port of this machine until it is dropped. Its sessions never end by silence.
+/// Devices at a port of this machine until they are dropped. Their sessions never end by silence. All take each datagram,
+/// as boards with one address do that hear a greeting to all.
 struct Served {
     address: SocketAddrV4,
     stops: Arc<AtomicBool>,
@@ -24,28 +25,33 @@ struct Served {
 }
 
 impl Served {
+    /// One device.
     fn new() -> Self {
+        Self::with_macs(&[LINK.mac])
+    }
+
+    /// A device of each of these Ethernet addresses.
+    fn with_macs(macs: &[[u8; 6]]) -> Self {
+        let links: Vec<_> = macs.iter().map(|&mac| UdpLinkConfig { mac, ..LINK }).collect();
         let socket = UdpSocket::bind((Ipv4Addr::LOCALHOST, 0)).expect("a socket");
         socket.set_read_timeout(Some(Duration::from_millis(20))).expect("a timeout");
         let SocketAddr::V4(address) = socket.local_addr().expect("an address") else { panic!("an IPv4 address") };
         let stops = Arc::new(AtomicBool::new(false));
         let stop = Arc::clone(&stops);
         let thread = std::thread::spawn(move || {
-            let core = Instantly::of(FULL).expect("a named configuration");
-            let mut device = UdpModel::new(LINK, core.identity(), core);
+            let model = |link| {
+                let core = Instantly::of(FULL).expect("a named configuration");
+                UdpModel::new(link, core.identity(), core)
+            };
+            let mut devices: Vec<_> = links.into_iter().map(model).collect();
             let mut bytes = [0; 2000];
             while !stop.load(Ordering::Relaxed) {
-                if let Ok((length, SocketAddr::V4(from))) = socket.recv_from(&mut bytes) {
-                    device.take(from, false, &bytes[..length]);
-                }
-                loop {
-                    device.work(4096);
-                    while let Some((to, datagram)) = device.give() {
-                        socket.send_to(&datagram, to).expect("sent");
+                let came = socket.recv_from(&mut bytes);
+                for device in &mut devices {
+                    if let Ok((length, SocketAddr::V4(from))) = came {
+                        device.take(from, false, &bytes[..length]);
                     }
-                    if !device.is_at_work() {
-                        break;
-                    }
+                    work(device, &socket);
                 }
             }
         });
@@ -54,6 +60,19 @@ impl Served {
 
     fn open(&self) -> Device {
         Device::open(&format!("udp:{}", self.address)).expect("a socket")
+    }
+}
+
+/// Lets a device work until it waits, and sends what it says.
+fn work(device: &mut UdpModel<Instantly>, socket: &UdpSocket) {
+    loop {
+        device.work(4096);
+        while let Some((to, datagram)) = device.give() {
+            socket.send_to(&datagram, to).expect("sent");
+        }
+        if !device.is_at_work() {
+            break;
+        }
     }
 }
 
@@ -107,4 +126,14 @@ fn a_port_where_nobody_listens_is_named() {
     assert!(matches!(source.fault(), Some(UdpFault::Refused { .. } | UdpFault::Silent { .. })), "{source}");
     let error = Device::open("udp:no-such-host.invalid").err().expect("no such host");
     assert!(error.to_string().contains("no-such-host.invalid"), "{error}");
+}
+
+#[test]
+fn two_devices_with_one_address_are_told_apart() {
+    let macs = [[2, 0, 0, 0, 0, 9], [2, 0, 0, 0, 0, 3]];
+    let served = Served::with_macs(&macs);
+    let found = discover(&[served.address], Duration::from_millis(300)).expect("a socket");
+    let told: Vec<_> = found.iter().map(|device| (device.address.to_string(), device.greeting.mac)).collect();
+    let address = format!("udp:{}", served.address);
+    assert_eq!(told, [(address.clone(), macs[1]), (address, macs[0])]);
 }

@@ -1,0 +1,78 @@
+//! A board at a TAP device: the kernel of this machine, with its own ARP, ICMP and UDP, is the other end of its cable.
+
+use std::io;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use incircle_protocol::Config;
+
+use super::tap::Tap;
+use crate::error::SimError;
+use crate::network::NetworkBoard;
+
+/// Most frames that are taken before the board runs.
+const BURST: usize = 64;
+/// Nanoseconds of the board's time between two looks at the kernel: about as long as a long frame takes on the wire.
+const SLICE_NS: u64 = 16_000;
+/// Longest sleep. A signal to end may have to wait this long.
+const NAP: Duration = Duration::from_millis(50);
+
+/// The figures of a service that has ended.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct TapFigures {
+    /// Number of frames from the kernel to the board.
+    pub to_device: u64,
+    /// Number of frames from the board to the kernel.
+    pub to_host: u64,
+}
+
+/// The reason why a board cannot be served at a TAP device.
+#[derive(Debug, thiserror::Error)]
+pub enum TapError {
+    /// The system refuses the TAP device.
+    #[error(
+        "the system refuses the TAP device \"{name}\" ({source}): make it with `ip tuntap add dev NAME mode tap user \
+         $USER`, which needs root, and end other programs that use it"
+    )]
+    Open {
+        /// Name of the interface.
+        name: String,
+        /// The reason.
+        source: io::Error,
+    },
+    /// The TAP device fails while it is open.
+    #[error("the TAP device fails: {0}")]
+    Io(#[from] io::Error),
+    /// The board cannot be simulated.
+    #[error("{0}")]
+    Board(#[from] SimError),
+}
+
+/// Serves a board with this core at the TAP device `name` until `stops` is set, and calls `ready` as soon as the board
+/// takes frames. While nothing passes the cable and no session is open, the simulation stands still.
+///
+/// # Errors
+/// [`TapError`]: the system refuses the TAP device or takes it away, or the board is not part of this build.
+pub fn serve_tap(name: &str, config: Config, stops: &AtomicBool, ready: impl FnOnce()) -> Result<TapFigures, TapError> {
+    let tap = Tap::open(name).map_err(|source| TapError::Open { name: name.to_owned(), source })?;
+    let mut board = NetworkBoard::new(config)?;
+    let mut figures = TapFigures::default();
+    ready();
+    while !stops.load(Ordering::Relaxed) {
+        for _ in 0..BURST {
+            let Some(frame) = tap.read()? else { break };
+            figures.to_device += 1;
+            board.send_sound_frame(&frame);
+        }
+        if board.is_at_rest() {
+            tap.wait(NAP)?;
+            continue;
+        }
+        board.run(SLICE_NS);
+        while let Some(frame) = board.receive_frame() {
+            figures.to_host += 1;
+            tap.write(&frame)?;
+        }
+    }
+    Ok(figures)
+}
