@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from . import _native, _shapely
 from ._errors import ChoiceError, InputError
-from ._input import as_points, as_type, check_finite
+from ._input import as_points, as_type, check_finite, refuse_mask
 
 MOST_STEPS = 100_000
 """The most steps of a relaxation that goes on until no point moves."""
@@ -164,7 +164,7 @@ def lloyd(
     >>> import incircle
     >>> relaxed = incircle.lloyd([(1, 1), (2, 9), (9, 5)], until_still=True, clip=(0, 0, 10, 10))
     >>> relaxed.end, relaxed.points.round(3).tolist()
-    ('still', [[2.905, 2.5], [2.905, 7.5], [7.905, 5.0]])
+    ('still', [[3.173, 2.316], [3.173, 7.684], [8.038, 5.0]])
 
     Parameters
     ----------
@@ -219,7 +219,12 @@ def _corners(clip: Any, dtype: np.dtype[Any]) -> NDArray[Any]:
     """The corners of a clip in the type of the points: two of a rectangle, three or more of a ring, or none."""
     if clip is None or (isinstance(clip, str) and clip == "box"):
         return np.empty((0, 2), dtype)
-    array = np.asarray(clip)
+    if isinstance(clip, np.ma.MaskedArray):
+        refuse_mask("corners of the clip", clip, "coordinates")
+    try:
+        array = np.asarray(clip)
+    except ValueError as error:
+        raise InputError(f"the clip is no array of two columns, because numpy says: {error}") from error
     if array.shape == (4,):
         array = array.reshape(2, 2)
     elif array.ndim != 2 or array.shape[1] != 2 or len(array) < 3:
@@ -227,4 +232,4 @@ def _corners(clip: Any, dtype: np.dtype[Any]) -> NDArray[Any]:
             f"the clip has the shape {array.shape}: give x0, y0, x1 and y1, 'box', or three or more corners of a "
             "polygon"
         )
-    return check_finite(as_type(array, dtype))
+    return check_finite(as_type(array, dtype, "corner"), "corner")

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from . import _native
 from ._errors import ChoiceError, InputError
-from ._input import as_type
+from ._input import as_type, check_finite, refuse_mask
 from ._mesh import Mesh
 
 DOMAINS = ("all", "holes", "even-odd", "non-zero")
@@ -84,17 +84,26 @@ class ConstrainedMesh(Mesh):
 
 
 def asked(
-    constraints: Any, domain: str, lines: int, holes: Any, regions: Any, dtype: np.dtype[Any]
+    constraints: Any, domain: str | None, lines: int, holes: Any, regions: Any, dtype: np.dtype[Any]
 ) -> Asked:
     """What is asked of a mesh, checked. Places become the type of numbers of the points."""
+    if domain is None:
+        domain = "all" if holes is None else "holes"
     if domain not in DOMAINS:
         raise ChoiceError(f"the domain is {domain!r}: choose one of {', '.join(DOMAINS)}")
+    if holes is not None and domain != "holes":
+        raise ChoiceError(f"holes belong to the domain 'holes', but the domain is {domain!r}: leave one of them out")
     pairs = _pairs(constraints)
     lines = operator.index(lines)
     if not 0 <= lines <= len(pairs):
         raise ChoiceError(f"{lines} of {len(pairs)} constraints cannot be lines: give 0 to {len(pairs)}")
-    places = [np.empty((0, 2), dtype) if some is None else as_type(some, dtype) for some in (holes, regions)]
-    return Asked(pairs, lines, domain, *places)
+    return Asked(pairs, lines, domain, _places(holes, dtype, "hole"), _places(regions, dtype, "region"))
+
+
+def _places(places: Any, dtype: np.dtype[Any], item: str) -> NDArray[Any]:
+    if places is None:
+        return np.empty((0, 2), dtype)
+    return check_finite(as_type(places, dtype, item), item)
 
 
 def constrained(mesh: Mesh, asked: Asked) -> ConstrainedMesh:
@@ -109,6 +118,8 @@ def constrained(mesh: Mesh, asked: Asked) -> ConstrainedMesh:
 
 
 def _pairs(constraints: Any) -> NDArray[np.uint32]:
+    if isinstance(constraints, np.ma.MaskedArray):
+        refuse_mask("constraints", constraints, "indices")
     try:
         pairs = np.asarray([] if constraints is None else constraints)
     except ValueError as error:

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from . import _native
 from ._cells import check_threads
-from ._errors import ChoiceError, InputError
-from ._input import as_type, check_finite
+from ._errors import ChoiceError
+from ._input import as_type, as_values, check_finite
 
 METHODS = ("linear", "laplace", "sibson")
 OUTSIDE = ("nan", "nearest")
@@ -38,28 +38,20 @@ class Surface:
         Points as for `triangulate`, taken as float64; integers that float64 cannot hold are refused. Of duplicates, the
         lowest index has the value.
     values
-        A finite value for each point.
+        A finite number for each point, taken as float64.
 
     Raises
     ------
     InputError
-        There is no triangle between the points, or values are missing, too many or not finite.
+        Points as for `triangulate`, no triangle between them, or values that are missing, too many or not finite.
+    NumberTypeError
+        Points or values that are no real numbers.
     """
 
     def __init__(self, points: Any, values: Any) -> None:
         array = check_finite(as_type(points, np.dtype("float64")))
-        heights = np.asarray(values, dtype=np.float64)
-        if heights.shape != (len(array),):
-            raise InputError(
-                f"{len(array)} points have values of the shape {heights.shape}: give one value for each point"
-            )
-        wrong = np.flatnonzero(~np.isfinite(heights))
-        if len(wrong):
-            raise InputError(
-                f"the value of point {wrong[0]} is {heights[wrong[0]]}, which is not a finite number: remove or "
-                "correct the point"
-            )
-        self._surface = _native.Surface(array, heights.tolist())
+        heights = as_values(values, len(array))
+        self._surface = _native.Surface(array, heights)
 
     def __call__(
         self, at: Any, method: str = "linear", outside: str = "nan", threads: int | None = None
@@ -89,7 +81,7 @@ class Surface:
             raise ChoiceError(f"the method is {method!r}: choose one of {', '.join(METHODS)}")
         if outside not in OUTSIDE:
             raise ChoiceError(f"outside is {outside!r}: choose one of {', '.join(OUTSIDE)}")
-        places = as_type(at, np.dtype("float64"))
+        places = as_type(at, np.dtype("float64"), "place")
         return self._surface.values(places, method, outside, check_threads(threads))
 
     def contours(self, level: float) -> list[tuple[NDArray[np.float64], bool]]:

@@ -24,14 +24,14 @@ def triangulate(
     progress: Progress | None = None,
     *,
     constraints: Any = None,
-    domain: str = "all",
+    domain: str | None = None,
     lines: int = 0,
     holes: Any = None,
     regions: Any = None,
 ) -> Mesh:
     """Triangulates a set of points: the Delaunay triangulation of its distinct points, in canonical form.
 
-    With `constraints` or another `domain` than `"all"`, the mesh is a `ConstrainedMesh`.
+    With `constraints`, a `domain`, `holes` or `regions`, the mesh is a `ConstrainedMesh`.
 
     >>> import numpy as np, incircle
     >>> mesh = incircle.triangulate(np.array([[-0.1, 0.1], [0.2, 0.1], [0.2, 0.4], [-0.1, 0.4]]))
@@ -63,7 +63,8 @@ def triangulate(
         overlap, touch and pass through points, but not cross elsewhere.
     domain
         Which triangles are wanted: `"all"` of the hull; `"even-odd"` or `"non-zero"` for those inside the rings of the
-        constraints; `"holes"` for those that constraints separate from the outside and from all holes.
+        constraints; `"holes"` for those that constraints separate from the outside and from all holes. `None` stands
+        for `"holes"` if there are holes, else for `"all"`.
     lines
         How many constraints at the end bound nothing: they are edges, but no parts of rings.
     holes, regions
@@ -79,8 +80,8 @@ def triangulate(
     NumberTypeError
         A type of numbers that cannot be taken exactly, such as object or complex.
     ChoiceError
-        An impossible number of threads, threads for another back end than `"cpu"`, an unknown domain, or more lines
-        than constraints.
+        An impossible number of threads, threads for another back end than `"cpu"`, an unknown domain, holes in another
+        domain than `"holes"`, or more lines than constraints.
     Error
         `DeviceNotFoundError`, `LinkError`, `DeviceError` and `DeviceTimeoutError` of a device, `CapacityError` beyond
         536,870,911 points, and `Cancelled`.
@@ -95,7 +96,7 @@ def triangulate(
         if addresses not in ([], ["cpu"]):
             raise ChoiceError(f"threads are for the CPU triangulator, but the back end is {', '.join(addresses)}")
     array = as_points(points)
-    is_plain = constraints is None and domain == "all" and regions is None
+    is_plain = all(choice is None for choice in (constraints, domain, holes, regions)) and lines == 0
     plan = None if is_plain else asked(constraints, domain, lines, holes, regions, array.dtype)
     found, triangles, hull, duplicates, report = _native.triangulate(array, addresses, threads, listener(progress))
     mesh = Mesh(found, triangles, hull, duplicates, Report.of(report), crs_of(points))

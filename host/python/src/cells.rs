@@ -3,8 +3,7 @@
 use std::num::NonZeroUsize;
 
 use incircle::lloyd::{relax, End, Stop};
-use incircle::voronoi::{Cells, Clip, Side, Voronoi};
-use incircle::{GridSet, GridSetError, PlanePoint, Quantize};
+use incircle::{CellLists, GridSet, GridSetError, PlanePoint, Quantize, VoronoiLists, EMPTY};
 use numpy::{Element, PyArray1};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -15,20 +14,6 @@ use crate::points::{array, list, of_any_type, Points};
 
 /// Bits below the lattice that a relaxation needs for places between the points.
 const SPARE_BITS: u32 = 8;
-
-/// Lists of the cells inside a clip.
-#[derive(Default)]
-struct Clipped {
-    /// The corners of all pieces, one piece behind the other.
-    corners: Vec<[f64; 2]>,
-    /// The first corner of each piece, and the end of the last.
-    starts: Vec<u64>,
-    /// The point of each piece.
-    points: Vec<u32>,
-    areas: Vec<f64>,
-    neighbors: Vec<u32>,
-    neighbor_starts: Vec<u64>,
-}
 
 /// The Voronoi diagram of a set, as a dictionary; with the cells inside the clip if there is one.
 #[pyfunction]
@@ -41,25 +26,29 @@ pub fn voronoi<'py>(
     let py = points.py();
     let set = of_any_type!(Points, Points::read(points)?, points => grid_set(py, points, corners, 0, quantize))?;
     let clip = is_clipped.then(|| set.clip()).transpose().map_err(|error| bad_input(py, &error.to_string()))?;
-    let mesh = py.detach(|| incircle::triangulate(set.points())).map_err(|error| of_job(py, &error))?;
-    let diagram = py.detach(|| Voronoi::of(&mesh)).map_err(|error| bad_input(py, &error.to_string()))?;
+    let lists = py.detach(|| VoronoiLists::of(&set, clip.as_ref())).map_err(|error| of_grid_set(py, &error))?;
+    // `EMPTY` stands for infinity.
+    let corners = lists.corners.iter().map(|&vertex| if vertex == EMPTY { -1 } else { i64::from(vertex) }).collect();
     let dict = PyDict::new(py);
-    describe(py, &dict, &diagram, &set)?;
-    let duplicates: Vec<[u32; 2]> = mesh.duplicates.iter().map(|one| [one.index, one.of]).collect();
-    dict.set_item("duplicates", array(py, duplicates)?)?;
+    dict.set_item("vertices", array(py, lists.vertices)?)?;
+    dict.set_item("starts", PyArray1::from_vec(py, lists.starts))?;
+    dict.set_item("neighbors", PyArray1::from_vec(py, lists.neighbors))?;
+    dict.set_item("corners", PyArray1::from_vec(py, corners))?;
+    dict.set_item("duplicates", array(py, lists.duplicates)?)?;
     dict.set_item("largest_error", set.quantization().map(|quantization| quantization.largest_error))?;
-    dict.set_item("clipped", None::<u8>)?;
-    if let Some(clip) = clip {
-        let lists = py.detach(|| clipped(&diagram, &clip, &set));
-        let inner = PyDict::new(py);
-        inner.set_item("corners", array(py, lists.corners)?)?;
-        inner.set_item("starts", PyArray1::from_vec(py, lists.starts))?;
-        inner.set_item("points", PyArray1::from_vec(py, lists.points))?;
-        inner.set_item("areas", PyArray1::from_vec(py, lists.areas))?;
-        inner.set_item("neighbors", PyArray1::from_vec(py, lists.neighbors))?;
-        inner.set_item("neighbor_starts", PyArray1::from_vec(py, lists.neighbor_starts))?;
-        dict.set_item("clipped", inner)?;
-    }
+    dict.set_item("clipped", lists.cells.map(|cells| described(py, cells)).transpose()?)?;
+    Ok(dict)
+}
+
+/// The cells inside a clip as a dictionary.
+fn described(py: Python<'_>, cells: CellLists) -> PyResult<Bound<'_, PyDict>> {
+    let dict = PyDict::new(py);
+    dict.set_item("corners", array(py, cells.corners)?)?;
+    dict.set_item("starts", PyArray1::from_vec(py, cells.starts))?;
+    dict.set_item("points", PyArray1::from_vec(py, cells.points))?;
+    dict.set_item("areas", PyArray1::from_vec(py, cells.areas))?;
+    dict.set_item("neighbors", PyArray1::from_vec(py, cells.neighbors))?;
+    dict.set_item("neighbor_starts", PyArray1::from_vec(py, cells.neighbor_starts))?;
     Ok(dict)
 }
 
@@ -85,66 +74,6 @@ fn of_grid_set(py: Python<'_>, error: &GridSetError) -> PyErr {
         GridSetError::Points(error) => of_job(py, error),
         error => bad_input(py, &error.to_string()),
     }
-}
-
-/// Writes the diagram without a clip into a dictionary.
-fn describe<'py>(py: Python<'py>, dict: &Bound<'py, PyDict>, diagram: &Voronoi<'_>, set: &GridSet) -> PyResult<()> {
-    let vertices = py.detach(|| {
-        let numbers = 0..diagram.vertex_count() as u32;
-        numbers.map(|vertex| set.coordinates(diagram.vertex(vertex))).collect::<Vec<[f64; 2]>>()
-    });
-    let (starts, neighbors, corners) = py.detach(|| {
-        let (mut starts, mut neighbors, mut corners) = (vec![0u64], Vec::new(), Vec::new());
-        for point in 0..diagram.points().len() as u32 {
-            for edge in diagram.cell(point).iter().flat_map(|cell| cell.edges()) {
-                neighbors.push(edge.neighbor);
-                corners.push(edge.from.map_or(-1, i64::from));
-            }
-            starts.push(neighbors.len() as u64);
-        }
-        (starts, neighbors, corners)
-    });
-    dict.set_item("vertices", array(py, vertices)?)?;
-    dict.set_item("starts", PyArray1::from_vec(py, starts))?;
-    dict.set_item("neighbors", PyArray1::from_vec(py, neighbors))?;
-    dict.set_item("corners", PyArray1::from_vec(py, corners))
-}
-
-/// The cells inside a clip.
-fn clipped(diagram: &Voronoi<'_>, clip: &Clip, set: &GridSet) -> Clipped {
-    let mut lists = Clipped { starts: vec![0], neighbor_starts: vec![0], ..Clipped::default() };
-    let (mut cells, length) = (Cells::new(diagram, clip), set.length());
-    for point in 0..diagram.points().len() as u32 {
-        let cell = cells.cell(point);
-        let begin = lists.neighbors.len();
-        for piece in cell.pieces() {
-            for (corner, side) in piece.corners() {
-                lists.corners.push(set.coordinates(corner));
-                if let Side::Neighbor(neighbor) = side {
-                    lists.neighbors.push(neighbor);
-                }
-            }
-            lists.starts.push(lists.corners.len() as u64);
-            lists.points.push(point);
-        }
-        lists.neighbors[begin..].sort_unstable();
-        dedup_from(&mut lists.neighbors, begin);
-        lists.neighbor_starts.push(lists.neighbors.len() as u64);
-        lists.areas.push(cell.area() * length * length);
-    }
-    lists
-}
-
-/// Drops repeated items of a list behind a place; the items there are sorted.
-fn dedup_from(list: &mut Vec<u32>, begin: usize) {
-    let mut end = begin;
-    for place in begin..list.len() {
-        if end == begin || list[end - 1] != list[place] {
-            list[end] = list[place];
-            end += 1;
-        }
-    }
-    list.truncate(end);
 }
 
 /// Places, steps, how many points moved in the last step, why the relaxation ended, and the largest error of a

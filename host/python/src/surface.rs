@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 
 use incircle::interpolate::{self, Method, Outside};
-use numpy::PyArray1;
+use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
@@ -22,8 +22,8 @@ pub struct Surface {
 #[pymethods]
 impl Surface {
     #[new]
-    fn new(points: &Bound<'_, PyAny>, values: Vec<f64>) -> PyResult<Self> {
-        let (py, points) = (points.py(), places(points)?);
+    fn new(points: &Bound<'_, PyAny>, values: PyReadonlyArray1<'_, f64>) -> PyResult<Self> {
+        let (py, points, values) = (points.py(), places(points)?, values.to_vec()?);
         let mesh = py.detach(|| incircle::triangulate(&points)).map_err(|error| of_job(py, &error))?;
         let surface = py.detach(|| interpolate::Surface::new(&points, &mesh.triangles, &values));
         let surface = surface.map_err(|error| bad_input(py, &error.to_string()))?;
