@@ -166,6 +166,8 @@
 //! | the same with the mesh on a device | [`Session::living`], with the trait [`LivingMesh`] |
 //! | edges that must be in the mesh, or triangles inside polygons | [`constraints::constrain`] |
 //! | the region nearest to each point, clipped to a polygon | [`voronoi`], with the mesh of grid points |
+//! | grid points and a clip from points of any numbers | [`GridSet`] |
+//! | cells as flat lists, for another language or a graphics card | [`VoronoiLists`] |
 //! | points spread evenly over a region | [`lloyd::relax`], with grid points and a [`voronoi::Clip`] |
 //! | values between points, such as heights | [`interpolate::Surface`], with the mesh of the points |
 //! | many small sets at once | [`Session::triangulate_batch`]: a device works on them side by side |
@@ -194,13 +196,16 @@
 mod commands;
 mod device;
 mod error;
+mod grid_set;
 mod job;
 mod limit;
 pub mod quantize;
 pub mod transports;
+mod voronoi_lists;
 
 pub use device::{Device, DeviceAddress, Fleet, LivingMesh, LivingSession, Session};
 pub use error::{DeviceFault, Error, ErrorKind, Shown, TransportError};
+pub use grid_set::{GridSet, GridSetError};
 pub use incircle_geometry::constraints;
 pub use incircle_geometry::cpu::{Error as TriangulatorError, Triangulator};
 pub use incircle_geometry::lattice::{Lattice, Step};
@@ -213,6 +218,7 @@ pub use incircle_protocol::{Config, Identity};
 pub use job::{Counters, Latencies, Options, Progress, ProgressListener, Report, Share, Solution, Stage};
 pub use quantize::{quantize, Quantization, Quantize};
 pub use transports::{pcie, serial, udp, Transport};
+pub use voronoi_lists::{CellLists, VoronoiLists};
 
 /// Orders of insertion, for programs that compare them.
 ///

@@ -13,12 +13,15 @@ No coordinate is rounded, and a set of points has exactly one mesh, on every mac
 
 `triangulate` makes the mesh of a set, and `Triangulation` is a mesh whose points come, go and move. `Delaunay` stands
 in for `scipy.spatial.Delaunay` in two dimensions and needs SciPy, and `tri` makes a `matplotlib.tri.Triangulation`.
+`voronoi` makes the cells of a set, `lloyd` spreads points evenly, and `interpolate` gives values between points.
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from ._cells import Cells, Relaxed, Voronoi, lloyd, voronoi
+from ._constraints import ConstrainedMesh
 from ._errors import (
     CapacityError,
     Cancelled,
@@ -36,6 +39,7 @@ from ._errors import (
 from ._living import Location, Triangulation
 from ._matplotlib import tri
 from ._mesh import Mesh, Report, Share
+from ._surface import Surface, interpolate
 from ._triangulate import triangulate
 
 if TYPE_CHECKING:
@@ -46,7 +50,9 @@ __version__ = "0.1.0"
 __all__ = [
     "CapacityError",
     "Cancelled",
+    "Cells",
     "ChoiceError",
+    "ConstrainedMesh",
     "Delaunay",
     "DeviceError",
     "DeviceNotFoundError",
@@ -58,13 +64,19 @@ __all__ = [
     "Location",
     "Mesh",
     "NumberTypeError",
+    "Relaxed",
     "Report",
     "Share",
+    "Surface",
     "Triangulation",
     "UnknownPointError",
     "VerifyError",
+    "Voronoi",
+    "interpolate",
+    "lloyd",
     "tri",
     "triangulate",
+    "voronoi",
 ]
 
 

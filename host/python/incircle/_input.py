@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,31 +19,61 @@ _WIDER = {"float16": "float32", "int8": "int32", "int16": "int32", "uint8": "uin
 """Smaller types, and the type that holds all their numbers."""
 
 
-def as_points(points: Any) -> Points:
-    """An array of two columns in a type that the library takes, with the same numbers. Copies only what it must."""
+def as_points(points: Any, item: str = "point") -> Points:
+    """An array of two columns in a type that the library takes, with the same numbers. Copies only what it must.
+
+    `item` is what the sentences of errors call a row.
+    """
     if isinstance(points, np.ma.MaskedArray):
-        masked = int(np.ma.getmaskarray(points).sum())
-        raise InputError(
-            f"the points are a masked array, with {masked} of {points.size} coordinates masked: "
-            "leave masked points out, and give the rest as a plain array"
-        )
+        refuse_mask(f"{item}s", points, "coordinates")
     coordinates = _shapely.coordinates(points)
-    array = _array(points) if coordinates is None else coordinates
+    array = _array(points, item) if coordinates is None else coordinates
     if array.shape == (0,):
         array = array.reshape(0, 2)
     if array.ndim != 2 or array.shape[1] != 2:
-        raise InputError(f"the points have the shape {array.shape}: give an array of two columns, x and y")
-    return np.require(exact(array), requirements="A")
+        raise InputError(f"the {item}s have the shape {array.shape}: give an array of two columns, x and y")
+    return np.require(exact(array, item), requirements="A")
 
 
-def _array(points: Any) -> NDArray[Any]:
+def refuse_mask(name: str, array: np.ma.MaskedArray[Any, Any], items: str) -> NoReturn:
+    """Raises the error for a masked array, which names what is given and what its items are."""
+    masked = int(np.ma.getmaskarray(array).sum())
+    raise InputError(
+        f"the {name} are a masked array, with {masked} of {array.size} {items} masked: leave masked points out, and "
+        "give the rest as a plain array"
+    )
+
+
+def as_values(values: Any, count: int) -> NDArray[np.float64]:
+    """A finite value for each of `count` points, as doubles. Numbers that no double holds are rounded."""
+    if isinstance(values, np.ma.MaskedArray):
+        refuse_mask("values", values, "values")
+    try:
+        array = np.asarray(values)
+    except ValueError as error:
+        raise InputError(f"the values are no array, because numpy says: {error}") from error
+    if array.shape != (count,):
+        raise InputError(f"{count} points have values of the shape {array.shape}: give one value for each point")
+    if array.dtype.kind not in "iuf" and count:
+        raise NumberTypeError(f"the values have the type {array.dtype}: give floats or whole numbers")
+    heights = np.require(array, np.float64, ["C", "A"])
+    wrong = np.flatnonzero(~np.isfinite(heights))
+    if len(wrong):
+        raise InputError(
+            f"the value of point {wrong[0]} is {heights[wrong[0]]}, which is not a finite number: remove or correct "
+            "the point"
+        )
+    return heights
+
+
+def _array(points: Any, item: str) -> NDArray[Any]:
     try:
         return np.asarray(points)
     except ValueError as error:
-        raise InputError(f"the points are no array of two columns, because numpy says: {error}") from error
+        raise InputError(f"the {item}s are no array of two columns, because numpy says: {error}") from error
 
 
-def exact(array: NDArray[Any]) -> NDArray[Any]:
+def exact(array: NDArray[Any], item: str = "point") -> NDArray[Any]:
     """The array in a type that the library takes, with the same numbers."""
     dtype = array.dtype.newbyteorder("=")
     if dtype in NATIVE:
@@ -51,23 +81,23 @@ def exact(array: NDArray[Any]) -> NDArray[Any]:
     if dtype.name in _WIDER:
         return array.astype(_WIDER[dtype.name])
     if dtype.kind == "u":
-        return _converted(array, np.dtype("int64"))
+        return _converted(array, np.dtype("int64"), item)
     if dtype.kind == "f":
-        return _converted(array, np.dtype("float64"))
+        return _converted(array, np.dtype("float64"), item)
     if dtype.kind == "i":
         return array.astype(np.int64, copy=False)
     raise NumberTypeError(
-        f"the points have the type {array.dtype}: give float64, float32, int64, int32 or uint32, "
+        f"the {item}s have the type {array.dtype}: give float64, float32, int64, int32 or uint32, "
         "which are taken exactly"
     )
 
 
-def as_type(points: Any, dtype: np.dtype[Any]) -> Points:
+def as_type(points: Any, dtype: np.dtype[Any], item: str = "point") -> Points:
     """Points as an array of a given type, which must hold all their numbers."""
-    return _converted(as_points(points), dtype)
+    return _converted(as_points(points, item), dtype, item)
 
 
-def _converted(array: NDArray[Any], dtype: np.dtype[Any]) -> NDArray[Any]:
+def _converted(array: NDArray[Any], dtype: np.dtype[Any], item: str) -> NDArray[Any]:
     """The array in another type. The first number that the type cannot hold is an error."""
     if array.dtype == dtype:
         return array
@@ -84,17 +114,17 @@ def _converted(array: NDArray[Any], dtype: np.dtype[Any]) -> NDArray[Any]:
     if not same.all():
         row, column = (int(place) for place in np.argwhere(~same)[0])
         value = array[row, column]
-        raise InputError(f"the {'xy'[column]} of point {row} is {value}, which {dtype} cannot hold")
+        raise InputError(f"the {'xy'[column]} of {item} {row} is {value}, which {dtype} cannot hold")
     return converted
 
 
-def check_finite(points: Points) -> Points:
+def check_finite(points: Points, item: str = "point") -> Points:
     """The points, all of which must be finite."""
     finite = np.isfinite(points)
     if not finite.all():
         row, column = (int(place) for place in np.argwhere(~finite)[0])
         value = points[row, column]
         raise InputError(
-            f"the {'xy'[column]} of point {row} is {value}, which is not a finite number: remove or correct the point"
+            f"the {'xy'[column]} of {item} {row} is {value}, which is not a finite number: remove or correct the {item}"
         )
     return points

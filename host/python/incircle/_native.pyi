@@ -3,7 +3,19 @@ from typing import Any, Callable, final
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Living", "halfedges", "library", "neighbors", "triangulate", "verify"]
+__all__ = [
+    "Living",
+    "Surface",
+    "constrained",
+    "halfedges",
+    "library",
+    "neighbors",
+    "spread",
+    "triangulate",
+    "verify",
+    "verify_plan",
+    "voronoi",
+]
 
 def triangulate(
     points: NDArray[Any],
@@ -20,6 +32,30 @@ def verify(
     hull: list[int],
     duplicates: list[list[int]],
 ) -> None: ...
+def constrained(
+    points: NDArray[Any],
+    triangles: NDArray[np.uint32],
+    hull: list[int],
+    duplicates: list[list[int]],
+    asked: Any,
+) -> dict[str, Any]: ...
+def verify_plan(points: NDArray[Any], triangles: NDArray[np.uint32], asked: Any) -> None: ...
+def voronoi(points: NDArray[Any], corners: NDArray[Any], is_clipped: bool, quantize: bool) -> dict[str, Any]: ...
+def spread(
+    points: NDArray[Any],
+    corners: NDArray[Any],
+    stop: tuple[int, bool],
+    threads: int | None,
+    quantize: bool,
+) -> tuple[NDArray[np.float64], int, int, str, float | None]: ...
+
+@final
+class Surface:
+    def __new__(cls, points: NDArray[np.float64], values: NDArray[np.float64]) -> Surface: ...
+    def values(
+        self, at: NDArray[np.float64], method: str, outside: str, threads: int | None
+    ) -> NDArray[np.float64]: ...
+    def contours(self, level: float) -> list[tuple[NDArray[np.float64], bool]]: ...
 
 @final
 class Living:

@@ -67,3 +67,14 @@ def frame(points: NDArray[Any], triangles: NDArray[Any], crs: Any) -> Any:
 
     columns = dict(zip("abc", triangles.T))
     return geopandas.GeoDataFrame(columns, geometry=polygons(points, triangles), crs=crs)
+
+
+def cells(pieces: list[list[NDArray[Any]]]) -> NDArray[Any]:
+    """Cells as an array of shapely: a polygon, a multipolygon of several pieces, or an empty polygon for none."""
+    import shapely
+
+    shapes = [[shapely.Polygon(piece) for piece in cell] for cell in pieces]
+    return np.array(
+        [one[0] if len(one) == 1 else shapely.MultiPolygon(one) if one else shapely.Polygon() for one in shapes],
+        dtype=object,
+    )

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from . import _native
+from ._constraints import asked, constrained
 from ._errors import ChoiceError
 from ._input import as_points
 from ._mesh import Mesh, Report
@@ -21,8 +22,16 @@ def triangulate(
     backend: str | Sequence[str] | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
+    *,
+    constraints: Any = None,
+    domain: str | None = None,
+    lines: int = 0,
+    holes: Any = None,
+    regions: Any = None,
 ) -> Mesh:
     """Triangulates a set of points: the Delaunay triangulation of its distinct points, in canonical form.
+
+    With `constraints`, a `domain`, `holes` or `regions`, the mesh is a `ConstrainedMesh`.
 
     >>> import numpy as np, incircle
     >>> mesh = incircle.triangulate(np.array([[-0.1, 0.1], [0.2, 0.1], [0.2, 0.4], [-0.1, 0.4]]))
@@ -49,16 +58,30 @@ def triangulate(
         A function that is called with the stage, the items done and the items of the stage in all, or a bar of tqdm. An
         exception from the function ends the job and reaches the caller. If the function returns `False`, the job ends
         with `Cancelled`.
+    constraints
+        Edges that must be in the mesh: an array of whole numbers with two columns, the rows of both ends. They may
+        overlap, touch and pass through points, but not cross elsewhere.
+    domain
+        Which triangles are wanted: `"all"` of the hull; `"even-odd"` or `"non-zero"` for those inside the rings of the
+        constraints; `"holes"` for those that constraints separate from the outside and from all holes. `None` stands
+        for `"holes"` if there are holes, else for `"all"`.
+    lines
+        How many constraints at the end bound nothing: they are edges, but no parts of rings.
+    holes, regions
+        A place in each hole of the domain `"holes"`, and in each region whose number is wanted; points in numbers that
+        the type of the points holds.
 
     Raises
     ------
     InputError
         A shape without two columns, a masked array, a value that is NaN or infinite, or points that the device cannot
-        take.
+        take. Constraints that cross or name points that do not exist, a boundary that is not closed, a domain without
+        triangles, or a hole or region outside the hull or on a constraint.
     NumberTypeError
         A type of numbers that cannot be taken exactly, such as object or complex.
     ChoiceError
-        An impossible number of threads, or threads for another back end than `"cpu"`.
+        An impossible number of threads, threads for another back end than `"cpu"`, an unknown domain, holes in another
+        domain than `"holes"`, or more lines than constraints.
     Error
         `DeviceNotFoundError`, `LinkError`, `DeviceError` and `DeviceTimeoutError` of a device, `CapacityError` beyond
         536,870,911 points, and `Cancelled`.
@@ -73,8 +96,11 @@ def triangulate(
         if addresses not in ([], ["cpu"]):
             raise ChoiceError(f"threads are for the CPU triangulator, but the back end is {', '.join(addresses)}")
     array = as_points(points)
+    is_plain = all(choice is None for choice in (constraints, domain, holes, regions)) and lines == 0
+    plan = None if is_plain else asked(constraints, domain, lines, holes, regions, array.dtype)
     found, triangles, hull, duplicates, report = _native.triangulate(array, addresses, threads, listener(progress))
-    return Mesh(found, triangles, hull, duplicates, Report.of(report), crs_of(points))
+    mesh = Mesh(found, triangles, hull, duplicates, Report.of(report), crs_of(points))
+    return mesh if plan is None else constrained(mesh, plan)
 
 
 def _addresses(backend: str | Sequence[str] | None) -> list[str]:

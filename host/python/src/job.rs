@@ -5,12 +5,12 @@ use std::time::Instant;
 
 use incircle::{Device, Duplicate, Error, Fleet, Mesh, Options, PlanePoint, Report, Solution, EMPTY};
 use numpy::{Element, PyArray1};
-use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::constrained::triangle_list;
 use crate::error::{exception, of_job};
-use crate::points::{array, list, of_any_type, Points};
+use crate::points::{array, of_any_type, Points};
 use crate::watch::Watch;
 
 /// Points of one command to a device. Between commands, signals are looked for and progress is told.
@@ -182,11 +182,6 @@ pub fn verify(
         py.detach(|| Mesh::new(points, triangles, hull, duplicates).verify())
     });
     verified.map_err(|error| exception(py, "VerifyError", &error.to_string()))
-}
-
-fn triangle_list(triangles: &Bound<'_, PyAny>) -> PyResult<Vec<[u32; 3]>> {
-    let wrong = || PyTypeError::new_err("triangles must be an array of uint32 with three columns");
-    list(triangles)?.ok_or_else(wrong)
 }
 
 /// A mesh without points, of which only the triangles are asked.

@@ -11,6 +11,7 @@ import pytest
 import incircle
 
 POINTS = np.random.default_rng(1).random((2_000, 2))
+WHOLE = (POINTS * 2**20).astype(int)
 ROUNDS = 300
 MOST_GROWTH = 8 << 20
 """Every call makes at least 100 kB of arrays, so that 300 calls which kept them would take 30 MB."""
@@ -50,6 +51,10 @@ CALLS = {
     "fleet": lambda: incircle.triangulate(POINTS * 0 + [[1, 2]], backend=["cpu?threads=1", "cpu?threads=1"]),
     "lives": lives,
     "svg": lambda: incircle.triangulate(POINTS)._repr_svg_(),
+    "constraints": lambda: incircle.triangulate(POINTS, constraints=[(0, 1)], regions=POINTS[5:6]),
+    "cells": lambda: incircle.voronoi(WHOLE, clip="box"),
+    "relaxation": lambda: incircle.lloyd(WHOLE, 1, threads=1),
+    "surface": lambda: incircle.Surface(POINTS, POINTS[:, 0]).contours(0.5),
     "verify": lambda: incircle.triangulate(POINTS).verify(),
 }
 
@@ -57,7 +62,7 @@ CALLS = {
 @pytest.mark.skipif(not os.path.exists("/proc/self/statm"), reason="the memory of the process is read from Linux")
 @pytest.mark.parametrize("name", CALLS)
 def test_memory_does_not_grow(name):
-    call, rounds = CALLS[name], ROUNDS if name not in ("svg", "lives") else ROUNDS // 3
+    call, rounds = CALLS[name], ROUNDS if name not in ("svg", "lives", "cells") else ROUNDS // 3
     for _ in range(30):
         call()
     gc.collect()
