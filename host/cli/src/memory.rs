@@ -46,6 +46,13 @@ impl Memory {
         number_behind(Path::new("/proc/self/status"), "VmHWM:").map(|kibibytes| kibibytes * 1024)
     }
 
+    /// Makes the allocator give each large list back to the system when it is freed. By default it keeps such memory
+    /// for later, apart for each thread, so that no bound on the process could be held. Does nothing on systems other
+    /// than Linux with the GNU C library.
+    pub fn give_back_lists() {
+        limit_kept();
+    }
+
     /// The most bytes that an input may have, unpacked: half of the memory, because points are made of them.
     pub fn input_bytes(self) -> u64 {
         self.bytes / 2
@@ -90,6 +97,20 @@ impl Memory {
         Ok(())
     }
 }
+
+/// Lists of this many bytes or more have pages of their own.
+#[cfg(all(target_os = "linux", target_env = "gnu"))]
+const LARGE: i32 = 128 << 10;
+
+#[cfg(all(target_os = "linux", target_env = "gnu"))]
+#[allow(unsafe_code)] // no safe library offers this call
+fn limit_kept() {
+    // SAFETY: the call changes a number of the allocator under its own lock, and moves no memory.
+    unsafe { libc::mallopt(libc::M_MMAP_THRESHOLD, LARGE) };
+}
+
+#[cfg(not(all(target_os = "linux", target_env = "gnu")))]
+fn limit_kept() {}
 
 /// The free memory by the files of a system whose root is this folder; `None` if they do not tell it.
 fn free_of(root: &Path) -> Option<u64> {

@@ -12,7 +12,7 @@ use crate::failure::{counted, failure_of, Failure};
 use crate::formats::{MeshFormat, MeshView};
 use crate::output::{self, Output};
 use crate::progress::Meter;
-use crate::tiles::{self, Budget, Joined, Manifest, Order, Outcome, Plan, Summary, TileAt};
+use crate::tiles::{self, Budget, JoinMemory, Joined, Manifest, Order, Outcome, Plan, Summary, TileAt};
 use crate::{interrupt, path, source};
 
 /// Runs a verb.
@@ -163,9 +163,10 @@ fn join(arguments: &JoinArguments) -> Result<(), Failure> {
         return Err(Failure::usage("--unordered is for npy, csv and ele only: leave it out, or choose one of them"));
     }
     let order = if arguments.unordered { Order::Unordered } else { Order::Canonical };
-    let (folder, keeps_pairs) = (&arguments.folder, !tiles::is_streamed(format));
-    let joined = tiles::join(folder, &manifest, arguments.memory, keeps_pairs, arguments.quiet)?;
-    let counts = [manifest.points(), joined.duplicates, joined.triangles, joined.hull.len() as u64];
+    let (folder, keeps_lists) = (&arguments.folder, !tiles::is_streamed(format));
+    let memory = JoinMemory { sort: arguments.memory, bound: None };
+    let joined = tiles::join(folder, &manifest, memory, keeps_lists, arguments.quiet)?;
+    let counts = [manifest.points(), joined.duplicates, joined.triangles, joined.hull_points];
     let written = if tiles::is_streamed(format) {
         tiles::write_triangles(joined, (folder, &manifest), (order, arguments.memory), format, output, arguments.quiet)?
     } else {

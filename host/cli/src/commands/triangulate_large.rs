@@ -18,7 +18,7 @@ use crate::input::Input;
 use crate::memory::Memory;
 use crate::output::{self, Output};
 use crate::progress::CountMeter;
-use crate::tiles::{self, Budget, Manifest, Needed, Order, Plan, Scratch, TileAt};
+use crate::tiles::{self, Budget, JoinMemory, Manifest, Needed, Order, Plan, Scratch, TileAt};
 use crate::watch::{self, Watch};
 use crate::{interrupt, path, source};
 
@@ -115,6 +115,7 @@ pub fn run(arguments: &TriangulateArguments, memory: u64) -> Result<(), Failure>
     let budget = budget_of(memory, choice.cpu_threads(), &scratch)?;
     let threads = choice.cpu_threads().get().div_ceil(budget.workers.get());
     let choice = choice.with_cpu_threads(NonZeroUsize::new(threads).unwrap_or(NonZeroUsize::MIN));
+    Memory::give_back_lists();
     let run = Run { arguments, budget, format, choice, scratch: &scratch };
     let done = run.steps(output);
     let remedy = remedy(&scratch);
@@ -201,9 +202,10 @@ impl Run<'_> {
         self.solve(&manifest)?;
         watch.ended("local");
         let (folder, quiet) = (self.scratch.folder(), self.arguments.quiet);
-        let joined = tiles::join(folder, &manifest, self.budget.sort, false, quiet)?;
+        let memory = JoinMemory { sort: self.budget.sort, bound: Some(self.budget.memory) };
+        let joined = tiles::join(folder, &manifest, memory, false, quiet)?;
         watch.ended("join");
-        let counts = [manifest.points(), joined.duplicates, joined.triangles, joined.hull.len() as u64];
+        let counts = [manifest.points(), joined.duplicates, joined.triangles, joined.hull_points];
         let written = tiles::write_triangles(
             joined,
             (folder, &manifest),

@@ -1,7 +1,7 @@
 //! The second pass: the points of all inputs are dealt to one file for each cell.
 
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, Seek, Write};
+use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use crc32fast::Hasher;
@@ -71,14 +71,22 @@ impl PointFile {
         written.map_err(|error| cannot_write(&self.path, &error))
     }
 
-    /// All points of the file, as rows of index, x and y.
-    pub fn rows(&mut self) -> Result<Vec<[u32; 3]>, Failure> {
+    /// Calls `take` with the index and the place of each point of the file.
+    pub fn each(&mut self, take: &mut dyn FnMut(u32, Point) -> Result<(), Failure>) -> Result<(), Failure> {
         self.flush()?;
         self.buffer = Vec::new();
-        let bytes = fs::read(&self.path).map_err(|error| unreadable(&error).in_file(path::name(&self.path)))?;
-        let words = bytes.get(HEAD_BYTES..).unwrap_or_default().as_chunks::<4>().0;
-        let row = |row: &[[u8; 4]; 3]| row.map(u32::from_le_bytes);
-        Ok(words.as_chunks::<3>().0.iter().map(row).collect())
+        let failed = |error: io::Error| unreadable(&error).in_file(path::name(&self.path));
+        let mut file = File::open(&self.path).map_err(failed)?;
+        file.seek(SeekFrom::Start(HEAD_BYTES as u64)).map_err(failed)?;
+        let mut source = BufReader::with_capacity(BUFFER.end, file);
+        for _ in 0..self.points {
+            let mut bytes = [0; POINT_BYTES];
+            source.read_exact(&mut bytes).map_err(failed)?;
+            let words = bytes.as_chunks::<4>().0;
+            let [index, x, y] = [0, 1, 2].map(|place| u32::from_le_bytes(words[place]));
+            take(index, Point::new(x, y))?;
+        }
+        Ok(())
     }
 
     /// Writes the head, and gives the file its final name.

@@ -5,7 +5,7 @@ use crate::failure::Failure;
 /// The number of bytes of a head.
 pub const HEAD_BYTES: usize = 76;
 /// The version of the files. Another version is refused.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 const MAGIC: [u8; 8] = *b"ICTILES\n";
 /// The bytes before the check sum of the head.

@@ -5,15 +5,28 @@ use std::path::Path;
 use incircle::tiles::{self, Border, Region, Step, Tile};
 use incircle::Point;
 
+use super::disk::told;
 use super::head::damaged;
+use super::line;
 use super::manifest::{local_path, manifest_path, Manifest};
 use super::merge::{merge, Source, Take};
 use super::opened::Owner;
 use super::result::TileFile;
 use super::runs::Runs;
 use crate::failure::Failure;
+use crate::memory::Memory;
 use crate::path;
 use crate::progress::CountMeter;
+
+/// The triangles of the joins have one in so many bytes of the memory. They are few, and the rest is for borders.
+const SHARE: u64 = 8;
+/// The most bytes that a point of the borders takes while they are joined. Measured: 105 for points on a circle, and 112
+/// for points on a parabola.
+const JOIN_BYTES: u64 = 112;
+/// The bytes that the program itself takes while it joins. Measured: 9 MiB.
+const PROGRAM: u64 = 10 << 20;
+/// The bytes of a point or of an open triangle of a border that waits to be joined.
+const ROW: u64 = 12;
 
 /// The order of the triangles of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,7 +43,10 @@ pub struct Joined {
     pub triangles: u64,
     /// The number of points that have the place of an earlier one.
     pub duplicates: u64,
-    /// The hull, in the form of [`incircle::Mesh::hull`].
+    /// The number of points on the hull.
+    pub hull_points: u64,
+    /// The hull, in the form of [`incircle::Mesh::hull`]. Empty if all points lie on one line and no lists were asked
+    /// for.
     pub hull: Vec<u32>,
     /// The duplicates themselves, if they were asked for: pairs of a duplicate and the lowest index at the same place,
     /// sorted.
@@ -39,17 +55,40 @@ pub struct Joined {
     runs: Runs,
 }
 
-/// Joins the tiles of a folder. `memory` is the number of bytes for the triangles of the joins; beside it, the memory
-/// holds the border of up to 3 regions for each level of the tree, and the border of one tile.
+/// The memory of a join.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct JoinMemory {
+    /// The bytes for sorting triangles.
+    pub sort: u64,
+    /// The bytes of the whole process that the joins must not exceed; `None` for no bound.
+    pub bound: Option<u64>,
+}
+
+/// Joins the tiles of a folder. The memory holds the borders of up to 3 regions for each level of the tree, the points
+/// of one join, and triangles. `keeps_lists` asks for the hull and the duplicates, and not only for their numbers.
 ///
 /// # Errors
-/// A tile has no file yet, or a file is damaged or of another run, or the disk is full.
-pub fn join(folder: &Path, manifest: &Manifest, memory: u64, keep_pairs: bool, quiet: bool) -> Result<Joined, Failure> {
+/// A tile has no file yet, or a file is damaged or of another run, or the disk is full, or a join does not fit the
+/// memory.
+pub fn join(
+    folder: &Path,
+    manifest: &Manifest,
+    memory: JoinMemory,
+    keeps_lists: bool,
+    quiet: bool,
+) -> Result<Joined, Failure> {
     check_there(folder, manifest)?;
+    Memory::give_back_lists();
     let points = manifest.points();
-    let runs = Runs::new(folder, memory / 2);
-    let joined = Joined { triangles: 0, duplicates: 0, hull: Vec::new(), pairs: Vec::new(), runs };
-    let mut work = Work { folder, manifest, keep_pairs, joined, borders: Vec::new(), tile: 0 };
+    let runs = Runs::new(folder, memory.sort / SHARE);
+    let joined = Joined { triangles: 0, duplicates: 0, hull_points: 0, hull: Vec::new(), pairs: Vec::new(), runs };
+    let mut work = Work { folder, manifest, memory, keeps_lists, joined, borders: Vec::new(), tile: 0 };
+    let on_line = if keeps_lists { None } else { line::duplicates_on_line(folder, manifest)? };
+    if let Some(duplicates) = on_line {
+        let joined = &mut work.joined;
+        (joined.duplicates, joined.hull_points) = (duplicates, points.saturating_sub(duplicates));
+        return Ok(work.joined);
+    }
     let meter = CountMeter::new(manifest.steps.len() as u64, "joining", "regions", quiet);
     for step in &manifest.steps {
         match step {
@@ -59,6 +98,7 @@ pub fn join(folder: &Path, manifest: &Manifest, memory: u64, keep_pairs: bool, q
         meter.advance(1);
     }
     let mut joined = work.joined;
+    joined.hull_points = joined.hull.len() as u64;
     joined.pairs.sort_unstable();
     joined.check_counts(points, folder)?;
     Ok(joined)
@@ -88,7 +128,8 @@ fn check_there(folder: &Path, manifest: &Manifest) -> Result<(), Failure> {
 struct Work<'a> {
     folder: &'a Path,
     manifest: &'a Manifest,
-    keep_pairs: bool,
+    memory: JoinMemory,
+    keeps_lists: bool,
     joined: Joined,
     borders: Vec<Border<Point, u32>>,
     tile: u32,
@@ -98,7 +139,7 @@ impl Work<'_> {
     fn tile(&mut self, region: Region) -> Result<(), Failure> {
         let owner = Owner { run: self.manifest.run, tile: self.tile };
         let mut file = TileFile::open(self.folder, owner, self.manifest.points())?;
-        let read = file.result(region, self.keep_pairs)?;
+        let read = file.result(region, self.keeps_lists)?;
         let joined = &mut self.joined;
         joined.triangles += file.finals();
         joined.duplicates += file.duplicates();
@@ -112,8 +153,9 @@ impl Work<'_> {
     /// Joins the borders that were put onto the stack last.
     fn join(&mut self, region: Region, children: usize) -> Result<(), Failure> {
         let first = self.borders.len().saturating_sub(children);
+        self.check_memory(first)?;
         let Tile { finals, border, hull, .. } =
-            tiles::join(region, self.borders.split_off(first)).map_err(|error| {
+            tiles::join_among(region, self.borders.split_off(first), &self.manifest.occupancy).map_err(|error| {
                 let name = path::name(&manifest_path(self.folder));
                 damaged(&format!("the borders of its tiles do not fit together: {error}")).in_file(name)
             })?;
@@ -122,6 +164,28 @@ impl Work<'_> {
         self.joined.hull = hull;
         self.borders.push(border);
         Ok(())
+    }
+}
+
+impl Work<'_> {
+    /// Refuses a join of the borders from `first` on that does not fit the memory.
+    fn check_memory(&self, first: usize) -> Result<(), Failure> {
+        let Some(bound) = self.memory.bound else { return Ok(()) };
+        let (waiting, joined) = self.borders.split_at(first);
+        let points: u64 = joined.iter().map(|border| border.points.len() as u64).sum();
+        let waiting: u64 = waiting.iter().map(|border| ROW * (border.points.len() + border.open.len()) as u64).sum();
+        let needed = PROGRAM + self.memory.sort / SHARE + waiting + points * JOIN_BYTES;
+        if needed <= bound {
+            return Ok(());
+        }
+        // A larger memory has a larger share for triangles, too.
+        let mebibytes = (needed + needed / SHARE).div_ceil(1 << 20);
+        Err(Failure::input(format!(
+            "{points} points are joined at once, because large circles through them are empty, and that takes {} of the \
+             {} of --memory: go on with --memory {mebibytes}M",
+            told(needed),
+            told(bound)
+        )))
     }
 }
 
@@ -137,7 +201,7 @@ pub fn euler(distinct: u64, hull: u64, has_triangles: bool) -> u64 {
 impl Joined {
     /// Euler's formula counts the triangles of a mesh, so tiles that contradict each other are found.
     fn check_counts(&self, points: u64, folder: &Path) -> Result<(), Failure> {
-        let (distinct, hull) = (points.saturating_sub(self.duplicates), self.hull.len() as u64);
+        let (distinct, hull) = (points.saturating_sub(self.duplicates), self.hull_points);
         let expected = euler(distinct, hull, self.triangles > 0);
         if self.triangles == expected && self.duplicates <= points {
             return Ok(());
@@ -164,8 +228,8 @@ impl Joined {
         take: &mut Take<'_>,
     ) -> Result<(), Failure> {
         let (in_memory, runs) = self.runs.finish();
-        // The triangles of the joins may have the other half.
-        let memory = memory / 2;
+        // The triangles of the joins may have their share.
+        let memory = memory - memory / SHARE;
         let mut sources = vec![Source::Memory(in_memory.into_iter())];
         sources.extend(runs.into_iter().map(Source::Run));
         let tiles = (0..manifest.tiles().count() as u32).map(|tile| {

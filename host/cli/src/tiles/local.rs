@@ -7,7 +7,7 @@ use incircle::{Mesh, Point};
 
 use super::canonical::sorted;
 use super::deal::POINT_BYTES;
-use super::head::Kind;
+use super::head::{damaged, Kind};
 use super::manifest::{local_path, points_path, Manifest};
 use super::opened::{Opened, Owner};
 use super::result::{TileFile, TileResult};
@@ -85,8 +85,12 @@ pub fn local(
         file.check_finals()?;
         return last(&Outcome { points, counts, was_there: true });
     }
-    let (ids, own) = read_points(folder, owner, points)?;
-    let (finals, result) = solve(&ids, own, region, triangulate)?;
+    let (finals, result) = if points > manifest.most {
+        (Vec::new(), at_one_place(folder, owner, points, region)?)
+    } else {
+        let (ids, own) = read_points(folder, owner, points)?;
+        solve(&ids, own, (region, &manifest.occupancy), triangulate)?
+    };
     let counts = [finals.len(), result.border.points.len(), result.border.open.len()].map(|count| count as u64);
     let written = result.write(&finals, folder, owner)?;
     output::keep([written], || last(&Outcome { points, counts, was_there: false }))
@@ -94,26 +98,52 @@ pub fn local(
 
 /// Reads the points of a tile, and their indices.
 fn read_points(folder: &Path, owner: Owner, points: u64) -> Result<(Vec<u32>, Vec<Point>), Failure> {
-    let path = points_path(folder, owner.tile);
-    let bytes_of = |counts: &[u64; 5]| counts[0].checked_mul(POINT_BYTES as u64);
-    let mut opened = Opened::open(&path, Kind::Points, Some(owner), Some(bytes_of))?;
-    let found = opened.head.counts[0];
-    if found != points {
-        return Err(Failure::input(format!(
-            "{}: the tile has {found} points, and the manifest says {points}: split the set again",
-            path::name(&path)
-        )));
-    }
+    let mut opened = open_points(folder, owner, points)?;
     let rows = opened.list::<3>(points)?;
     opened.finish()?;
     Ok((rows.iter().map(|row| row[0]).collect(), rows.iter().map(|row| Point::new(row[1], row[2])).collect()))
+}
+
+/// Opens the file of the points of a tile.
+fn open_points(folder: &Path, owner: Owner, points: u64) -> Result<Opened, Failure> {
+    let path = points_path(folder, owner.tile);
+    let bytes_of = |counts: &[u64; 5]| counts[0].checked_mul(POINT_BYTES as u64);
+    let opened = Opened::open(&path, Kind::Points, Some(owner), Some(bytes_of))?;
+    match opened.head.counts[0] {
+        found if found == points => Ok(opened),
+        found => Err(Failure::input(format!(
+            "{}: the tile has {found} points, and the manifest says {points}: split the set again",
+            path::name(&path)
+        ))),
+    }
+}
+
+/// The result of a tile with more points than a tile may have: all are at one place. Takes 8 bytes a point.
+fn at_one_place(folder: &Path, owner: Owner, points: u64, region: tiles::Region) -> Result<TileResult, Failure> {
+    let mut opened = open_points(folder, owner, points)?;
+    let (mut first, mut duplicates) = (None, Vec::new());
+    opened.rows(points, |row: [u32; 3]| {
+        let [id, x, y] = *first.get_or_insert(row);
+        if [x, y] != [row[1], row[2]] {
+            let name = path::name(&points_path(folder, owner.tile));
+            return Err(damaged(&format!("its {points} points should be at one place")).in_file(name));
+        }
+        if id != row[0] {
+            duplicates.push([row[0], id]);
+        }
+        Ok(())
+    })?;
+    opened.finish()?;
+    let (ids, points): (Vec<u32>, Vec<Point>) = first.map(|[id, x, y]| (id, Point::new(x, y))).into_iter().unzip();
+    let border = tiles::Border { region, points, ids: ids.clone(), open: Vec::new() };
+    Ok(TileResult { border, hull: ids, duplicates })
 }
 
 /// Triangulates the points of a region and finds out what is final. The final triangles are in canonical order.
 fn solve(
     ids: &[u32],
     points: Vec<Point>,
-    region: tiles::Region,
+    (region, occupancy): (tiles::Region, &tiles::Occupancy),
     triangulate: &mut Triangulate<'_>,
 ) -> Result<(Vec<[u32; 3]>, TileResult), Failure> {
     let low = points.iter().fold([u32::MAX; 2], |low, point| [low[0].min(point.x), low[1].min(point.y)]);
@@ -123,7 +153,7 @@ fn solve(
     drop(moved);
     // The canonical mesh does not depend on where the points are, so that of the moved points is that of the points.
     let mesh = Mesh::new(points, mesh.triangles, mesh.hull, mesh.duplicates);
-    let tile = tiles::local(&mesh, ids, region)
+    let tile = tiles::local_among(&mesh, ids, region, occupancy)
         .map_err(|error| Failure::input(format!("the tile does not fit its manifest, as {error}")))?;
     let index = |place: u32| ids.get(place as usize).copied().unwrap_or_default();
     let duplicates = mesh.duplicates.iter().map(|duplicate| [duplicate.index, duplicate.of].map(index)).collect();

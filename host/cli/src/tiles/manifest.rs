@@ -3,12 +3,12 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use incircle::tiles::{Region, Step};
+use incircle::tiles::{Occupancy, Region, Step};
 
 use super::ground::{Ground, Length};
 use super::head::{damaged, Head, Kind};
 use super::opened::Opened;
-use super::written::write_checked;
+use super::written::{write_checked, write_rows};
 use crate::failure::Failure;
 use crate::output::Written;
 use crate::path;
@@ -42,6 +42,8 @@ pub struct Manifest {
     pub ground: Ground,
     /// Tiles and joins. The ranges of the tiles count the points of one tile after the other.
     pub steps: Vec<Step>,
+    /// The places where points are, in steps of the lattice.
+    pub occupancy: Occupancy,
 }
 
 impl Manifest {
@@ -121,7 +123,9 @@ impl Manifest {
             let sides = [region.west, region.east, region.south, region.north];
             out.write_all(sides.map(|side| side.unwrap_or(FAR).to_le_bytes()).as_flattened())?;
         }
-        Ok(())
+        let stretches = self.occupancy.stretches();
+        out.write_all([self.occupancy.shift(), stretches.len() as u32].map(u32::to_le_bytes).as_flattened())?;
+        write_rows(stretches, out)
     }
 
     fn decode(head: &Head, cursor: &mut Cursor<'_>) -> Option<Self> {
@@ -133,24 +137,25 @@ impl Manifest {
             _ => return None,
         };
         let offset = [cursor.i128()?, cursor.i128()?];
-        let mut read = Self {
-            run: head.run,
-            most,
-            inputs: Vec::new(),
-            ground: Ground { length, offset, bits },
-            steps: Vec::new(),
-        };
+        let (mut files, mut list, mut done) = (Vec::new(), Vec::new(), 0);
         for _ in 0..inputs {
-            read.inputs.push(cursor.input()?);
+            files.push(cursor.input()?);
         }
-        let mut done = 0;
         for _ in 0..steps {
             let step = cursor.step(done)?;
             if let Step::Tile { points, .. } = &step {
                 done = points.end;
             }
-            read.steps.push(step);
+            list.push(step);
         }
+        let read = Self {
+            run: head.run,
+            most,
+            inputs: files,
+            ground: Ground { length, offset, bits },
+            steps: list,
+            occupancy: cursor.occupancy()?,
+        };
         let sum = read.inputs.iter().try_fold(0u64, |sum, input| sum.checked_add(input.points))?;
         let fits = sum == points && points < u64::from(u32::MAX) && done as u64 == points;
         (fits && read.tiles().count() as u64 == tiles && read.leaves_one_border()).then_some(read)
@@ -223,6 +228,15 @@ impl Cursor<'_> {
             1 => Some(Step::Join { region, children: count }),
             _ => None,
         }
+    }
+
+    fn occupancy(&mut self) -> Option<Occupancy> {
+        let (shift, count) = (self.u32()?, self.u32()?);
+        let mut stretches = Vec::new();
+        for _ in 0..count {
+            stretches.push([self.u32()?, self.u32()?]);
+        }
+        Occupancy::of_stretches(shift, stretches)
     }
 }
 

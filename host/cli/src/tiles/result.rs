@@ -79,14 +79,42 @@ impl TileFile {
         self.opened.head.counts[4]
     }
 
+    /// Whether the tile has triangles, final or open.
+    pub fn has_triangles(&self) -> bool {
+        self.opened.head.counts[0] > 0 || self.opened.head.counts[2] > 0
+    }
+
+    /// Calls `take` with each point of the border, for a file of which nothing was read, and checks what is not final.
+    pub fn each_border_point(mut self, region: Region, take: &mut dyn FnMut(Point)) -> Result<(), Failure> {
+        let [_, points, open, hull, duplicates] = self.opened.head.counts;
+        let mut is_beyond = false;
+        self.opened.rows(points, |[_, x, y]| {
+            is_beyond |= !region.contains([x.into(), y.into()]);
+            take(Point::new(x, y));
+            Ok(())
+        })?;
+        self.opened.rows(open, |_: [u32; 3]| Ok(()))?;
+        self.opened.rows(hull, |_: [u32; 1]| Ok(()))?;
+        self.opened.rows(duplicates, |_: [u32; 2]| Ok(()))?;
+        self.opened.end_of_content()?;
+        match is_beyond {
+            true => Err(damaged("a point lies beyond its region").in_file(&self.name)),
+            false => Ok(()),
+        }
+    }
+
     /// Reads all but the final triangles, and checks it.
     pub fn result(&mut self, region: Region, keep_duplicates: bool) -> Result<TileResult, Failure> {
         let [_, points, open, hull, duplicates] = self.opened.head.counts;
         let mut border = Border { region, points: Vec::new(), ids: Vec::new(), open: Vec::new() };
-        for [id, x, y] in self.opened.list(points)? {
+        let room = usize::try_from(points).unwrap_or(usize::MAX);
+        let has_room = border.points.try_reserve_exact(room).and_then(|()| border.ids.try_reserve_exact(room));
+        has_room.map_err(|_| Failure::input(format!("the {points} points of {} do not fit the memory", self.name)))?;
+        self.opened.rows(points, |[id, x, y]| {
             border.points.push(Point::new(x, y));
             border.ids.push(id);
-        }
+            Ok(())
+        })?;
         border.open = self.opened.list(open)?;
         let hull = self.opened.list(hull)?.into_iter().map(|[id]| id).collect();
         let (mut pairs, mut most) = (Vec::new(), None);

@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use incircle::order::z_curve::position;
-use incircle::tiles::{Region, Step, Tree};
+use incircle::tiles::{OccupiedCells, Region, Step, Tree};
 use incircle::Point;
 
 use super::deal::{remove_stale, room_for, Placed, PointFile, POINT_BYTES, WORKING};
@@ -86,7 +86,10 @@ fn split_into(
     last: impl FnOnce(&Summary) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     let tree = Tree::of_positions(&positions(&survey.sample), most_of_sample(&survey, plan.most));
-    let cells = deal(plan, &survey, &tree)?;
+    let mut occupied = OccupiedCells::new(survey.ground.bits);
+    let cells = deal(plan, &survey, &tree, &mut occupied)?;
+    let occupancy = occupied.finish();
+    drop(occupied);
     let mut tiles = Tiles { steps: Vec::new(), files: Vec::new(), created: cells.len(), done: 0 };
     let mut cells = cells.into_iter();
     for step in tree.steps() {
@@ -96,7 +99,7 @@ fn split_into(
         }
     }
     let Survey { ground, inputs, points, .. } = survey;
-    let manifest = Manifest { run, most: plan.most.get() as u64, inputs, ground, steps: tiles.steps };
+    let manifest = Manifest { run, most: plan.most.get() as u64, inputs, ground, steps: tiles.steps, occupancy };
     let bytes = points * POINT_BYTES as u64 + (tiles.files.len() * HEAD_BYTES) as u64;
     let (placed, written) = place(plan.folder, &manifest, tiles.files)?;
     output::keep([written], || {
@@ -157,6 +160,31 @@ fn positions(points: &[Point]) -> Vec<u64> {
     positions
 }
 
+/// The positions along the Z-curve of the points of a file, sorted. Of the points at the most frequent place, at most
+/// one more than `most` count, because only these may be so many that the memory does not hold the list.
+fn positions_of(file: &mut PointFile, most: NonZeroUsize) -> Result<Vec<u64>, Failure> {
+    // A place that has more than half of the points outlasts all others (Boyer and Moore, 1981).
+    let (mut frequent, mut lead) = (Point::default(), 0u64);
+    file.each(&mut |_, point| {
+        match lead {
+            _ if point == frequent => lead += 1,
+            0 => (frequent, lead) = (point, 1),
+            _ => lead -= 1,
+        }
+        Ok(())
+    })?;
+    let (mut positions, mut there) = (Vec::new(), 0);
+    file.each(&mut |_, point| {
+        there += usize::from(point == frequent);
+        if point != frequent || there <= most.get().saturating_add(1) {
+            positions.push(position(point.x, point.y));
+        }
+        Ok(())
+    })?;
+    positions.sort_unstable();
+    Ok(positions)
+}
+
 /// The most points of the sample in a tile. A tenth is left free, because a sample is uneven; cells with too many
 /// points all the same are cut once more.
 fn most_of_sample(survey: &Survey, most: NonZeroUsize) -> NonZeroUsize {
@@ -168,8 +196,13 @@ fn most_of_sample(survey: &Survey, most: NonZeroUsize) -> NonZeroUsize {
     usize::try_from(share).ok().and_then(NonZeroUsize::new).unwrap_or(NonZeroUsize::MIN)
 }
 
-/// Reads the inputs again, and deals their points to the cells of the tree.
-fn deal(plan: &Plan<'_>, survey: &Survey, tree: &Tree) -> Result<Vec<PointFile>, Failure> {
+/// Reads the inputs again, and deals their points to the cells of the tree. Notes where points are.
+fn deal(
+    plan: &Plan<'_>,
+    survey: &Survey,
+    tree: &Tree,
+    occupied: &mut OccupiedCells,
+) -> Result<Vec<PointFile>, Failure> {
     let count = tree.tiles().count();
     let mut cells: Vec<PointFile> =
         (0..count).map(|number| PointFile::create(plan.folder, number)).collect::<Result<_, _>>()?;
@@ -186,6 +219,7 @@ fn deal(plan: &Plan<'_>, survey: &Survey, tree: &Tree) -> Result<Vec<PointFile>,
                 if let Some(cell) = cells.get_mut(tree.tile_of(point)) {
                     cell.push(index, point, room)?;
                 }
+                occupied.add(point);
                 index += 1;
             }
             Ok(())
@@ -216,29 +250,29 @@ impl Tiles {
             self.push(region, file);
             return Ok(());
         }
-        let mut rows: Vec<(u64, [u32; 3])> =
-            file.rows()?.into_iter().map(|row| (position(row[1], row[2]), row)).collect();
-        // Points at one place keep the order of their indices.
-        rows.sort_unstable();
-        let positions: Vec<u64> = rows.iter().map(|&(position, _)| position).collect();
-        let tree = Tree::of_positions(&positions, plan.most);
-        if tree.steps().len() == 1 {
+        let tree = Tree::of_positions(&positions_of(&mut file, plan.most)?, plan.most);
+        let count = tree.tiles().count();
+        if count == 1 {
             self.push(region, file);
             return Ok(());
         }
+        let numbers = self.created..self.created + count;
+        self.created = numbers.end;
+        let mut parts: Vec<PointFile> =
+            numbers.map(|number| PointFile::create(plan.folder, number)).collect::<Result<_, _>>()?;
+        let room = room_for(plan.buffers, count);
+        file.each(&mut |index, point| match parts.get_mut(tree.tile_of(point)) {
+            Some(part) => part.push(index, point, room),
+            None => Ok(()),
+        })?;
         drop(file);
+        let mut parts = parts.into_iter();
         for step in tree.steps() {
             match step {
-                Step::Tile { region: part, points } => {
-                    let mut own: Vec<[u32; 3]> = rows[points.clone()].iter().map(|&(_, row)| row).collect();
-                    own.sort_unstable();
-                    let mut file = PointFile::create(plan.folder, self.created)?;
-                    self.created += 1;
-                    for [index, x, y] in own {
-                        file.push(index, Point::new(x, y), room_for(plan.buffers, 1))?;
-                    }
-                    file.flush()?;
-                    self.push(common(&region, part), file);
+                Step::Tile { region: own, .. } => {
+                    let Some(mut part) = parts.next() else { continue };
+                    part.flush()?;
+                    self.push(common(&region, own), part);
                 }
                 Step::Join { region: joined, children } => {
                     self.steps.push(Step::Join { region: common(&region, joined), children: *children });

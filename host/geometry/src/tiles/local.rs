@@ -4,9 +4,11 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::error::Error;
+use super::occupancy::Occupancy;
 use super::reach::{Reach, TilePoint};
 use super::region::Region;
 use crate::mesh::{smallest_first, Mesh, EMPTY};
+use crate::point::Point;
 
 /// The result for the points of one region: its final triangles, and the border with which it is joined to others.
 ///
@@ -75,19 +77,45 @@ pub fn local<P: TilePoint, I: Copy + Ord>(
     ids: &[I],
     region: Region<P::Side>,
 ) -> Result<Tile<P, I>, Error> {
-    if let Some(place) = mesh.points.iter().position(|point| !region.contains(point.place())) {
-        return Err(Error::Beyond { place });
-    }
-    settle(&mesh.points, ids, mesh, region, mesh.triangles.iter().copied())
+    check_places(mesh, &region)?;
+    settle((&mesh.points, ids), mesh, region, mesh.triangles.iter().copied(), &|_| false)
 }
 
-/// Divides triangles of a mesh into final and open ones, and makes the border of the open ones and the hull.
-pub(super) fn settle<P: TilePoint, I: Copy + Ord>(
-    points: &[P],
+/// Like [`local`], with more final triangles: also those whose disc touches no occupied cell beyond the region.
+///
+/// `occupancy` must have all points of the whole set. Takes up to 2 µs more for each triangle that [`local`] would leave
+/// open.
+///
+/// # Errors
+/// Those of [`local`].
+pub fn local_among<I: Copy + Ord>(
+    mesh: &Mesh,
     ids: &[I],
+    region: Region,
+    occupancy: &Occupancy,
+) -> Result<Tile<Point, I>, Error> {
+    check_places(mesh, &region)?;
+    let beyond = occupancy.beyond(&region);
+    let triangles = mesh.triangles.iter().copied();
+    settle((&mesh.points, ids), mesh, region, triangles, &|corners| beyond.is_clear(corners))
+}
+
+/// Refuses points beyond the region.
+fn check_places<P: TilePoint>(mesh: &Mesh<P>, region: &Region<P::Side>) -> Result<(), Error> {
+    match mesh.points.iter().position(|point| !region.contains(point.place())) {
+        Some(place) => Err(Error::Beyond { place }),
+        None => Ok(()),
+    }
+}
+
+/// Divides triangles of a mesh into final and open ones, and makes the border of the open ones and the hull. Triangles
+/// whose disc reaches beyond the region are final if `is_clear` says so.
+pub(super) fn settle<P: TilePoint, I: Copy + Ord>(
+    (points, ids): (&[P], &[I]),
     mesh: &Mesh<P>,
     region: Region<P::Side>,
     triangles: impl Iterator<Item = [u32; 3]>,
+    is_clear: &dyn Fn([P; 3]) -> bool,
 ) -> Result<Tile<P, I>, Error> {
     if points.len() != ids.len() {
         return Err(Error::Ids { points: points.len(), ids: ids.len() });
@@ -102,13 +130,13 @@ pub(super) fn settle<P: TilePoint, I: Copy + Ord>(
         if let Some(place) = triangle.into_iter().find(|&place| place as usize >= points.len()) {
             return Err(no_point(place));
         }
-        match P::reach(&sides, triangle.map(|place| points[place as usize])) {
-            Reach::Within => finals.push(smallest_first(triangle.map(|place| ids[place as usize]))),
-            Reach::Beyond => open.push(triangle),
-            Reach::Unknown => {
-                unknown += 1;
-                open.push(triangle);
-            }
+        let corners = triangle.map(|place| points[place as usize]);
+        let reach = P::reach(&sides, corners);
+        if reach == Reach::Within || is_clear(corners) {
+            finals.push(smallest_first(triangle.map(|place| ids[place as usize])));
+        } else {
+            unknown += usize::from(reach == Reach::Unknown);
+            open.push(triangle);
         }
     }
     let border = border(points, ids, &mesh.hull, region, open);

@@ -20,6 +20,9 @@
 //! inside its circle nor on it, so none of them conflicts with it. All other triangles of the whole mesh have their
 //! corners in the borders. `docs/tiles.md` has the proof, and what goes wrong if a disc that touches a side counts.
 //!
+//! A carrier that knows where points are ([`Occupancy`]) finds more: a triangle whose disc touches no occupied place
+//! beyond its region is as final ([`local_among`]). Points on curves need this, because their discs are large and empty.
+//!
 //! ```
 //! use core::num::NonZeroUsize;
 //! use core::ops::ControlFlow;
@@ -55,9 +58,12 @@
 //! d-D Delaunay triangulations in shared and distributed memory*, 2017. Ties, and the exact test of a disc, are added
 //! here.
 
+mod beyond;
+mod disc;
 mod error;
 mod join;
 mod local;
+mod occupancy;
 mod product;
 pub(crate) mod reach;
 pub(crate) mod region;
@@ -66,9 +72,11 @@ mod tests;
 mod tree;
 mod triangulate;
 
+pub use beyond::Beyond;
 pub use error::Error;
-pub use join::{join, Union};
-pub use local::{local, Border, Tile};
+pub use join::{join, join_among, Union};
+pub use local::{local, local_among, Border, Tile};
+pub use occupancy::{Occupancy, OccupiedCells};
 pub use reach::{reach, Reach, Sides, TilePoint};
 pub use region::Region;
 pub use tree::{Step, Tree};

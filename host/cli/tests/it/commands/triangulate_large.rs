@@ -52,6 +52,54 @@ fn tiles_of_the_largest_size_take_the_memory_that_they_are_given() {
     }
 }
 
+/// Triangulates `p.npy` or another file within 32 MiB, and holds that the peak and the mesh are right.
+fn check_within_least_memory(scratch: &Scratch, points: &str) {
+    scratch.run(&format!("triangulate {points} -o right.npy -q")).ok();
+    let run = scratch.run(&format!("triangulate {points} -o m.npy --memory 32M --threads 2 --json")).ok();
+    let report: serde_json::Value = serde_json::from_str(&run.stdout).expect("an object");
+    assert!(scratch.bytes("m.npy") == scratch.bytes("right.npy"), "{report}");
+    if let Some(peak) = report["peak_memory"].as_u64() {
+        assert!(peak < (32 << 20) * 105 / 100, "{report}");
+    }
+}
+
+/// Nearly all large circles through three points of a curve have no other point inside, and reach beyond every tile.
+#[test]
+fn points_on_curves_take_the_memory_that_they_are_given() {
+    let scratch = Scratch::new();
+    for set in ["circle", "parabola", "two-chains"] {
+        scratch.run(&format!("generate {set} -n 500000 --bits 26 -o p.npy")).ok();
+        check_within_least_memory(&scratch, "p.npy");
+    }
+}
+
+#[test]
+fn points_at_one_place_or_on_one_line_take_the_memory_that_they_are_given() {
+    let scratch = Scratch::new();
+    let rows = |row: &dyn Fn(u32) -> String| (0..600_000).map(row).collect::<String>();
+    scratch.write("place.csv", &rows(&|_| "7,9\n".to_owned()));
+    scratch.write("line.csv", &rows(&|k| format!("{},{}\n", k % 599_000, 2 * (k % 599_000))));
+    scratch.write("half.csv", &rows(&|k| if k % 2 == 0 { "7,9\n".to_owned() } else { format!("{},{}\n", k % 997, k) }));
+    for points in ["place.csv", "line.csv", "half.csv"] {
+        check_within_least_memory(&scratch, points);
+    }
+}
+
+/// The hull of a set is joined at once, so a set that has very many points there needs the memory for these.
+#[test]
+fn a_hull_that_does_not_fit_is_refused_and_goes_on_in_more_memory() {
+    let scratch = Scratch::new();
+    scratch.run("generate circle -n 600000 --bits 31 -o p.npy").ok();
+    scratch.run("triangulate p.npy -o right.npy -q").ok();
+    let refused = scratch.run("triangulate p.npy -o m.npy --memory 32M -q").fails(3, &["joined at once", "--resume"]);
+    let mebibytes = refused.stderr.split("go on with --memory ").nth(1).and_then(|rest| rest.split('M').next());
+    let mebibytes: u64 = mebibytes.and_then(|number| number.parse().ok()).expect("the memory that is needed");
+    let run = format!("triangulate p.npy -o m.npy --resume --json --memory {mebibytes}M");
+    let report: serde_json::Value = serde_json::from_str(&scratch.run(&run).ok().stdout).expect("an object");
+    assert!(scratch.bytes("m.npy") == scratch.bytes("right.npy"), "{report}");
+    assert!(report["peak_memory"].as_u64() < Some((mebibytes << 20) * 105 / 100), "{report}");
+}
+
 #[test]
 fn unordered_triangles_are_those_of_the_mesh() {
     let scratch = large();

@@ -4,6 +4,7 @@ mod cuts;
 mod doubles;
 mod errors;
 mod large;
+mod occupancy;
 mod sets;
 mod touching;
 mod tree;
