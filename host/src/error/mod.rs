@@ -174,7 +174,7 @@ pub enum Error {
     },
     /// A change of a mesh that lives is refused. The mesh is as before.
     #[error(transparent)]
-    Living(#[from] LivingError),
+    Living(Box<LivingError>),
     /// No contexts, or more than the device has.
     #[error("{device} cannot work with {asked} contexts: choose {}, or leave the choice out", from_one_to(*contexts))]
     Contexts {
@@ -277,6 +277,12 @@ fn from_one_to(last: u32) -> String {
     }
 }
 
+impl From<LivingError> for Error {
+    fn from(error: LivingError) -> Self {
+        Self::Living(Box::new(error))
+    }
+}
+
 impl Error {
     /// The kind of this error: whose fault it is.
     pub fn kind(&self) -> ErrorKind {
@@ -289,8 +295,10 @@ impl Error {
             | Self::OutOfGrid { .. }
             | Self::OffGrid { .. }
             | Self::Extent { .. } => ErrorKind::BadInput,
-            Self::Living(LivingError::TooManyPoints | LivingError::IndicesUsedUp) => ErrorKind::Capacity,
-            Self::Living(_) => ErrorKind::BadInput,
+            Self::Living(error) => match **error {
+                LivingError::TooManyPoints | LivingError::IndicesUsedUp => ErrorKind::Capacity,
+                _ => ErrorKind::BadInput,
+            },
             Self::Scale { .. } | Self::CoordBits(_) | Self::Contexts { .. } | Self::Model(_) | Self::NoRuns { .. } => {
                 ErrorKind::BadChoice
             }

@@ -57,10 +57,8 @@ impl<P: PlanePoint> Level<P> {
         let mut out = None;
         for side in self.star(vertex) {
             let [b, c] = self.plane.ends(side);
-            if b == INFINITE || c == INFINITE {
-                if self.is_beyond(side.triangle(), q) {
-                    out = Some(side.triangle());
-                }
+            if (b == INFINITE || c == INFINITE) && self.is_beyond(side.triangle(), q) {
+                out = Some(side.triangle());
             }
             let turn = |end: u32| P::Site::orient2d(site, self.site(end), q);
             if b == INFINITE {

@@ -77,9 +77,9 @@ fn points_on_curves_take_the_memory_that_they_are_given() {
 fn points_at_one_place_or_on_one_line_take_the_memory_that_they_are_given() {
     let scratch = Scratch::new();
     let rows = |row: &dyn Fn(u32) -> String| (0..600_000).map(row).collect::<String>();
-    scratch.write("place.csv", &rows(&|_| "7,9\n".to_owned()));
-    scratch.write("line.csv", &rows(&|k| format!("{},{}\n", k % 599_000, 2 * (k % 599_000))));
-    scratch.write("half.csv", &rows(&|k| if k % 2 == 0 { "7,9\n".to_owned() } else { format!("{},{}\n", k % 997, k) }));
+    scratch.write("place.csv", rows(&|_| "7,9\n".to_owned()));
+    scratch.write("line.csv", rows(&|k| format!("{},{}\n", k % 599_000, 2 * (k % 599_000))));
+    scratch.write("half.csv", rows(&|k| if k % 2 == 0 { "7,9\n".to_owned() } else { format!("{},{}\n", k % 997, k) }));
     for points in ["place.csv", "line.csv", "half.csv"] {
         check_within_least_memory(&scratch, points);
     }
