@@ -133,8 +133,8 @@ impl Located {
         [a, b, c, u as u32, (u >> 32) as u32, v as u32, (v >> 32) as u32, w as u32, (w >> 32) as u32]
     }
 
-    /// Reads the words behind the first one: nine of an `Interpolate`, three of a `Locate`. Words that are missing count
-    /// as 0.
+    /// Reads the words behind the first one: nine of an `Interpolate`, three of a `Locate`. Words that are missing
+    /// count as 0.
     pub fn from_words(words: &[u32]) -> Self {
         let word = |place: usize| words.get(place).copied().unwrap_or(0);
         let weight = |slot: usize| u64::from(word(3 + 2 * slot)) | u64::from(word(4 + 2 * slot)) << 32;
