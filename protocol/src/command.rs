@@ -308,8 +308,8 @@ pub const fn answer_head(opcode: Opcode, payload_words: u32) -> [u32; ANSWER_HEA
     [answer_header(opcode as u8, Status::Ok), payload_words]
 }
 
-/// Reads the heads of commands from a stream, word by word. After the head of an `Insert` or a run, the caller takes the
-/// points or items from the stream itself before it hands over the next word.
+/// Reads the heads of commands from a stream, word by word. After the head of an `Insert` or a run, the caller takes
+/// the points or items from the stream itself before it hands over the next word.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CommandReader {
     words: [u32; COMMAND_HEAD_WORDS],

@@ -35,8 +35,8 @@ pub struct Identity {
 }
 
 impl Identity {
-    /// The identity as words, in the order of the fields. Contexts and engines share a word, and so do boundary edges and
-    /// features.
+    /// The identity as words, in the order of the fields. Contexts and engines share a word, and so do boundary edges
+    /// and features.
     pub const fn to_words(self) -> [u32; IDENTITY_WORDS] {
         [
             self.magic,

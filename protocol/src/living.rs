@@ -102,7 +102,7 @@ impl Opcode {
 
 /// The first word of a part of an answer: the number of the item in bits 23 to 0, and the outcome above.
 pub const fn part_head(item: u32, outcome: Outcome) -> u32 {
-    ((outcome as u32) << OUTCOME_SHIFT) | (item % ITEM_NUMBERS)
+    (outcome as u32) << OUTCOME_SHIFT | (item % ITEM_NUMBERS)
 }
 
 /// The number of the item in the first word of a part of an answer, modulo [`ITEM_NUMBERS`].
@@ -133,8 +133,8 @@ impl Located {
         [a, b, c, u as u32, (u >> 32) as u32, v as u32, (v >> 32) as u32, w as u32, (w >> 32) as u32]
     }
 
-    /// Reads the words behind the first one: nine of an `Interpolate`, three of a `Locate`. Words that are missing count
-    /// as 0.
+    /// Reads the words behind the first one: nine of an `Interpolate`, three of a `Locate`. Words that are missing
+    /// count as 0.
     pub fn from_words(words: &[u32]) -> Self {
         let word = |place: usize| words.get(place).copied().unwrap_or(0);
         let weight = |slot: usize| u64::from(word(3 + 2 * slot)) | u64::from(word(4 + 2 * slot)) << 32;

@@ -7,8 +7,8 @@
 pub enum Opcode {
     /// Ask the device for its [`Identity`](crate::Identity). No arguments.
     Hello = 1,
-    /// Forget all points, triangles and counters, and begin the job that a [`Clear`] describes. No arguments, no
-    /// payload. The time does not depend on what the device holds.
+    /// Forget all points, triangles and counters, and begin the job that a [`Clear`](crate::Clear) describes. No
+    /// arguments, no payload. The time does not depend on what the device holds.
     Clear = 2,
     /// Insert points. The arguments are the number of points and the points themselves. The answer, an
     /// [`InsertReport`](crate::InsertReport), comes when the last point is in.

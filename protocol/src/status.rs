@@ -42,7 +42,8 @@ impl Status {
     }
 }
 
-/// The outcome of one item of a run. After every outcome but `Done`, and `Duplicate` of a `Move`, the mesh is as before.
+/// The outcome of one item of a run. After every outcome but `Done`, and `Duplicate` of a `Move`, the mesh is as
+/// before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Outcome {

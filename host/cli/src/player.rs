@@ -12,8 +12,8 @@ use crate::lattice::Numbers;
 use crate::progress::CountMeter;
 use crate::script::{self, Film, Played, Script};
 
-/// Whether the device takes changes and questions itself. If so, `check_bits` refuses points whose coordinates need more
-/// bits than the device has.
+/// Whether the device takes changes and questions itself. If so, `check_bits` refuses points whose coordinates need
+/// more bits than the device has.
 pub fn keeps_living_meshes(
     device: &mut Backend,
     check_bits: impl Fn(u32) -> Result<(), Failure>,

@@ -22,7 +22,8 @@ pub struct Played {
     pub mesh: Connections,
 }
 
-/// Carries out a script on a mesh without points. `points` are its places in the numbers in which they are triangulated.
+/// Carries out a script on a mesh without points. `points` are its places in the numbers in which they are
+/// triangulated.
 ///
 /// The frames of the script are added to `film`, if there is one. The mesh at the end is made only if `wants_mesh`.
 /// Without a film, the insertions at the start of a script are made in one step, which takes a fraction of the time.

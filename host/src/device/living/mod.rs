@@ -68,8 +68,8 @@ pub trait LivingMesh<P: PlanePoint> {
     /// Moves the point of an index to another place.
     ///
     /// # Errors
-    /// Those of [`insert`](Self::insert) and [`delete`](Self::delete). [`Error::MemoryFull`] is only possible if another
-    /// point stays at the old place.
+    /// Those of [`insert`](Self::insert) and [`delete`](Self::delete). [`Error::MemoryFull`] is only possible if
+    /// another point stays at the old place.
     fn move_to(&mut self, index: u32, point: P) -> Result<(), Error>;
 
     /// Says what a place is: a vertex, or in an edge, a triangle, or outside the hull.

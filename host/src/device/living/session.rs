@@ -30,8 +30,8 @@ pub(crate) struct Choices {
 /// of points. The host keeps the points and their indices, and knows which vertex of the device each place is.
 ///
 /// - **Few points.** A device needs three points that span a triangle. While there are none, the host answers; when a
-///   deletion or a move leaves all points on one line, the host takes over, and gives the points back to the device when
-///   they span a triangle again.
+///   deletion or a move leaves all points on one line, the host takes over, and gives the points back to the device
+///   when they span a triangle again.
 /// - **Many neighbours.** A device refuses to delete or move a vertex with more neighbours than its list holds, 32 in
 ///   the standard cores and the model. The host then makes the mesh on the device anew, which takes O(n).
 /// - **Memory.** The device holds as many different places as its capacity. [`Error::MemoryFull`] says that there is no

@@ -9,9 +9,9 @@ use incircle_protocol::Outcome;
 impl Mesh {
     /// Inserts a point as this vertex.
     ///
-    /// The outcome is `Done`; or the mesh is as before, and it is `Full` for a vertex at or beyond the capacity, `InUse`
-    /// for one that is in the mesh, or `Duplicate` with the vertex that has the point. There must be a mesh to change
-    /// ([`can_change`](Self::can_change)).
+    /// The outcome is `Done`; or the mesh is as before, and it is `Full` for a vertex at or beyond the capacity,
+    /// `InUse` for one that is in the mesh, or `Duplicate` with the vertex that has the point. There must be a mesh to
+    /// change ([`can_change`](Self::can_change)).
     pub fn insert_as(&mut self, vertex: u32, p: Point) -> Changed {
         if let Some(refusal) = self.refuses_new(vertex) {
             return (refusal, vertex);
@@ -98,8 +98,9 @@ impl Mesh {
         (Outcome::Done, vertex)
     }
 
-    /// Whether the mesh keeps its edges if the vertex inside the ring moves to `p`: all triangles of its star still turn
-    /// left, no record outside conflicts with `p`, and no triangle of the star with the next but one vertex of the ring.
+    /// Whether the mesh keeps its edges if the vertex inside the ring moves to `p`: all triangles of its star still
+    /// turn left, no record outside conflicts with `p`, and no triangle of the star with the next but one vertex of the
+    /// ring.
     fn keeps_edges(&self, p: Point) -> bool {
         let ring = &self.hole.ring;
         let points: Option<Vec<Point>> = ring.iter().map(|edge| self.finite_point(edge.from)).collect();

@@ -2,8 +2,8 @@
 //!
 //! The triangle on an edge of the hole is the one whose circle holds no other vertex of the ring, with the tie rule.
 //! That triangle cuts the hole in two, and each part is filled in the same way. The infinite vertex is a member of the
-//! ring like others: a ghost triangle stands on an edge from which no vertex lies to the left. A vertex of a uniform set
-//! takes 6 tests in the mean; cutting ears off would take 13.
+//! ring like others: a ghost triangle stands on an edge from which no vertex lies to the left. A vertex of a uniform
+//! set takes 6 tests in the mean; cutting ears off would take 13.
 
 use super::hole::{Across, Corner, Filling, Hole, RingEdge};
 use super::Mesh;

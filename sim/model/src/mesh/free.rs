@@ -5,8 +5,8 @@ use std::collections::VecDeque;
 /// Number of ids that are held back while there are ids that no record has had yet.
 ///
 /// In a core with several contexts a walk may wait at a record that becomes free. If the id were given out at once,
-/// that walk would go on from a far place. With 64 ids held back, the slowest of a hundred changes took 7 % fewer clocks
-/// and the slowest of all 77 % fewer, in a simulation of 16 contexts. The mesh is the same for every number.
+/// that walk would go on from a far place. With 64 ids held back, the slowest of a hundred changes took 7 % fewer
+/// clocks and the slowest of all 77 % fewer, in a simulation of 16 contexts. The mesh is the same for every number.
 const HELD_BACK: usize = 64;
 
 /// The free ids, first in, first out.

@@ -7,9 +7,9 @@ use incircle_protocol::{Located, Outcome};
 impl Mesh {
     /// What a place is, with the weights of the vertices of its triangle.
     ///
-    /// The outcome is `Vertex`, `Edge`, `Triangle` or `Outside`. The weight of a vertex is twice the area of the triangle
-    /// that the place makes with the other two corners. Vertices whose weight is 0 are not named. There must be a mesh to
-    /// ask ([`can_change`](Self::can_change)).
+    /// The outcome is `Vertex`, `Edge`, `Triangle` or `Outside`. The weight of a vertex is twice the area of the
+    /// triangle that the place makes with the other two corners. Vertices whose weight is 0 are not named. There must
+    /// be a mesh to ask ([`can_change`](Self::can_change)).
     pub fn look_at(&mut self, p: Point) -> (Outcome, Located) {
         let root = self.walk_to(p);
         let record = self.records[root as usize];
