@@ -11,7 +11,7 @@ export function open(encoded) {
         return new TextDecoder().decode(text);
     }
 
-    /** The number that a call returned, or an exception if it failed. Lists stay until `lists` or `forget` is called. */
+    /** The number that a call returned, or an exception. Lists stay until `lists` or `forget` is called. */
     function checked(result) {
         if (result !== -2) return result;
         const text = message();

@@ -27,7 +27,7 @@ export default class Incircle<T extends Coordinates = Coordinates> {
     duplicates: Uint32Array;
     /** Triangulates again after `coords` was changed. */
     update(): void;
-    /** The Voronoi cells, clipped to a rectangle: left, low, right, high. The rectangle from (0, 0) to (960, 500) by default. */
+    /** The Voronoi cells, clipped to a rectangle; by default to that from (0, 0) to (960, 500). */
     voronoi(bounds?: Bounds): Voronoi;
 }
 export {Incircle};

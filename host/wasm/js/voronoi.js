@@ -28,8 +28,8 @@ function drawn(pen, draw) {
 }
 
 /**
- * Cuts a convex polygon: keeps what lies no farther along `(dx, dy)` than half the square of that vector. `corners` has x,
- * y and the neighbour behind the edge that begins there; the new edge gets `neighbor`.
+ * Cuts a convex polygon: keeps what lies no farther along `(dx, dy)` than half the square of that vector. `corners` has
+ * x, y and the neighbour behind the edge that begins there; the new edge gets `neighbor`.
  */
 function cut(corners, dx, dy, neighbor) {
     const limit = (dx * dx + dy * dy) / 2;

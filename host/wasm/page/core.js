@@ -50,8 +50,9 @@ export function openCore() {
         setPlay(false);
         const same = isCanonical(state.records, coords);
         const rate = (state.clocks / state.finished).toFixed(1);
+        const clocks = state.clocks.toLocaleString('en');
         find('status').textContent = same ?
-            `Done in ${state.clocks.toLocaleString('en')} clocks, ${rate} a point. The triangles are those of the triangulator.` :
+            `Done in ${clocks} clocks, ${rate} a point. The triangles are those of the triangulator.` :
             'The triangles differ from those of the triangulator. Please report this.';
     }
 

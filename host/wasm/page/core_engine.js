@@ -14,7 +14,7 @@ export function decode(listed) {
     return {activity: listed & 7, isEnding: (listed & 8) !== 0, hasPriority: (listed & 16) !== 0};
 }
 
-/** Starts a job: whole coordinates from 0 to 65535, x and y of each point in turn, on a core with this many contexts. */
+/** Starts a job on a core: whole coordinates from 0 to 65535, x and y of each point in turn. */
 export function start(coords, contexts) {
     const place = engine.room_for_points(coords.length / 2);
     new Float64Array(engine.memory.buffer, place, coords.length).set(coords);

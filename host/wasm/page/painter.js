@@ -84,7 +84,7 @@ function lightOf(count, area) {
     return 120 / (0.4 + 1.8 * layers);
 }
 
-/** Adds the light of all edges. With the hull each is drawn once; without, it is drawn from both sides with half the light. */
+/** Adds the light of all edges: with the hull each once, without it from both sides with half the light. */
 function addEdges(light, width, places, triangles, hull) {
     const half = hull ? light : light / 2;
     for (let t = 0; t < triangles.length; t += 3) {

@@ -7,8 +7,8 @@ use crate::batch::{flat, mesh_of};
 use crate::border::{give, indices, places, points, told};
 
 /// Triangulates the points in the buffer with the pairs of the buffer of indices as edges, and lists the triangles and
-/// the region of each. `domain` is the number of a domain in the order of [`Domain::ALL`], and the buffer of places has a
-/// place in each hole of [`Domain::Holes`].
+/// the region of each. `domain` is the number of a domain in the order of [`Domain::ALL`], and the buffer of places
+/// has a place in each hole of [`Domain::Holes`].
 #[no_mangle]
 pub extern "C" fn constrained(domain: usize) -> f64 {
     let constraints = indices();
