@@ -9,8 +9,8 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::error::Error;
-use super::locate::Found;
 use super::fixed_mesh::FixedMesh;
+use super::locate::Found;
 use super::network::Network;
 use super::pieces::Pieces;
 use crate::living::plane::Side;

@@ -17,13 +17,7 @@ impl<P: PlanePoint> Level<P> {
     }
 
     /// Adds a vertex to a mesh in which some edges are fixed, given by their ends: no cavity reaches across them.
-    pub(super) fn add_among(
-        &mut self,
-        point: P,
-        name: u32,
-        place: Place,
-        is_fixed: impl Fn([u32; 2]) -> bool,
-    ) -> u32 {
+    pub(super) fn add_among(&mut self, point: P, name: u32, place: Place, is_fixed: impl Fn([u32; 2]) -> bool) -> u32 {
         let vertex = self.allocate(point, name);
         match place {
             Place::Triangle(root) | Place::Outside(root) => self.add_to_plane(vertex, root, is_fixed),

@@ -28,13 +28,7 @@ pub struct ConstrainedLevel<P: PlanePoint> {
 impl<P: PlanePoint> ConstrainedLevel<P> {
     /// The mesh without constraints.
     pub fn new(base: &Level<P>) -> Self {
-        Self {
-            level: base.clone(),
-            parts: Parts::default(),
-            at_work: 0,
-            crossed: Vec::new(),
-            work: Work::default(),
-        }
+        Self { level: base.clone(), parts: Parts::default(), at_work: 0, crossed: Vec::new(), work: Work::default() }
     }
 
     /// Adds a vertex, given one near it; returns its number. A piece that it lies on becomes two.
