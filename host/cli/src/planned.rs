@@ -4,6 +4,7 @@ use incircle::constraints::{Constrained, Domain};
 use serde_json::{json, Value};
 
 use crate::failure::counted;
+use crate::snapping::Snapping;
 
 /// A constrained mesh with what its file gives its regions.
 #[derive(Clone, Debug, Default)]
@@ -14,6 +15,8 @@ pub struct Planned {
     pub domain: Domain,
     /// The number of constraints.
     pub constraints: usize,
+    /// What snapping their crossings did, if there was any to snap.
+    pub snapping: Option<Snapping>,
 }
 
 impl Planned {
@@ -48,6 +51,7 @@ impl Planned {
             "domain": self.domain.name(),
             "triangles": made.triangles.len(),
             "regions": made.region_count,
+            "snapping": self.snapping.as_ref().map(Snapping::to_json),
             "twice_area": made.twice_area.map(|area| area.to_string()),
         })
     }

@@ -10,6 +10,7 @@ pub mod generate;
 pub mod info;
 pub mod interpolate;
 pub mod lloyd;
+mod plan_files;
 pub mod replay;
 pub mod tile;
 pub mod triangulate;

@@ -9,11 +9,12 @@ use serde_json::{json, Map, Value};
 use crate::arguments::ReplayArguments;
 use crate::backend::{self, Backend, Choice, MODEL_COORD_BITS};
 use crate::connections::Connections;
-use crate::failure::{counted, Failure};
+use crate::failure::{counted, Exit, Failure};
 use crate::formats::MeshFormat;
 use crate::lattice::{self, Laid, Numbers};
 use crate::output::{self, Output, Written};
 use crate::path::{self, is_standard};
+use crate::plan::Request;
 use crate::progress::CountMeter;
 use crate::script::{self, Answer, Film, Played, Script, FORMS};
 use crate::watch::{seconds_json, total, Watch};
@@ -42,12 +43,19 @@ pub fn run(arguments: &ReplayArguments) -> Result<(), Failure> {
     let mut film = arguments.film.is_some().then(|| Film::plan(&script, arguments.frames)).transpose()?;
     let mut device = open(&choice, &numbers, arguments)?;
     watch.ended("open");
-    let played = play(&script, &laid.numbers, film.as_mut(), device.is_none(), arguments.quiet)?;
+    let played = play(&script, &laid.numbers, film.as_mut(), device.is_none(), arguments.quiet);
+    let played = played.map_err(|failure| if failure.exit == Exit::Input { in_file(failure) } else { failure })?;
     watch.ended("replay");
     let mesh = match &mut device {
         Some(device) => {
             let solved = solve::triangulate(device, &numbers, check_bits, &arguments.job, arguments.quiet);
-            solved.map_err(in_file)?.0
+            let mut mesh = solved.map_err(in_file)?.0;
+            let request = Request::of_constraints(script.last_constraints(&living));
+            if request.has_constraints() {
+                let forced = request.force_numbers(&numbers, living.len(), &mut mesh);
+                forced.map_err(|error| in_file(Failure::input(error.to_string())))?;
+            }
+            mesh
         }
         None => played.mesh,
     };

@@ -50,7 +50,8 @@ pub fn play<P: PlanePoint>(
                 film.note(command, place as u32);
             }
             place += usize::from(command.has_place());
-            answers.extend(step(&mut mesh, command, point).map_err(failure_of)?);
+            let answer = step(&mut mesh, command, point);
+            answers.extend(answer.map_err(|error| refused(error, script.row(done)))?);
             done += 1;
             if let Some(film) = film.as_deref_mut().filter(|film| film.is_due(done)) {
                 film.take(&mesh, done);
@@ -74,12 +75,26 @@ fn step<P: PlanePoint>(
         (Command::Move(index), Some(point)) => mesh.move_to(index, point).map(|()| None),
         (Command::Locate, Some(point)) => Ok(Some(Answer::Located(mesh.locate(point)))),
         (Command::Nearest, Some(point)) => Ok(Some(Answer::Nearest(mesh.nearest(point)))),
+        (Command::Constrain([from, to]), _) => mesh.insert_constraint(from, to).map(|_| None),
+        (Command::Unconstrain(number), _) => mesh.remove_constraint(number).map(|()| None),
         // The reader gives each such command a place.
         (_, None) => Ok(None),
     }
 }
 
-/// The failure of a change. The reader refuses all that the triangulation would refuse, so there is none but by a fault
+/// The failure of a command in a row. The reader cannot know where constraints cross. The place is left out, because it
+/// is in the numbers of the lattice.
+fn refused(error: Error, row: usize) -> Failure {
+    let Error::Crossing { constraints: [one, other], ends: [[a, b], [c, d]], .. } = error else {
+        return failure_of(error);
+    };
+    Failure::input(format!(
+        "row {row}: constraint {other} (from point {c} to point {d}) would cross constraint {one} (from point {a} to \
+         point {b}): insert a point at the crossing before, or remove one of the two"
+    ))
+}
+
+/// The failure of a change. Beside crossings, the reader refuses all that the triangulation would refuse, so there is none but by a fault
 /// in the program.
 fn failure_of(error: Error) -> Failure {
     Failure::new(Exit::Capacity, error.to_string())

@@ -22,6 +22,7 @@ mod commands {
     mod interpolate;
     mod lloyd;
     mod replay;
+    mod snap;
     mod tile;
     mod triangulate_large;
     mod voronoi;
