@@ -4,7 +4,30 @@ use incircle::constraints::{Constrained, Domain};
 use serde_json::{json, Value};
 
 use crate::failure::counted;
-use crate::snapping::Snapping;
+
+/// What snapping the crossings of a set did.
+#[derive(Clone, Copy, Debug)]
+pub struct Snapping {
+    pub new_points: usize,
+    /// The largest distance that a constraint was moved, in the coordinates of the mesh.
+    pub largest_displacement: f64,
+}
+
+impl Snapping {
+    /// The line of the report for people.
+    pub fn line(&self) -> String {
+        format!(
+            "crossings snapped: {}, largest displacement {:.3e}",
+            counted(self.new_points, "new point"),
+            self.largest_displacement
+        )
+    }
+
+    /// The report as a JSON object.
+    pub fn to_json(&self) -> Value {
+        json!({ "new_points": self.new_points, "largest_displacement": self.largest_displacement })
+    }
+}
 
 /// A constrained mesh with what its file gives its regions.
 #[derive(Clone, Debug, Default)]

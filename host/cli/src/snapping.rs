@@ -3,41 +3,17 @@
 use incircle::constraints::{snap, SnapError, SNAP_BITS};
 use incircle::quantize::quantize;
 use incircle::{Lattice, Point, Quantize, Step};
-use serde_json::{json, Value};
 
-use crate::failure::{counted, failure_of, Failure};
+use crate::failure::{failure_of, Failure};
 use crate::number;
 use crate::plan::PlannedSet;
+use crate::planned::Snapping;
 use crate::points::{Coordinates, PointTable, Unit};
 
 /// The length of a step of the finer grid, in steps of the grid: `FINE * 10^-8`, as a decimal has 8 digits more.
 const FINE: i64 = 390_625;
 /// The most digits behind the point that a set may have afterwards. Texts with more are read as doubles.
 const MOST_DIGITS: u32 = 18;
-
-/// What was done to a set.
-#[derive(Clone, Copy, Debug)]
-pub struct Snapping {
-    pub new_points: usize,
-    /// The largest distance that a constraint was moved, in the coordinates of the mesh.
-    pub largest_displacement: f64,
-}
-
-impl Snapping {
-    /// The line of the report for people.
-    pub fn line(&self) -> String {
-        format!(
-            "crossings snapped: {}, largest displacement {:.3e}",
-            counted(self.new_points, "new point"),
-            self.largest_displacement
-        )
-    }
-
-    /// The report as a JSON object.
-    pub fn to_json(&self) -> Value {
-        json!({ "new_points": self.new_points, "largest_displacement": self.largest_displacement })
-    }
-}
 
 /// The grid of a set: its points, how long a step is in the coordinates of the snapped set, and how these are made.
 struct Fine {

@@ -17,13 +17,13 @@ use crate::formats::edge;
 use crate::lattice::{self, Laid, Numbers};
 use crate::output::{self, Output, Written};
 use crate::plan::PlannedSet;
+use crate::planned::Snapping;
 use crate::progress::Meter;
 use crate::report::RunReport;
-use crate::snapping::{self, Snapping};
 use crate::solve::{self, without_points};
 use crate::trace::Trace;
 use crate::watch::Watch;
-use crate::{interrupt, path, plan, source};
+use crate::{interrupt, path, plan, snapping, source};
 
 /// Reads the points, triangulates them, writes the mesh, and prints the report.
 pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {

@@ -1,7 +1,8 @@
 //! Scripts of changes and questions, for a mesh that lives.
 //!
 //! A script has a command in each row: `insert X Y`, `delete I`, `move I X Y`, `constrain I J`, `unconstrain C`,
-//! `locate X Y` or `nearest X Y`. `I` and `J` are numbers of insertions and `C` is that of a constraint, counted from 0. [`read`](read::read) reads a script and checks it to its end, so that
+//! `locate X Y` or `nearest X Y`. `I` and `J` are numbers of insertions and `C` is that of a constraint, counted from
+//! 0. [`read`](read::read) reads a script and checks it to its end, so that
 //! [`play`](play::play), which carries it out, meets no wrong command. [`Recipe`] makes scripts for
 //! `incircle generate`.
 

@@ -94,8 +94,8 @@ fn refused(error: Error, row: usize) -> Failure {
     ))
 }
 
-/// The failure of a change. Beside crossings, the reader refuses all that the triangulation would refuse, so there is none but by a fault
-/// in the program.
+/// The failure of a change. Beside crossings, the reader refuses all that the triangulation would refuse, so there is
+/// none but by a fault in the program.
 fn failure_of(error: Error) -> Failure {
     Failure::new(Exit::Capacity, error.to_string())
 }

@@ -11,8 +11,8 @@ use crate::text;
 /// Reads a script. Empty rows, and all that follows a `#`, are skipped.
 ///
 /// A row that is no command, a wrong number of values, a coordinate that is not a finite number, an index of a point
-/// that is not inserted yet or is deleted, a constraint that is not there, and the deletion of an end of a constraint are
-/// refused with the row. Whether constraints cross is found when the script is carried out.
+/// that is not inserted yet or is deleted, a constraint that is not there, and the deletion of an end of a constraint
+/// are refused with the row. Whether constraints cross is found when the script is carried out.
 pub fn read(bytes: &[u8], memory: Memory) -> Result<Script, Failure> {
     if bytes.is_empty() {
         return Err(Failure::input(
