@@ -102,7 +102,7 @@ impl Opcode {
 
 /// The first word of a part of an answer: the number of the item in bits 23 to 0, and the outcome above.
 pub const fn part_head(item: u32, outcome: Outcome) -> u32 {
-    (outcome as u32) << OUTCOME_SHIFT | (item % ITEM_NUMBERS)
+    ((outcome as u32) << OUTCOME_SHIFT) | (item % ITEM_NUMBERS)
 }
 
 /// The number of the item in the first word of a part of an answer, modulo [`ITEM_NUMBERS`].

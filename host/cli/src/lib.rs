@@ -35,6 +35,7 @@ mod report;
 mod script;
 #[cfg(feature = "sim")]
 mod sim_backend;
+mod snapping;
 mod solve;
 mod source;
 mod text;

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use incircle::constraints::{constrain, Constrained, Domain, Error, Place, Plan};
+use incircle::constraints::{constrain, Constrained, Domain, Error, Place, Plan, Snapped};
 use incircle::{Duplicate, Lattice, Mesh, PlanePoint, Step};
 
 use crate::arguments::{PlanArguments, ReadArguments};
@@ -28,6 +28,8 @@ pub struct Request {
     holes: usize,
     /// The attribute of each region. The places of regions stand behind those of holes.
     attributes: Vec<String>,
+    /// The constraint of the files that each constraint is a part of; `None` if each is one of these.
+    parts: Option<Vec<u32>>,
 }
 
 /// A set of points, and what is asked of its mesh.
@@ -82,7 +84,7 @@ pub fn read_set(
     constraints.extend(lines);
     let is_asked = is_poly || arguments.is_given() || !constraints.is_empty();
     let domain = arguments.domain.unwrap_or(default);
-    let request = is_asked.then_some(Request { constraints, lines: free, domain, holes, attributes });
+    let request = is_asked.then_some(Request { constraints, lines: free, domain, holes, attributes, parts: None });
     Ok(PlannedSet { table, points, request })
 }
 
@@ -94,14 +96,73 @@ fn read_beside(path: &Path, quiet: bool) -> Result<(PointTable, u32), Failure> {
 }
 
 impl Request {
+    /// Asks for all triangles of the hull with these constraints.
+    pub fn of_constraints(constraints: Vec<[u32; 2]>) -> Self {
+        Self { constraints, lines: 0, domain: Domain::All, holes: 0, attributes: Vec::new(), parts: None }
+    }
+
+    /// The same for a set whose crossings were snapped.
+    pub fn snapped(&self, snapped: &Snapped) -> Self {
+        let boundary = self.constraints.len() - self.lines;
+        Self {
+            constraints: snapped.constraints.clone(),
+            lines: snapped.of.iter().filter(|&&of| of as usize >= boundary).count(),
+            domain: self.domain,
+            holes: self.holes,
+            attributes: self.attributes.clone(),
+            parts: Some(snapped.of.clone()),
+        }
+    }
+
+    /// The constraints. Those that bound nothing stand at the end.
+    pub fn constraints(&self) -> &[[u32; 2]] {
+        &self.constraints
+    }
+
+    /// The number of the constraint of the files that a constraint is a part of.
+    pub fn source(&self, number: usize) -> u32 {
+        self.parts.as_ref().and_then(|parts| parts.get(number).copied()).unwrap_or(number as u32)
+    }
+
+    /// The number of holes.
+    pub fn holes(&self) -> usize {
+        self.holes
+    }
+
+    /// The attributes of regions.
+    pub fn attributes(&self) -> &[String] {
+        &self.attributes
+    }
+
+    /// Whether there are constraints.
+    pub fn has_constraints(&self) -> bool {
+        !self.constraints.is_empty()
+    }
+
+    /// Forces the constraints into the mesh of the first `points` places.
+    pub fn force_numbers(
+        &self,
+        numbers: &Numbers<'_>,
+        points: usize,
+        mesh: &mut Connections,
+    ) -> Result<Constrained, Error> {
+        match numbers {
+            Numbers::Grid(places) => self.force_in(places, points, mesh),
+            Numbers::Whole(places) => self.force_in(places, points, mesh),
+            Numbers::Doubles(places) => self.force_in(places, points, mesh),
+        }
+    }
+
     /// Forces the constraints into a mesh. The places of holes and regions stand behind the points in `laid`.
     pub fn force(&self, mesh: &mut Connections, set: &PlannedSet, laid: &Laid<'_>) -> Result<Planned, Failure> {
-        let made = match &laid.numbers {
-            Numbers::Grid(places) => self.force_in(places, set.points, mesh),
-            Numbers::Whole(places) => self.force_in(places, set.points, mesh),
-            Numbers::Doubles(places) => self.force_in(places, set.points, mesh),
-        };
-        let made = made.map_err(|error| refuse(error, &set.table, laid))?;
+        let mut made =
+            self.force_numbers(&laid.numbers, set.points, mesh).map_err(|error| refuse(error, &set.table, laid))?;
+        let mut constraints = self.constraints.len();
+        if let Some(parts) = &self.parts {
+            made.pieces = made.pieces.renamed(parts);
+            // Every constraint has a part.
+            constraints = parts.last().map_or(0, |&last| last as usize + 1);
+        }
         let mut attributes = Vec::new();
         if !self.attributes.is_empty() {
             attributes.resize(made.region_count as usize, "0".to_owned());
@@ -110,7 +171,7 @@ impl Request {
                 attributes[region as usize].clone_from(attribute);
             }
         }
-        Ok(Planned { made, attributes, domain: self.domain, constraints: self.constraints.len() })
+        Ok(Planned { made, attributes, domain: self.domain, constraints, snapping: None })
     }
 
     /// The plan in these numbers.

@@ -5,6 +5,30 @@ use serde_json::{json, Value};
 
 use crate::failure::counted;
 
+/// What snapping the crossings of a set did.
+#[derive(Clone, Copy, Debug)]
+pub struct Snapping {
+    pub new_points: usize,
+    /// The largest distance that a constraint was moved, in the coordinates of the mesh.
+    pub largest_displacement: f64,
+}
+
+impl Snapping {
+    /// The line of the report for people.
+    pub fn line(&self) -> String {
+        format!(
+            "crossings snapped: {}, largest displacement {:.3e}",
+            counted(self.new_points, "new point"),
+            self.largest_displacement
+        )
+    }
+
+    /// The report as a JSON object.
+    pub fn to_json(&self) -> Value {
+        json!({ "new_points": self.new_points, "largest_displacement": self.largest_displacement })
+    }
+}
+
 /// A constrained mesh with what its file gives its regions.
 #[derive(Clone, Debug, Default)]
 pub struct Planned {
@@ -14,6 +38,8 @@ pub struct Planned {
     pub domain: Domain,
     /// The number of constraints.
     pub constraints: usize,
+    /// What snapping their crossings did, if there was any to snap.
+    pub snapping: Option<Snapping>,
 }
 
 impl Planned {
@@ -48,6 +74,7 @@ impl Planned {
             "domain": self.domain.name(),
             "triangles": made.triangles.len(),
             "regions": made.region_count,
+            "snapping": self.snapping.as_ref().map(Snapping::to_json),
             "twice_area": made.twice_area.map(|area| area.to_string()),
         })
     }

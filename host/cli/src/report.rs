@@ -98,6 +98,7 @@ impl<'a> RunReport<'a> {
             lines.push(format!("no triangles: {why}"));
         }
         lines.extend(self.planned.map(|planned| planned.line(job.triangles)));
+        lines.extend(self.planned.and_then(|planned| planned.snapping).map(|snapping| snapping.line()));
         for engine in &job.stuck_engines {
             lines.push(format!("engine {engine} of the device is stuck: another engine did its job"));
         }

@@ -172,6 +172,14 @@ pub enum Error {
         /// Name of the device.
         device: String,
     },
+    /// The device keeps no constraints in a mesh that lives.
+    #[error(
+        "{device} keeps no constraints in a mesh that lives: use a Triangulation, which keeps them on the processor"
+    )]
+    NoConstraints {
+        /// Name of the device.
+        device: String,
+    },
     /// A change of a mesh that lives is refused. The mesh is as before.
     #[error(transparent)]
     Living(Box<LivingError>),
@@ -299,9 +307,12 @@ impl Error {
                 LivingError::TooManyPoints | LivingError::IndicesUsedUp => ErrorKind::Capacity,
                 _ => ErrorKind::BadInput,
             },
-            Self::Scale { .. } | Self::CoordBits(_) | Self::Contexts { .. } | Self::Model(_) | Self::NoRuns { .. } => {
-                ErrorKind::BadChoice
-            }
+            Self::Scale { .. }
+            | Self::CoordBits(_)
+            | Self::Contexts { .. }
+            | Self::Model(_)
+            | Self::NoRuns { .. }
+            | Self::NoConstraints { .. } => ErrorKind::BadChoice,
             Self::Address { .. } | Self::Open { .. } => ErrorKind::DeviceNotFound,
             Self::Link { source: TransportError::Other { kind, .. }, .. } => *kind,
             Self::TooManyPoints { .. } | Self::MemoryFull { .. } => ErrorKind::Capacity,

@@ -226,6 +226,16 @@ fn devices_without_runs_say_so() {
     }
 }
 
+#[test]
+fn a_device_keeps_no_constraints() {
+    let mut device = Device::open("model").unwrap();
+    let mut session = device.session().unwrap();
+    let mut mesh = session.living().unwrap();
+    for error in [mesh.insert_constraint(0, 1).unwrap_err(), mesh.remove_constraint(0).unwrap_err()] {
+        assert!(matches!(error, Error::NoConstraints { .. }) && error.kind() == ErrorKind::BadChoice, "{error}");
+    }
+}
+
 /// The refusal that a change met, if it met one.
 fn refusal_of(result: Result<(), Error>) -> Option<Refusal> {
     match result {

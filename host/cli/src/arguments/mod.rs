@@ -30,7 +30,7 @@ pub use generate::GenerateArguments;
 pub use interpolate::{InterpolateArguments, ValueFormat};
 pub use job::JobArguments;
 pub use lloyd::LloydArguments;
-pub use plan::PlanArguments;
+pub use plan::{Crossings, PlanArguments};
 pub use points::{GridArguments, ReadArguments};
 pub use replay::ReplayArguments;
 pub use tile::{JoinArguments, LocalArguments, SplitArguments, TileArguments, TileCommand};

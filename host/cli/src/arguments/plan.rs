@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 use incircle::constraints::Domain;
 
 use crate::values::domain_parser;
@@ -21,6 +21,21 @@ pub struct PlanArguments {
     /// Default: 'holes' for a .poly file, 'even-odd' for polygons, 'all' for anything else.
     #[arg(long, value_parser = domain_parser())]
     pub domain: Option<Domain>,
+    /// What becomes of constraints that cross
+    ///
+    /// A place that is a point of the set is no crossing. 'snap' needs points that take at most 24 bits: --quantize
+    /// rounds others. With it, the coordinates of the mesh are those of the grid.
+    #[arg(long, value_enum, default_value = "reject")]
+    pub crossings: Crossings,
+}
+
+/// What becomes of constraints that cross.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Crossings {
+    /// They are an error, which tells the place
+    Reject,
+    /// Crossings become points, rounded to a grid 256 times finer
+    Snap,
 }
 
 impl PlanArguments {

@@ -11,6 +11,7 @@ pub mod info;
 pub mod interpolate;
 pub mod lloyd;
 pub mod man;
+mod plan_files;
 pub mod replay;
 pub mod tile;
 pub mod triangulate;

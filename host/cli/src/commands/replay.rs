@@ -9,11 +9,12 @@ use serde_json::{json, Map, Value};
 use crate::arguments::ReplayArguments;
 use crate::backend::{self, Backend, Choice, MODEL_COORD_BITS};
 use crate::connections::Connections;
-use crate::failure::{counted, Failure};
+use crate::failure::{counted, Exit, Failure};
 use crate::formats::MeshFormat;
 use crate::lattice::{self, Laid, Numbers};
 use crate::output::{self, Output, Written};
 use crate::path::{self, is_standard};
+use crate::plan::Request;
 use crate::player::{self, Player};
 use crate::script::{self, Answer, Film, Script, FORMS};
 use crate::watch::{seconds_json, total, Watch};
@@ -43,17 +44,25 @@ pub fn run(arguments: &ReplayArguments) -> Result<(), Failure> {
     let mut device = open(&choice, &numbers, script.most_living, arguments)?;
     watch.ended("open");
     let player = Player { script: &script, film: film.as_mut(), quiet: arguments.quiet };
-    let lives = device.as_mut().map_or(Ok(false), |device| player::keeps_living_meshes(device, check_bits))?;
+    // A device keeps no constraints: the processor takes the changes of a script with some, as for other devices.
+    let keeps = |device| player::keeps_living_meshes(device, check_bits);
+    let lives = !script.has_constraints() && device.as_mut().map_or(Ok(false), keeps)?;
     let played = match (&mut device, &laid.numbers) {
         (Some(device), Numbers::Grid(points)) if lives => player.play_on(device, points, &arguments.job),
         (device, numbers) => player.play(numbers, device.is_none()),
     };
-    let played = played.map_err(in_file)?;
+    let played = played.map_err(|failure| if failure.exit == Exit::Input { in_file(failure) } else { failure })?;
     watch.ended("replay");
     let mesh = match &mut device {
         Some(device) if !lives => {
             let solved = solve::triangulate(device, &numbers, check_bits, &arguments.job, arguments.quiet);
-            solved.map_err(in_file)?.0
+            let mut mesh = solved.map_err(in_file)?.0;
+            let request = Request::of_constraints(script.last_constraints(&living));
+            if request.has_constraints() {
+                let forced = request.force_numbers(&numbers, living.len(), &mut mesh);
+                forced.map_err(|error| in_file(Failure::input(error.to_string())))?;
+            }
+            mesh
         }
         _ => played.mesh,
     };

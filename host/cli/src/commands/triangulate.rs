@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use incircle::constraints::Pieces;
-use incircle::{DeviceAddress, Fleet, Report};
+use incircle::{DeviceAddress, Fleet, Quantize, Report};
 
-use crate::arguments::TriangulateArguments;
+use crate::arguments::{Crossings, TriangulateArguments};
 use crate::backend::{self, Backend, Choice};
+use crate::commands::plan_files::PlanFiles;
 use crate::commands::triangulate_large;
 use crate::connections::Connections;
 use crate::failure::{counted, failure_of, Failure};
@@ -16,12 +17,13 @@ use crate::formats::edge;
 use crate::lattice::{self, Laid, Numbers};
 use crate::output::{self, Output, Written};
 use crate::plan::PlannedSet;
+use crate::planned::Snapping;
 use crate::progress::Meter;
 use crate::report::RunReport;
 use crate::solve::{self, without_points};
 use crate::trace::Trace;
 use crate::watch::Watch;
-use crate::{interrupt, path, plan, source};
+use crate::{interrupt, path, plan, snapping, source};
 
 /// Reads the points, triangulates them, writes the mesh, and prints the report.
 pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
@@ -44,12 +46,15 @@ fn run_in_memory(arguments: &TriangulateArguments) -> Result<(), Failure> {
     let trace = prepare_trace(arguments, &chosen, &output, &lists)?;
     let mut watch = Watch::start();
     let set = plan::read_set(&arguments.points, &arguments.read, &arguments.plan, arguments.quiet)?;
-    let table = &set.table;
     watch.ended("load");
     interrupt::check()?;
     let in_file = |failure: Failure| failure.in_file(source::set_name(&arguments.points));
-    format.check_points(table).map_err(in_file)?;
     let how = arguments.grid.quantize.map(|how| (how, chosen.coord_bits()));
+    let (set, snapping) = snap(set, how, arguments.plan.crossings).map_err(in_file)?;
+    let how = how.filter(|_| snapping.is_none());
+    let plan_files = PlanFiles::prepare(arguments, format, &set, snapping.is_some())?;
+    let table = &set.table;
+    format.check_points(table).map_err(in_file)?;
     let places = lattice::lay(table, how).map_err(in_file)?;
     // The places of holes and regions are in the same numbers as the points, but are none of them.
     let own = set.has_marks().then(|| places.first(set.points));
@@ -68,13 +73,27 @@ fn run_in_memory(arguments: &TriangulateArguments) -> Result<(), Failure> {
     check_traced(trace_part, arguments)?;
     watch.since = Instant::now();
     force_plan(&set, &places, &mut mesh, &mut watch).map_err(in_file)?;
+    mesh.planned.iter_mut().for_each(|planned| planned.snapping = snapping);
     report.planned = mesh.planned.as_ref();
     let points = set.has_marks().then(|| table.first(set.points));
     let written = output.write(|out| mesh.write(points.as_ref().unwrap_or(table), format, out))?;
-    let lists = lists.write(&mesh)?;
+    let mut lists = lists.write(&mesh)?;
+    lists.extend(plan_files.write(&set)?);
     watch.ended("write");
     report.stages = watch.stages;
     output::finish(trace.into_iter().chain(lists).chain([written]), || tell(&report, arguments))
+}
+
+/// Snaps the crossings of the constraints of a set, if that is wanted.
+fn snap(
+    set: PlannedSet,
+    how: Option<(Quantize, u32)>,
+    crossings: Crossings,
+) -> Result<(PlannedSet, Option<Snapping>), Failure> {
+    match crossings {
+        Crossings::Reject => Ok((set, None)),
+        Crossings::Snap => snapping::snap_set(set, how),
+    }
 }
 
 /// Forces the constraints of a set into its mesh, if the set has any.

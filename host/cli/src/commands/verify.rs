@@ -6,13 +6,13 @@ use incircle::verify::verify_constrained;
 use incircle::{VerifyError, VerifySummary};
 use serde_json::{json, Value};
 
-use crate::arguments::{GridArguments, VerifyArguments};
+use crate::arguments::{Crossings, GridArguments, VerifyArguments};
 use crate::backend::MODEL_COORD_BITS;
 use crate::failure::{counted, Exit, Failure};
 use crate::lattice::{Laid, Numbers};
 use crate::plan::{self, Request};
 use crate::report::quantization_json;
-use crate::{lattice, output, path, source};
+use crate::{lattice, output, path, snapping, source};
 
 /// Runs the subcommand. A wrong mesh leads to exit code 1.
 pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
@@ -32,7 +32,15 @@ pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
     let set = plan::read_set(points, &arguments.read, &arguments.plan, arguments.quiet)?;
     let GridArguments { coord_bits, quantize } = arguments.grid.checked()?;
     let how = quantize.map(|how| (how, coord_bits.unwrap_or(MODEL_COORD_BITS)));
-    let laid = lattice::lay(&set.table, how).map_err(|failure| failure.in_file(&points_name))?;
+    let in_file = |failure: Failure| failure.in_file(&points_name);
+    let (set, how) = match arguments.plan.crossings {
+        Crossings::Reject => (set, how),
+        Crossings::Snap => {
+            let (set, snapping) = snapping::snap_set(set, how).map_err(in_file)?;
+            (set, how.filter(|_| snapping.is_none()))
+        }
+    };
+    let laid = lattice::lay(&set.table, how).map_err(in_file)?;
     let names = [&*path::name(mesh), &*points_name];
     let request = set.request.as_ref();
     let kind = if request.is_some() { Kind::Constrained } else { Kind::Canonical };
@@ -64,14 +72,21 @@ fn run_script(arguments: &VerifyArguments, path: &Path, mesh: &Path) -> Result<(
     let living = script.living();
     let numbers = laid.numbers.select(&script.last_places(&living));
     let names = [&*path::name(mesh), &*name];
+    let request = Request::of_constraints(script.last_constraints(&living));
+    let kind = if request.has_constraints() { Kind::Constrained } else { Kind::Canonical };
     let checked = read_triangles(arguments, mesh).and_then(|triangles| {
-        check_living(&numbers, &living, &triangles).map_err(|reason| rejected(&reason, Kind::Canonical, names))
+        check_living(&numbers, &living, &request, &triangles).map_err(|reason| rejected(&reason, kind, names))
     });
-    tell(checked, &laid, Kind::Canonical, names, arguments)
+    tell(checked, &laid, kind, names, arguments)
 }
 
 /// Verifies triangles that name points by the numbers of their insertions. `living` has the numbers of the points.
-fn check_living(numbers: &Numbers<'_>, living: &[u32], triangles: &[[u32; 3]]) -> Result<VerifySummary, String> {
+fn check_living(
+    numbers: &Numbers<'_>,
+    living: &[u32],
+    request: &Request,
+    triangles: &[[u32; 3]],
+) -> Result<VerifySummary, String> {
     let rank = |index: u32| {
         let found = living.binary_search(&index);
         let rank = found.map_err(|_| format!("a triangle has the point {index}, which does not live at the end"))?;
@@ -80,6 +95,10 @@ fn check_living(numbers: &Numbers<'_>, living: &[u32], triangles: &[[u32; 3]]) -
     let ranks = |&[a, b, c]: &[u32; 3]| Ok([rank(a)?, rank(b)?, rank(c)?]);
     let triangles: Vec<[u32; 3]> = triangles.iter().map(ranks).collect::<Result<_, String>>()?;
     let words = "the living points counted from 0 in the order of their indices";
+    if request.has_constraints() {
+        let checked = check_planned(numbers, living.len(), request, &triangles);
+        return checked.map_err(|error| format!("{error} ({words})"));
+    }
     check(numbers, &triangles).map_err(|error| format!("{error} ({words})"))
 }
 

@@ -72,7 +72,7 @@ impl Film {
             Command::Insert => self.place_of.push(place),
             Command::Move(index) => self.place_of[index as usize] = place,
             Command::Locate | Command::Nearest => self.asked.push(place),
-            Command::Delete(_) => {}
+            Command::Delete(_) | Command::Constrain(_) | Command::Unconstrain(_) => {}
         }
     }
 

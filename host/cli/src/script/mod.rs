@@ -1,7 +1,8 @@
 //! Scripts of changes and questions, for a mesh that lives.
 //!
-//! A script has a command in each row: `insert X Y`, `delete I`, `move I X Y`, `locate X Y` or `nearest X Y`. `I` is
-//! the number of an insertion, counted from 0. [`read`](read::read) reads a script and checks it to its end, so that
+//! A script has a command in each row: `insert X Y`, `delete I`, `move I X Y`, `constrain I J`, `unconstrain C`,
+//! `locate X Y` or `nearest X Y`. `I` and `J` are numbers of insertions and `C` is that of a constraint, counted from
+//! 0. [`read`](read::read) reads a script and checks it to its end, so that
 //! [`play`](play::play), which carries it out, meets no wrong command. [`Recipe`] makes scripts for
 //! `incircle generate`.
 
@@ -36,11 +37,22 @@ pub enum Command {
     Locate,
     /// Say which living point is nearest to a place.
     Nearest,
+    /// Make the line between the points of these indices a constraint.
+    Constrain([u32; 2]),
+    /// Remove the constraint of this number.
+    Unconstrain(u32),
 }
 
 /// The names of the commands with the values behind each, for messages and for counting.
-pub const FORMS: [(&str, &str); 5] =
-    [("insert", "X Y"), ("delete", "I"), ("move", "I X Y"), ("locate", "X Y"), ("nearest", "X Y")];
+pub const FORMS: [(&str, &str); 7] = [
+    ("insert", "X Y"),
+    ("delete", "I"),
+    ("move", "I X Y"),
+    ("locate", "X Y"),
+    ("nearest", "X Y"),
+    ("constrain", "I J"),
+    ("unconstrain", "C"),
+];
 
 impl Command {
     /// The position of the command's name in [`FORMS`].
@@ -51,12 +63,14 @@ impl Command {
             Self::Move(_) => 2,
             Self::Locate => 3,
             Self::Nearest => 4,
+            Self::Constrain(_) => 5,
+            Self::Unconstrain(_) => 6,
         }
     }
 
     /// Whether the command has a place.
     pub fn has_place(self) -> bool {
-        !matches!(self, Self::Delete(_))
+        !matches!(self, Self::Delete(_) | Self::Constrain(_) | Self::Unconstrain(_))
     }
 }
 
@@ -69,6 +83,10 @@ pub struct Script {
     pub places: PointTable,
     /// The points, by index.
     points: Vec<ScriptPoint>,
+    /// The constraints, by number.
+    constraints: Vec<ScriptConstraint>,
+    /// The row of each command, counted from 1.
+    rows: Vec<usize>,
     /// The most points that live at one time.
     pub most_living: usize,
 }
@@ -79,6 +97,15 @@ struct ScriptPoint {
     /// The number of its last place.
     place: u32,
     is_living: bool,
+    /// The number of ends of constraints that it is.
+    ends: u32,
+}
+
+/// The ends of a constraint of a script, and whether it is still there at the end.
+#[derive(Clone, Copy, Debug)]
+struct ScriptConstraint {
+    ends: [u32; 2],
+    is_there: bool,
 }
 
 impl Script {
@@ -97,6 +124,22 @@ impl Script {
     /// The indices of the points that live at the end, in rising order.
     pub fn living(&self) -> Vec<u32> {
         (0u32..).zip(&self.points).filter(|(_, point)| point.is_living).map(|(index, _)| index).collect()
+    }
+
+    /// Whether a command is about a constraint.
+    pub fn has_constraints(&self) -> bool {
+        !self.constraints.is_empty()
+    }
+
+    /// The constraints that are there at the end. Their ends count the living points, whose indices are given.
+    pub fn last_constraints(&self, living: &[u32]) -> Vec<[u32; 2]> {
+        let rank = |index: u32| living.partition_point(|&other| other < index) as u32;
+        self.constraints.iter().filter(|own| own.is_there).map(|own| own.ends.map(rank)).collect()
+    }
+
+    /// The row of a command, counted from 1, which is given by its position.
+    pub fn row(&self, command: usize) -> usize {
+        self.rows.get(command).copied().unwrap_or_default()
     }
 
     /// The numbers of the last places of these points, which were inserted.

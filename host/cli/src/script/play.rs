@@ -1,6 +1,6 @@
 //! Carrying out a script on a mesh that lives.
 
-use incircle::{Error, LivingMesh, PlanePoint};
+use incircle::{living, Error, LivingMesh, PlanePoint};
 
 use super::answer::Answer;
 use super::film::Film;
@@ -51,7 +51,8 @@ pub fn play<P: PlanePoint>(
                 film.note(command, place as u32);
             }
             place += usize::from(command.has_place());
-            answers.extend(step(mesh, command, point).map_err(|error| failure_at(&error, done))?);
+            let answer = step(mesh, command, point);
+            answers.extend(answer.map_err(|error| refused(&error, script, done))?);
             done += 1;
             if let Some(film) = film.as_deref_mut().filter(|film| film.is_due(done)) {
                 film.take(mesh, done).map_err(|error| failure_of(&error))?;
@@ -79,13 +80,36 @@ fn step<P: PlanePoint>(
         (Command::Move(index), Some(point)) => mesh.move_to(index, point).map(|()| None),
         (Command::Locate, Some(point)) => Ok(Some(Answer::Located(mesh.locate(point)?))),
         (Command::Nearest, Some(point)) => Ok(Some(Answer::Nearest(mesh.nearest(point)?))),
+        (Command::Constrain([from, to]), _) => mesh.insert_constraint(from, to).map(|_| None),
+        (Command::Unconstrain(number), _) => mesh.remove_constraint(number).map(|()| None),
         // The reader gives each such command a place.
         (_, None) => Ok(None),
     }
 }
 
-/// The failure of the command with this number, counted from 0. The reader refuses all that no triangulation takes, so
-/// what is left is a memory that is full, and faults of a device.
+/// The failure of the command with this number, counted from 0. The reader cannot know where constraints cross; the
+/// place is left out, because it is in the numbers of the lattice. The reader refuses all else that no triangulation
+/// takes, so what is left is a memory that is full, and faults of a device.
+fn refused(error: &Error, script: &Script, number: usize) -> Failure {
+    let Some([[constraint, a, b], [other, c, d]]) = crossing(error) else {
+        return failure_at(error, number);
+    };
+    let row = script.row(number);
+    Failure::input(format!(
+        "row {row}: constraint {other} (from point {c} to point {d}) would cross constraint {constraint} (from point \
+         {a} to point {b}): insert a point at the crossing before, or remove one of the two"
+    ))
+}
+
+/// Number and ends of both constraints, if the error says that they would cross.
+fn crossing(error: &Error) -> Option<[[u32; 3]; 2]> {
+    let Error::Living(error) = error else { return None };
+    let living::Error::Crossing { constraints: [one, other], ends: [[a, b], [c, d]], .. } = **error else {
+        return None;
+    };
+    Some([[one, a, b], [other, c, d]])
+}
+
 fn failure_at(error: &Error, number: usize) -> Failure {
     let failure = failure_of(error);
     Failure { message: format!("command {}: {}", number + 1, failure.message), ..failure }

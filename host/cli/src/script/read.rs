@@ -2,7 +2,7 @@
 
 use incircle::MAX_POINTS;
 
-use super::{Command, Script, ScriptPoint, FORMS};
+use super::{Command, Script, ScriptConstraint, ScriptPoint, FORMS};
 use crate::failure::{counted, quoted, Exit, Failure};
 use crate::memory::Memory;
 use crate::points::{Place, PointTable};
@@ -10,8 +10,9 @@ use crate::text;
 
 /// Reads a script. Empty rows, and all that follows a `#`, are skipped.
 ///
-/// A row that is no command, a wrong number of values, a coordinate that is not a finite number, and an index of a
-/// point that is not inserted yet or is deleted are refused with the row.
+/// A row that is no command, a wrong number of values, a coordinate that is not a finite number, an index of a point
+/// that is not inserted yet or is deleted, a constraint that is not there, and the deletion of an end of a constraint
+/// are refused with the row. Whether constraints cross is found when the script is carried out.
 pub fn read(bytes: &[u8], memory: Memory) -> Result<Script, Failure> {
     if bytes.is_empty() {
         return Err(Failure::input(
@@ -19,13 +20,21 @@ pub fn read(bytes: &[u8], memory: Memory) -> Result<Script, Failure> {
         ));
     }
     let places = PointTable::of_rows([2, 3, 4]).within(memory);
-    let mut script = Script { commands: Vec::new(), places, points: Vec::new(), most_living: 0 };
+    let mut script = Script {
+        commands: Vec::new(),
+        places,
+        points: Vec::new(),
+        constraints: Vec::new(),
+        rows: Vec::new(),
+        most_living: 0,
+    };
     let mut living = 0;
     for (row, content) in text::rows(text::without_mark(bytes)?) {
         let mut words = text::words(text::without_comment(content));
         let Some(name) = words.next() else { continue };
         let command = read_command(name, words, row, &mut script)?;
         script.commands.push(command);
+        script.rows.push(row);
         match command {
             Command::Insert => living += 1,
             Command::Delete(_) => living -= 1,
@@ -51,19 +60,38 @@ fn read_command<'a>(
         "insert" => {
             script.push_place([a, b], 2, row)?;
             let place = script.last_place();
-            script.points.push(ScriptPoint { place, is_living: true });
+            script.points.push(ScriptPoint { place, is_living: true, ends: 0 });
             Command::Insert
         }
         "delete" => {
-            let index = script.read_index(a, row)?;
-            script.points[index as usize].is_living = false;
+            let index = script.read_index(a, 2, row)?;
+            let point = &mut script.points[index as usize];
+            if point.ends > 0 {
+                return Err(Failure::input(format!(
+                    "row {row}: point {index} is an end of a constraint: remove the constraint before"
+                )));
+            }
+            point.is_living = false;
             Command::Delete(index)
         }
         "move" => {
-            let index = script.read_index(a, row)?;
+            let index = script.read_index(a, 2, row)?;
             script.push_place([b, c], 3, row)?;
             script.points[index as usize].place = script.last_place();
             Command::Move(index)
+        }
+        "constrain" => {
+            let ends = [script.read_index(a, 2, row)?, script.read_index(b, 3, row)?];
+            ends.iter().for_each(|&end| script.points[end as usize].ends += 1);
+            script.constraints.push(ScriptConstraint { ends, is_there: true });
+            Command::Constrain(ends)
+        }
+        "unconstrain" => {
+            let number = script.read_constraint(a, row)?;
+            let ends = script.constraints[number as usize].ends;
+            ends.iter().for_each(|&end| script.points[end as usize].ends -= 1);
+            script.constraints[number as usize].is_there = false;
+            Command::Unconstrain(number)
         }
         name => {
             script.push_place([a, b], 2, row)?;
@@ -80,7 +108,8 @@ fn read_command<'a>(
 fn no_command(name: &[u8], row: usize) -> Failure {
     let shown = quoted(name);
     Failure::input(format!(
-        "row {row}: {shown} is no command: the commands are insert, delete, move, locate and nearest"
+        "row {row}: {shown} is no command: the commands are insert, delete, move, locate, nearest, \
+         constrain and unconstrain"
     ))
 }
 
@@ -135,9 +164,9 @@ impl Script {
         self.places.len().saturating_sub(1) as u32
     }
 
-    /// Reads the index of a living point, which stands in column 2.
-    fn read_index(&self, value: &[u8], row: usize) -> Result<u32, Failure> {
-        let place = Place::Cell { row, column: 2 };
+    /// Reads the index of a living point.
+    fn read_index(&self, value: &[u8], column: usize, row: usize) -> Result<u32, Failure> {
+        let place = Place::Cell { row, column };
         let index = text::whole(value, "an index", place)?;
         match self.points.get(index as usize) {
             Some(point) if point.is_living => Ok(index),
@@ -145,6 +174,20 @@ impl Script {
             None => Err(Failure::input(format!(
                 "{place}: there is no point {index}: before this row the script has {}, counted from 0",
                 counted(self.points.len(), "insertion")
+            ))),
+        }
+    }
+
+    /// Reads the number of a constraint that is there.
+    fn read_constraint(&self, value: &[u8], row: usize) -> Result<u32, Failure> {
+        let place = Place::Cell { row, column: 2 };
+        let number = text::whole(value, "the number of a constraint", place)?;
+        match self.constraints.get(number as usize) {
+            Some(own) if own.is_there => Ok(number),
+            Some(_) => Err(Failure::input(format!("{place}: constraint {number} is removed already"))),
+            None => Err(Failure::input(format!(
+                "{place}: there is no constraint {number}: before this row the script has {}, counted from 0",
+                counted(self.constraints.len(), "constraint")
             ))),
         }
     }

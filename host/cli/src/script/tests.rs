@@ -87,10 +87,13 @@ fn more_places_than_memory_are_refused() {
 
 #[test]
 fn the_form_of_a_command_is_its_name() {
-    let script =
-        read(b"insert 1 2\nmove 0 1 2\nlocate 1 2\nnearest 1 2\ndelete 0\n", Memory::ENDLESS).expect("a script");
+    let script = read(
+        b"insert 1 2\nmove 0 1 2\nlocate 1 2\nnearest 1 2\nconstrain 0 0\nunconstrain 0\ndelete 0\n",
+        Memory::ENDLESS,
+    );
+    let script = script.expect("a script");
     let names: Vec<&str> = script.commands.iter().map(|command| FORMS[command.form()].0).collect();
-    assert_eq!(names, ["insert", "move", "locate", "nearest", "delete"]);
+    assert_eq!(names, ["insert", "move", "locate", "nearest", "constrain", "unconstrain", "delete"]);
     let with_index = |command: &super::Command| FORMS[command.form()].1.contains('X') == command.has_place();
     assert!(script.commands.iter().all(with_index));
 }

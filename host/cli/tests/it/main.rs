@@ -23,6 +23,7 @@ mod commands {
     mod lloyd;
     mod man;
     mod replay;
+    mod snap;
     mod tile;
     mod triangulate_large;
     mod voronoi;

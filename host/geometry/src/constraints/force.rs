@@ -184,8 +184,8 @@ fn pair_hanging<M: FixedMesh>(mesh: &mut M, links: &mut [Link], end: u32) {
     }
 }
 
-/// Fills a chain, which ends at this vertex, with triangles. Returns the side of the edge from its end to its beginning.
-/// `None` if the chain does not see that edge, which happens in no mesh.
+/// Fills a chain, which ends at this vertex, with triangles. Returns the side of the edge from its end to its
+/// beginning. `None` if the chain does not see that edge, which happens in no mesh.
 fn fill_chain<M: FixedMesh>(mesh: &mut M, links: &[Link], end: u32) -> Option<Side> {
     // The chain that is not filled yet: its links, and the last vertex.
     let mut open = core::mem::take(&mut mesh.work().chain);

@@ -10,11 +10,13 @@
 //! | a mesh with edges that must be there | [`constrain`] with [`Plan::new`] |
 //! | the triangles inside polygons | the same with [`Domain::EvenOdd`] or [`Domain::NonZero`] |
 //! | the triangles of a `.poly` file of Shewchuk's Triangle | the same with [`Domain::Holes`] and the holes |
+//! | points where constraints cross | [`snap`], then `constrain` |
 //! | constraints in the mesh of a device | [`constrain_numbers`] |
 //!
 //! **How it works, file by file.** `build` has the steps. `network` links the triangles of a mesh and marks fixed
-//! edges; `fixed_mesh` flips free ones; `force` brings a constraint in; `pieces` collects what constraints became; `crossing` works
-//! out where two of them cross; `domain` floods the parts between them, and `locate` finds holes and regions.
+//! edges; `fixed_mesh` flips free ones; `force` brings a constraint in; `pieces` collects what constraints became;
+//! `crossing` works out where two of them cross, and `snap` and `pixels` round crossings to a finer grid; `domain`
+//! floods the parts between them, and `locate` finds holes and regions.
 
 mod build;
 mod constrain;
@@ -27,6 +29,8 @@ pub(crate) mod force;
 mod locate;
 mod network;
 pub(crate) mod pieces;
+mod pixels;
+mod snap;
 #[cfg(test)]
 mod tests;
 
@@ -35,5 +39,6 @@ pub use constrained::Constrained;
 pub use crossing::{Fraction, Place};
 pub use error::Error;
 pub use pieces::Pieces;
+pub use snap::{snap, SnapError, Snapped, SNAP_BITS};
 
 pub use crate::plan::{Domain, Mark, Plan, UnknownDomain};

@@ -26,6 +26,14 @@ impl Pieces {
         pieces
     }
 
+    /// The same pieces with other numbers of constraints: `of` has the new one of each. For pieces of a set that was
+    /// snapped, [`Snapped::of`](super::Snapped::of) gives them the constraints of the input. O(n log n).
+    #[must_use]
+    pub fn renamed(&self, of: &[u32]) -> Self {
+        let new = |&constraint: &u32| of.get(constraint as usize).copied().unwrap_or(constraint);
+        Self::of(self.iter().flat_map(|(edge, own)| own.iter().map(move |own| (edge, new(own)))).collect())
+    }
+
     /// The number of pieces.
     pub fn len(&self) -> usize {
         self.edges.len()

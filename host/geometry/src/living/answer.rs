@@ -23,8 +23,8 @@ impl<P: PlanePoint> Triangulation<P> {
     /// them in the order of their indices.
     ///
     /// While there are constraints, it is the canonical constrained mesh of all triangles of the hull, as
-    /// [`constrain`](crate::constraints::constrain) makes it. To take the triangles of a domain, give that function this
-    /// mesh with the constraints.
+    /// [`constrain`](crate::constraints::constrain) makes it. To take the triangles of a domain, give that function
+    /// this mesh with the constraints.
     ///
     /// Indices in the mesh count the living points: index `k` in the mesh is that of the point
     /// [`indices()`](Self::indices)`[k]`. O(n log n).

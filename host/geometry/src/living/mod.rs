@@ -37,13 +37,13 @@
 //! [`hull`]: Triangulation::hull
 //!
 //! **How it works, file by file.** `level` holds the vertices of a mesh and `plane` its triangles and ghost triangles;
-//! points on one line are a state without triangles (`line`). `walk` finds a place, and
-//! `climb` the nearest vertex. `cavity` adds a vertex, `hole` and
-//! `large_hole` remove one, `flips` moves one, and `sweep` moves all. `triangulation` is a Delaunay hierarchy of such
-//! levels, in which about one vertex in 32 is also in the level above, chosen by a hash of its number. `names` keeps
-//! which vertex has the point of an index. `load` and `link` take the mesh of the CPU triangulator over, and `answer`
-//! gives a mesh back. `constrain` has the constraints, and `constrained` the mesh with them: `parts` says which edges are
-//! fixed, `straight` walks in it, and `ears` removes a vertex. All predicates are exact and contain the tie rule (`site`).
+//! points on one line are a state without triangles (`line`). `walk` finds a place, and `climb` the nearest vertex.
+//! `cavity` adds a vertex, `hole` and `large_hole` remove one, `flips` moves one, and `sweep` moves all.
+//! `triangulation` is a Delaunay hierarchy of such levels, in which about one vertex in 32 is also in the level above,
+//! chosen by a hash of its number. `names` keeps which vertex has the point of an index. `load` and `link` take the
+//! mesh of the CPU triangulator over, and `answer` gives a mesh back. `constrain` has the constraints, and
+//! `constrained` the mesh with them: `parts` says which edges are fixed, `straight` walks in it, and `ears` removes a
+//! vertex. All predicates are exact and contain the tie rule (`site`).
 
 mod answer;
 mod cavity;

@@ -171,6 +171,15 @@ pub enum VerifyError {
         /// Number of points given.
         points: usize,
     },
+    /// The constraints have more different pieces than edges that do not cross can have.
+    #[error(
+        "constraints up to number {constraint} have more pieces than any mesh of the points has edges, so some of them \
+         cross: no mesh has all of them"
+    )]
+    ConstraintsCross {
+        /// Number of the constraint in the list by which this was noticed.
+        constraint: usize,
+    },
     /// The constraints that bound the domain do not form rings.
     #[error("the boundary of the domain is not closed at point {point}")]
     NotClosed {

@@ -28,7 +28,7 @@ pub(super) fn pieces<P: ExactPoint>(
     boundary: usize,
 ) -> Result<Vec<Piece>, VerifyError> {
     let buckets = Buckets::of(sites.points, &sites.distinct);
-    let mut pieces = Vec::new();
+    let mut pieces = Collected::default();
     let mut on = Vec::new();
     for (constraint, ends) in constraints.iter().enumerate() {
         let mut lowest = [0; 2];
@@ -53,17 +53,47 @@ pub(super) fn pieces<P: ExactPoint>(
         let count = i64::from(constraint < boundary);
         let turns = if is_back { -count } else { count };
         pieces.extend(on.windows(2).map(|two| Piece { from: two[0], to: two[1], count, turns }));
-    }
-    pieces.sort_unstable_by_key(|piece| (piece.from, piece.to));
-    pieces.dedup_by(|later, kept| {
-        let is_same = (later.from, later.to) == (kept.from, kept.to);
-        if is_same {
-            kept.count += later.count;
-            kept.turns += later.turns;
+        // Of edges that do not cross there are fewer than three for each point.
+        if pieces.merged > 3 * sites.points.len() {
+            return Err(VerifyError::ConstraintsCross { constraint });
         }
-        is_same
-    });
-    Ok(pieces)
+    }
+    pieces.merge();
+    Ok(pieces.list)
+}
+
+/// Pieces while they are collected. Those with the same ends are merged again and again, so that constraints that
+/// overlap take no more memory than their edges.
+#[derive(Debug, Default)]
+struct Collected {
+    list: Vec<Piece>,
+    /// The number of pieces after the last merge.
+    merged: usize,
+}
+
+impl Collected {
+    /// The least number of pieces that are merged.
+    const FEW: usize = 1 << 12;
+
+    fn extend(&mut self, pieces: impl Iterator<Item = Piece>) {
+        self.list.extend(pieces);
+        if self.list.len() > 2 * self.merged + Self::FEW {
+            self.merge();
+        }
+    }
+
+    fn merge(&mut self) {
+        self.list.sort_unstable_by_key(|piece| (piece.from, piece.to));
+        self.list.dedup_by(|later, kept| {
+            let is_same = (later.from, later.to) == (kept.from, kept.to);
+            if is_same {
+                kept.count += later.count;
+                kept.turns += later.turns;
+            }
+            is_same
+        });
+        self.merged = self.list.len();
+    }
 }
 
 /// Checks that the pieces of the boundary begin as often as they end at each point, or, if it only matters how many
@@ -130,4 +160,21 @@ fn is_above<P: ExactPoint>(sites: &Sites<'_, P>, one: &Piece, other: &Piece) -> 
             _ => side(one, other.to).reverse(),
         })
         .is_gt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pieces_of_constraints_that_overlap_take_the_memory_of_their_edges() {
+        let mut collected = Collected::default();
+        let edge = |from: u32| Piece { from, to: from + 1, count: 1, turns: if from % 2 == 0 { 1 } else { -1 } };
+        for _ in 0..5000 {
+            collected.extend((0..100).map(edge));
+        }
+        collected.merge();
+        assert_eq!((collected.list.len(), collected.list[7].count, collected.list[7].turns), (100, 5000, -5000));
+        assert!(collected.list.capacity() < 4 * Collected::FEW, "{}", collected.list.capacity());
+    }
 }

@@ -72,6 +72,19 @@ pub trait LivingMesh<P: PlanePoint> {
     /// another point stays at the old place.
     fn move_to(&mut self, index: u32, point: P) -> Result<(), Error>;
 
+    /// Makes the edge from one living point to another a constraint, and returns the number of the constraint.
+    ///
+    /// # Errors
+    /// [`Error::Living`] for a constraint that [`Triangulation::insert_constraint`] refuses, and
+    /// [`Error::NoConstraints`] for a device. The mesh stays as it was.
+    fn insert_constraint(&mut self, from: u32, to: u32) -> Result<u32, Error>;
+
+    /// Removes the constraint of a number.
+    ///
+    /// # Errors
+    /// [`Error::Living`] if there is no such constraint, and [`Error::NoConstraints`] for a device.
+    fn remove_constraint(&mut self, number: u32) -> Result<(), Error>;
+
     /// Says what a place is: a vertex, or in an edge, a triangle, or outside the hull.
     ///
     /// # Errors
@@ -118,6 +131,14 @@ impl<P: PlanePoint> LivingMesh<P> for Triangulation<P> {
 
     fn move_to(&mut self, index: u32, point: P) -> Result<(), Error> {
         Ok(Triangulation::move_to(self, index, point)?)
+    }
+
+    fn insert_constraint(&mut self, from: u32, to: u32) -> Result<u32, Error> {
+        Ok(Triangulation::insert_constraint(self, from, to)?)
+    }
+
+    fn remove_constraint(&mut self, number: u32) -> Result<(), Error> {
+        Ok(Triangulation::remove_constraint(self, number)?)
     }
 
     fn locate(&mut self, place: P) -> Result<Location, Error> {

@@ -280,6 +280,14 @@ impl LivingMesh<Point> for LivingSession<'_> {
         }
     }
 
+    fn insert_constraint(&mut self, _from: u32, _to: u32) -> Result<u32, Error> {
+        Err(Error::NoConstraints { device: self.device.name() })
+    }
+
+    fn remove_constraint(&mut self, _number: u32) -> Result<(), Error> {
+        Err(Error::NoConstraints { device: self.device.name() })
+    }
+
     fn locate(&mut self, place: Point) -> Result<Location, Error> {
         self.check_grid(place)?;
         if !self.is_loaded {

@@ -119,7 +119,8 @@ fn the_report_counts_what_constraints_made() {
     let run = scratch.run("triangulate p.geojson -o m.ele --json").ok();
     let report: serde_json::Value = serde_json::from_str(&run.stdout).expect("JSON");
     let plan = serde_json::json!({
-        "constraints": 8, "pieces": 8, "domain": "even-odd", "triangles": 8, "regions": 1, "twice_area": "96",
+        "constraints": 8, "pieces": 8, "domain": "even-odd", "triangles": 8, "regions": 1, "snapping": null,
+        "twice_area": "96",
     });
     assert_eq!(report["plan"], plan);
 }

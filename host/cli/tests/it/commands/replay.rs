@@ -1,6 +1,7 @@
 //! Tests of `incircle replay`: answers, meshes by the numbers of insertions, formats, back ends, and the report.
 
 mod brute;
+mod constraints;
 mod film;
 mod made;
 mod refusals;
@@ -208,7 +209,7 @@ fn the_report_counts_commands() {
     let run = scratch.run("replay s.txt -o m.ele --film f.svg --json").ok();
     assert_eq!((run.stderr.as_str(), run.stdout.lines().count()), ("", 1));
     let report: Value = serde_json::from_str(&run.stdout).expect("JSON");
-    let commands = serde_json::json!({ "insert": 7, "delete": 2, "move": 1, "locate": 1, "nearest": 2 });
+    let commands = serde_json::json!({ "insert": 7, "delete": 2, "move": 1, "locate": 1, "nearest": 2, "constrain": 0, "unconstrain": 0 });
     assert_eq!(report["commands"], commands);
     for (key, value) in
         [("points", 7), ("living", 5), ("most_living", 5), ("duplicates", 1), ("triangles", 2), ("hull", 4)]
@@ -230,6 +231,9 @@ fn the_report_counts_commands() {
     );
     assert!(report["film"].is_null());
     let lines = scratch.run("replay s.txt -o m.ele").ok().stderr;
-    assert!(lines.contains("13 commands: 7 insert, 2 delete, 1 move, 1 locate, 2 nearest\n"), "{lines}");
+    assert!(
+        lines.contains("13 commands: 7 insert, 2 delete, 1 move, 1 locate, 2 nearest, 0 constrain, 0 unconstrain\n"),
+        "{lines}"
+    );
     assert!(lines.contains("\n5 living points, 2 triangles, 4 points on the hull; cpu, "), "{lines}");
 }

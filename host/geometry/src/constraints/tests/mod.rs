@@ -3,3 +3,4 @@ mod brute;
 mod canonical;
 mod domains;
 mod hostile;
+mod snap;

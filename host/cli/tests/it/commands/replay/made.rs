@@ -32,7 +32,7 @@ fn made_scripts_have_the_commands_that_they_promise() {
     let scratch = Scratch::new();
     scratch.run("generate drift -n 50 --frames 6 -o s.txt").ok();
     let drift = report(&scratch, "s.txt -o m.ele");
-    let commands = serde_json::json!({ "insert": 50, "delete": 0, "move": 300, "locate": 0, "nearest": 0 });
+    let commands = serde_json::json!({ "insert": 50, "delete": 0, "move": 300, "locate": 0, "nearest": 0, "constrain": 0, "unconstrain": 0 });
     assert_eq!((&drift["commands"], &drift["living"]), (&commands, &50.into()));
     scratch.run("generate tracks -n 80 --frames 30 -o s.txt").ok();
     let tracks = report(&scratch, "s.txt -o m.ele");

@@ -18,7 +18,10 @@ fn refuse(script: impl AsRef<[u8]>, parts: &[&str]) {
 
 #[test]
 fn wrong_rows_are_named() {
-    refuse("# a\n\ninsrt 1 2\n", &["row 3: 'insrt' is no command: the commands are insert, delete, move, locate and"]);
+    refuse(
+        "# a\n\ninsrt 1 2\n",
+        &["row 3: 'insrt' is no command: the commands are insert, delete, move, locate, nearest"],
+    );
     refuse("INSERT 1 2\n", &["row 1: 'INSERT' is no command"]);
     refuse("insert,1,2\n", &["row 1: 'insert,1,2' is no command"]);
     refuse("insert 1\n", &["row 1 has 1 value behind 'insert': the command is 'insert X Y'"]);
