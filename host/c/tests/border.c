@@ -1,4 +1,4 @@
-/* Calls the functions for meshes with good and bad arguments. The command `test` runs it with and without sanitisers. */
+/* Calls the functions for meshes with good and bad arguments. `test` runs it with and without sanitisers. */
 #include "expect.h"
 
 static void meshes_have_their_lists(void) {
