@@ -75,6 +75,18 @@
 // Coordinates are `uint32_t`.
 #define INCIRCLE_U32 4
 
+// All triangles of the hull.
+#define INCIRCLE_ALL 0
+
+// The triangles that constraints separate from the outside of the hull and from all holes.
+#define INCIRCLE_HOLES 1
+
+// The triangles that an odd number of rings of constraints surround.
+#define INCIRCLE_EVEN_ODD 2
+
+// The triangles around which the rings of constraints run a number of times that is not zero.
+#define INCIRCLE_NON_ZERO 3
+
 // The place is none: there are no triangles and it lies on no edge, or a coordinate is NaN or infinite.
 #define INCIRCLE_NONE 0
 
@@ -93,8 +105,50 @@
 // No index.
 #define INCIRCLE_EMPTY UINT32_MAX
 
+// Points and clip are taken exactly: they must lie on a lattice of few enough bits.
+#define INCIRCLE_EXACT 0
+
+// Points and clip are rounded onto a grid.
+#define INCIRCLE_QUANTIZE 1
+
+// All steps of a relaxation were done.
+#define INCIRCLE_ITERATIONS 0
+
+// No point moved in the last step of a relaxation.
+#define INCIRCLE_STILL 1
+
+// A state of a relaxation came again.
+#define INCIRCLE_CYCLE 2
+
+// The plane through the corners of the triangle around a place.
+#define INCIRCLE_LINEAR 0
+
+// Natural neighbours, weighted by lengths of edges over distances.
+#define INCIRCLE_LAPLACE 1
+
+// Natural neighbours, weighted by areas.
+#define INCIRCLE_SIBSON 2
+
+// Outside the hull, there is no value: the result is NaN.
+#define INCIRCLE_NAN 0
+
+// Outside the hull, the value is that of the nearest point.
+#define INCIRCLE_NEAREST 1
+
+// The triangles of a domain in the canonical mesh with constraints. Several threads may read one at a time.
+typedef struct incircle_constrained incircle_constrained;
+
+// The contour lines of a level. Several threads may read them at a time.
+typedef struct incircle_contours incircle_contours;
+
+// The Voronoi diagram of a set of points. Several threads may read one at a time.
+typedef struct incircle_diagram incircle_diagram;
+
 // The mesh of a set of points. Several threads may read a mesh at a time.
 typedef struct incircle_mesh incircle_mesh;
+
+// Points with a value each, made ready for values elsewhere. Several threads may ask one at a time.
+typedef struct incircle_surface incircle_surface;
 
 // A triangulation that can be asked and changed. While one thread changes it, no other may use it; several may ask.
 typedef struct incircle_triangulation incircle_triangulation;
@@ -117,6 +171,29 @@ typedef struct {
   void *user;
 } incircle_options;
 
+// Constraints and the domain that is wanted. Set all to 0 and `size` to `sizeof(incircle_plan)` first.
+typedef struct {
+  // The size of this structure in bytes.
+  size_t size;
+  // Edges that must be in the mesh: the indices of both ends of each. They may overlap, touch and pass through
+  // points, but not cross elsewhere.
+  const uint32_t (*constraints)[2];
+  // The number of constraints.
+  size_t constraint_count;
+  // How many constraints at the end bound nothing: they are edges, but no parts of rings.
+  size_t lines;
+  // Which triangles are wanted: `INCIRCLE_ALL`, `INCIRCLE_HOLES`, `INCIRCLE_EVEN_ODD` or `INCIRCLE_NON_ZERO`.
+  uint32_t domain;
+  // x and y of a place in each hole of `INCIRCLE_HOLES`, in the type of numbers of the mesh.
+  const void *holes;
+  // The number of holes.
+  size_t hole_count;
+  // x and y of a place in each region whose number is wanted, in the type of numbers of the mesh.
+  const void *regions;
+  // The number of these places.
+  size_t region_count;
+} incircle_plan;
+
 // What a place is, and the vertices there.
 typedef struct {
   // `INCIRCLE_NONE`, `INCIRCLE_VERTEX`, `INCIRCLE_EDGE`, `INCIRCLE_TRIANGLE` or `INCIRCLE_OUTSIDE`.
@@ -125,6 +202,37 @@ typedef struct {
   // counter-clockwise. Outside the hull they are the first hull edge, counter-clockwise, that is visible.
   uint32_t vertices[3];
 } incircle_location;
+
+// The choices for a relaxation. Set all to 0 and `size` to `sizeof(incircle_relaxation)` first.
+typedef struct {
+  // The size of this structure in bytes.
+  size_t size;
+  // The most steps, 1 or more.
+  uint32_t iterations;
+  // 1 to end also when no point moves, or when a state comes again; else 0.
+  uint32_t until_still;
+  // The most threads; 0 for one a processor.
+  uint32_t threads;
+  // `INCIRCLE_EXACT`, or `INCIRCLE_QUANTIZE` to round onto a grid of 23 bits first.
+  uint32_t quantize;
+  // x and y of the corners of the region to fill, in the type of numbers of the points: two opposite ones of a
+  // rectangle, or three or more of a simple polygon. Null stands for the smallest rectangle around the points.
+  const void *clip;
+  // The number of these corners.
+  size_t corner_count;
+} incircle_relaxation;
+
+// What became of a relaxation.
+typedef struct {
+  // The steps that were done.
+  uint32_t iterations;
+  // Why it ended: `INCIRCLE_ITERATIONS`, `INCIRCLE_STILL` or `INCIRCLE_CYCLE`.
+  uint32_t end;
+  // How many points moved in the last step.
+  size_t moved;
+  // The farthest that `INCIRCLE_QUANTIZE` moved a point along an axis; 0 if nothing was rounded.
+  double largest_error;
+} incircle_relaxed;
 
 #ifdef __cplusplus
 extern "C" {
@@ -209,6 +317,90 @@ int32_t incircle_mesh_verify(const incircle_mesh *mesh);
 // # Safety
 // `mesh` is null, or a mesh that is not freed, and is not used again.
 void incircle_mesh_free(incircle_mesh *mesh);
+
+// Forces constraints into a mesh and takes the triangles of a domain. The mesh stays as it is. `made` becomes a
+// constrained mesh that must be freed, or null if the call fails.
+//
+// The status is `INCIRCLE_INPUT` for constraints that cross or name points that do not exist, a boundary that is not
+// closed, a hole or region outside the hull or on a constraint, and a domain without triangles.
+//
+// # Safety
+// `mesh` is a mesh that is not freed, `plan` points to a plan whose pointers are as described there, and `made` to a
+// pointer that may be written.
+int32_t incircle_constrain(const incircle_mesh *mesh,
+                           const incircle_plan *plan,
+                           incircle_constrained **made);
+
+// The triangles of the domain: three indices each, in the form of `incircle_mesh_triangles`.
+//
+// # Safety
+// `constrained` is one that is not freed; the rest is as for `incircle_mesh_triangles`.
+int32_t incircle_constrained_triangles(const incircle_constrained *constrained,
+                                       uint32_t (*buffer)[3],
+                                       size_t room,
+                                       size_t *count);
+
+// The region of each triangle: a part of the domain that no constraint cuts. With `INCIRCLE_ALL` and without places of
+// regions, every triangle is in region 0.
+//
+// # Safety
+// As for `incircle_constrained_triangles`.
+int32_t incircle_constrained_regions(const incircle_constrained *constrained,
+                                     uint32_t *buffer,
+                                     size_t room,
+                                     size_t *count);
+
+// The region around each place of the plan's `regions`.
+//
+// # Safety
+// As for `incircle_constrained_triangles`.
+int32_t incircle_constrained_marked(const incircle_constrained *constrained,
+                                    uint32_t *buffer,
+                                    size_t room,
+                                    size_t *count);
+
+// The edges that constraints fix, also those outside the domain: two indices each, the smaller first, in sorted order.
+//
+// # Safety
+// As for `incircle_constrained_triangles`.
+int32_t incircle_constrained_pieces(const incircle_constrained *constrained,
+                                    uint32_t (*buffer)[2],
+                                    size_t room,
+                                    size_t *count);
+
+// Where the constraints of each piece begin in `incircle_constrained_piece_constraints`. There is one item more than
+// pieces: the end of the last.
+//
+// # Safety
+// As for `incircle_constrained_triangles`.
+int32_t incircle_constrained_piece_starts(const incircle_constrained *constrained,
+                                          size_t *buffer,
+                                          size_t room,
+                                          size_t *count);
+
+// The numbers of the constraints that each piece belongs to, one piece behind the other.
+//
+// # Safety
+// As for `incircle_constrained_triangles`.
+int32_t incircle_constrained_piece_constraints(const incircle_constrained *constrained,
+                                               uint32_t *buffer,
+                                               size_t room,
+                                               size_t *count);
+
+// Proves with the independent validator that these are the triangles of the plan's domain in the canonical mesh of the
+// points of `mesh`. The status is `INCIRCLE_WRONG_MESH` if they are not.
+//
+// # Safety
+// The pointers are as for `incircle_constrain`, and `constrained` is one that is not freed.
+int32_t incircle_constrained_verify(const incircle_constrained *constrained,
+                                    const incircle_mesh *mesh,
+                                    const incircle_plan *plan);
+
+// Frees a constrained mesh. A null pointer is allowed.
+//
+// # Safety
+// `constrained` is null, or one that is not freed, and is not used again.
+void incircle_constrained_free(incircle_constrained *constrained);
 
 // Makes the triangulation of `count` points, whose indices are their positions. `points` may be null if `count` is 0.
 // All coordinates that the triangulation takes have the type `number`, such as `INCIRCLE_F64`. `made` becomes a
@@ -302,6 +494,234 @@ int32_t incircle_triangulation_mesh(const incircle_triangulation *triangulation,
 // # Safety
 // `triangulation` is null, or one that is not freed, and is not used again.
 void incircle_triangulation_free(incircle_triangulation *triangulation);
+
+// Makes the Voronoi diagram of `count` points, and the cells inside a clip of `corner_count` corners: none, two
+// opposite ones of a rectangle, or three or more of a simple polygon. `points` and `clip` have x and y of each, in the
+// type of numbers `number`, such as `INCIRCLE_F64`. `diagram` becomes a diagram that must be freed, or null if the
+// call fails.
+//
+// Points and clip must lie on a lattice of up to 31 bits, as whole numbers of that size do. Most doubles do not:
+// `INCIRCLE_QUANTIZE` as `quantize` rounds them onto a grid, and `INCIRCLE_EXACT` refuses them. The status is
+// `INCIRCLE_INPUT` for these, for a coordinate that is NaN or infinite, and for a clip without area or that crosses
+// itself.
+//
+// # Safety
+// `points` and `clip` point to as many pairs of numbers of that type, and `diagram` to a pointer that may be written.
+int32_t incircle_diagram_new(const void *points,
+                             size_t count,
+                             const void *clip,
+                             size_t corner_count,
+                             uint32_t number,
+                             uint32_t quantize,
+                             incircle_diagram **diagram);
+
+// The Voronoi vertices, all at different places: each coordinate is the double nearest to the exact one.
+//
+// # Safety
+// `diagram` is one that is not freed; the rest is as for `incircle_mesh_triangles`.
+int32_t incircle_diagram_vertices(const incircle_diagram *diagram,
+                                  double (*buffer)[2],
+                                  size_t room,
+                                  size_t *count);
+
+// Where the edges of the cell of each point begin in `incircle_diagram_neighbors` and `incircle_diagram_corners`.
+// There is one item more than points: the end of the last. A duplicate has no edges.
+//
+// # Safety
+// As for `incircle_diagram_vertices`.
+int32_t incircle_diagram_starts(const incircle_diagram *diagram,
+                                uint64_t *buffer,
+                                size_t room,
+                                size_t *count);
+
+// The point on the other side of each edge, counter-clockwise around each cell.
+//
+// # Safety
+// As for `incircle_diagram_vertices`.
+int32_t incircle_diagram_neighbors(const incircle_diagram *diagram,
+                                   uint32_t *buffer,
+                                   size_t room,
+                                   size_t *count);
+
+// The Voronoi vertex at which each edge begins; `INCIRCLE_EMPTY` if the edge comes from infinity.
+//
+// # Safety
+// As for `incircle_diagram_vertices`.
+int32_t incircle_diagram_corners(const incircle_diagram *diagram,
+                                 uint32_t *buffer,
+                                 size_t room,
+                                 size_t *count);
+
+// The points with the coordinates of an earlier one: the index of each, and the lowest index at its place.
+//
+// # Safety
+// As for `incircle_diagram_vertices`.
+int32_t incircle_diagram_duplicates(const incircle_diagram *diagram,
+                                    uint32_t (*buffer)[2],
+                                    size_t room,
+                                    size_t *count);
+
+// The farthest that `INCIRCLE_QUANTIZE` moved a point along an axis; 0 if nothing was rounded.
+//
+// # Safety
+// `diagram` is one that is not freed, and `error` may be written.
+int32_t incircle_diagram_largest_error(const incircle_diagram *diagram, double *error);
+
+// The corners of the pieces of all cells inside the clip, counter-clockwise, one piece behind the other. A cell has no
+// piece, one, or several if the clip is not convex. The status is `INCIRCLE_CHOICE` if the diagram has no clip.
+//
+// # Safety
+// As for `incircle_diagram_vertices`.
+int32_t incircle_diagram_cell_corners(const incircle_diagram *diagram,
+                                      double (*buffer)[2],
+                                      size_t room,
+                                      size_t *count);
+
+// Where each piece begins in `incircle_diagram_cell_corners`. There is one item more than pieces: the end of the last.
+//
+// # Safety
+// As for `incircle_diagram_vertices`.
+int32_t incircle_diagram_piece_starts(const incircle_diagram *diagram,
+                                      uint64_t *buffer,
+                                      size_t room,
+                                      size_t *count);
+
+// The point to which each piece belongs, in rising order.
+//
+// # Safety
+// As for `incircle_diagram_vertices`.
+int32_t incircle_diagram_piece_points(const incircle_diagram *diagram,
+                                      uint32_t *buffer,
+                                      size_t room,
+                                      size_t *count);
+
+// The area of the cell of each point inside the clip; 0 for a duplicate.
+//
+// # Safety
+// As for `incircle_diagram_vertices`.
+int32_t incircle_diagram_areas(const incircle_diagram *diagram,
+                               double *buffer,
+                               size_t room,
+                               size_t *count);
+
+// The points whose cells share an edge inside the clip, one cell behind the other, each in rising order.
+//
+// # Safety
+// As for `incircle_diagram_vertices`.
+int32_t incircle_diagram_inside(const incircle_diagram *diagram,
+                                uint32_t *buffer,
+                                size_t room,
+                                size_t *count);
+
+// Where the items of each point begin in `incircle_diagram_inside`. There is one item more than points: the end of the
+// last.
+//
+// # Safety
+// As for `incircle_diagram_vertices`.
+int32_t incircle_diagram_inside_starts(const incircle_diagram *diagram,
+                                       uint64_t *buffer,
+                                       size_t room,
+                                       size_t *count);
+
+// Frees a diagram. A null pointer is allowed.
+//
+// # Safety
+// `diagram` is null, or one that is not freed, and is not used again.
+void incircle_diagram_free(incircle_diagram *diagram);
+
+// Spreads `count` points evenly: each step moves every point to the centroid of its Voronoi cell inside the clip of
+// the choices. `points` has x and y of each, in the type of numbers `number`, such as `INCIRCLE_F64`. `places` gets
+// the new place of each point, in their order; the places are the same bytes on every machine and with any number of
+// threads. `relaxed` says what was done, and may be null.
+//
+// Points and clip must lie on a lattice of up to 23 bits, or are rounded onto one by `INCIRCLE_QUANTIZE`. The status
+// is `INCIRCLE_INPUT` for points and clips that `incircle_diagram_new` refuses, and for a rectangle around the points
+// that has no area. `places` has room for `room` points; with less room than points the status is `INCIRCLE_BUFFER`.
+//
+// # Safety
+// The pointers of the choices are as described there, and the others point to what is said above.
+int32_t incircle_lloyd(const void *points,
+                       size_t count,
+                       uint32_t number,
+                       const incircle_relaxation *choices,
+                       double (*places)[2],
+                       size_t room,
+                       incircle_relaxed *relaxed);
+
+// Makes the surface of `count` points, x and y of each, with a value each. Of points at one place, the lowest index
+// has the value. `surface` becomes a surface that must be freed, or null if the call fails.
+//
+// The status is `INCIRCLE_INPUT` for a coordinate or value that is NaN or infinite, and for points without a triangle.
+//
+// # Safety
+// `points` points to `count` pairs, `values` to as many numbers, and `surface` to a pointer that may be written.
+int32_t incircle_surface_new(const double (*points)[2],
+                             const double *values,
+                             size_t count,
+                             incircle_surface **surface);
+
+// The values at `count` places, x and y of each, in their order. `method` is `INCIRCLE_LINEAR`, `INCIRCLE_LAPLACE` or
+// `INCIRCLE_SIBSON`, and `outside` is `INCIRCLE_NAN` or `INCIRCLE_NEAREST`. `threads` bounds the threads; 0 allows one
+// a processor. A place that is not finite has no value.
+//
+// # Safety
+// `surface` is one that is not freed, `places` points to `count` pairs, and `values` to as many numbers that may be
+// written.
+int32_t incircle_surface_values(const incircle_surface *surface,
+                                uint32_t method,
+                                uint32_t outside,
+                                uint32_t threads,
+                                const double (*places)[2],
+                                size_t count,
+                                double *values);
+
+// Finds the contour lines of a level on the surface of `INCIRCLE_LINEAR`, with higher ground on their left. `contours`
+// becomes a list of lines that must be freed, or null if the call fails.
+//
+// # Safety
+// `surface` is one that is not freed, and `contours` points to a pointer that may be written.
+int32_t incircle_surface_contours(const incircle_surface *surface,
+                                  double level,
+                                  incircle_contours **contours);
+
+// The places at which the lines cross edges, one line behind the other. A closed line does not repeat its first place.
+//
+// # Safety
+// `contours` is one that is not freed; the rest is as for `incircle_mesh_triangles`.
+int32_t incircle_contours_places(const incircle_contours *contours,
+                                 double (*buffer)[2],
+                                 size_t room,
+                                 size_t *count);
+
+// Where each line begins in `incircle_contours_places`. There is one item more than lines: the end of the last.
+//
+// # Safety
+// As for `incircle_contours_places`.
+int32_t incircle_contours_starts(const incircle_contours *contours,
+                                 size_t *buffer,
+                                 size_t room,
+                                 size_t *count);
+
+// Whether each line is closed: 1, or 0 if it ends on the hull.
+//
+// # Safety
+// As for `incircle_contours_places`.
+int32_t incircle_contours_closed(const incircle_contours *contours,
+                                 uint8_t *buffer,
+                                 size_t room,
+                                 size_t *count);
+
+// Frees contour lines. A null pointer is allowed.
+//
+// # Safety
+// `contours` is null, or one that is not freed, and is not used again.
+void incircle_contours_free(incircle_contours *contours);
+
+// Frees a surface. A null pointer is allowed.
+//
+// # Safety
+// `surface` is null, or one that is not freed, and is not used again.
+void incircle_surface_free(incircle_surface *surface);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -5,9 +5,11 @@ use std::ffi::{c_char, c_void, CString};
 use std::num::NonZeroU32;
 use std::ops::ControlFlow;
 
+use incircle::constraints::Constrained;
 use incircle::{Device, Mesh, Options, PlanePoint, Progress};
 
 use crate::border::{copied, exclusive, give, look_for_memory, shared, text};
+use crate::constrained::{forced, incircle_plan, proved};
 use crate::status::{guarded, Failure, Outcome};
 use crate::status::{INCIRCLE_ARGUMENT, INCIRCLE_CHOICE, INCIRCLE_WRONG_MESH};
 
@@ -64,13 +66,17 @@ pub(crate) fn no_type(number: u32) -> Failure {
 }
 
 /// A mesh in any type of numbers.
-trait AnyMesh {
+pub(crate) trait AnyMesh {
     fn triangles(&self) -> &[[u32; 3]];
     fn hull(&self) -> &[u32];
     fn duplicates(&self) -> Vec<[u32; 2]>;
     fn halfedges(&self) -> Vec<u32>;
     fn points(&self) -> usize;
     fn verify(&self) -> Outcome;
+    /// # Safety
+    /// The pointers of the plan are as described there; so in both functions.
+    unsafe fn constrain(&self, plan: &incircle_plan) -> Outcome<Constrained>;
+    unsafe fn verify_plan(&self, triangles: &[[u32; 3]], plan: &incircle_plan) -> Outcome;
 }
 
 impl<P: PlanePoint> AnyMesh for Mesh<P> {
@@ -97,11 +103,21 @@ impl<P: PlanePoint> AnyMesh for Mesh<P> {
     fn verify(&self) -> Outcome {
         Mesh::verify(self).map_err(|error| Failure::new(INCIRCLE_WRONG_MESH, error.to_string()))
     }
+
+    unsafe fn constrain(&self, plan: &incircle_plan) -> Outcome<Constrained> {
+        // SAFETY: the caller promises the plan.
+        unsafe { forced(self, plan) }
+    }
+
+    unsafe fn verify_plan(&self, triangles: &[[u32; 3]], plan: &incircle_plan) -> Outcome {
+        // SAFETY: the same.
+        unsafe { proved(&self.points, triangles, plan) }
+    }
 }
 
 /// The mesh of a set of points. Several threads may read a mesh at a time.
 #[allow(non_camel_case_types)]
-pub struct incircle_mesh(Box<dyn AnyMesh + Send + Sync>);
+pub struct incircle_mesh(pub(crate) Box<dyn AnyMesh + Send + Sync>);
 
 /// A function that hears of the progress of a job: the stage, and the items done of all items of the stage. It is
 /// called in the thread that asked for the job. A result other than 0 ends the job. No exception of C++ may leave it.

@@ -16,8 +16,10 @@ fn the_header_is_that_of_the_sources() {
     config.documentation_style = cbindgen::DocumentationStyle::C99;
     config.style = cbindgen::Style::Type;
     config.usize_is_size_t = true;
-    config.export.include = vec!["incircle_options".to_owned()];
-    let files = ["status.rs", "mesh.rs", "living.rs"].map(|file| root.join("src").join(file));
+    config.export.include =
+        ["options", "plan", "relaxation", "relaxed"].map(|name| format!("incircle_{name}")).to_vec();
+    let files = ["status", "mesh", "constrained", "living", "grid", "diagram", "lloyd", "surface"];
+    let files = files.map(|file| root.join("src").join(file).with_extension("rs"));
     let builder =
         files.iter().fold(cbindgen::Builder::new().with_config(config), |builder, file| builder.with_src(file));
     let mut made = Vec::new();

@@ -24,7 +24,7 @@ impl Snapping {
     }
 
     /// The report as a JSON object.
-    pub fn to_json(&self) -> Value {
+    pub fn to_json(self) -> Value {
         json!({ "new_points": self.new_points, "largest_displacement": self.largest_displacement })
     }
 }

@@ -15,12 +15,15 @@ const FINE: i64 = 390_625;
 /// The most digits behind the point that a set may have afterwards. Texts with more are read as doubles.
 const MOST_DIGITS: u32 = 18;
 
+/// The coordinates of points of a grid; `None` if they have too many digits.
+type MakeCoordinates = dyn Fn(&[Point]) -> Option<Coordinates>;
+
 /// The grid of a set: its points, how long a step is in the coordinates of the snapped set, and how these are made.
 struct Fine {
     grid: Vec<Point>,
     bits: u32,
     step: f64,
-    make: Box<dyn Fn(&[Point]) -> Option<Coordinates>>,
+    make: Box<MakeCoordinates>,
 }
 
 /// Snaps the crossings of a set. `how` quantises it before: the coordinates are then those of the grid.

@@ -4,7 +4,7 @@ use alloc::boxed::Box;
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 
-use super::constrained::ConstrainedLevel;
+use super::constraint_list::Constraints;
 use super::error::Error;
 use super::level::Level;
 use super::triangulation::Triangulation;
@@ -14,32 +14,6 @@ use crate::constraints::pieces::Pieces;
 use crate::lattice::Numbers;
 use crate::plane_point::PlanePoint;
 use crate::site::Site;
-
-/// The constraints of a triangulation, and the mesh that has them.
-#[derive(Clone, Debug)]
-pub struct Constraints<P: PlanePoint> {
-    pub mesh: ConstrainedLevel<P>,
-    /// The indices of both ends of each constraint, by its number.
-    ends: BTreeMap<u32, [u32; 2]>,
-    /// The index of an end and the number of the constraint.
-    by_end: BTreeSet<[u32; 2]>,
-}
-
-impl<P: PlanePoint> Constraints<P> {
-    fn new(base: &Level<P>) -> Self {
-        Self { mesh: ConstrainedLevel::new(base), ends: BTreeMap::new(), by_end: BTreeSet::new() }
-    }
-
-    fn insert(&mut self, constraint: u32, ends: [u32; 2]) {
-        self.ends.insert(constraint, ends);
-        self.by_end.extend(ends.map(|end| [end, constraint]));
-    }
-
-    /// The numbers of the constraints with an end at a point, in rising order.
-    fn at(&self, index: u32) -> impl Iterator<Item = u32> + '_ {
-        self.by_end.range([index, 0]..=[index, u32::MAX]).map(|entry| entry[1])
-    }
-}
 
 impl<P: PlanePoint> Triangulation<P> {
     /// Inserts a constraint: the straight line between two points becomes an edge of the mesh, or several where points

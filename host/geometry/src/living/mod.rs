@@ -51,6 +51,7 @@ mod change;
 mod climb;
 mod constrain;
 mod constrained;
+mod constraint_list;
 mod ears;
 mod error;
 mod flips;

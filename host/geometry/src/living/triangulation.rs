@@ -6,7 +6,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
-use super::constrain::Constraints;
+use super::constraint_list::Constraints;
 use super::error::Error;
 use super::level::Level;
 use super::names::Names;

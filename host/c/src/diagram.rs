@@ -1,0 +1,257 @@
+//! Voronoi cells.
+#![allow(unsafe_code)] // functions that C calls
+
+use std::ffi::c_void;
+
+use incircle::{CellLists, VoronoiLists};
+
+use crate::border::{exclusive, give, shared};
+use crate::grid::laid;
+use crate::mesh::of_type;
+use crate::status::{guarded, Failure, Outcome, INCIRCLE_CHOICE};
+
+/// The Voronoi diagram of a set of points. Several threads may read one at a time.
+#[allow(non_camel_case_types)]
+pub struct incircle_diagram {
+    lists: VoronoiLists,
+    largest_error: f64,
+}
+
+/// Makes the Voronoi diagram of `count` points, and the cells inside a clip of `corner_count` corners: none, two
+/// opposite ones of a rectangle, or three or more of a simple polygon. `points` and `clip` have x and y of each, in the
+/// type of numbers `number`, such as `INCIRCLE_F64`. `diagram` becomes a diagram that must be freed, or null if the
+/// call fails.
+///
+/// Points and clip must lie on a lattice of up to 31 bits, as whole numbers of that size do. Most doubles do not:
+/// `INCIRCLE_QUANTIZE` as `quantize` rounds them onto a grid, and `INCIRCLE_EXACT` refuses them. The status is
+/// `INCIRCLE_INPUT` for these, for a coordinate that is NaN or infinite, and for a clip without area or that crosses
+/// itself.
+///
+/// # Safety
+/// `points` and `clip` point to as many pairs of numbers of that type, and `diagram` to a pointer that may be written.
+#[no_mangle]
+pub unsafe extern "C" fn incircle_diagram_new(
+    points: *const c_void,
+    count: usize,
+    clip: *const c_void,
+    corner_count: usize,
+    number: u32,
+    quantize: u32,
+    diagram: *mut *mut incircle_diagram,
+) -> i32 {
+    guarded(|| {
+        // SAFETY: the caller promises the pointers.
+        let out = unsafe { exclusive(diagram, "diagram") }?;
+        *out = std::ptr::null_mut();
+        // SAFETY: the same.
+        let set = of_type!(number, P => unsafe { laid::<P>((points, count), (clip, corner_count), 0, quantize) })?;
+        let clip = (corner_count > 0).then(|| set.clip()).transpose()?;
+        let lists = VoronoiLists::of(&set, clip.as_ref())?;
+        let largest_error = set.quantization().map_or(0.0, |quantization| quantization.largest_error);
+        *out = Box::into_raw(Box::new(incircle_diagram { lists, largest_error }));
+        Ok(())
+    })
+}
+
+/// A list of the cells inside the clip.
+fn of_cells<T>(diagram: &incircle_diagram, list: impl Fn(&CellLists) -> &[T]) -> Outcome<&[T]> {
+    match &diagram.lists.cells {
+        Some(cells) => Ok(list(cells)),
+        None => Err(Failure::new(INCIRCLE_CHOICE, "the diagram has no clip: give incircle_diagram_new one")),
+    }
+}
+
+/// The Voronoi vertices, all at different places: each coordinate is the double nearest to the exact one.
+///
+/// # Safety
+/// `diagram` is one that is not freed; the rest is as for `incircle_mesh_triangles`.
+#[no_mangle]
+pub unsafe extern "C" fn incircle_diagram_vertices(
+    diagram: *const incircle_diagram,
+    buffer: *mut [f64; 2],
+    room: usize,
+    count: *mut usize,
+) -> i32 {
+    // SAFETY: the caller promises the pointers.
+    guarded(|| unsafe { give(&shared(diagram, "diagram")?.lists.vertices, buffer, room, count) })
+}
+
+/// Where the edges of the cell of each point begin in `incircle_diagram_neighbors` and `incircle_diagram_corners`.
+/// There is one item more than points: the end of the last. A duplicate has no edges.
+///
+/// # Safety
+/// As for `incircle_diagram_vertices`.
+#[no_mangle]
+pub unsafe extern "C" fn incircle_diagram_starts(
+    diagram: *const incircle_diagram,
+    buffer: *mut u64,
+    room: usize,
+    count: *mut usize,
+) -> i32 {
+    // SAFETY: the caller promises the pointers.
+    guarded(|| unsafe { give(&shared(diagram, "diagram")?.lists.starts, buffer, room, count) })
+}
+
+/// The point on the other side of each edge, counter-clockwise around each cell.
+///
+/// # Safety
+/// As for `incircle_diagram_vertices`.
+#[no_mangle]
+pub unsafe extern "C" fn incircle_diagram_neighbors(
+    diagram: *const incircle_diagram,
+    buffer: *mut u32,
+    room: usize,
+    count: *mut usize,
+) -> i32 {
+    // SAFETY: the caller promises the pointers.
+    guarded(|| unsafe { give(&shared(diagram, "diagram")?.lists.neighbors, buffer, room, count) })
+}
+
+/// The Voronoi vertex at which each edge begins; `INCIRCLE_EMPTY` if the edge comes from infinity.
+///
+/// # Safety
+/// As for `incircle_diagram_vertices`.
+#[no_mangle]
+pub unsafe extern "C" fn incircle_diagram_corners(
+    diagram: *const incircle_diagram,
+    buffer: *mut u32,
+    room: usize,
+    count: *mut usize,
+) -> i32 {
+    // SAFETY: the caller promises the pointers.
+    guarded(|| unsafe { give(&shared(diagram, "diagram")?.lists.corners, buffer, room, count) })
+}
+
+/// The points with the coordinates of an earlier one: the index of each, and the lowest index at its place.
+///
+/// # Safety
+/// As for `incircle_diagram_vertices`.
+#[no_mangle]
+pub unsafe extern "C" fn incircle_diagram_duplicates(
+    diagram: *const incircle_diagram,
+    buffer: *mut [u32; 2],
+    room: usize,
+    count: *mut usize,
+) -> i32 {
+    // SAFETY: the caller promises the pointers.
+    guarded(|| unsafe { give(&shared(diagram, "diagram")?.lists.duplicates, buffer, room, count) })
+}
+
+/// The farthest that `INCIRCLE_QUANTIZE` moved a point along an axis; 0 if nothing was rounded.
+///
+/// # Safety
+/// `diagram` is one that is not freed, and `error` may be written.
+#[no_mangle]
+pub unsafe extern "C" fn incircle_diagram_largest_error(diagram: *const incircle_diagram, error: *mut f64) -> i32 {
+    guarded(|| {
+        // SAFETY: the caller promises the pointers.
+        *unsafe { exclusive(error, "error") }? = unsafe { shared(diagram, "diagram") }?.largest_error;
+        Ok(())
+    })
+}
+
+/// The corners of the pieces of all cells inside the clip, counter-clockwise, one piece behind the other. A cell has no
+/// piece, one, or several if the clip is not convex. The status is `INCIRCLE_CHOICE` if the diagram has no clip.
+///
+/// # Safety
+/// As for `incircle_diagram_vertices`.
+#[no_mangle]
+pub unsafe extern "C" fn incircle_diagram_cell_corners(
+    diagram: *const incircle_diagram,
+    buffer: *mut [f64; 2],
+    room: usize,
+    count: *mut usize,
+) -> i32 {
+    // SAFETY: the caller promises the pointers.
+    guarded(|| unsafe { give(of_cells(shared(diagram, "diagram")?, |cells| &cells.corners)?, buffer, room, count) })
+}
+
+/// Where each piece begins in `incircle_diagram_cell_corners`. There is one item more than pieces: the end of the last.
+///
+/// # Safety
+/// As for `incircle_diagram_vertices`.
+#[no_mangle]
+pub unsafe extern "C" fn incircle_diagram_piece_starts(
+    diagram: *const incircle_diagram,
+    buffer: *mut u64,
+    room: usize,
+    count: *mut usize,
+) -> i32 {
+    // SAFETY: the caller promises the pointers.
+    guarded(|| unsafe { give(of_cells(shared(diagram, "diagram")?, |cells| &cells.starts)?, buffer, room, count) })
+}
+
+/// The point to which each piece belongs, in rising order.
+///
+/// # Safety
+/// As for `incircle_diagram_vertices`.
+#[no_mangle]
+pub unsafe extern "C" fn incircle_diagram_piece_points(
+    diagram: *const incircle_diagram,
+    buffer: *mut u32,
+    room: usize,
+    count: *mut usize,
+) -> i32 {
+    // SAFETY: the caller promises the pointers.
+    guarded(|| unsafe { give(of_cells(shared(diagram, "diagram")?, |cells| &cells.points)?, buffer, room, count) })
+}
+
+/// The area of the cell of each point inside the clip; 0 for a duplicate.
+///
+/// # Safety
+/// As for `incircle_diagram_vertices`.
+#[no_mangle]
+pub unsafe extern "C" fn incircle_diagram_areas(
+    diagram: *const incircle_diagram,
+    buffer: *mut f64,
+    room: usize,
+    count: *mut usize,
+) -> i32 {
+    // SAFETY: the caller promises the pointers.
+    guarded(|| unsafe { give(of_cells(shared(diagram, "diagram")?, |cells| &cells.areas)?, buffer, room, count) })
+}
+
+/// The points whose cells share an edge inside the clip, one cell behind the other, each in rising order.
+///
+/// # Safety
+/// As for `incircle_diagram_vertices`.
+#[no_mangle]
+pub unsafe extern "C" fn incircle_diagram_inside(
+    diagram: *const incircle_diagram,
+    buffer: *mut u32,
+    room: usize,
+    count: *mut usize,
+) -> i32 {
+    // SAFETY: the caller promises the pointers.
+    guarded(|| unsafe { give(of_cells(shared(diagram, "diagram")?, |cells| &cells.neighbors)?, buffer, room, count) })
+}
+
+/// Where the items of each point begin in `incircle_diagram_inside`. There is one item more than points: the end of the
+/// last.
+///
+/// # Safety
+/// As for `incircle_diagram_vertices`.
+#[no_mangle]
+pub unsafe extern "C" fn incircle_diagram_inside_starts(
+    diagram: *const incircle_diagram,
+    buffer: *mut u64,
+    room: usize,
+    count: *mut usize,
+) -> i32 {
+    // SAFETY: the caller promises the pointers.
+    guarded(|| unsafe {
+        give(of_cells(shared(diagram, "diagram")?, |cells| &cells.neighbor_starts)?, buffer, room, count)
+    })
+}
+
+/// Frees a diagram. A null pointer is allowed.
+///
+/// # Safety
+/// `diagram` is null, or one that is not freed, and is not used again.
+#[no_mangle]
+pub unsafe extern "C" fn incircle_diagram_free(diagram: *mut incircle_diagram) {
+    if !diagram.is_null() {
+        // SAFETY: it came from `incircle_diagram_new`, and nobody uses it any more.
+        drop(unsafe { Box::from_raw(diagram) });
+    }
+}

@@ -1,0 +1,142 @@
+//! Points spread evenly by Lloyd's relaxation.
+#![allow(unsafe_code)] // functions that C calls
+
+use std::ffi::c_void;
+use std::num::NonZeroUsize;
+
+use incircle::lloyd::{relax, End, Relaxed, Stop};
+use incircle::GridSetError;
+
+use crate::border::{exclusive, give, shared};
+use crate::grid::laid;
+use crate::mesh::of_type;
+use crate::status::{guarded, Failure, Outcome, INCIRCLE_ARGUMENT, INCIRCLE_BUFFER, INCIRCLE_CHOICE};
+
+/// All steps of a relaxation were done.
+pub const INCIRCLE_ITERATIONS: u32 = 0;
+/// No point moved in the last step of a relaxation.
+pub const INCIRCLE_STILL: u32 = 1;
+/// A state of a relaxation came again.
+pub const INCIRCLE_CYCLE: u32 = 2;
+
+/// Bits below the lattice that a relaxation needs for places between the points.
+const SPARE_BITS: u32 = 8;
+
+/// The choices for a relaxation. Set all to 0 and `size` to `sizeof(incircle_relaxation)` first.
+#[allow(non_camel_case_types)]
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct incircle_relaxation {
+    /// The size of this structure in bytes.
+    pub size: usize,
+    /// The most steps, 1 or more.
+    pub iterations: u32,
+    /// 1 to end also when no point moves, or when a state comes again; else 0.
+    pub until_still: u32,
+    /// The most threads; 0 for one a processor.
+    pub threads: u32,
+    /// `INCIRCLE_EXACT`, or `INCIRCLE_QUANTIZE` to round onto a grid of 23 bits first.
+    pub quantize: u32,
+    /// x and y of the corners of the region to fill, in the type of numbers of the points: two opposite ones of a
+    /// rectangle, or three or more of a simple polygon. Null stands for the smallest rectangle around the points.
+    pub clip: *const c_void,
+    /// The number of these corners.
+    pub corner_count: usize,
+}
+
+/// What became of a relaxation.
+#[allow(non_camel_case_types)]
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct incircle_relaxed {
+    /// The steps that were done.
+    pub iterations: u32,
+    /// Why it ended: `INCIRCLE_ITERATIONS`, `INCIRCLE_STILL` or `INCIRCLE_CYCLE`.
+    pub end: u32,
+    /// How many points moved in the last step.
+    pub moved: usize,
+    /// The farthest that `INCIRCLE_QUANTIZE` moved a point along an axis; 0 if nothing was rounded.
+    pub largest_error: f64,
+}
+
+/// Spreads `count` points evenly: each step moves every point to the centroid of its Voronoi cell inside the clip of
+/// the choices. `points` has x and y of each, in the type of numbers `number`, such as `INCIRCLE_F64`. `places` gets
+/// the new place of each point, in their order; the places are the same bytes on every machine and with any number of
+/// threads. `relaxed` says what was done, and may be null.
+///
+/// Points and clip must lie on a lattice of up to 23 bits, or are rounded onto one by `INCIRCLE_QUANTIZE`. The status
+/// is `INCIRCLE_INPUT` for points and clips that `incircle_diagram_new` refuses, and for a rectangle around the points
+/// that has no area. `places` has room for `room` points; with less room than points the status is `INCIRCLE_BUFFER`.
+///
+/// # Safety
+/// The pointers of the choices are as described there, and the others point to what is said above.
+#[no_mangle]
+pub unsafe extern "C" fn incircle_lloyd(
+    points: *const c_void,
+    count: usize,
+    number: u32,
+    choices: *const incircle_relaxation,
+    places: *mut [f64; 2],
+    room: usize,
+    relaxed: *mut incircle_relaxed,
+) -> i32 {
+    guarded(|| {
+        // SAFETY: the caller promises the pointers.
+        let choices = unsafe { shared(choices, "choices") }?;
+        let stop = checked(choices)?;
+        if room < count {
+            let text = format!("the buffer has room for {room} items, but there are {count}: give a larger one");
+            return Err(Failure::new(INCIRCLE_BUFFER, text));
+        }
+        let (corners, quantize) = ((choices.clip, choices.corner_count), choices.quantize);
+        // SAFETY: the same.
+        let set = of_type!(number, P => unsafe { laid::<P>((points, count), corners, SPARE_BITS, quantize) })?;
+        let (threads, most) = (NonZeroUsize::new(choices.threads as usize), std::thread::available_parallelism().ok());
+        let threads = threads.or(most).unwrap_or(NonZeroUsize::MIN);
+        let Relaxed { points, iterations, moved, end } =
+            relax(set.points().to_vec(), &set.clip()?, stop, threads).map_err(GridSetError::from)?;
+        let found: Vec<[f64; 2]> = points.iter().map(|&point| set.restore(point)).collect();
+        if count > 0 {
+            // SAFETY: the same.
+            unsafe { exclusive(places, "places") }?;
+        }
+        // SAFETY: the same; there is room, and a null pointer gets no places.
+        unsafe { give(&found, places, room, &mut 0) }?;
+        if !relaxed.is_null() {
+            let largest_error = set.quantization().map_or(0.0, |quantization| quantization.largest_error);
+            let end = number_of(end);
+            // SAFETY: the same.
+            *unsafe { exclusive(relaxed, "relaxed") }? = incircle_relaxed { iterations, end, moved, largest_error };
+        }
+        Ok(())
+    })
+}
+
+fn number_of(end: End) -> u32 {
+    match end {
+        End::Iterations => INCIRCLE_ITERATIONS,
+        End::Still => INCIRCLE_STILL,
+        End::Cycle => INCIRCLE_CYCLE,
+    }
+}
+
+/// When a relaxation with these choices ends.
+fn checked(choices: &incircle_relaxation) -> Outcome<Stop> {
+    let known = size_of::<incircle_relaxation>();
+    if choices.size != known {
+        let text = format!(
+            "the choices have {} bytes, but this library knows choices of {known}: set `size` to \
+             sizeof(incircle_relaxation), and use the header of the library",
+            choices.size
+        );
+        return Err(Failure::new(INCIRCLE_ARGUMENT, text));
+    }
+    if choices.until_still > 1 {
+        let text = format!("until_still is {}: give 0 or 1", choices.until_still);
+        return Err(Failure::new(INCIRCLE_ARGUMENT, text));
+    }
+    if choices.iterations == 0 {
+        return Err(Failure::new(INCIRCLE_CHOICE, "0 iterations are not possible: choose 1 or more"));
+    }
+    Ok(Stop { iterations: choices.iterations, when_still: choices.until_still == 1 })
+}
