@@ -3,8 +3,8 @@
 use alloc::vec::Vec;
 
 use super::disc::Disc;
-use super::occupancy::Square;
 use super::region::Region;
+use super::square::Square;
 use crate::point::Point;
 
 /// The most rectangles of a tree. If there would be more, some have larger squares of cells as a whole.

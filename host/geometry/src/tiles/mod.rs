@@ -67,6 +67,7 @@ mod occupancy;
 mod product;
 pub(crate) mod reach;
 pub(crate) mod region;
+mod square;
 #[cfg(test)]
 mod tests;
 mod tree;
