@@ -74,7 +74,7 @@ impl Planned {
             "domain": self.domain.name(),
             "triangles": made.triangles.len(),
             "regions": made.region_count,
-            "snapping": self.snapping.as_ref().map(Snapping::to_json),
+            "snapping": self.snapping.map(Snapping::to_json),
             "twice_area": made.twice_area.map(|area| area.to_string()),
         })
     }

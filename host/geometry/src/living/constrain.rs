@@ -1,7 +1,6 @@
 //! Constraints: edges that stay in the mesh while points come, go and move.
 
 use alloc::boxed::Box;
-use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 
 use super::constraint_list::Constraints;

@@ -169,7 +169,8 @@ mod tests {
     #[test]
     fn pieces_of_constraints_that_overlap_take_the_memory_of_their_edges() {
         let mut collected = Collected::default();
-        let edge = |from: u32| Piece { from, to: from + 1, count: 1, turns: if from.is_multiple_of(2) { 1 } else { -1 } };
+        let edge =
+            |from: u32| Piece { from, to: from + 1, count: 1, turns: if from.is_multiple_of(2) { 1 } else { -1 } };
         for _ in 0..5000 {
             collected.extend((0..100).map(edge));
         }
