@@ -117,6 +117,22 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! # Crossings become points
+//!
+//! Constraints that cross can be rounded to a finer grid, where they meet in points; see [`constraints::snap`].
+//!
+//! ```
+//! use incircle::constraints::snap;
+//! use incircle::Point;
+//!
+//! let points = [(0, 0), (3, 3), (0, 2), (4, 0)].map(|(x, y)| Point::new(x, y));
+//! let snapped = snap(&points, &[[0, 1], [2, 3]])?;
+//! // The crossing (4/3, 4/3) is about (341.33, 341.33) on a grid that is 256 times finer.
+//! assert_eq!((snapped.new_points, snapped.points[4]), (1, Point::new(341, 341)));
+//! assert_eq!(snapped.constraints, [[0, 4], [4, 1], [2, 4], [4, 3]]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! # With a device
 //!
 //! Open a [`Device`] when you want hardware, a model of it, another number of threads, or figures about the job. A
