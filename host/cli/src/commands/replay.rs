@@ -9,7 +9,7 @@ use serde_json::{json, Map, Value};
 use crate::arguments::ReplayArguments;
 use crate::backend::{self, Backend, Choice, MODEL_COORD_BITS};
 use crate::connections::Connections;
-use crate::failure::{counted, Exit, Failure};
+use crate::failure::{counted, Failure};
 use crate::formats::MeshFormat;
 use crate::lattice::{self, Laid, Numbers};
 use crate::output::{self, Output, Written};
@@ -51,7 +51,7 @@ pub fn run(arguments: &ReplayArguments) -> Result<(), Failure> {
         (Some(device), Numbers::Grid(points)) if lives => player.play_on(device, points, &arguments.job),
         (device, numbers) => player.play(numbers, device.is_none()),
     };
-    let played = played.map_err(|failure| if failure.exit == Exit::Input { in_file(failure) } else { failure })?;
+    let played = played.map_err(in_file)?;
     watch.ended("replay");
     let mesh = match &mut device {
         Some(device) if !lives => {

@@ -87,6 +87,7 @@ pub fn join(
     if let Some(duplicates) = on_line {
         let joined = &mut work.joined;
         (joined.duplicates, joined.hull_points) = (duplicates, points.saturating_sub(duplicates));
+        joined.check_counts(points, folder)?;
         return Ok(work.joined);
     }
     let meter = CountMeter::new(manifest.steps.len() as u64, "joining", "regions", quiet);

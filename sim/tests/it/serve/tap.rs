@@ -99,7 +99,7 @@ fn raw_frames_get_what_the_kernel_would_get() {
     assert_eq!(answer(&mut board, &other), None);
 
     // An echo request of 32 bytes of 0; the two check sums are written out.
-    let ip = [0x45, 0, 0, 60, 0, 0, 0x40, 0, 64, 1, 0x26, 0xb9, 10, 0, 0, 1, 10, 0, 0, 7];
+    let ip = [0x45, 0, 0, 60, 0, 0, 0x40, 0, 64, 1, 0x26, 0xba, 10, 0, 0, 1, 10, 0, 0, 7];
     let echo = [&device[..], &host, &[8, 0], &ip, &[8, 0, 0xf7, 0xff], &[0; 36]].concat();
     let reply = answer(&mut board, &echo).expect("a reply");
     let (ends, kind) = (&reply[26..34], &reply[34..38]);

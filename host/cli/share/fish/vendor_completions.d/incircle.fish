@@ -93,6 +93,8 @@ complete -c incircle -n "__fish_incircle_using_subcommand triangulate" -l domain
 holes\t'Those that constraints separate from the outside and from all holes'
 even-odd\t'Those that an odd number of rings surround'
 non-zero\t'Those around which rings run, clockwise against counter-clockwise'"
+complete -c incircle -n "__fish_incircle_using_subcommand triangulate" -l crossings -d 'What becomes of constraints that cross' -r -f -a "reject\t'They are an error, which tells the place'
+snap\t'Crossings become points, rounded to a grid 256 times finer'"
 complete -c incircle -n "__fish_incircle_using_subcommand triangulate" -l edges -d 'Write the edges of the mesh into this file as well, in the format .edge of Shewchuk\'s Triangle' -r -F
 complete -c incircle -n "__fish_incircle_using_subcommand triangulate" -l neighbors -d 'Write the neighbours of the triangles into this file as well, in the format .neigh' -r -F
 complete -c incircle -n "__fish_incircle_using_subcommand triangulate" -l memory -d 'Memory that the run may take, from 32M on, such as 300M or 2G: the set is cut into tiles' -r
@@ -125,6 +127,8 @@ complete -c incircle -n "__fish_incircle_using_subcommand verify" -l domain -d '
 holes\t'Those that constraints separate from the outside and from all holes'
 even-odd\t'Those that an odd number of rings surround'
 non-zero\t'Those around which rings run, clockwise against counter-clockwise'"
+complete -c incircle -n "__fish_incircle_using_subcommand verify" -l crossings -d 'What becomes of constraints that cross' -r -f -a "reject\t'They are an error, which tells the place'
+snap\t'Crossings become points, rounded to a grid 256 times finer'"
 complete -c incircle -n "__fish_incircle_using_subcommand verify" -l format -d 'Mesh format' -r -f -a "ele\t'Shewchuk\'s Triangle, .ele: `N 3 0`, then `id a b c`, counted from 0'
 obj\t'Wavefront OBJ'
 ply\t'PLY, ascii'
