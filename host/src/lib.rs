@@ -133,6 +133,24 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! # Edges that come and go
+//!
+//! A [`Triangulation`] keeps constraints while its points come, go and move.
+//!
+//! ```
+//! use incircle::living::{Error, Triangulation};
+//!
+//! let mut mesh = Triangulation::from([[0, 0], [4, -1], [8, 0], [4, 1]])?;
+//! let wall = mesh.insert_constraint(0, 2)?;
+//! assert_eq!(mesh.mesh().triangles, [[0, 1, 2], [0, 2, 3]]);
+//! let post = mesh.insert([4, 0])?; // on the constraint, which now has two pieces
+//! assert_eq!(mesh.pieces().edges(), [[0, post], [2, post]]);
+//! assert_eq!(mesh.delete(0), Err(Error::EndOfConstraint { index: 0, constraint: wall }));
+//! mesh.remove_constraint(wall)?;
+//! mesh.delete(0)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! # With a device
 //!
 //! Open a [`Device`] when you want hardware, a model of it, another number of threads, or figures about the job. A
