@@ -69,7 +69,7 @@ impl Snapped {
     ///
     /// ```
     /// use incircle_geometry::constraints::snap;
-    /// use incircle_geometry::Lattice;
+    /// use incircle_geometry::lattice::Lattice;
     ///
     /// let doubles = [[0.0, 0.0], [0.5, 1.5], [0.0, 1.0], [1.0, 0.0]];
     /// let (lattice, grid) = Lattice::of_doubles(&doubles).ok_or("no lattice")?;
