@@ -227,6 +227,16 @@ fn devices_without_runs_say_so() {
 }
 
 #[test]
+fn points_before_a_refused_one_are_in_the_mesh_of_the_processor() {
+    let mut mesh = Triangulation::new();
+    let points = [[0.0, 0.0], [1.0, 0.0], [f64::NAN, 0.0], [0.0, 1.0]];
+    let refused = mesh.insert_all(&points);
+    assert!(matches!(refused, Err(Error::Living(_))), "{refused:?}");
+    assert_eq!(mesh.next_index(), 2);
+    assert_eq!(mesh.insert(points[3]), Ok(2));
+}
+
+#[test]
 fn a_device_keeps_no_constraints() {
     let mut device = Device::open("model").unwrap();
     let mut session = device.session().unwrap();

@@ -119,8 +119,11 @@ impl<P: PlanePoint> LivingMesh<P> for Triangulation<P> {
 
     fn insert_all(&mut self, points: &[P]) -> Result<(), Error> {
         if Triangulation::next_index(self) == 0 {
-            *self = Self::from(points.iter().copied())?;
-            return Ok(());
+            if let Ok(made) = Self::from(points.iter().copied()) {
+                *self = made;
+                return Ok(());
+            }
+            // One by one below, so that the points before the one at fault are in.
         }
         points.iter().try_for_each(|&point| LivingMesh::insert(self, point).map(|_| ()))
     }
