@@ -1,10 +1,10 @@
 // The border to the module of WebAssembly: buffers in, lists and messages out.
 // `module.js` is made by `build`: it holds the bytes of the module as base64, so that nothing is fetched at run time.
-import {open} from './border.js';
+import {compile, open} from './border.js';
 import encoded from './module.js';
 
 /** The functions of the module, the check of what they return, and the copies of their lists. */
-export const {engine, checked, lists} = open(encoded);
+export const {engine, checked, lists} = open(compile(encoded));
 
 /** The most points that fit into the indices of half-edges. */
 export const MAX_POINTS = Math.floor((2 ** 31 - 1) / 6);

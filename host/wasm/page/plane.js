@@ -29,7 +29,7 @@ export function openPlane() {
     let seed = 1;
     let mesh;
     let chosen = -1;
-    let [drags, drifts, isNew, isMarked] = [false, false, true, true];
+    let [drags, drifts, isNew, isMarked, hadMarks] = [false, false, true, true, false];
     let [changed, frames, since] = [0, 0, 0];
 
     function renew() {
@@ -135,6 +135,10 @@ export function openPlane() {
 
     /** Draws what lies above the mesh: ties, the circles of the ties at the chosen point, and that point. */
     function mark(stage) {
+        const hasMarks = chosen >= 0 || mesh.ties?.length > 0;
+        // While points drift there is mostly nothing to mark, and an empty canvas costs the browser nothing.
+        if (!hasMarks && !hadMarks) return;
+        hadMarks = hasMarks;
         const pen = cleared(marks, stage.ratio);
         const at = (point) => stage.toCanvas(...mesh.at(point));
         pen.strokeStyle = TIE;
@@ -161,7 +165,7 @@ export function openPlane() {
 
     function tell() {
         find('points').textContent = mesh.count.toLocaleString('en');
-        find('triangles').textContent = (mesh.triangles.length / 3).toLocaleString('en');
+        find('triangles').textContent = mesh.triangleCount.toLocaleString('en');
         find('ties').textContent = mesh.ties ? (mesh.ties.length / 2).toLocaleString('en') : '…';
         find('time').textContent = `${mesh.time.toFixed(mesh.time < 10 ? 2 : 0)} ms`;
     }
