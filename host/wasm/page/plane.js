@@ -30,7 +30,9 @@ export function openPlane() {
     let mesh;
     let chosen = -1;
     let [drags, drifts, isNew, isMarked, hadMarks] = [false, false, true, true, false];
-    let [changed, frames, since] = [0, 0, 0];
+    let [changed, last, wasNew] = [0, 0, false];
+    /** Frames that were drawn anew since the rate was told, and the milliseconds that they took. */
+    let [frames, spent] = [0, 0];
 
     function renew() {
         mesh = new PlaneMesh(setChoice.value, Number(countChoice.value), seed);
@@ -65,8 +67,7 @@ export function openPlane() {
     function setDrift(on) {
         drifts = on;
         driftButton.setAttribute('aria-pressed', on);
-        [frames, since] = [0, performance.now()];
-        find('rate').textContent = '–';
+        if (on) say('');
     }
 
     function insertAt(x, y) {
@@ -170,20 +171,25 @@ export function openPlane() {
         find('time').textContent = `${mesh.time.toFixed(mesh.time < 10 ? 2 : 0)} ms`;
     }
 
-    /** Counts the frames of a drift, and tells their rate twice a second. */
+    /** Counts the frames that are drawn anew, and tells their rate twice a second; after a second of rest there is none. */
     function count(time) {
-        frames++;
-        if (time - since < 500) return;
-        find('rate').textContent = (1000 * frames / (time - since)).toFixed(0);
-        [frames, since] = [0, time];
+        if (wasNew) [frames, spent] = [frames + 1, spent + time - last];
+        if (spent >= 500) {
+            find('rate').textContent = (1000 * frames / spent).toFixed(0);
+            [frames, spent] = [0, 0];
+        } else if (time - changed > 1000) {
+            find('rate').textContent = '–';
+            [frames, spent] = [0, 0];
+        }
+        last = time;
     }
 
     let size = '';
     const frame = loop((time) => {
+        count(time);
         if (drifts) {
             mesh.drift(SIDE);
             hasChanged();
-            count(time);
         } else if (!mesh.ties && time - changed > REST) {
             mesh.settle();
             isMarked = isNew = true;
@@ -196,6 +202,7 @@ export function openPlane() {
             tell();
         }
         if (isMarked) mark(fit(marks));
+        wasNew = isNew;
         isNew = isMarked = false;
     });
     renew();
