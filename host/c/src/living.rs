@@ -67,7 +67,8 @@ pub(crate) unsafe fn place<P: Copy>(pointer: *const c_void) -> Outcome<P> {
 impl<P: PlanePoint + Send + Sync + 'static> Living for Triangulation<P> {
     unsafe fn insert(&mut self, at: *const c_void) -> Outcome<u32> {
         if self.next_index().is_multiple_of(LOOK) {
-            look_for_memory(self.bytes() + LOOK as usize * BYTES_OF_A_POINT)?;
+            // A list that doubles needs twice its bytes while it is copied, and all lists may double in turn.
+            look_for_memory(2 * self.bytes() + LOOK as usize * BYTES_OF_A_POINT)?;
         }
         // SAFETY: as above.
         Ok(Triangulation::insert(self, unsafe { place(at) }?)?)

@@ -25,14 +25,14 @@ export function index(value) {
 }
 
 /** Whether a value is a typed array of numbers, or a list. */
-function isList(value) {
+export function isList(value) {
     if (Array.isArray(value)) return true;
     return ArrayBuffer.isView(value) && !(value instanceof DataView) && typeof value[0] !== 'bigint' &&
         !(value instanceof BigInt64Array) && !(value instanceof BigUint64Array);
 }
 
 /** Checks a list of coordinates, x and y of each point in turn, and returns the number of points. */
-function countOf(coords) {
+export function countOf(coords) {
     if (!isList(coords)) throw new TypeError('coordinates must be an Array or a typed array of numbers, and not of bigint');
     if (coords.length % 2 !== 0) throw new RangeError(`${coords.length} coordinates are an odd number: give x and y of each point`);
     const count = coords.length / 2;
