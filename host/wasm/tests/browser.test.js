@@ -143,11 +143,33 @@ pageTest('100,000 points drift', async (context) => {
         rates.push(await text('plane-rate'));
     }
     context.diagnostic(`100,000 points are redrawn ${rates.slice(2).join(', ')} times a second`);
-    assert.ok(Number(rates.at(-1)) > 0);
+    assert.ok(Math.max(...rates.map(Number)) >= 10, `${rates}`);
     await shoot('many');
     await page.keyboard.press('Space');
     assert.notEqual((await picture('plane-mesh')).sum, was.sum);
     await page.waitForFunction(() => document.querySelector('#plane-ties').textContent !== '…');
+});
+
+pageTest('a drag moves one of 100,000 points', async (context) => {
+    await page.select('#plane-count', '100000');
+    const was = await picture('plane-mesh');
+    const box = await (await page.$('#plane-marks')).boundingBox();
+    const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    assert.match(await text('plane-status'), /^point \d+ at/);
+    const rates = [];
+    const until = Date.now() + 4000;
+    for (let k = 1; Date.now() < until; k++) {
+        await page.mouse.move(x + 2 * k % 200, y + k % 150);
+        rates.push(await text('plane-rate'));
+    }
+    await page.mouse.up();
+    context.diagnostic(`with one of 100,000 points dragged, frames a second are ${[...new Set(rates)].join(', ')}`);
+    assert.ok(rates.some((rate) => Number(rate) >= 10), `${rates}`);
+    assert.equal(await number('plane-points'), 100_000);
+    assert.notEqual((await picture('plane-mesh')).sum, was.sum);
+    await page.waitForFunction(() => document.querySelector('#plane-rate').textContent === '–');
 });
 
 pageTest('the core works clock by clock, and its mesh is the canonical one', async () => {
