@@ -210,6 +210,15 @@ impl<'a> Numbers<'a> {
         }
     }
 
+    /// The first points, at most as many as there are.
+    pub(crate) fn first(&self, points: usize) -> Numbers<'_> {
+        match self {
+            Self::Grid(all) => Numbers::Grid(Cow::Borrowed(&all[..points.min(all.len())])),
+            Self::Whole(all) => Numbers::Whole(Cow::Borrowed(&all[..points.min(all.len())])),
+            Self::Doubles(all) => Numbers::Doubles(Cow::Borrowed(&all[..points.min(all.len())])),
+        }
+    }
+
     /// The number of points.
     pub fn len(&self) -> usize {
         match self {

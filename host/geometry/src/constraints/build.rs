@@ -59,6 +59,22 @@ fn twice_area(places: &[Point], triangles: &[[u32; 3]]) -> i128 {
     triangles.iter().map(area).sum()
 }
 
+/// Twice the area of the hull, for points of the grid. It is the sum of the areas of all triangles.
+pub(super) fn hull_area(numbers: &Numbers<'_>, hull: &[u32]) -> Option<i128> {
+    let Numbers::Grid(places) = numbers else { return None };
+    let next = hull.iter().skip(1).chain(hull.first());
+    let cross = |(&from, &to): (&u32, &u32)| {
+        let [a, b] = [from, to].map(|index| places[index as usize]);
+        i128::from(a.x) * i128::from(b.y) - i128::from(a.y) * i128::from(b.x)
+    };
+    Some(hull.iter().zip(next).map(cross).sum())
+}
+
+/// Whether there are few enough constraints, and all name points.
+pub(super) fn are_in_range(constraints: &[[u32; 2]], points: usize) -> bool {
+    constraints.len() <= MAX_POINTS && constraints.as_flattened().iter().all(|&end| (end as usize) < points)
+}
+
 /// The steps. `whole` gives the coordinates of a site if they are whole numbers.
 fn of_sites<S: Site>(
     places: &[S],
@@ -82,8 +98,7 @@ fn of_sites<S: Site>(
     })?;
     let boundary = Boundary { pieces: &pieces, ends: &ends, count: plan.boundary(), domain: plan.domain };
     boundary.check(points)?;
-    let is_whole = plan.domain == Domain::All && plan.regions.is_empty();
-    let parts = if is_whole { Parts::one(&network) } else { Parts::of(&network, &boundary) };
+    let parts = if plan.takes_all() { Parts::one(&network) } else { Parts::of(&network, &boundary) };
     let chosen = parts.chosen(&network, plan)?;
     let (mut made, regions) = numbered(&network, mesh.triangles.len(), &parts, &chosen);
     if made.triangles.is_empty() {
@@ -142,7 +157,7 @@ impl Ended {
 }
 
 /// Entries that the list of the constraints of all pieces may have. They take 3 GiB, so lists stay below 32 bits, too.
-const MOST_PARTS: usize = 1 << 28;
+pub(super) const MOST_PARTS: usize = 1 << 28;
 
 /// Checks that the list of parts may become longer.
 fn check_room(parts: usize) -> Result<(), Error> {

@@ -33,6 +33,7 @@ mod pixels;
 mod snap;
 #[cfg(test)]
 mod tests;
+mod triangulate;
 
 pub use constrain::{constrain, constrain_numbers};
 pub use constrained::Constrained;
@@ -40,5 +41,6 @@ pub use crossing::{Fraction, Place};
 pub use error::Error;
 pub use pieces::Pieces;
 pub use snap::{snap, SnapError, Snapped, SNAP_BITS};
+pub use triangulate::{triangulate, triangulate_numbers, TriangulateError, Triangulated};
 
 pub use crate::plan::{Domain, Mark, Plan, UnknownDomain};

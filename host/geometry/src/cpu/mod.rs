@@ -35,6 +35,7 @@ mod conquer;
 mod edges;
 mod filtered;
 mod filtered_sites;
+mod fixed;
 #[cfg(test)]
 pub(crate) mod hostile;
 mod kernel;
@@ -57,6 +58,7 @@ mod tests;
 mod triangulator;
 pub(crate) mod view;
 
+pub(crate) use fixed::{connect_fixed, Asked};
 pub(crate) use parallel::in_parallel;
 pub use parts::{Parts, SolvedPart, Unsound};
 pub use small::Triangulator;

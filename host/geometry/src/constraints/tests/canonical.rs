@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use incircle_testkit::SplitMix64;
 
 use super::brute::Graph;
-use crate::constraints::{constrain, Constrained, Error, Place, Plan};
+use crate::constraints::{self, constrain, Constrained, Error, Place, Plan, TriangulateError};
 use crate::cpu::triangulate;
 use crate::mesh::Mesh;
 use crate::plane_point::PlanePoint;
@@ -16,10 +16,25 @@ pub fn mesh_of<P: PlanePoint>(points: &[P]) -> Mesh<P> {
     triangulate(points.to_vec(), NonZeroUsize::MIN, &mut |_| ControlFlow::Continue(())).expect("finite points")
 }
 
+/// The answer for points and constraints, which is the same for a mesh that is there already and for the points alone.
+pub fn in_both_ways<P: PlanePoint>(points: &[P], plan: &Plan<'_, P>) -> Result<Constrained, Error> {
+    let mesh = mesh_of(points);
+    let made = constrain(&mesh, plan);
+    match constraints::triangulate(points, plan, NonZeroUsize::MIN, &mut |_| ControlFlow::Continue(())) {
+        Ok(again) => {
+            assert_eq!(made.as_ref(), Ok(&again.made));
+            assert_eq!((again.hull, again.duplicates), (mesh.hull, mesh.duplicates));
+        }
+        Err(TriangulateError::Plan(error)) => assert_eq!(made.as_ref(), Err(&error)),
+        Err(TriangulateError::Points(error)) => panic!("{error}"),
+    }
+    made
+}
+
 /// The constrained mesh of the points of a graph, brought into other numbers.
 fn constrained<P: PlanePoint>(graph: &Graph, point: impl Fn([u32; 2]) -> P) -> Result<Constrained, Error> {
     let points: Vec<P> = graph.points.iter().map(|&at| point(at)).collect();
-    constrain(&mesh_of(&points), &Plan::new(&graph.constraints))
+    in_both_ways(&points, &Plan::new(&graph.constraints))
 }
 
 /// In numbers of all kinds, stretched so that ties stay ties.
