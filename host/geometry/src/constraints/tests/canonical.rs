@@ -64,6 +64,14 @@ fn check_crossing(graph: &Graph, error: Error) {
     }
 }
 
+/// Checks that the place of a crossing is finite, also where its numbers are near the limits of doubles.
+fn check_crossing_in_doubles(error: Error) {
+    let Error::Crossing { place, .. } = error else { panic!("{error}") };
+    if let Place::About(place) = place {
+        assert!(place.iter().all(|value| value.is_finite()), "{place:?}");
+    }
+}
+
 /// Checks random graphs. Returns how many have a mesh, and how many crossings.
 fn check(seed: u64, rounds: usize) -> [usize; 2] {
     let mut random = SplitMix64::new(seed);
@@ -73,8 +81,11 @@ fn check(seed: u64, rounds: usize) -> [usize; 2] {
         let all = in_all_numbers(&graph);
         let pieces = graph.pieces();
         if graph.crosses() {
-            let [first, ..] = all;
+            let [first, others @ ..] = all;
             check_crossing(&graph, first.expect_err("a crossing"));
+            for error in others {
+                check_crossing_in_doubles(error.expect_err("a crossing"));
+            }
             counts[1] += 1;
             continue;
         }
