@@ -167,11 +167,37 @@ fn check_room(parts: usize) -> Result<(), Error> {
     }
 }
 
+/// How many constraints have an end at each vertex.
+struct Crowds(Vec<u32>);
+
+impl Crowds {
+    /// Constraints at a vertex that may all turn around it.
+    const FEW: u32 = 8;
+
+    fn of(ends: &[[u32; 2]], vertices: usize) -> Self {
+        let mut counts = pages::zeros(vertices);
+        ends.as_flattened().iter().for_each(|&end| counts[end as usize] += 1);
+        Self(counts)
+    }
+
+    /// The ends of a constraint, so that it does not begin where very many others do. Finding the way from a vertex
+    /// takes time in proportion to its neighbours, and a vertex with many constraints has as many neighbours.
+    fn turned(&self, [from, to]: [u32; 2]) -> [u32; 2] {
+        let [own, other] = [from, to].map(|end| self.0[end as usize]);
+        if own > Self::FEW && other < own {
+            [to, from]
+        } else {
+            [from, to]
+        }
+    }
+}
+
 /// Forces all constraints into the mesh, in their order.
 fn force_all<S: Site>(network: &mut Network<'_, S>, ends: &[[u32; 2]]) -> Result<Pieces, Ended> {
     let mut parts: Vec<([u32; 2], u32)> = Vec::with_capacity(ends.len());
-    for (constraint, &[from, to]) in (0..).zip(ends) {
-        let mut at = from;
+    let crowds = Crowds::of(ends, network.sites.len());
+    for (constraint, &ends) in (0..).zip(ends) {
+        let [mut at, to] = crowds.turned(ends);
         while at != to {
             let next = step(network, at, to).map_err(|stop| match stop {
                 Stop::Crossing(edge) => {

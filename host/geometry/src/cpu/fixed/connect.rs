@@ -67,12 +67,7 @@ pub(crate) fn connect_fixed(
     }
 }
 
-fn of_grid(
-    points: &[Point],
-    asked: Asked<'_>,
-    threads: usize,
-    watch: Watch<'_>,
-) -> Result<Option<Forced>, Error> {
+fn of_grid(points: &[Point], asked: Asked<'_>, threads: usize, watch: Watch<'_>) -> Result<Option<Forced>, Error> {
     let Sites { sites, ids, duplicates, bits } = sites::sort(points, threads);
     let (sites, places, points) = (&sites[..], &sites[..], points.len());
     if bits <= NARROW_BITS {

@@ -20,7 +20,7 @@ use super::kernel::Kernel;
 use crate::pages;
 use crate::sort::{sort_by_key, Keyed};
 
-pub(crate) use connect::{connect_fixed, Asked, Forced};
+pub(crate) use connect::{connect_fixed, Asked};
 use force::Stop;
 
 /// Marks, in the `end` of a half-edge, that the outside lies to the left of the half-edge.
