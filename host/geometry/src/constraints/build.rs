@@ -59,15 +59,15 @@ fn twice_area(places: &[Point], triangles: &[[u32; 3]]) -> i128 {
     triangles.iter().map(area).sum()
 }
 
-/// Twice the area of the hull, for points of the grid. It is the sum of the areas of all triangles.
-pub(super) fn hull_area(numbers: &Numbers<'_>, hull: &[u32]) -> Option<i128> {
+/// Twice the area to the left of the edges around it, for points of the grid. It is the sum of the areas of the
+/// triangles there. Each cross product is below 2^65, and there are fewer than 2^31, so 128 bits hold the sum.
+pub(super) fn area_inside(numbers: &Numbers<'_>, border: &[[u32; 2]]) -> Option<i128> {
     let Numbers::Grid(places) = numbers else { return None };
-    let next = hull.iter().skip(1).chain(hull.first());
-    let cross = |(&from, &to): (&u32, &u32)| {
-        let [a, b] = [from, to].map(|index| places[index as usize]);
+    let cross = |ends: &[u32; 2]| {
+        let [a, b] = ends.map(|index| places[index as usize]);
         i128::from(a.x) * i128::from(b.y) - i128::from(a.y) * i128::from(b.x)
     };
-    Some(hull.iter().zip(next).map(cross).sum())
+    Some(border.iter().map(cross).sum())
 }
 
 /// Whether there are few enough constraints, and all name points.

@@ -3,14 +3,13 @@
 use alloc::vec::Vec;
 use core::num::NonZeroUsize;
 
-use super::build::{are_in_range, hull_area, of_numbers, MeshLists, MOST_PARTS};
+use super::build::{are_in_range, area_inside, of_numbers, MeshLists, MOST_PARTS};
 use super::constrain::{in_numbers, Restored};
 use super::constrained::Constrained;
 use super::error::Error;
 use super::pieces::Pieces;
-use crate::cpu::{self, connect, connect_fixed, Asked, Connectivity, Watch};
+use crate::cpu::{self, connect, connect_fixed, Asked, Connectivity, Forced, Watch};
 use crate::lattice::{Lattice, Numbers};
-use crate::pages;
 use crate::plan::Plan;
 use crate::plane_point::PlanePoint;
 use crate::point::Duplicate;
@@ -100,16 +99,18 @@ pub fn triangulate_numbers(
     threads: NonZeroUsize,
     watch: Watch<'_>,
 ) -> Result<Triangulated, TriangulateError> {
-    if plan.takes_all() && are_in_range(plan.constraints, points) && points <= numbers.len() {
-        let asked = Asked { constraints: plan.constraints, most: MOST_PARTS, threads };
-        if let Some(forced) = connect_fixed(numbers, points, asked, watch)? {
-            let mut made = Constrained { regions: pages::zeros(forced.triangles.len()), ..Constrained::default() };
-            (made.triangles, made.region_count) = (forced.triangles, 1);
-            made.pieces = Pieces::of(forced.parts);
-            made.twice_area = hull_area(numbers, &forced.hull);
+    let places = plan.holes.iter().chain(plan.regions);
+    let places_exist = points <= numbers.len() && places.copied().all(|place| (place as usize) < numbers.len());
+    if places_exist && are_in_range(plan.constraints, points) {
+        if let Some(forced) = connect_fixed(numbers, points, Asked { plan, most: MOST_PARTS, threads }, watch)? {
+            let Forced { triangles, regions, region_count, marked, .. } = forced;
+            let pieces = Pieces::of(forced.parts);
+            let twice_area = area_inside(numbers, &forced.border);
+            let made = Constrained { triangles, regions, region_count, marked, pieces, twice_area };
             return Ok(Triangulated { made, hull: forced.hull, duplicates: forced.duplicates });
         }
     }
+    // There are no triangles, or the answer is an error: the steps one by one say which.
     let own = numbers.first(points);
     let Connectivity { triangles, hull, duplicates } = connect(&own, threads, watch)?;
     let lists = MeshLists { triangles: &triangles, hull: &hull, duplicates: &duplicates };

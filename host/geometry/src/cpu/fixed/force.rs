@@ -25,25 +25,25 @@ pub(in crate::cpu) enum Stop {
 }
 
 impl<K: Kernel> Fixed<'_, K> {
-    /// Forces an edge at one end of the line between two vertices, and fixes it. Returns the edge from its smaller
-    /// vertex to its larger one, and the ends of the rest of the line.
-    pub(super) fn step(&mut self, ends: [u32; 2]) -> Result<([u32; 2], [u32; 2]), Stop> {
+    /// Forces an edge at one end of the line between two vertices, and fixes it. Returns the edge, and the ends of the
+    /// rest of the line.
+    pub(super) fn step(&mut self, ends: [u32; 2]) -> Result<(u32, [u32; 2]), Stop> {
         let (side, way) = self.way(ends);
         let [from, to] = [ends[side], ends[1 - side]];
-        let end = match way {
+        let edge = match way {
             Way::Along(edge) => {
                 self.fix(edge);
                 self.at[from as usize] = edge;
-                self.end(edge)
+                edge
             }
             Way::Through(first) => {
                 let end = self.cross(first, from, to)?;
-                self.fill(from, end);
+                let edge = self.fill(from, end);
                 self.repair();
-                end
+                edge
             }
         };
-        Ok(([from.min(end), from.max(end)], [end, to]))
+        Ok((edge, [self.end(edge), to]))
     }
 
     /// Walks to the next vertex on the line, and collects the edges on the way with the chains on both sides: the right
@@ -88,8 +88,8 @@ impl<K: Kernel> Fixed<'_, K> {
     }
 
     /// Replaces the edges that were crossed by the fixed edge between both vertices, and by others that fill both
-    /// chains.
-    fn fill(&mut self, from: u32, end: u32) {
+    /// chains. Returns the fixed edge.
+    fn fill(&mut self, from: u32, end: u32) -> u32 {
         let mut crossed = core::mem::take(&mut self.crossed);
         for &edge in &crossed {
             for half in [edge, edge ^ 1] {
@@ -106,6 +106,7 @@ impl<K: Kernel> Fixed<'_, K> {
         self.fill_chain(&right, &mut crossed);
         self.fill_chain(&left, &mut crossed);
         (self.crossed, self.right, self.left) = (crossed, right, left);
+        new
     }
 
     /// Fills the room between a chain and the fixed edge between its ends. The new edges take these numbers.

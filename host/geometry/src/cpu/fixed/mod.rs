@@ -3,14 +3,17 @@
 //! The vertices have their numbers along the curve here, and the edges of a neighbourhood lie close together in
 //! memory. So constraints are forced many times faster than in a list of triangles, whose order is that of the input.
 //! Vertices are taken in the order of the curve, too. `force` brings a constraint in, and `flips` makes the edges
-//! around it locally Delaunay.
+//! around it locally Delaunay. Then `parts` floods the parts of the plane between the constraints, and `domain` takes the
+//! triangles of those that are wanted.
 //!
 //! A flag in the `end` of a half-edge, [`FIXED`], says that a constraint fixes the edge. [`GAP`] says that the outside
 //! of the hull lies to the left.
 
 mod connect;
+mod domain;
 mod flips;
 mod force;
+mod parts;
 mod turn;
 
 use alloc::vec::Vec;
@@ -20,7 +23,7 @@ use super::kernel::Kernel;
 use crate::pages;
 use crate::sort::{sort_by_key, Keyed};
 
-pub(crate) use connect::{connect_fixed, Asked};
+pub(crate) use connect::{connect_fixed, Asked, Forced};
 use force::Stop;
 
 /// Marks, in the `end` of a half-edge, that the outside lies to the left of the half-edge.
@@ -48,10 +51,10 @@ pub(super) struct Fixed<'a, K: Kernel> {
     open: Vec<u32>,
 }
 
-/// An edge of the mesh, from the smaller vertex to the larger one, and the constraint that it is a part of.
+/// An edge of the mesh, and the constraint that it is a part of.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Part {
-    pub(super) ends: [u32; 2],
+    pub(super) edge: u32,
     pub(super) constraint: u32,
 }
 
@@ -96,11 +99,11 @@ impl<'a, K: Kernel> Fixed<'a, K> {
         for Turned { constraint, .. } in order {
             let mut rest = ends[constraint as usize];
             while rest[0] != rest[1] {
-                let (ends, left) = self.step(rest)?;
+                let (edge, left) = self.step(rest)?;
                 if parts.len() == most {
                     return Err(Stop::TooManyParts);
                 }
-                parts.push(Part { ends, constraint });
+                parts.push(Part { edge, constraint });
                 rest = left;
             }
         }
