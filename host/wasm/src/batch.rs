@@ -11,8 +11,8 @@ use crate::border::{give, has_memory, points, told, Points};
 /// The most bytes a point that a job needs beyond its points, with the half-edges.
 const BYTES_OF_A_JOB: usize = 400;
 
-/// The canonical mesh of points.
-pub fn mesh_of(points: Points) -> Result<Mesh<[f64; 2]>, String> {
+/// Checks that there is memory for the mesh of so many points.
+pub fn check_room(points: &Points) -> Result<(), String> {
     let bytes = points.len().saturating_mul(BYTES_OF_A_JOB);
     if !has_memory(bytes) {
         return Err(format!(
@@ -20,6 +20,12 @@ pub fn mesh_of(points: Points) -> Result<Mesh<[f64; 2]>, String> {
             points.len()
         ));
     }
+    Ok(())
+}
+
+/// The canonical mesh of points.
+pub fn mesh_of(points: Points) -> Result<Mesh<[f64; 2]>, String> {
+    check_room(&points)?;
     cpu::triangulate(points, NonZeroUsize::MIN, &mut |_| ControlFlow::Continue(())).map_err(|error| error.to_string())
 }
 
