@@ -173,8 +173,9 @@ impl Request {
 
     /// Forces the constraints into a mesh. The places of holes and regions stand behind the points in `laid`.
     pub fn force(&self, mesh: &mut Connections, set: &PlannedSet, laid: &Laid<'_>) -> Result<Planned, Failure> {
-        let mut made =
-            self.force_numbers(&laid.numbers, set.points, mesh).map_err(|error| self.refuse(error, &set.table, laid))?;
+        let mut made = self
+            .force_numbers(&laid.numbers, set.points, mesh)
+            .map_err(|error| self.refuse(error, &set.table, laid))?;
         let mut constraints = self.constraints.len();
         if let Some(parts) = &self.parts {
             made.pieces = made.pieces.renamed(parts);

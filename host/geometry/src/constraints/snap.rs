@@ -204,9 +204,8 @@ impl Snapped {
 /// The pairs of segments that cross inside both at a place that is none of these, which are sorted. The segments are
 /// given by their numbers.
 pub(super) fn crossing_pairs(segments: &[Segment], places: &[Point]) -> Result<Vec<[u32; 2]>, SnapError> {
-    let is_place = |one: &Segment, other: &Segment| {
-        one.crossing(other).is_some_and(|place| places.binary_search(&place).is_ok())
-    };
+    let is_place =
+        |one: &Segment, other: &Segment| one.crossing(other).is_some_and(|place| places.binary_search(&place).is_ok());
     let mut order: Vec<u32> = (0..segments.len() as u32).collect();
     order.sort_unstable_by_key(|&number| segments[number as usize].low(|point| point.x));
     let mut open: Vec<u32> = Vec::new();

@@ -6,8 +6,9 @@ use std::ops::ControlFlow;
 use incircle_testkit::SplitMix64;
 
 use super::brute::Graph;
+use crate::constraints::constrain::in_numbers;
 use crate::constraints::{self, constrain, Constrained, Error, Place, Plan, TriangulateError};
-use crate::cpu::triangulate;
+use crate::cpu::{connect_fixed, triangulate, Asked};
 use crate::mesh::Mesh;
 use crate::plane_point::PlanePoint;
 use crate::point::Point;
@@ -23,6 +24,14 @@ pub fn in_both_ways<P: PlanePoint>(points: &[P], plan: &Plan<'_, P>) -> Result<C
     match constraints::triangulate(points, plan, NonZeroUsize::MIN, &mut |_| ControlFlow::Continue(())) {
         Ok(again) => {
             assert_eq!(made.as_ref(), Ok(&again.made));
+            // Places at vertices are left to the slow way, and so are points on one line.
+            let is_fast = in_numbers(points, plan, |numbers, plan| -> Result<bool, Error> {
+                let asked = Asked { plan, most: usize::MAX, threads: NonZeroUsize::MIN };
+                let forced = connect_fixed(numbers, points.len(), asked, &mut |_| ControlFlow::Continue(()));
+                Ok(forced.expect("finite points").is_some())
+            });
+            let has_marks = !plan.holes.is_empty() || !plan.regions.is_empty();
+            assert!(is_fast == Ok(true) || has_marks || mesh.triangles.is_empty());
             assert_eq!((again.hull, again.duplicates), (mesh.hull, mesh.duplicates));
         }
         Err(TriangulateError::Plan(error)) => assert_eq!(made.as_ref(), Err(&error)),

@@ -148,8 +148,7 @@ fn constraints_through_one_point_do_not_count_as_crossings() {
     let kept = snap(&points, &constraints).expect("no crossing but at a point");
     assert_eq!((kept.finer_bits, kept.constraints.len()), (0, constraints.len()));
     // Their list is limited, so none of the many pairs stands in it.
-    let segments: Vec<Segment> =
-        constraints.iter().map(|pair| Segment(pair.map(|end| points[end as usize]))).collect();
+    let segments: Vec<Segment> = constraints.iter().map(|pair| Segment(pair.map(|end| points[end as usize]))).collect();
     assert_eq!(crossing_pairs(&segments, &points[..1]), Ok(vec![]));
     assert_eq!(crossing_pairs(&segments, &[]).map(|pairs| pairs.len()), Ok(300 * 299 / 2));
 }
