@@ -14,11 +14,11 @@
 //! | points where constraints cross | [`snap`], then `constrain` |
 //! | constraints in the mesh of a device | [`constrain_numbers`] |
 //!
-//! **How it works, file by file.** `triangulate` lets the CPU triangulator force constraints before it sorts its
-//! triangles. All other files work on the lists of a mesh: `build` has the steps. `network` links the triangles of a mesh and marks fixed
-//! edges; `fixed_mesh` flips free ones; `force` brings a constraint in; `pieces` collects what constraints became;
-//! `crossing` works out where two of them cross, and `snap` and `pixels` round crossings to a finer grid; `domain`
-//! floods the parts between them, and `locate` finds holes and regions.
+//! **How it works, file by file.** `triangulate` lets the CPU triangulator force constraints in before it sorts its
+//! triangles. The others work on the lists of a mesh. `build` has the steps. `network` links the triangles of a mesh and
+//! marks fixed edges; `fixed_mesh` flips free ones; `force` brings a constraint in; `pieces` collects what constraints
+//! became; `crossing` works out where two of them cross, and `snap` and `pixels` round crossings to a finer grid;
+//! `domain` floods the parts between them, and `locate` finds holes and regions.
 
 mod build;
 mod constrain;

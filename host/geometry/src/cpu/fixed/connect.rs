@@ -4,8 +4,8 @@ use alloc::vec::Vec;
 use core::num::NonZeroUsize;
 
 use super::domain::Chosen;
+use super::mesh::{Fixed, Part};
 use super::parts::Boundary;
-use super::{Fixed, Part};
 use crate::cpu::collect;
 use crate::cpu::edges::Half;
 use crate::cpu::filtered::Filtered;

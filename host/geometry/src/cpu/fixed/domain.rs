@@ -5,8 +5,8 @@ use alloc::vec::Vec;
 
 use bytemuck::Zeroable;
 
+use super::mesh::Fixed;
 use super::parts::{Boundary, Parts};
-use super::Fixed;
 use crate::cpu::kernel::Kernel;
 use crate::mesh::smallest_first;
 use crate::pages;

@@ -1,6 +1,6 @@
 //! Flips of free edges, until the mesh is canonical again.
 
-use super::Fixed;
+use super::mesh::Fixed;
 use crate::cpu::kernel::{Ends, Kernel};
 
 /// The four vertices around an edge from `a` to `b`: its ends, the apex `c` to its left and the apex `d` to its right.

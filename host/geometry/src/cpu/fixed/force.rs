@@ -9,25 +9,64 @@
 //! An edge may hang into the room, with both of its sides in one chain. New half-edges are put beside those of the
 //! chain, so this case needs no care.
 
+use alloc::vec::Vec;
 use core::cmp::Ordering;
 
+use super::mesh::{Fixed, Part, FIXED};
 use super::turn::{is_between, Way};
-use super::{Fixed, FIXED};
 use crate::cpu::kernel::Kernel;
+use crate::sort::{sort_by_key, Keyed};
 
 /// Why constraints were not forced in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::cpu) enum Stop {
+pub(super) enum Stop {
     /// A constraint crosses a fixed edge.
     Crossing,
     /// There is no room for the list of all parts.
     TooManyParts,
 }
 
+/// A constraint, by the place on the curve at which it is forced.
+#[derive(Clone, Copy, bytemuck::Zeroable)]
+struct Turned {
+    first: u32,
+    constraint: u32,
+}
+
+impl Keyed for Turned {
+    #[inline(always)]
+    fn key(&self) -> u64 {
+        self.first.into()
+    }
+}
+
 impl<K: Kernel> Fixed<'_, K> {
+    /// Forces all constraints in, given by the vertices at their ends, as far as there is room for `most` parts.
+    ///
+    /// # Errors
+    /// Two constraints cross at a place that is not a vertex, or there are too many parts.
+    pub(super) fn force_all(&mut self, ends: &[[u32; 2]], most: usize) -> Result<Vec<Part>, Stop> {
+        let turned = |(constraint, [a, b]): (u32, &[u32; 2])| Turned { first: *a.min(b), constraint };
+        let mut order: Vec<Turned> = (0..).zip(ends).map(turned).collect();
+        sort_by_key(&mut order);
+        let mut parts = Vec::with_capacity(ends.len());
+        for Turned { constraint, .. } in order {
+            let mut rest = ends[constraint as usize];
+            while rest[0] != rest[1] {
+                let (edge, left) = self.step(rest)?;
+                if parts.len() == most {
+                    return Err(Stop::TooManyParts);
+                }
+                parts.push(Part { edge, constraint });
+                rest = left;
+            }
+        }
+        Ok(parts)
+    }
+
     /// Forces an edge at one end of the line between two vertices, and fixes it. Returns the edge, and the ends of the
     /// rest of the line.
-    pub(super) fn step(&mut self, ends: [u32; 2]) -> Result<(u32, [u32; 2]), Stop> {
+    fn step(&mut self, ends: [u32; 2]) -> Result<(u32, [u32; 2]), Stop> {
         let (side, way) = self.way(ends);
         let [from, to] = [ends[side], ends[1 - side]];
         let edge = match way {

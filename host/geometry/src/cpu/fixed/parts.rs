@@ -7,7 +7,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::{Fixed, Part};
+use super::mesh::{Fixed, Part};
 use crate::cpu::kernel::Kernel;
 use crate::pages;
 use crate::plan::Domain;

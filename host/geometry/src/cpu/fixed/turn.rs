@@ -2,7 +2,7 @@
 
 use core::cmp::Ordering;
 
-use super::Fixed;
+use super::mesh::Fixed;
 use crate::cpu::kernel::Kernel;
 
 /// Half-edges that are looked at around one end before the other end takes turns with it.
