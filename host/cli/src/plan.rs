@@ -231,7 +231,7 @@ impl Request {
                 u32::BITS - SNAP_BITS
             ));
         }
-        Failure::input(told.to_string())
+        Failure::input(format!("{told}, or let --crossings snap make points of crossings"))
     }
 }
 
