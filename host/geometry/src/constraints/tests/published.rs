@@ -137,7 +137,56 @@ fn fixtures_of_earcut_have_the_canonical_mesh_or_cross() {
     assert_eq!(found, EXPECTED, "{found:#?}");
 }
 
-const EXPECTED: [&str; 0] = [];
+/// The number of triangles inside each, or the first constraints that cross. Most numbers are those that earcut's own tests
+/// expect. The others belong to outlines that overlap, where an even-odd domain and ear clipping differ.
+const EXPECTED: [&str; 46] = [
+    "bad-diagonals 7",
+    "bad-hole 17 crosses 44",
+    "boxy 64",
+    "building 13",
+    "collinear-diagonal 18",
+    "degenerate empty",
+    "dude 106",
+    "eberly-3 73",
+    "empty-square empty",
+    "filtered-bridge-jhl 28",
+    "hole-touching-outer 77",
+    "hourglass 2",
+    "infinite-loop-jhl 2",
+    "issue107 2",
+    "issue111 19",
+    "issue119 18",
+    "issue131 12",
+    "issue142 2 crosses 4",
+    "issue147 30",
+    "issue149 2",
+    "issue16 12",
+    "issue17 11",
+    "issue186 41",
+    "issue29 40",
+    "issue34 139",
+    "issue45 10",
+    "issue52 109",
+    "issue83 empty",
+    "outside-ring 64",
+    "self-tangent-1 23",
+    "self-tangent-2 25",
+    "self-tangent-3 177",
+    "self-touching 124",
+    "shared-points 4",
+    "simplified-us-border 53 crosses 55",
+    "steiner 10",
+    "touching-holes 57",
+    "touching-holes2 10",
+    "touching-holes3 82",
+    "touching-holes4 82",
+    "touching-holes5 160",
+    "touching2 8",
+    "touching3 15",
+    "touching4 20",
+    "water3 197",
+    "water3b 25",
+];
 
 /// Coordinates from the reports 109, 111, 113 and 116 of Stoeoef/spade on GitHub, as lines from point to point.
 const REPORTED: [(&str, &[[[f64; 2]; 2]]); 4] = [
@@ -233,7 +282,7 @@ fn troubles() -> Vec<(&'static str, Graph)> {
         ),
         (
             "three constraints of which two end on the third",
-            graph(&[[0, 4], [12, 10], [6, 7], [3, 0], [4, 6], [11, 3]], &[[2, 3], [0, 1], [4, 5]]),
+            graph(&[[0, 4], [12, 10], [6, 7], [3, 0], [4, 6], [1, 9]], &[[2, 3], [0, 1], [4, 5]]),
         ),
         ("no constraint at all", graph(&square, &[])),
         ("constraints of length zero", graph(&[[0, 0], [4, 0], [0, 4], [4, 0]], &[[1, 1], [1, 3], [3, 1], [0, 0]])),
