@@ -16,8 +16,8 @@ const BYTES_OF_A_JOB: usize = 400;
 /// product, are up to twice as quick. The mesh is the same.
 const MOST_BITS_OF_INTEGERS: u32 = 16;
 
-/// The canonical mesh of points.
-pub fn mesh_of(points: Points) -> Result<Mesh<[f64; 2]>, String> {
+/// Checks that there is memory for the mesh of so many points.
+pub fn check_room(points: &Points) -> Result<(), String> {
     let bytes = points.len().saturating_mul(BYTES_OF_A_JOB);
     if !has_memory(bytes) {
         return Err(format!(
@@ -25,6 +25,12 @@ pub fn mesh_of(points: Points) -> Result<Mesh<[f64; 2]>, String> {
             points.len()
         ));
     }
+    Ok(())
+}
+
+/// The canonical mesh of points.
+pub fn mesh_of(points: Points) -> Result<Mesh<[f64; 2]>, String> {
+    check_room(&points)?;
     let found = {
         let numbers = match PlanePoint::numbers(&points).on_lattice() {
             (_, Some(lattice)) if lattice.bits > MOST_BITS_OF_INTEGERS => Numbers::Doubles(Cow::Borrowed(&points)),

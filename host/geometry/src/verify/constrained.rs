@@ -26,8 +26,8 @@ use crate::plane_point::PlanePoint;
 /// - no point lies in a triangle without being a corner.
 ///
 /// So the triangles have the boundary of the domain, each side counted as it runs, and two sets of triangles of the
-/// same boundary cover each place equally often: once in the domain, and never elsewhere. O(n log n), and the number of
-/// pieces for each group of pieces that touches no other.
+/// same boundary cover each place equally often: once in the domain, and never elsewhere. O(n log n), however many
+/// constraints overlap or meet at one point.
 ///
 /// ```
 /// use incircle_geometry::constraints::{Domain, Plan};
@@ -69,9 +69,9 @@ fn check<P: ExactPoint, M>(
     let sites = Sites::of(points);
     let domain = plan.domain;
     let boundary = plan.constraints.len().saturating_sub(plan.lines);
-    let pieces = pieces(&sites, plan.constraints, boundary)?;
+    let pieces = pieces(&sites, plan.constraints, boundary, holes)?;
     if matches!(domain, Domain::EvenOdd | Domain::NonZero) {
-        check_closed(&pieces, points.len(), domain == Domain::NonZero)?;
+        check_closed(&pieces.list, points.len(), domain == Domain::NonZero)?;
     }
     let mut summary = VerifySummary {
         points: points.len(),
@@ -94,8 +94,8 @@ fn check<P: ExactPoint, M>(
     } else {
         check_unused(&sites, triangles)?;
     }
-    let chosen = Faces::of(&sites, &pieces).chosen(&sites, &pieces, domain, holes)?;
-    check_edges(&sites, triangles, &Expected { pieces: &pieces, chosen: &chosen, domain }, &mut summary)?;
+    let chosen = Faces::of(&sites, &pieces).chosen(&pieces, domain)?;
+    check_edges(&sites, triangles, &Expected { pieces: &pieces.list, chosen: &chosen, domain }, &mut summary)?;
     Ok(summary)
 }
 

@@ -26,6 +26,7 @@ mod exact;
 mod faces;
 mod fixed;
 mod sites;
+mod strands;
 mod summary;
 
 use alloc::vec;
