@@ -17,6 +17,8 @@ pub enum ValueFormat {
     Npy,
     /// An ASCII grid of Esri, for --grid
     Asc,
+    /// A GeoTIFF of doubles, for --grid
+    Tif,
     /// Lines, for --contours
     Geojson,
 }
@@ -28,6 +30,7 @@ impl ValueFormat {
             "csv" => Self::Csv,
             "npy" => Self::Npy,
             "asc" => Self::Asc,
+            "tif" | "tiff" => Self::Tif,
             "geojson" => Self::Geojson,
             _ => return None,
         })
@@ -93,7 +96,7 @@ pub struct InterpolateArguments {
     /// Lines of equal value instead of values: one for each multiple of this step
     #[arg(long, value_name = "STEP", allow_hyphen_values = true, conflicts_with_all = ["method", "outside"])]
     pub contours: Option<String>,
-    /// File for the values: .csv, .npy, .asc or .geojson; '-' is standard output and needs --format
+    /// File for the values: .csv, .npy, .asc, .tif or .geojson; '-' is standard output and needs --format
     #[arg(short, long, value_name = "VALUES")]
     pub output: PathBuf,
     /// Format of the values

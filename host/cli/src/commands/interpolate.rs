@@ -17,7 +17,7 @@ use crate::output::{self, Output};
 use crate::path;
 use crate::points::PointTable;
 use crate::watch::{seconds_json, total, Watch};
-use crate::{interrupt, source, value_writer};
+use crate::{geotiff, interrupt, source, value_writer};
 
 /// Reads points and places, works out the values, writes them, and prints the report.
 pub fn run(arguments: &InterpolateArguments) -> Result<(), Failure> {
@@ -30,6 +30,9 @@ pub fn run(arguments: &InterpolateArguments) -> Result<(), Failure> {
     let values = table.heights().to_vec();
     check_values(&table, &values).map_err(in_file)?;
     let (places, grid) = places(arguments, &table)?;
+    if let (ValueFormat::Tif, Some(grid)) = (format, &grid) {
+        geotiff::check(grid)?;
+    }
     watch.ended("load");
     interrupt::check()?;
     let all = table.into_items().append(places.clone())?;
@@ -82,7 +85,8 @@ impl Wanted<'_> {
             (ValueFormat::Csv, _) => value_writer::write_csv(self.places, &found, out),
             (ValueFormat::Npy, grid) => value_writer::write_npy(&found, grid, out),
             (ValueFormat::Asc, Some(grid)) => value_writer::write_asc(&found, grid, out),
-            (ValueFormat::Asc | ValueFormat::Geojson, _) => Ok(()),
+            (ValueFormat::Tif, Some(grid)) => geotiff::write(&found, grid, out),
+            (ValueFormat::Asc | ValueFormat::Tif | ValueFormat::Geojson, _) => Ok(()),
         })?;
         watch.ended("write");
         let name = arguments.method.to_possible_value();
@@ -146,8 +150,13 @@ fn prepare(arguments: &InterpolateArguments) -> Result<(ValueFormat, Output), Fa
         let shown = if path::is_standard(file) { "standard output".to_owned() } else { path::name(file) };
         Failure::usage(format!("{shown}: the name tells no format of values: add --format {}", names.join(" or ")))
     })?;
-    if format == ValueFormat::Asc && arguments.grid.is_none() {
-        return Err(Failure::usage("an ASCII grid has the values of a grid: give --grid, or write .csv or .npy"));
+    let name = match format {
+        ValueFormat::Asc => Some("an ASCII grid"),
+        ValueFormat::Tif => Some("a GeoTIFF"),
+        _ => None,
+    };
+    if let (Some(name), None) = (name, &arguments.grid) {
+        return Err(Failure::usage(format!("{name} has the values of a grid: give --grid, or write .csv or .npy")));
     }
     if (format == ValueFormat::Geojson) != arguments.contours.is_some() {
         return Err(Failure::usage("contours are written as GeoJSON, and nothing else is: give -o a name in .geojson"));

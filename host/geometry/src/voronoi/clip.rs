@@ -13,7 +13,7 @@ use crate::predicate::orient2d;
 pub struct Clip {
     /// Counter-clockwise.
     ring: Vec<Point>,
-    pub(super) border: Border,
+    border: Border,
 }
 
 impl Clip {
@@ -66,8 +66,20 @@ impl Clip {
         self.ring.windows(2).map(|pair| i128::from(orient2d(self.ring[0], pair[0], pair[1]))).sum()
     }
 
+    /// Whether the border may have a place in a box of doubles, which may be infinite.
+    pub(crate) fn may_touch(&self, low: [f64; 2], high: [f64; 2]) -> bool {
+        self.border.may_touch(low, high)
+    }
+
+    /// The lower left and the upper right corner of the smallest rectangle around the polygon.
+    pub fn bounds(&self) -> [Point; 2] {
+        let (xs, ys) = (self.ring.iter().map(|corner| corner.x), self.ring.iter().map(|corner| corner.y));
+        let low = Point::new(xs.clone().min().unwrap_or(0), ys.clone().min().unwrap_or(0));
+        [low, Point::new(xs.max().unwrap_or(0), ys.max().unwrap_or(0))]
+    }
+
     /// Whether the polygon contains a point that is not on its border.
-    pub(super) fn contains(&self, point: Point) -> bool {
+    pub(crate) fn contains(&self, point: Point) -> bool {
         let mut is_inside = false;
         for edge in self.border.at_height(point.y) {
             let [a, b] = edge_of(&self.ring, edge as usize);

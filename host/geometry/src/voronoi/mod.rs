@@ -48,6 +48,7 @@ mod border;
 mod build;
 mod cells;
 mod clip;
+mod clipper;
 mod corner;
 mod cut;
 mod diagram;
@@ -59,6 +60,8 @@ mod wide;
 
 pub use cells::{Cells, ClippedCell, Piece};
 pub use clip::Clip;
+pub(crate) use clipper::Clipper;
+pub(crate) use corner::center_seen;
 pub use corner::{nearest_quotient, Corner};
 pub use cut::Side;
 pub use diagram::{Cell, Edge, Voronoi};
