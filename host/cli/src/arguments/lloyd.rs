@@ -44,7 +44,7 @@ pub struct LloydArguments {
     pub clip: Option<Rectangle>,
     /// Clip the cells to the polygon in this file
     ///
-    /// The file is GeoJSON with one polygon without holes, or has the corners as points, in order.
+    /// The file is GeoJSON with one polygon, perhaps with holes, or has the corners as points, in order.
     #[arg(long, value_name = "POLYGON", verbatim_doc_comment)]
     pub clip_to: Option<PathBuf>,
     /// Let points gather where this image is dark: a PNG, JPEG or PGM file

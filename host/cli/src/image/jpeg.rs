@@ -10,11 +10,18 @@ use super::{checked, damaged, of_channels, widened, Image, MOST_SIDE};
 use crate::failure::{one_line, Failure};
 use crate::memory::Memory;
 
+/// The mark at the end of an image.
+const END: [u8; 2] = [0xff, 0xd9];
+
 /// Reads a JPEG image. One whose colours are brightness and two differences, as nearly all, gives its brightness.
 pub(super) fn read(bytes: &[u8], memory: Memory) -> Result<Image, Failure> {
     let refuse = |error: zune_jpeg::errors::DecodeErrors| damaged("JPEG", &one_line(&error.to_string()));
     let options = DecoderOptions::default().set_strict_mode(true).set_max_width(MOST_SIDE).set_max_height(MOST_SIDE);
     let mut decoder = JpegDecoder::new_with_options(Cursor::new(bytes), options);
+    // The decoder is content with a file that lacks its last bytes.
+    if !bytes.windows(2).any(|mark| mark == END) {
+        return Err(damaged("JPEG", "its end is missing"));
+    }
     decoder.decode_headers().map_err(refuse)?;
     let (columns, rows) = decoder.dimensions().unwrap_or_default();
     let pixels = checked(columns, rows, memory)?;

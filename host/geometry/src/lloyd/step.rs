@@ -175,11 +175,12 @@ impl<'a> Mover<'a> {
     }
 }
 
-/// Calls `add` with the corners of each piece of a cell, as seen from its point.
+/// Calls `add` with the corners of each ring of a cell, as seen from its point. Holes turn the other way, so they take
+/// away.
 fn each_ring(cell: ClippedCell<'_>, point: Point, ring: &mut Vec<[i64; 2]>, mut add: impl FnMut(&[[i64; 2]])) {
-    for piece in cell.pieces() {
+    for border in cell.rings() {
         ring.clear();
-        ring.extend(piece.corners().map(|(corner, _)| seen(corner, point)));
+        ring.extend(border.corners().map(|(corner, _)| seen(corner, point)));
         add(ring);
     }
 }

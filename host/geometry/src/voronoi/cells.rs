@@ -7,6 +7,7 @@ use super::cut::{Bend, Side};
 use super::diagram::{Cell, Voronoi};
 use super::place::Place;
 use crate::point::Point;
+use crate::predicate::orient2d;
 
 /// Clips the cells of a diagram, one after the other, in memory that is used again.
 pub struct Cells<'a> {
@@ -19,15 +20,25 @@ pub struct Cells<'a> {
 pub struct ClippedCell<'a> {
     pub(super) p: Point,
     pub(super) point: u32,
+    pub(super) points: &'a [Point],
+    pub(super) clip: &'a Clip,
     pub(super) bends: &'a [Bend],
     pub(super) counts: &'a [usize],
 }
 
-/// A piece of a clipped cell: a simple polygon, counter-clockwise.
+/// A piece of a clipped cell: a polygon, perhaps with holes.
 #[derive(Clone, Copy)]
 pub struct Piece<'a> {
+    cell: ClippedCell<'a>,
+    ring: Ring<'a>,
+}
+
+/// The border of a piece, counter-clockwise, or of a hole in one, clockwise.
+#[derive(Clone, Copy)]
+pub struct Ring<'a> {
     p: Point,
     bends: &'a [Bend],
+    is_hole: bool,
 }
 
 impl<'a> Cells<'a> {
@@ -92,14 +103,22 @@ impl<'a> ClippedCell<'a> {
         self.point
     }
 
-    /// The pieces of the cell, with positive areas and no common inner place. There is at most one in a convex clip.
-    pub fn pieces(&self) -> impl Iterator<Item = Piece<'a>> + 'a {
-        let (p, mut rest) = (self.p, self.bends);
+    /// All rings of the cell: the borders of its pieces, and those of holes.
+    pub fn rings(&self) -> impl Iterator<Item = Ring<'a>> + 'a {
+        let (p, clip, mut rest) = (self.p, self.clip, self.bends);
         self.counts.iter().map(move |&count| {
             let (bends, others) = rest.split_at(count.min(rest.len()));
             rest = others;
-            Piece { p, bends }
+            // A hole that the border of a cell meets becomes part of the border of a piece.
+            let is_of_hole = |bend: &Bend| matches!(bend.side, Side::Clip(edge) if clip.is_of_hole(edge));
+            Ring { p, bends, is_hole: bends.iter().all(is_of_hole) }
         })
+    }
+
+    /// The pieces of the cell, with positive areas and no common inner place. There is at most one in a convex clip.
+    pub fn pieces(&self) -> impl Iterator<Item = Piece<'a>> + 'a {
+        let cell = *self;
+        self.rings().filter(|ring| !ring.is_hole).map(move |ring| Piece { cell, ring })
     }
 
     /// The points whose cells share an edge of positive length with the cell inside the clip: the edge does not merely
@@ -117,19 +136,79 @@ impl<'a> ClippedCell<'a> {
     /// for `k` corners, of which the farthest lies at the distance `r` from the point. The result is the same on every
     /// machine.
     pub fn area(&self) -> f64 {
-        self.pieces().map(|piece| piece.area()).sum()
+        self.rings().map(|ring| ring.twice_area() / 2.0).sum()
     }
 }
 
 impl<'a> Piece<'a> {
-    /// The corners with the edges that begin there, counter-clockwise.
+    /// The corners of the outer border with the edges that begin there, counter-clockwise.
+    pub fn corners(&self) -> impl Iterator<Item = (Corner, Side)> + 'a {
+        self.ring.corners()
+    }
+
+    /// The holes of the piece. Only a clip with holes has them. O(k) for each hole of the cell, with `k` corners of the
+    /// cell.
+    pub fn holes(&self) -> impl Iterator<Item = Ring<'a>> + 'a {
+        let (cell, outer) = (*self, self.ring);
+        cell.cell.rings().filter(move |ring| ring.is_hole && cell.cell.surrounds(outer, *ring))
+    }
+
+    /// The area; see [`ClippedCell::area`].
+    pub fn area(&self) -> f64 {
+        self.ring.twice_area() / 2.0 + self.holes().map(|hole| hole.twice_area() / 2.0).sum::<f64>()
+    }
+}
+
+impl<'a> ClippedCell<'a> {
+    /// Whether a hole lies in the piece with this border. A hole may touch borders of cells with corners, so most of its
+    /// corners count.
+    fn surrounds(&self, outer: Ring<'_>, hole: Ring<'_>) -> bool {
+        let is_corner_inside = |bend: &&Bend| match bend.place {
+            Place::Corner(corner) => self.is_inside(outer, corner),
+            Place::Center(_) | Place::Crossing(_) => false,
+        };
+        2 * hole.bends.iter().filter(is_corner_inside).count() > hole.bends.len()
+    }
+
+    /// Whether a ring has a grid point inside.
+    fn is_inside(&self, ring: Ring<'_>, point: Point) -> bool {
+        let is_above = |bend: &Bend| bend.place.corner(self.p).compare_y(point.y).is_gt();
+        let mut is_inside = false;
+        for (k, bend) in ring.bends.iter().enumerate() {
+            let next = &ring.bends[if k + 1 == ring.bends.len() { 0 } else { k + 1 }];
+            let (begins_above, ends_above) = (is_above(bend), is_above(next));
+            if begins_above != ends_above {
+                let is_left = match bend.side {
+                    Side::Clip(edge) => {
+                        let [a, b] = self.clip.edge(edge as usize);
+                        orient2d(a, b, point) > 0
+                    }
+                    // Borders have the point of the cell on their left.
+                    Side::Neighbor(neighbor) => {
+                        Place::Corner(point).side(self.p, self.points[neighbor as usize]).is_gt()
+                    }
+                };
+                is_inside ^= is_left == ends_above;
+            }
+        }
+        is_inside
+    }
+}
+
+impl<'a> Ring<'a> {
+    /// The corners with the edges that begin there.
     pub fn corners(&self) -> impl Iterator<Item = (Corner, Side)> + 'a {
         let p = self.p;
         self.bends.iter().map(move |bend| (bend.place.corner(p), bend.side))
     }
 
-    /// The area; see [`ClippedCell::area`].
-    pub fn area(&self) -> f64 {
+    /// Whether the ring is a hole.
+    pub fn is_hole(&self) -> bool {
+        self.is_hole
+    }
+
+    /// Twice the area, negative for a hole.
+    fn twice_area(&self) -> f64 {
         let Some(last) = self.bends.last() else { return 0.0 };
         let (mut twice, mut from) = (0.0, last.place.seen(self.p));
         for bend in self.bends {
@@ -137,6 +216,6 @@ impl<'a> Piece<'a> {
             twice += from[0] * to[1] - from[1] * to[0];
             from = to;
         }
-        twice / 2.0
+        twice
     }
 }

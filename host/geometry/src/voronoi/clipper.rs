@@ -53,21 +53,16 @@ impl<'a> Clipper<'a> {
     /// Cuts the clip by the border of the cell of `p` with each neighbour. The corners that are left do not depend on
     /// the order of the neighbours, nor on further points whose cells meet that of `p` in a corner alone.
     pub(crate) fn cut(&mut self, p: Point, neighbors: impl Iterator<Item = u32>) {
-        let clip = self.clip.corners();
-        let view = View { p, points: self.points, clip };
+        let view = View { p, points: self.points, clip: self.clip };
         let bend =
             |(edge, &corner): (usize, &Point)| Bend { place: Place::Corner(corner), side: Side::Clip(edge as u32) };
-        self.bends.extend(clip.iter().enumerate().map(bend));
-        self.counts.push(clip.len());
+        self.bends.extend(self.clip.corners().iter().enumerate().map(bend));
+        self.counts.extend(self.clip.rings().map(<[Point]>::len));
         for neighbor in neighbors {
             self.spare_bends.clear();
             self.spare_counts.clear();
-            let mut rest = &self.bends[..];
-            for &count in &self.counts {
-                let (ring, others) = rest.split_at(count);
-                self.cutter.cut(ring, view, neighbor, &mut self.spare_bends, &mut self.spare_counts);
-                rest = others;
-            }
+            let rings = (&self.bends[..], &self.counts[..]);
+            self.cutter.cut(rings, view, neighbor, &mut self.spare_bends, &mut self.spare_counts);
             mem::swap(&mut self.bends, &mut self.spare_bends);
             mem::swap(&mut self.counts, &mut self.spare_counts);
             if self.counts.is_empty() {
@@ -78,6 +73,6 @@ impl<'a> Clipper<'a> {
 
     /// The last cell, as that of point `p`, whose index is given.
     pub(crate) fn cell(&self, p: Point, point: u32) -> ClippedCell<'_> {
-        ClippedCell { p, point, bends: &self.bends, counts: &self.counts }
+        ClippedCell { p, point, points: self.points, clip: self.clip, bends: &self.bends, counts: &self.counts }
     }
 }

@@ -2,7 +2,7 @@
 //! polygon.
 //!
 //! Use a [`Voronoi`] if you ask which region lies nearest to each point. The diagram is made of the mesh of the set,
-//! and [`Cells`] clips its cells to a [`Clip`]: a rectangle or any simple polygon.
+//! and [`Cells`] clips its cells to a [`Clip`]: a rectangle or any simple polygon, perhaps with holes.
 //!
 //! | you want | call | cost |
 //! |---|---|---|
@@ -58,7 +58,7 @@ mod place;
 mod tests;
 mod wide;
 
-pub use cells::{Cells, ClippedCell, Piece};
+pub use cells::{Cells, ClippedCell, Piece, Ring};
 pub use clip::Clip;
 pub(crate) use clipper::Clipper;
 pub(crate) use corner::center_seen;
