@@ -5,8 +5,10 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use incircle::interpolate::{Method, Outside};
+use incircle::DeviceAddress;
 
 use super::points::ReadArguments;
+use crate::values::backend_parser;
 
 /// A format of values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -110,6 +112,12 @@ pub struct InterpolateArguments {
     /// The value outside the hull of the points
     #[arg(long, value_enum, default_value = "nan")]
     pub outside: OutsideName,
+    /// Back end that says in which triangle each place lies: 'cpu' (default) or 'model'
+    ///
+    /// The values have the same bytes. A device serves --method linear alone, with points and places on
+    /// a lattice that it takes.
+    #[arg(long, value_parser = backend_parser(), verbatim_doc_comment)]
+    pub backend: Option<DeviceAddress>,
     /// Threads (default: all processors); the values do not depend on them
     #[arg(long, value_name = "N")]
     pub threads: Option<NonZeroU32>,

@@ -51,7 +51,8 @@ fn draw(view: CellView<'_>, canvas: &Canvas<'_>) -> io::Result<Vec<Drawn>> {
         for piece in clipped.pieces() {
             let place = |(corner, _)| canvas.place(view.frame.coordinates(corner));
             let holes = piece.holes().map(|hole| hole.corners().map(place).collect());
-            let rings: Vec<Vec<[i64; 2]>> = std::iter::once(piece.corners().map(place).collect()).chain(holes).collect();
+            let rings: Vec<Vec<[i64; 2]>> =
+                std::iter::once(piece.corners().map(place).collect()).chain(holes).collect();
             let twice: i64 = rings.iter().map(|ring| twice_area(ring)).sum();
             drawn.push(Drawn { rings, side: (twice.abs() as f64 / 2.0).sqrt().max(1.0) });
         }

@@ -23,12 +23,8 @@ pub(super) struct Border {
 impl Border {
     /// The border of edges, each with its two ends; an edge begins at every corner.
     pub(super) fn of(edges: &[[Point; 2]]) -> Self {
-        let boxes: Vec<_> = edges
-            .iter()
-            .map(|[a, b]| {
-                [[a.x.min(b.x), a.x.max(b.x)], [a.y.min(b.y), a.y.max(b.y)]]
-            })
-            .collect();
+        let boxes: Vec<_> =
+            edges.iter().map(|[a, b]| [[a.x.min(b.x), a.x.max(b.x)], [a.y.min(b.y), a.y.max(b.y)]]).collect();
         let low = edges.iter().map(|[corner, _]| corner.y).min().unwrap_or(0);
         let high = edges.iter().map(|[corner, _]| corner.y).max().unwrap_or(0);
         // An edge that is high counts in many slabs: with few slabs all of them together have 8 entries an edge.

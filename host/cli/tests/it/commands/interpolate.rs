@@ -192,3 +192,35 @@ fn a_geotiff_of_many_strips_keeps_its_rows() {
     let wrong = (0..values.len()).find(|&k| (values[k] - (k % 1000 + (499 - k / 1000) * 1000) as f64).abs() > 1e-6);
     assert_eq!(wrong, None);
 }
+
+#[test]
+fn a_model_gives_the_bytes_of_the_processor() {
+    let scratch = Scratch::new();
+    let mut text = "x,y,z\n".to_owned();
+    for k in 0..300u32 {
+        // Whole numbers with duplicates and points on lines.
+        text.push_str(&format!("{},{},{}\n", k * k % 37, k * 7 % 31, k % 11));
+    }
+    scratch.write("p.csv", text);
+    scratch.run("interpolate p.csv --grid 0.5 -o cpu.csv --quiet").ok();
+    scratch.run("interpolate p.csv --grid 0.5 -o model.csv --backend model --quiet").ok();
+    assert_eq!(scratch.read("model.csv"), scratch.read("cpu.csv"));
+    scratch.run("interpolate p.csv --grid 0.5 -o one.csv --backend cpu --quiet").ok();
+    assert_eq!(scratch.read("one.csv"), scratch.read("cpu.csv"));
+    scratch.write("wide.csv", "x,y,z\n0,0,1\n1,4000000000,2\n7,9,3\n");
+    let files = scratch.files();
+    for (arguments, code, part) in [
+        ("p.csv --grid 1 --method sibson --backend model", 2, "a device gives linear values at places"),
+        ("p.csv --grid 1 --outside nearest --backend model", 2, "leave out --backend"),
+        ("wide.csv --at p.csv --backend model", 3, "give --backend cpu"),
+        ("p.csv --at p.csv --backend clock", 3, ""),
+    ] {
+        let run = scratch.run(&format!("interpolate {arguments} -o x.csv"));
+        if part.is_empty() {
+            assert!(run.code != Some(0) && run.stderr.lines().count() == 1, "{run:?}");
+        } else {
+            run.fails(code, &[part]);
+        }
+        assert_eq!(scratch.files(), files, "{arguments}");
+    }
+}
