@@ -11,30 +11,30 @@ use crate::voronoi::{Cells, Clip, ClippedCell, Corner, Error, Voronoi};
 use crate::{cpu, incircle, orient2d, Mesh, Point};
 
 /// Sets of each test, or the number in the environment variable `INCIRCLE_SETS`.
-fn sets() -> u64 {
+pub(super) fn sets() -> u64 {
     std::env::var("INCIRCLE_SETS").ok().and_then(|text| text.parse().ok()).unwrap_or(300)
 }
 
-fn mesh_of(points: &[Point]) -> Mesh<Point> {
+pub(super) fn mesh_of(points: &[Point]) -> Mesh<Point> {
     cpu::triangulate(points.to_vec(), NonZeroUsize::MIN, &mut |_| ControlFlow::Continue(())).expect("a mesh")
 }
 
 /// A few points of a small square, away from the origin.
-fn draw(random: &mut SplitMix64) -> Vec<Point> {
+pub(super) fn draw(random: &mut SplitMix64) -> Vec<Point> {
     let side = random.pick(&[2, 3, 4, 5, 8]);
     let count = 1 + random.below(10);
     (0..count).map(|_| Point::new(3 + random.below_u32(side), 3 + random.below_u32(side))).collect()
 }
 
-fn draw_corner(random: &mut SplitMix64) -> Point {
+pub(super) fn draw_corner(random: &mut SplitMix64) -> Point {
     Point::new(random.below_u32(15), random.below_u32(15))
 }
 
-fn wide(points: &[Point]) -> Vec<[i64; 2]> {
+pub(super) fn wide(points: &[Point]) -> Vec<[i64; 2]> {
     points.iter().map(|point| [point.x.into(), point.y.into()]).collect()
 }
 
-fn fraction(corner: Corner) -> Fraction {
+pub(super) fn fraction(corner: Corner) -> Fraction {
     let corner = corner.reduced();
     [corner.x, corner.y, corner.d.into()]
 }
@@ -141,7 +141,7 @@ fn check_area(cell: &ClippedCell<'_>) {
     assert!((cell.area() - exact).abs() < 1e-10, "{} {exact}", cell.area());
 }
 
-fn shoelace(ring: &[Fraction]) -> f64 {
+pub(super) fn shoelace(ring: &[Fraction]) -> f64 {
     let term = |(k, from): (usize, &Fraction)| {
         let to = ring[(k + 1) % ring.len()];
         (from[0] * to[1] - from[1] * to[0]) as f64 / (from[2] * to[2]) as f64 / 2.0
@@ -174,81 +174,6 @@ fn cells_in_polygons_have_the_areas_of_half_planes() {
     assert!(several > 0, "no cell in several pieces");
 }
 
-#[test]
-fn cells_in_polygons_with_holes_have_the_areas_of_half_planes() {
-    let mut random = SplitMix64::new(287);
-    let (mut clips, mut whole_holes) = (0, 0);
-    while clips < sets() {
-        let Some(clip) = draw_holes(&mut random) else { continue };
-        clips += 1;
-        let points = draw(&mut random);
-        let (mesh, exact) = (mesh_of(&points), wide(&points));
-        let voronoi = Voronoi::of(&mesh).expect("a diagram");
-        let (mut cells, mut sum) = (Cells::new(&voronoi, &clip), Area::default());
-        let mut area = Area::default();
-        clip.rings().for_each(|ring| {
-            let corners: Vec<Fraction> = ring.iter().map(|&corner| fraction(Corner::of_point(corner))).collect();
-            area.add_twice(&corners, 1);
-        });
-        for index in voronoi.cells().map(|cell| cell.point()) {
-            let cell = cells.cell(index);
-            let (mut found, mut by_pieces) = (Area::default(), Area::default());
-            for ring in cell.rings() {
-                let corners: Vec<Fraction> = ring.corners().map(|(corner, _)| fraction(corner)).collect();
-                assert_eq!(shoelace(&corners) < 0.0, ring.is_hole(), "{corners:?}");
-                found.add_twice(&corners, 1);
-                sum.add_twice(&corners, 1);
-            }
-            for piece in cell.pieces() {
-                let outer: Vec<Fraction> = piece.corners().map(|(corner, _)| fraction(corner)).collect();
-                by_pieces.add_twice(&outer, 1);
-                for hole in piece.holes() {
-                    whole_holes += 1;
-                    by_pieces.add_twice(&hole.corners().map(|(corner, _)| fraction(corner)).collect::<Vec<_>>(), 1);
-                }
-                assert!(piece.area() > 0.0, "{outer:?}");
-            }
-            let mut expected = Area::default();
-            for ring in clip.rings() {
-                let part = twice_area_inside(&exact, index as usize, &wide(ring));
-                expected = expected.minus(&Area::default().minus(&part));
-            }
-            assert_eq!(found, expected, "cell {index} of {points:?} in {:?}", clip.corners());
-            assert_eq!(by_pieces, expected, "cell {index} of {points:?} in {:?}", clip.corners());
-        }
-        assert_eq!(sum, area, "{points:?} in {:?}", clip.corners());
-    }
-    assert!(whole_holes > 0, "no hole inside a cell");
-}
-
-/// A polygon with one to three small holes, if the random rings fit together.
-fn draw_holes(random: &mut SplitMix64) -> Option<Clip> {
-    let outer: Vec<Point> = match random.below(2) {
-        0 => [(0, 0), (14, 0), (14, 14), (0, 14)].map(Point::from).to_vec(),
-        _ => draw_clip(random).corners().to_vec(),
-    };
-    let hole = |random: &mut SplitMix64| -> Vec<Point> {
-        let (low, side) = (draw_corner(random), 2 + random.below_u32(6));
-        let corners = 3 + random.below(2);
-        (0..corners).map(|_| Point::new(low.x + random.below_u32(side), low.y + random.below_u32(side))).collect()
-    };
-    let holes: Vec<Vec<Point>> = (0..1 + random.below(3)).map(|_| hole(random)).collect();
-    Clip::with_holes(&outer, &holes).ok()
-}
-
-#[test]
-fn misplaced_holes_are_refused() {
-    let square = |low: u32, high: u32| [(low, low), (high, low), (high, high), (low, high)].map(Point::from).to_vec();
-    let clip = |holes: &[Vec<Point>]| Clip::with_holes(&square(10, 20), holes);
-    assert_eq!(clip(&[square(12, 14)]).expect("a hole").twice_area(), 2 * (100 - 4));
-    assert_eq!(clip(&[square(12, 14), square(1, 3)]).err(), Some(Error::MisplacedHole { hole: 2 }));
-    assert_eq!(clip(&[square(13, 14), square(12, 18)]).err(), Some(Error::MisplacedHole { hole: 1 }));
-    assert_eq!(clip(&[square(1, 30)]).err(), Some(Error::MisplacedHole { hole: 1 }));
-    assert!(matches!(clip(&[square(12, 20)]), Err(Error::CrossedClip { .. })));
-    assert!(matches!(clip(&[square(12, 14), square(14, 16)]), Err(Error::CrossedClip { .. })));
-    assert_eq!(clip(&[square(12, 12)]).err(), Some(Error::EmptyClip));
-}
-
 /// A ring turns left in all and visits no place twice.
 fn check_ring(ring: &[Fraction]) {
     let mut places = ring.to_vec();
@@ -259,7 +184,7 @@ fn check_ring(ring: &[Fraction]) {
 }
 
 /// A ring of random corners that is simple.
-fn draw_clip(random: &mut SplitMix64) -> Clip {
+pub(super) fn draw_clip(random: &mut SplitMix64) -> Clip {
     loop {
         let count = 3 + random.below(6);
         let ring: Vec<Point> = (0..count).map(|_| draw_corner(random)).collect();
