@@ -1,5 +1,7 @@
 //! Cells inside a clip.
 
+use core::cmp::Ordering;
+
 use super::clip::Clip;
 use super::clipper::Clipper;
 use super::corner::Corner;
@@ -160,38 +162,42 @@ impl<'a> Piece<'a> {
 }
 
 impl<'a> ClippedCell<'a> {
-    /// Whether a hole lies in the piece with this border. A hole may touch borders of cells with corners, so most of its
-    /// corners count.
+    /// Whether a hole lies in the piece with this border. A hole may touch the border with corners, but no piece that
+    /// it does not belong to has all of them.
     fn surrounds(&self, outer: Ring<'_>, hole: Ring<'_>) -> bool {
-        let is_corner_inside = |bend: &&Bend| match bend.place {
-            Place::Corner(corner) => self.is_inside(outer, corner),
+        hole.bends.iter().all(|bend| match bend.place {
+            Place::Corner(corner) => self.side(outer, corner).is_ge(),
             Place::Center(_) | Place::Crossing(_) => false,
-        };
-        2 * hole.bends.iter().filter(is_corner_inside).count() > hole.bends.len()
+        })
     }
 
-    /// Whether a ring has a grid point inside.
-    fn is_inside(&self, ring: Ring<'_>, point: Point) -> bool {
-        let is_above = |bend: &Bend| bend.place.corner(self.p).compare_y(point.y).is_gt();
-        let mut is_inside = false;
+    /// Whether a grid point lies inside a ring (`Greater`), on it (`Equal`) or outside (`Less`).
+    fn side(&self, ring: Ring<'_>, point: Point) -> Ordering {
+        let mut side = Ordering::Less;
         for (k, bend) in ring.bends.iter().enumerate() {
             let next = &ring.bends[if k + 1 == ring.bends.len() { 0 } else { k + 1 }];
-            let (begins_above, ends_above) = (is_above(bend), is_above(next));
-            if begins_above != ends_above {
-                let is_left = match bend.side {
-                    Side::Clip(edge) => {
-                        let [a, b] = self.clip.edge(edge as usize);
-                        orient2d(a, b, point) > 0
-                    }
-                    // Borders have the point of the cell on their left.
-                    Side::Neighbor(neighbor) => {
-                        Place::Corner(point).side(self.p, self.points[neighbor as usize]).is_gt()
-                    }
-                };
-                is_inside ^= is_left == ends_above;
+            // The side of the point on the line through the edge: left of it is greater.
+            let line = match bend.side {
+                Side::Clip(edge) => {
+                    let [a, b] = self.clip.edge(edge as usize);
+                    orient2d(a, b, point).cmp(&0)
+                }
+                // Borders have the point of the cell on their left.
+                Side::Neighbor(neighbor) => Place::Corner(point).side(self.p, self.points[neighbor as usize]),
+            };
+            let [from, to] = [bend, next].map(|bend| bend.place.corner(self.p));
+            let [begin, end] = [from, to].map(|end| [end.compare_x(point.x), end.compare_y(point.y)]);
+            let is_between = |axis: usize| begin[axis] != end[axis] || begin[axis].is_eq();
+            if line.is_eq() && is_between(0) && is_between(1) {
+                return Ordering::Equal;
+            }
+            // Half open, so that a corner on the ray to the right counts once.
+            let (begins_above, ends_above) = (begin[1].is_gt(), end[1].is_gt());
+            if begins_above != ends_above && line.is_gt() == ends_above {
+                side = side.reverse();
             }
         }
-        is_inside
+        side
     }
 }
 

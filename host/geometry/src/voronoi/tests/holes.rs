@@ -82,3 +82,18 @@ fn misplaced_holes_are_refused() {
     assert!(matches!(clip(&[square(12, 14), square(14, 16)]), Err(Error::CrossedClip { .. })));
     assert_eq!(clip(&[square(12, 12)]).err(), Some(Error::EmptyClip));
 }
+
+#[test]
+fn a_hole_that_touches_the_border_of_its_cell_belongs_to_it() {
+    // Two corners of the hole lie on borders of the cell of point 2, and one of them is a Voronoi vertex.
+    let points: Vec<Point> = [(7, 6), (4, 5), (6, 5), (5, 6)].map(Point::from).to_vec();
+    let outer: Vec<Point> = [(0, 0), (14, 0), (14, 14), (0, 14)].map(Point::from).to_vec();
+    let hole: Vec<Point> = [(6, 6), (8, 2), (5, 4)].map(Point::from).to_vec();
+    let clip = Clip::with_holes(&outer, &[hole]).expect("a hole");
+    let mesh = mesh_of(&points);
+    let voronoi = Voronoi::of(&mesh).expect("a diagram");
+    let mut cells = Cells::new(&voronoi, &clip);
+    let cell = cells.cell(2);
+    assert_eq!(cell.pieces().map(|piece| piece.holes().count()).sum::<usize>(), 1);
+    assert_eq!(cell.pieces().map(|piece| 2.0 * piece.area()).sum::<f64>(), 39.0);
+}
