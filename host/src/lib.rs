@@ -204,6 +204,7 @@
 //! | cells as flat lists, for another language or a graphics card | [`VoronoiLists`] |
 //! | points spread evenly over a region | [`lloyd::relax`], with grid points and a [`voronoi::Clip`] |
 //! | values between points, such as heights | [`interpolate::Surface`], with the mesh of the points |
+//! | the same on a device that answers where places lie | [`linear_values`] |
 //! | many small sets at once | [`Session::triangulate_batch`]: a device works on them side by side |
 //! | several devices for one set | [`Fleet`], which leaves out a device that dies |
 //! | a `Vec` of points that you can hand over | [`Session::triangulate_owned`], which does not copy it |
@@ -233,6 +234,7 @@ mod error;
 mod grid_set;
 mod job;
 mod limit;
+mod linear;
 pub mod quantize;
 pub mod transports;
 mod voronoi_lists;
@@ -250,6 +252,7 @@ pub use incircle_geometry::{Duplicate, Mesh, Order, PlanePoint, Point};
 pub use incircle_geometry::{UnknownOrder, EMPTY, MAX_POINTS};
 pub use incircle_protocol::{Config, Identity};
 pub use job::{Counters, Latencies, Options, Progress, ProgressListener, Report, Share, Solution, Stage};
+pub use linear::linear_values;
 pub use quantize::{quantize, Quantization, Quantize};
 pub use transports::{pcie, serial, udp, Transport};
 pub use voronoi_lists::{CellLists, VoronoiLists};

@@ -9,6 +9,7 @@ pub mod devices;
 pub mod generate;
 pub mod info;
 pub mod interpolate;
+mod interpolate_device;
 pub mod lloyd;
 pub mod man;
 mod plan_files;

@@ -1,56 +1,52 @@
 //! Cells inside a clip.
 
-use alloc::vec::Vec;
-use core::mem;
+use core::cmp::Ordering;
 
 use super::clip::Clip;
+use super::clipper::Clipper;
 use super::corner::Corner;
-use super::cut::{Bend, Cutter, Side, View};
+use super::cut::{Bend, Side};
 use super::diagram::{Cell, Voronoi};
 use super::place::Place;
-
 use crate::point::Point;
+use crate::predicate::orient2d;
 
 /// Clips the cells of a diagram, one after the other, in memory that is used again.
 pub struct Cells<'a> {
     voronoi: &'a Voronoi<'a>,
-    clip: &'a Clip,
-    cutter: Cutter,
-    /// The rings of the last cell, one behind the other, and how many corners each has.
-    bends: Vec<Bend>,
-    counts: Vec<usize>,
-    spare_bends: Vec<Bend>,
-    spare_counts: Vec<usize>,
+    clipper: Clipper<'a>,
 }
 
 /// A cell inside a clip: no piece, one, or several if the clip is not convex.
 #[derive(Clone, Copy)]
 pub struct ClippedCell<'a> {
-    p: Point,
-    point: u32,
-    bends: &'a [Bend],
-    counts: &'a [usize],
+    pub(super) p: Point,
+    pub(super) point: u32,
+    pub(super) points: &'a [Point],
+    pub(super) clip: &'a Clip,
+    pub(super) bends: &'a [Bend],
+    pub(super) counts: &'a [usize],
 }
 
-/// A piece of a clipped cell: a simple polygon, counter-clockwise.
+/// A piece of a clipped cell: a polygon, perhaps with holes.
 #[derive(Clone, Copy)]
 pub struct Piece<'a> {
+    cell: ClippedCell<'a>,
+    ring: Ring<'a>,
+}
+
+/// The border of a piece, counter-clockwise, or of a hole in one, clockwise.
+#[derive(Clone, Copy)]
+pub struct Ring<'a> {
     p: Point,
     bends: &'a [Bend],
+    is_hole: bool,
 }
 
 impl<'a> Cells<'a> {
     /// Prepares to clip the cells of a diagram.
     pub fn new(voronoi: &'a Voronoi<'a>, clip: &'a Clip) -> Self {
-        Self {
-            voronoi,
-            clip,
-            cutter: Cutter::default(),
-            bends: Vec::new(),
-            counts: Vec::new(),
-            spare_bends: Vec::new(),
-            spare_counts: Vec::new(),
-        }
+        Self { voronoi, clipper: Clipper::new(voronoi.points, clip) }
     }
 
     /// Clips the cell of a point, exactly. A duplicate, or a point that does not exist, has no piece.
@@ -58,17 +54,19 @@ impl<'a> Cells<'a> {
     /// O(k) for a cell of `k` edges that the border of the clip does not come near, and O(k m) for other cells, with
     /// `m` corners of the clip. After the first cells nothing is allocated.
     pub fn cell(&mut self, point: u32) -> ClippedCell<'_> {
-        self.bends.clear();
-        self.counts.clear();
+        self.clipper.clear();
         let p = self.voronoi.points.get(point as usize).copied().unwrap_or_default();
         if let Some(cell) = self.voronoi.cell(point) {
             match self.is_clear(&cell, p) {
-                true if self.clip.contains(p) => self.take_whole(&cell),
+                true if self.clipper.clip().contains(p) => {
+                    let sides = cell.neighbors().iter().map(|&neighbor| Side::Neighbor(neighbor));
+                    self.clipper.take(places(self.voronoi, &cell).zip(sides).map(|(place, side)| Bend { place, side }));
+                }
                 true => {}
-                false => self.cut(&cell, p),
+                false => self.clipper.cut(p, cell.neighbors().iter().copied()),
             }
         }
-        ClippedCell { p, point, bends: &self.bends, counts: &self.counts }
+        self.clipper.cell(p, point)
     }
 
     /// Whether the border of the clip surely does not come near the cell.
@@ -87,39 +85,7 @@ impl<'a> Cells<'a> {
                 high[axis] = high[axis].max(value + margin);
             }
         }
-        !self.clip.border.may_touch(low, high)
-    }
-
-    /// Takes a bounded cell as it is.
-    fn take_whole(&mut self, cell: &Cell<'_>) {
-        let sides = cell.neighbors().iter().map(|&neighbor| Side::Neighbor(neighbor));
-        self.bends.extend(places(self.voronoi, cell).zip(sides).map(|(place, side)| Bend { place, side }));
-        self.counts.push(self.bends.len());
-    }
-
-    /// Cuts the clip by the border with each neighbour.
-    fn cut(&mut self, cell: &Cell<'_>, p: Point) {
-        let clip = self.clip.corners();
-        let view = View { p, points: self.voronoi.points, clip };
-        let bend =
-            |(edge, &corner): (usize, &Point)| Bend { place: Place::Corner(corner), side: Side::Clip(edge as u32) };
-        self.bends.extend(clip.iter().enumerate().map(bend));
-        self.counts.push(clip.len());
-        for &neighbor in cell.neighbors() {
-            self.spare_bends.clear();
-            self.spare_counts.clear();
-            let mut rest = &self.bends[..];
-            for &count in &self.counts {
-                let (ring, others) = rest.split_at(count);
-                self.cutter.cut(ring, view, neighbor, &mut self.spare_bends, &mut self.spare_counts);
-                rest = others;
-            }
-            mem::swap(&mut self.bends, &mut self.spare_bends);
-            mem::swap(&mut self.counts, &mut self.spare_counts);
-            if self.counts.is_empty() {
-                return;
-            }
-        }
+        !self.clipper.clip().may_touch(low, high)
     }
 }
 
@@ -139,14 +105,22 @@ impl<'a> ClippedCell<'a> {
         self.point
     }
 
-    /// The pieces of the cell, with positive areas and no common inner place. There is at most one in a convex clip.
-    pub fn pieces(&self) -> impl Iterator<Item = Piece<'a>> + 'a {
-        let (p, mut rest) = (self.p, self.bends);
+    /// All rings of the cell: the borders of its pieces, and those of holes.
+    pub fn rings(&self) -> impl Iterator<Item = Ring<'a>> + 'a {
+        let (p, clip, mut rest) = (self.p, self.clip, self.bends);
         self.counts.iter().map(move |&count| {
             let (bends, others) = rest.split_at(count.min(rest.len()));
             rest = others;
-            Piece { p, bends }
+            // A hole that the border of a cell meets becomes part of the border of a piece.
+            let is_of_hole = |bend: &Bend| matches!(bend.side, Side::Clip(edge) if clip.is_of_hole(edge));
+            Ring { p, bends, is_hole: bends.iter().all(is_of_hole) }
         })
+    }
+
+    /// The pieces of the cell, with positive areas and no common inner place. There is at most one in a convex clip.
+    pub fn pieces(&self) -> impl Iterator<Item = Piece<'a>> + 'a {
+        let cell = *self;
+        self.rings().filter(|ring| !ring.is_hole).map(move |ring| Piece { cell, ring })
     }
 
     /// The points whose cells share an edge of positive length with the cell inside the clip: the edge does not merely
@@ -164,19 +138,83 @@ impl<'a> ClippedCell<'a> {
     /// for `k` corners, of which the farthest lies at the distance `r` from the point. The result is the same on every
     /// machine.
     pub fn area(&self) -> f64 {
-        self.pieces().map(|piece| piece.area()).sum()
+        self.rings().map(|ring| ring.twice_area() / 2.0).sum()
     }
 }
 
 impl<'a> Piece<'a> {
-    /// The corners with the edges that begin there, counter-clockwise.
+    /// The corners of the outer border with the edges that begin there, counter-clockwise.
+    pub fn corners(&self) -> impl Iterator<Item = (Corner, Side)> + 'a {
+        self.ring.corners()
+    }
+
+    /// The holes of the piece. Only a clip with holes has them. O(k) for each hole of the cell, with `k` corners of the
+    /// cell.
+    pub fn holes(&self) -> impl Iterator<Item = Ring<'a>> + 'a {
+        let (cell, outer) = (*self, self.ring);
+        cell.cell.rings().filter(move |ring| ring.is_hole && cell.cell.surrounds(outer, *ring))
+    }
+
+    /// The area; see [`ClippedCell::area`].
+    pub fn area(&self) -> f64 {
+        self.ring.twice_area() / 2.0 + self.holes().map(|hole| hole.twice_area() / 2.0).sum::<f64>()
+    }
+}
+
+impl<'a> ClippedCell<'a> {
+    /// Whether a hole lies in the piece with this border. A hole may touch the border with corners, but no piece that
+    /// it does not belong to has all of them.
+    fn surrounds(&self, outer: Ring<'_>, hole: Ring<'_>) -> bool {
+        hole.bends.iter().all(|bend| match bend.place {
+            Place::Corner(corner) => self.side(outer, corner).is_ge(),
+            Place::Center(_) | Place::Crossing(_) => false,
+        })
+    }
+
+    /// Whether a grid point lies inside a ring (`Greater`), on it (`Equal`) or outside (`Less`).
+    fn side(&self, ring: Ring<'_>, point: Point) -> Ordering {
+        let mut side = Ordering::Less;
+        for (k, bend) in ring.bends.iter().enumerate() {
+            let next = &ring.bends[if k + 1 == ring.bends.len() { 0 } else { k + 1 }];
+            // The side of the point on the line through the edge: left of it is greater.
+            let line = match bend.side {
+                Side::Clip(edge) => {
+                    let [a, b] = self.clip.edge(edge as usize);
+                    orient2d(a, b, point).cmp(&0)
+                }
+                // Borders have the point of the cell on their left.
+                Side::Neighbor(neighbor) => Place::Corner(point).side(self.p, self.points[neighbor as usize]),
+            };
+            let [from, to] = [bend, next].map(|bend| bend.place.corner(self.p));
+            let [begin, end] = [from, to].map(|end| [end.compare_x(point.x), end.compare_y(point.y)]);
+            let is_between = |axis: usize| begin[axis] != end[axis] || begin[axis].is_eq();
+            if line.is_eq() && is_between(0) && is_between(1) {
+                return Ordering::Equal;
+            }
+            // Half open, so that a corner on the ray to the right counts once.
+            let (begins_above, ends_above) = (begin[1].is_gt(), end[1].is_gt());
+            if begins_above != ends_above && line.is_gt() == ends_above {
+                side = side.reverse();
+            }
+        }
+        side
+    }
+}
+
+impl<'a> Ring<'a> {
+    /// The corners with the edges that begin there.
     pub fn corners(&self) -> impl Iterator<Item = (Corner, Side)> + 'a {
         let p = self.p;
         self.bends.iter().map(move |bend| (bend.place.corner(p), bend.side))
     }
 
-    /// The area; see [`ClippedCell::area`].
-    pub fn area(&self) -> f64 {
+    /// Whether the ring is a hole.
+    pub fn is_hole(&self) -> bool {
+        self.is_hole
+    }
+
+    /// Twice the area, negative for a hole.
+    fn twice_area(&self) -> f64 {
         let Some(last) = self.bends.last() else { return 0.0 };
         let (mut twice, mut from) = (0.0, last.place.seen(self.p));
         for bend in self.bends {
@@ -184,6 +222,6 @@ impl<'a> Piece<'a> {
             twice += from[0] * to[1] - from[1] * to[0];
             from = to;
         }
-        twice / 2.0
+        twice
     }
 }
