@@ -43,6 +43,12 @@ impl Budget {
         Ok(Self { free, strip: strip as usize, triangles: (strip * TRIANGLES_OF_FOUR / 4) as usize })
     }
 
+    /// A memory of `free` bytes with strips of so many points and triangles.
+    #[cfg(test)]
+    pub fn narrow(free: u64, strip: usize, triangles: usize) -> Self {
+        Self { free, strip, triangles }
+    }
+
     /// A share of the memory: `1 / parts` of it.
     pub fn share(&self, parts: u64) -> u64 {
         self.free / parts

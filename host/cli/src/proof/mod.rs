@@ -91,10 +91,14 @@ pub struct Proven {
 pub fn prove(plan: &Plan<'_>) -> Result<Result<Proven, VerifyError>, Failure> {
     let budget = Budget::of(plan.memory)?;
     Memory::give_back_lists();
+    prove_within(plan, &budget)
+}
+
+fn prove_within(plan: &Plan<'_>, budget: &Budget) -> Result<Result<Proven, VerifyError>, Failure> {
     let survey = Survey::of(plan.points, plan.read, plan.quiet)?;
-    check_disk(plan, &budget, survey.points)?;
+    check_disk(plan, budget, survey.points)?;
     let inputs = (plan.points, plan.read, plan.quiet);
-    let sites = Sites::of(&survey, inputs, plan.scratch, &budget)?;
+    let sites = Sites::of(&survey, inputs, plan.scratch, budget)?;
     let mut mesh = MeshFile::new(plan.mesh, plan.format, budget.share(8));
     if plan.is_unordered {
         mesh.sort(plan.scratch)?;
@@ -116,7 +120,7 @@ pub fn prove(plan: &Plan<'_>) -> Result<Result<Proven, VerifyError>, Failure> {
         });
     }
     let place = Place { folder: plan.scratch, quiet: plan.quiet };
-    let edges = match checked_edges(&mesh, &sites, place, &budget)? {
+    let edges = match checked_edges(&mesh, &sites, place, budget)? {
         Ok((count, edges)) => {
             proven.triangles = count as u64;
             edges
@@ -166,3 +170,6 @@ fn check_disk(plan: &Plan<'_>, budget: &Budget, points: u64) -> Result<(), Failu
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests;
