@@ -42,7 +42,10 @@ fn a_mesh_beyond_the_memory_is_proved_within_it() {
     assert_eq!(compare(&scratch, "p.npy u.csv --unordered")["valid"], true);
     scratch.run("verify p.npy u.csv --memory 32M -q").fails(1, &["out of order"]);
     scratch.run("triangulate p.npy -o m.ele --memory 32M -q").ok();
-    assert_eq!(compare(&scratch, "p.npy m.ele")["triangles"], json(&scratch.run("verify p.npy m.npy --json"))["triangles"]);
+    assert_eq!(
+        compare(&scratch, "p.npy m.ele")["triangles"],
+        json(&scratch.run("verify p.npy m.npy --json"))["triangles"]
+    );
 }
 
 #[test]
