@@ -33,6 +33,7 @@ mod planned;
 mod player;
 mod points;
 mod progress;
+mod proof;
 mod report;
 mod script;
 #[cfg(feature = "sim")]

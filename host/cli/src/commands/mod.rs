@@ -17,5 +17,7 @@ pub mod replay;
 pub mod tile;
 pub mod triangulate;
 mod triangulate_large;
+mod verdict;
 pub mod verify;
+pub mod verify_large;
 pub mod voronoi;
