@@ -19,7 +19,7 @@ module painter_bench;
     reg [9:0] blue, green, red, pixel_clock;
     reg [31:0] file, last, picture, pixels, lines;
     reg [8 * 32 - 1:0] name;
-    reg was_in_sync;
+    reg is_sync, is_blank, was_in_sync;
     initial begin
         if (!$value$plusargs("pictures=%d", last)) last = 1;
         {picture, pixels, file, was_in_sync} = 0;
@@ -37,10 +37,6 @@ module painter_bench;
         end
     endfunction
 
-    // The four symbols without a colour; the two with a low bit of vertical synchronisation end a screen.
-    wire is_sync = blue == 10'b1101010100 || blue == 10'b0010101011;
-    wire is_blank = is_sync || blue == 10'b0101010100 || blue == 10'b1010101011;
-
     always @(negedge video_clock) begin
         // The bench works at falling edges, where all signals are at rest.
         blue = {lanes[1:0], blue[9:2]};
@@ -48,6 +44,9 @@ module painter_bench;
         red = {lanes[5:4], red[9:2]};
         pixel_clock = {lanes[7:6], pixel_clock[9:2]};
         if (pixel_clock == 10'b0000011111) begin
+            // Four symbols have no colour. The two with a low bit of vertical synchronisation end a screen.
+            is_sync = blue == 10'b1101010100 || blue == 10'b0010101011;
+            is_blank = is_sync || blue == 10'b0101010100 || blue == 10'b1010101011;
             if (is_sync && !was_in_sync) ends_screen;
             was_in_sync = is_sync;
             if (!is_blank && file != 0) begin
@@ -67,10 +66,12 @@ module painter_bench;
         end
         if (has_failed) $display("the core has refused a command");
         if (picture > last) $finish;
-        $sformat(name, "picture_%0d.ppm", picture);
-        file = $fopen(name, "w");
-        $fwrite(file, "P3\n640 480\n255\n");
-        pixels = 0;
+        else begin
+            $sformat(name, "picture_%0d.ppm", picture);
+            file = $fopen(name, "w");
+            $fwrite(file, "P3\n640 480\n255\n");
+            pixels = 0;
+        end
     end endtask
 endmodule
 `default_nettype wire

@@ -115,38 +115,39 @@ module triangle_fill (
     end
 
     // Stages 6 to 13: division, a bit of the quotient in each stage, the highest first. The quotient is at most 255.
-    reg [23:0] rest [0:8];
-    reg [7:0] quotient [0:8];
-    integer bit_number;
-    always @* begin
-        rest[0] = sum;
-        quotient[0] = 8'd0;
-    end
-    always @(posedge clock) begin
-        for (bit_number = 0; bit_number < 8; bit_number = bit_number + 1)
-            if (rest[bit_number] >= {8'd0, area} << (7 - bit_number)) begin
-                rest[bit_number + 1] <= rest[bit_number] - ({8'd0, area} << (7 - bit_number));
-                quotient[bit_number + 1] <= {quotient[bit_number][6:0], 1'b1};
-            end else begin
-                rest[bit_number + 1] <= rest[bit_number];
-                quotient[bit_number + 1] <= {quotient[bit_number][6:0], 1'b0};
+    // `rests` has the rest before each stage in 24 bits, and `quotients` the bits so far in 8.
+    wire [9 * 24 - 1:0] rests;
+    wire [9 * 8 - 1:0] quotients;
+    assign rests[23:0] = sum;
+    assign quotients[7:0] = 8'd0;
+    genvar number;
+    generate
+        for (number = 0; number < 8; number = number + 1) begin : division
+            wire [23:0] shifted_area = {8'd0, area} << (7 - number);
+            wire fits = rests[24 * number +: 24] >= shifted_area;
+            reg [23:0] rest;
+            reg [7:0] quotient;
+            always @(posedge clock) begin
+                rest <= fits ? rests[24 * number +: 24] - shifted_area : rests[24 * number +: 24];
+                quotient <= {quotients[8 * number +: 7], fits};
             end
-    end
+            assign rests[24 * (number + 1) +: 24] = rest;
+            assign quotients[8 * (number + 1) +: 8] = quotient;
+        end
+    endgenerate
 
     // The place of each pixel travels beside it, and from stage 4 on so does whether it lies inside.
-    reg [15:0] at [0:12];
+    reg [13 * 16 - 1:0] at;
     reg [9:0] belongs;
-    integer stage;
     always @(posedge clock) begin
-        at[0] <= {pixel_y, pixel_x[7:0]};
-        for (stage = 1; stage < 13; stage = stage + 1) at[stage] <= at[stage - 1];
+        at <= {at[12 * 16 - 1:0], pixel_y, pixel_x[7:0]};
         under_way <= {under_way[11:0], enters};
         belongs <= {belongs[8:0], &is_inside};
         if (reset) under_way <= 13'd0;
     end
     assign pixel_valid = under_way[12] && belongs[9];
-    assign pixel_at = at[12];
-    assign pixel_value = quotient[8];
+    assign pixel_at = at[12 * 16 +: 16];
+    assign pixel_value = quotients[8 * 8 +: 8];
 endmodule
 
 // orient2d of an edge and a pixel, three clocks later, and whether the pixel counts as lying on the inner side. The edge
