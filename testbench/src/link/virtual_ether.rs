@@ -171,6 +171,17 @@ impl Transport for EtherTransport {
         Ok(came)
     }
 
+    fn receive_next(
+        &mut self,
+        words_of: &mut dyn FnMut(AnswerHead) -> Option<usize>,
+        payload: &mut Vec<u32>,
+        _deadline: Instant,
+    ) -> Result<AnswerHead, TransportError> {
+        let (came, words) = self.ether.borrow_mut().drive(self.limit, UdpProtocol::take_answer)?;
+        *payload = if words_of(came) == Some(words.len()) { words } else { Vec::new() };
+        Ok(came)
+    }
+
     fn capabilities(&self) -> Capabilities {
         self.ether.borrow().protocol.capabilities()
     }
