@@ -81,6 +81,16 @@ impl VirtualEther {
         self.host.set_port(self.host.port() + 1);
     }
 
+    /// Lets time pass until the host has received so many datagrams since it began, or for this long. Returns whether
+    /// they came.
+    pub fn run_to_datagram(&mut self, datagrams: u64, limit: Duration) -> bool {
+        let deadline = self.now() + limit;
+        while self.protocol.statistics().received < datagrams && self.now() < deadline {
+            self.step();
+        }
+        self.protocol.statistics().received >= datagrams
+    }
+
     fn drive<T>(
         &mut self,
         limit: Duration,

@@ -138,6 +138,17 @@ impl VirtualNetwork {
         self.host.set_port(self.host.port() + 1);
     }
 
+    /// Lets time pass until the host has received so many datagrams since it began. Panics if they do not come.
+    pub fn run_to_datagram(&mut self, datagrams: u64) {
+        for _ in 0..1_000_000 {
+            if self.protocol.statistics().received >= datagrams {
+                return;
+            }
+            self.step();
+        }
+        panic!("the host got only {} datagrams", self.protocol.statistics().received);
+    }
+
     /// Lets this time pass without the host.
     pub fn rest(&mut self, time: Duration) {
         self.now += time.as_nanos() as u64;
