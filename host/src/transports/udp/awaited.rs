@@ -2,8 +2,10 @@
 //!
 //! An answer has a number, and the header in it has the tag of its job. The answers to one job come in the order of its
 //! questions. A device of one engine answers all jobs in one order, so there the number alone tells the question. A
-//! device of several engines answers jobs side by side, so there the tag tells the job. The tag of a lost answer is not
-//! known: if answers of more than one job were due, any of them may have lost one, and all of them begin again.
+//! device of several engines answers jobs side by side, so there the tag tells the job.
+//!
+//! The tag of a lost answer is not known. A job goes to an engine that owes no answer, so the lost answer belongs to one
+//! of the first unfinished jobs, as many as there are engines. If there is more than one, all of them begin again.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::time::Duration;
@@ -55,13 +57,17 @@ struct OfJob {
     asked: VecDeque<Asked>,
     /// The engine that has answered.
     engine: Option<u8>,
+    /// Number of jobs before this one.
+    place: u64,
+    /// An answer may be lost, so the device may owe one answer less than there are questions here, or more.
+    is_unsure: bool,
 }
 
 /// The answers that are still to come in a session.
 #[derive(Debug, Default)]
 pub(super) struct Awaited {
-    /// Whether the device has several engines.
-    has_engines: bool,
+    /// Number of engines of the device.
+    engines: usize,
     /// The answers from number `first` on.
     slots: VecDeque<Slot>,
     first: u64,
@@ -71,13 +77,19 @@ pub(super) struct Awaited {
     jobs: BTreeMap<u8, OfJob>,
     /// The tag that was given last.
     last_tag: u8,
+    /// Number of jobs so far.
+    begun: u64,
     words: usize,
 }
 
 impl Awaited {
     /// No answers, at the beginning of a session.
-    pub fn new(has_engines: bool) -> Self {
-        Self { has_engines, ..Self::default() }
+    pub fn new(engines: u32) -> Self {
+        Self { engines: engines as usize, ..Self::default() }
+    }
+
+    fn has_tags(&self) -> bool {
+        self.engines > 1
     }
 
     /// Number of words of the answers to come.
@@ -98,13 +110,17 @@ impl Awaited {
                 break;
             }
         }
-        self.has_engines.then_some(self.last_tag)
+        self.has_tags().then_some(self.last_tag)
     }
 
     /// Notes a question of the job with this tag, whose last word is that with byte `end` of the session.
     pub fn ask(&mut self, tag: u8, asked: Asked, end: u64) {
-        let tag = if self.has_engines { tag } else { 0 };
-        self.jobs.entry(tag).or_default().asked.push_back(asked);
+        let tag = if self.has_tags() { tag } else { 0 };
+        let job = self.jobs.entry(tag).or_insert_with(|| {
+            self.begun += 1;
+            OfJob { place: self.begun, ..OfJob::default() }
+        });
+        job.asked.push_back(asked);
         self.slots.push_back(Slot { end, words: None, passed_at: None, passed_by: 0, is_lost: false });
         self.words += asked.words;
     }
@@ -185,7 +201,7 @@ impl Awaited {
     /// Takes the question that the answer with these words belongs to.
     fn question_of(&mut self, words: &[u32]) -> Option<Asked> {
         let header = words.first().copied()?;
-        let (tag, engine) = if self.has_engines { (answer_tag(header), answer_engine(header)) } else { (0, 0) };
+        let (tag, engine) = if self.has_tags() { (answer_tag(header), answer_engine(header)) } else { (0, 0) };
         let job = self.jobs.get_mut(&tag)?;
         let asked = job.asked.pop_front()?;
         self.words -= asked.words;
@@ -208,17 +224,30 @@ impl Awaited {
 
     /// The loss of an answer whose tag is not known.
     fn lose(&mut self) -> Outcome {
-        let mut tags = self.jobs.keys();
-        if let (Some(&tag), None) = (tags.next(), tags.next()) {
-            let asked = self.jobs.get_mut(&tag).and_then(|job| job.asked.pop_front());
-            self.forget_if_answered(tag);
-            if let Some(asked) = asked {
+        let mut jobs: Vec<_> = self.jobs.iter_mut().collect();
+        jobs.sort_by_key(|(_, job)| job.place);
+        // A job that is unsure may have ended, so it does not keep an engine from the jobs behind it.
+        let mut unfinished = 0;
+        let may_be_of = |(_, job): &&mut (&u8, &mut OfJob)| {
+            let is_begun = unfinished < self.engines.max(1);
+            unfinished += usize::from(!job.is_unsure);
+            is_begun
+        };
+        let count = jobs.iter_mut().take_while(may_be_of).count();
+        jobs.truncate(count);
+        if let [(tag, job)] = &mut jobs[..] {
+            if let Some(asked) = job.asked.pop_front() {
+                let tag = **tag;
                 self.words -= asked.words;
+                self.forget_if_answered(tag);
                 return Outcome::Lost(asked);
             }
         }
-        let runs = self.jobs.values().flat_map(|job| job.asked.iter().map(|asked| (asked.unit, asked.run)));
-        let mut runs: Vec<_> = runs.collect();
+        let mut runs = Vec::new();
+        for (_, job) in jobs {
+            job.is_unsure = true;
+            runs.extend(job.asked.iter().map(|asked| (asked.unit, asked.run)));
+        }
         runs.dedup();
         Outcome::LostOfOne(runs)
     }
@@ -252,7 +281,7 @@ mod tests {
 
     /// Two jobs with two questions each, on a device of two engines.
     fn two_jobs() -> (Awaited, [u8; 2]) {
-        let mut awaited = Awaited::new(true);
+        let mut awaited = Awaited::new(2);
         let tags = [1, 2].map(|unit| {
             let tag = awaited.new_tag().expect("several engines");
             (0..2).for_each(|question| awaited.ask(tag, asked(unit, question), 8));
@@ -304,7 +333,7 @@ mod tests {
 
     #[test]
     fn one_engine_needs_no_tag() {
-        let mut awaited = Awaited::new(false);
+        let mut awaited = Awaited::new(1);
         assert_eq!(awaited.new_tag(), None);
         (0..3).for_each(|question| awaited.ask(0, asked(question, question as usize), 8));
         assert_eq!(awaited.take(1, &answer(0, 77), 8), Ok(true));

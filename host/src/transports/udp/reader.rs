@@ -75,7 +75,7 @@ impl Reader {
 
     /// Begins a session: the device has forgotten everything, and units that were not begun will be sent.
     pub fn begin_session(&mut self, layout: Layout, engines: u32) {
-        (self.layout, self.awaited, self.tag) = (layout, Awaited::new(engines > 1), None);
+        (self.layout, self.awaited, self.tag) = (layout, Awaited::new(engines), None);
         (self.current, self.memory, self.is_filled) = (None, None, false);
     }
 

@@ -64,6 +64,13 @@ impl WordDevice for Core {
             Self::Chip(core) => core.step(command, takes_answer),
         }
     }
+
+    fn owes_answers(&self) -> bool {
+        match self {
+            Self::Paced(core) => core.owes_answers(),
+            Self::Chip(core) => core.owes_answers(),
+        }
+    }
 }
 
 /// Makes the datagrams of a stranger, one after another.

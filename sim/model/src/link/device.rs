@@ -12,6 +12,12 @@ pub trait WordDevice {
     /// Simulates one clock. The device is offered a command word, or none, and may give answer words if `takes_answer`.
     /// On both sides, an offered word that was not taken stays offered in the next clock.
     fn step(&mut self, command: Option<u32>, takes_answer: bool) -> Passed;
+
+    /// Whether an engine of several is at work although an answer has just ended. On a device of one engine the words
+    /// alone tell whether it is at work.
+    fn owes_answers(&self) -> bool {
+        false
+    }
 }
 
 /// The words that passed in a clock.
@@ -119,6 +125,10 @@ impl WordDevice for ChipModel {
 
     fn step(&mut self, command: Option<u32>, takes_answer: bool) -> Passed {
         clocked(self.outputs(), command, takes_answer, |inputs| self.clock(inputs))
+    }
+
+    fn owes_answers(&self) -> bool {
+        self.is_at_work()
     }
 }
 
