@@ -32,6 +32,7 @@ mod transports {
         mod sessions;
     }
     mod udp {
+        mod engines;
         mod faults;
         mod goodput;
         mod pace;

@@ -53,6 +53,11 @@ impl ChipModel {
         self
     }
 
+    /// Whether a command word waits for an engine, or an engine of several owes an answer.
+    pub(crate) fn is_at_work(&self) -> bool {
+        self.owed.iter().any(|&owed| owed > 0) || !self.router.is_ready()
+    }
+
     /// The outputs in the current state, with the write port of engine 0.
     pub fn outputs(&self) -> Outputs {
         if let [only] = &self.engines[..] {

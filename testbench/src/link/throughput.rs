@@ -127,8 +127,7 @@ pub fn throughput_document(say: &dyn Fn(&str)) -> Result<String, Box<dyn Error>>
     write!(
         text,
         "\nThe answer to a point takes 12 bytes of the wire, so a gigabit carries 9.8 million points a second at most: the\n\
-         aim of `dual` lies above that, and needs answers with fewer bits. The library also gives a device of several\n\
-         engines one job at a time through this link, because it takes the answers of the link in their order.\n\n\
+         aim of `dual` lies above that, and needs answers with fewer bits.\n\n\
          Jobs of 1000 points and more run less side by side than on a bus: their meshes must fit the FIFO of the device,\n\
          which holds those of 5400 points, or the core would wait for the cable.\n\n\
          One frame of {} points on `{}` at {} MHz takes {frame:.2} ms from the call to the mesh; the aim was\n\

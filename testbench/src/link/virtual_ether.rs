@@ -81,6 +81,16 @@ impl VirtualEther {
         self.host.set_port(self.host.port() + 1);
     }
 
+    /// Lets time pass until the host has received so many datagrams since it began, or for this long. Returns whether
+    /// they came.
+    pub fn run_to_datagram(&mut self, datagrams: u64, limit: Duration) -> bool {
+        let deadline = self.now() + limit;
+        while self.protocol.statistics().received < datagrams && self.now() < deadline {
+            self.step();
+        }
+        self.protocol.statistics().received >= datagrams
+    }
+
     fn drive<T>(
         &mut self,
         limit: Duration,
@@ -168,6 +178,17 @@ impl Transport for EtherTransport {
         if came[1] == head[1] && words.len() == payload.len() {
             payload.copy_from_slice(&words);
         }
+        Ok(came)
+    }
+
+    fn receive_next(
+        &mut self,
+        words_of: &mut dyn FnMut(AnswerHead) -> Option<usize>,
+        payload: &mut Vec<u32>,
+        _deadline: Instant,
+    ) -> Result<AnswerHead, TransportError> {
+        let (came, words) = self.ether.borrow_mut().drive(self.limit, UdpProtocol::take_answer)?;
+        *payload = if words_of(came) == Some(words.len()) { words } else { Vec::new() };
         Ok(came)
     }
 

@@ -12,6 +12,7 @@
 //! once, and the device's FIFO.
 
 mod address;
+mod awaited;
 mod codec;
 mod discover;
 mod fault;

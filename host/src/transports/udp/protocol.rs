@@ -140,6 +140,7 @@ impl UdpProtocol {
         Capabilities {
             takes_ahead: true,
             jobs_ahead: JOBS_AHEAD,
+            any_order: true,
             kept_words: UDP_KEPT_WORDS,
             ..Capabilities::default()
         }

@@ -3,14 +3,13 @@
 use std::collections::VecDeque;
 use std::time::Duration;
 
-use incircle_protocol::{Command, Layout, ANSWER_HEAD_WORDS};
+use incircle_protocol::{answer_engine, signed_header, Clear, Command, Layout, ANSWER_HEAD_WORDS};
 
+use super::awaited::{Asked, Awaited, Outcome};
 use super::fault::UdpFault;
 use super::sender::Sender;
 use super::unit::{Answer, State, Unit};
 
-/// Number of later datagrams after which an answer that they overtook counts as lost.
-const OVERTAKEN: u32 = 3;
 /// Share of units with a lost answer, of 256, from which on no job is sent ahead of the one before it, because a lost
 /// answer then costs a whole job; and the share below which jobs are sent ahead again. The two are far apart, so that
 /// chance does not switch between them.
@@ -18,21 +17,6 @@ const LOSSY: u32 = 96;
 const CLEAN: u32 = 24;
 /// The weight of the last unit in that share is one part in so many.
 const MEMORY: u32 = 8;
-
-/// A question whose answer is awaited.
-#[derive(Clone, Copy, Debug)]
-struct Asked {
-    unit: u64,
-    run: u32,
-    question: usize,
-    /// Words of the answer, header and length included.
-    words: usize,
-    /// Bytes of the session up to the end of the question.
-    end: u64,
-    /// Time at which a later answer was first seen, or heard of, and number of datagrams since.
-    passed_at: Option<Duration>,
-    passed_by: u32,
-}
 
 /// The receiving half of a session. It also decides what is asked, and when.
 #[derive(Debug)]
@@ -45,17 +29,15 @@ pub(super) struct Reader {
     /// Number of the next unit, and of the last one that began with a `Clear`.
     next_unit: u64,
     last_anew: Option<u64>,
+    /// The tag that the library gave to the last job.
+    last_tag: u8,
     /// Number of the unit whose questions are being sent, or were sent last.
     current: Option<u64>,
     /// Number of the unit whose points are in the device once all commands are carried out.
     memory: Option<u64>,
-    /// Questions by the numbers of their answers, `None` where the answer has come or was lost.
-    asked: VecDeque<Option<Asked>>,
-    /// Number of the first answer in `asked`.
-    first: u64,
-    /// Number up to which the device has sent answers.
-    horizon: u64,
-    awaited_words: usize,
+    awaited: Awaited,
+    /// The tag that the device has for the job whose questions are being sent, if it has several engines.
+    tag: Option<u8>,
     /// The window was full, and more than half of it is still awaited.
     is_filled: bool,
     /// Answers of finished units.
@@ -77,12 +59,11 @@ impl Reader {
             units: VecDeque::new(),
             next_unit: 0,
             last_anew: None,
+            last_tag: 0,
             current: None,
             memory: None,
-            asked: VecDeque::new(),
-            first: 0,
-            horizon: 0,
-            awaited_words: 0,
+            awaited: Awaited::default(),
+            tag: None,
             is_filled: false,
             ready: VecDeque::new(),
             lossy: 0,
@@ -93,11 +74,9 @@ impl Reader {
     }
 
     /// Begins a session: the device has forgotten everything, and units that were not begun will be sent.
-    pub fn begin_session(&mut self, layout: Layout) {
-        self.layout = layout;
-        (self.first, self.horizon, self.awaited_words, self.is_filled) = (0, 0, 0, false);
-        (self.current, self.memory) = (None, None);
-        self.asked.clear();
+    pub fn begin_session(&mut self, layout: Layout, engines: u32) {
+        (self.layout, self.awaited, self.tag) = (layout, Awaited::new(engines), None);
+        (self.current, self.memory, self.is_filled) = (None, None, false);
     }
 
     /// Number of answers asked for again, and of units sent again.
@@ -112,10 +91,12 @@ impl Reader {
             let length = behind.iter().take_while(|command| !matches!(command, Command::Clear(_))).count() + 1;
             let (of_unit, behind) = rest.split_at(length);
             rest = behind;
-            let is_anew = matches!(first, Command::Clear(_));
+            let tag = if let Command::Clear(clear) = first { Some(clear.tag) } else { None };
+            let is_anew = tag.is_some();
+            self.last_tag = tag.unwrap_or(self.last_tag);
             let commands = of_unit.iter().map(|command| command.map(<[u32]>::to_vec)).collect();
             let needs = if is_anew { None } else { self.last_anew };
-            self.units.push_back(Unit::new(self.next_unit, commands, needs));
+            self.units.push_back(Unit::new(self.next_unit, commands, needs, self.last_tag));
             if is_anew {
                 self.last_anew = Some(self.next_unit);
             }
@@ -155,7 +136,7 @@ impl Reader {
     /// Sends the questions that may be sent. Once the window is full, half of it must come before more is asked, so that
     /// a datagram carries many questions: each datagram costs both sides a receipt.
     pub fn ask_more(&mut self, sender: &mut Sender) -> Result<(), UdpFault> {
-        self.is_filled &= self.awaited_words > self.window / 2;
+        self.is_filled &= self.awaited.words() > self.window / 2;
         if self.is_filled {
             return Ok(());
         }
@@ -169,17 +150,15 @@ impl Reader {
                 return Ok(());
             };
             let words = ANSWER_HEAD_WORDS + unit.questions.get(question).map_or(0, |question| question.words);
-            if self.awaited_words > 0 && self.awaited_words + words > self.window {
+            if self.awaited.words() > 0 && self.awaited.words() + words > self.window {
                 self.is_filled = true;
                 return Ok(());
             }
             let (number, run) = (unit.number, unit.run);
             let Some(command) = unit.ask(question) else { return Ok(()) };
-            let end = sender.push(&command);
+            let end = sender.push(&with_tag(command, self.tag));
             unit.end = end;
-            let asked = Asked { unit: number, run, question, words, end, passed_at: None, passed_by: 0 };
-            self.asked.push_back(Some(asked));
-            self.awaited_words += words;
+            self.awaited.ask(self.tag.unwrap_or(0), Asked { unit: number, run, question, words }, end);
         }
     }
 
@@ -191,7 +170,9 @@ impl Reader {
         // A unit that cannot be sent again must have the device to itself until its answers are there.
         let may_overtake = |other: &Unit| !other.is_started || other.is_done() || other.begins_anew();
         let may_go_ahead = unit.begins_anew() && self.goes_ahead && self.units.iter().all(may_overtake);
-        if !others_are_done && !may_go_ahead {
+        // On a device of several engines a lost answer may be asked for again only if no other job can have lost it.
+        let may_go = may_go_ahead || others_are_done && (self.tag.is_none() || self.awaited.is_settled());
+        if !may_go {
             return Ok(false);
         }
         if !unit.needs_no_memory() && unit.needs != self.memory {
@@ -199,6 +180,9 @@ impl Reader {
         }
         let is_anew = unit.begins_anew();
         let number = unit.number;
+        if is_anew {
+            self.tag = self.awaited.new_tag();
+        }
         self.units[index].start(self.layout)?;
         self.current = Some(number);
         if is_anew {
@@ -209,88 +193,84 @@ impl Reader {
 
     /// Takes an answer of this number. Returns true if it was awaited.
     pub fn take(&mut self, number: u32, words: &[u32], sender: &Sender) -> Result<bool, UdpFault> {
-        let number = u64::from(number);
-        let Some(place) = number.checked_sub(self.first) else { return Ok(false) };
-        let slot = usize::try_from(place).ok().and_then(|place| self.asked.get_mut(place));
-        let slot = slot.ok_or(UdpFault::Unasked { number })?;
-        let Some(asked) = *slot else { return Ok(false) };
-        if asked.end > sender.taken_bytes() {
-            return Err(UdpFault::Unasked { number });
-        }
-        *slot = None;
-        self.awaited_words -= asked.words;
-        self.horizon = self.horizon.max(number + 1);
-        self.forget_done();
-        let layout = self.layout;
-        let unit = self.units.iter_mut().find(|unit| (unit.number, unit.run) == (asked.unit, asked.run));
-        if let Some(unit) = unit.filter(|unit| unit.is_started) {
-            unit.take(asked.question, words, layout)?;
-        }
-        Ok(true)
+        let was_awaited = self.awaited.take(number, words, sender.taken_bytes())?;
+        self.settle()?;
+        Ok(was_awaited)
     }
 
     /// Hears that the device has sent `answers` answers to their end.
     pub fn passed(&mut self, answers: u32, sender: &Sender) -> Result<(), UdpFault> {
-        let answers = u64::from(answers);
-        let last = answers.checked_sub(self.first + 1).and_then(|last| usize::try_from(last).ok());
-        let Some(last) = last else { return Ok(()) };
-        match self.asked.get(last) {
-            None => return Err(UdpFault::Unasked { number: answers - 1 }),
-            Some(Some(asked)) if asked.end > sender.taken_bytes() => {
-                return Err(UdpFault::Unasked { number: answers - 1 });
-            }
-            Some(_) => self.horizon = self.horizon.max(answers),
-        }
-        Ok(())
+        self.awaited.passed(answers, sender.taken_bytes())
     }
 
-    /// Counts a datagram of the session, and makes the questions due again whose answers are lost.
-    pub fn count(&mut self, now: Duration, grace: Duration, is_datagram: bool) {
-        let passed = usize::try_from(self.horizon.saturating_sub(self.first)).unwrap_or(usize::MAX);
-        let mut lost = Vec::new();
-        for slot in self.asked.iter_mut().take(passed) {
-            let Some(asked) = slot else { continue };
-            let passed_at = *asked.passed_at.get_or_insert(now);
-            asked.passed_by += u32::from(is_datagram);
-            if asked.passed_by > OVERTAKEN || now >= passed_at + grace {
-                lost.push(*asked);
-                *slot = None;
-            }
-        }
-        for asked in lost {
-            self.awaited_words -= asked.words;
-            self.lose(asked);
-        }
-        self.forget_done();
+    /// Counts a datagram of the session, or only looks at the time, and makes the questions due again whose answers are
+    /// lost.
+    pub fn count(&mut self, now: Duration, grace: Duration, is_datagram: bool) -> Result<(), UdpFault> {
+        self.awaited.count(now, grace, is_datagram);
+        self.settle()
     }
 
     /// Time at which the next answer counts as lost.
     pub fn lost_at(&self, grace: Duration) -> Option<Duration> {
-        self.asked.iter().flatten().next()?.passed_at.map(|passed_at| passed_at + grace)
+        self.awaited.lost_at(grace)
+    }
+
+    /// Does what the answers ask for whose fate is known.
+    fn settle(&mut self) -> Result<(), UdpFault> {
+        while let Some(outcome) = self.awaited.next()? {
+            match outcome {
+                Outcome::Came(asked, words) => self.hand_on(asked, words)?,
+                Outcome::Lost(asked) => self.lose(asked),
+                Outcome::LostOfOne(runs) => runs.into_iter().for_each(|(unit, run)| self.begin_again(unit, run)),
+            }
+        }
+        Ok(())
+    }
+
+    /// Gives an answer to its unit, with the tag that the library gave to the job.
+    fn hand_on(&mut self, asked: Asked, mut words: Vec<u32>) -> Result<(), UdpFault> {
+        let (layout, has_tag) = (self.layout, self.tag.is_some());
+        let Some(unit) = self.unit_of(asked.unit, asked.run) else { return Ok(()) };
+        if let Some(header) = words.first_mut().filter(|_| has_tag) {
+            *header = signed_header(*header, answer_engine(*header), unit.tag);
+        }
+        unit.take(asked.question, &words, layout)
+    }
+
+    /// The unit of this number, if it is in this run.
+    fn unit_of(&mut self, number: u64, run: u32) -> Option<&mut Unit> {
+        self.units.iter_mut().find(|unit| (unit.number, unit.run) == (number, run) && unit.is_started)
     }
 
     /// Asks once more for what was lost: the question alone while the device still holds the answer, else all of the
     /// unit.
     fn lose(&mut self, asked: Asked) {
         let is_current = self.current == Some(asked.unit);
-        let unit = self.units.iter_mut().find(|unit| (unit.number, unit.run) == (asked.unit, asked.run));
-        let Some(unit) = unit.filter(|unit| unit.is_started && !unit.is_done()) else { return };
-        unit.had_loss = true;
-        if is_current && !(unit.is_clear(asked.question) && unit.begins_anew()) {
-            let Some(question) = unit.questions.get_mut(asked.question) else { return };
-            if question.state == State::Asked {
-                question.state = State::Due;
-                self.repeated += 1;
-            }
-            return;
+        let Some(unit) = self.unit_of(asked.unit, asked.run).filter(|unit| !unit.is_done()) else { return };
+        if !is_current || unit.is_clear(asked.question) && unit.begins_anew() {
+            return self.begin_again(asked.unit, asked.run);
         }
+        unit.had_loss = true;
+        let Some(question) = unit.questions.get_mut(asked.question) else { return };
+        if question.state == State::Asked {
+            question.state = State::Due;
+            self.repeated += 1;
+        }
+    }
+
+    /// Sends a unit once more, if it is in this run and needs answers.
+    fn begin_again(&mut self, number: u64, run: u32) {
+        let Some(unit) = self.unit_of(number, run).filter(|unit| !unit.is_done()) else { return };
+        unit.had_loss = true;
         unit.restart();
         self.restarted += 1;
     }
+}
 
-    fn forget_done(&mut self) {
-        while self.asked.pop_front_if(|slot| slot.is_none()).is_some() {
-            self.first += 1;
-        }
+/// The command with this tag, if it is a `Clear` and there is a tag.
+fn with_tag(command: Command<&[u32]>, tag: Option<u8>) -> Command<&[u32]> {
+    match (command, tag) {
+        (Command::Clear(clear), Some(tag)) => Command::Clear(Clear { tag, ..clear }),
+        (command, _) => command,
     }
 }

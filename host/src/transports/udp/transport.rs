@@ -237,6 +237,17 @@ impl Transport for UdpTransport {
         Ok(handed_on(answer, head, payload))
     }
 
+    fn receive_next(
+        &mut self,
+        words_of: &mut dyn FnMut(AnswerHead) -> Option<usize>,
+        payload: &mut Vec<u32>,
+        deadline: Instant,
+    ) -> Result<AnswerHead, TransportError> {
+        let (came, words) = self.drive(deadline, UdpProtocol::take_answer)?;
+        *payload = if words_of(came) == Some(words.len()) { words } else { Vec::new() };
+        Ok(came)
+    }
+
     fn capabilities(&self) -> Capabilities {
         self.protocol.capabilities()
     }

@@ -59,10 +59,12 @@ pub(super) struct Unit {
     pub end: u64,
     /// Number of the unit whose memory it needs, if it does not begin with a `Clear`.
     pub needs: Option<u64>,
+    /// The tag that the library gave to the job.
+    pub tag: u8,
 }
 
 impl Unit {
-    pub fn new(number: u64, commands: Vec<Command<Vec<u32>>>, needs: Option<u64>) -> Self {
+    pub fn new(number: u64, commands: Vec<Command<Vec<u32>>>, needs: Option<u64>, tag: u8) -> Self {
         Self {
             number,
             commands,
@@ -74,6 +76,7 @@ impl Unit {
             had_loss: false,
             end: 0,
             needs,
+            tag,
         }
     }
 

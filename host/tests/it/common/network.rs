@@ -8,9 +8,10 @@ use std::time::{Duration, Instant};
 use incircle::transports::parts::{UdpParams, UdpProtocol, UdpStatistics};
 use incircle::transports::{AnswerHead, Capabilities};
 use incircle::{Transport, TransportError};
-use incircle_model::serial::{Instantly, Passed, WordDevice};
+use incircle_model::serial::{core_identity, Instantly, Passed, WordDevice};
 use incircle_model::udp::UdpModel;
-use incircle_protocol::{signed_header, Command, UdpLinkConfig, FULL};
+use incircle_model::ChipModel;
+use incircle_protocol::{signed_header, Command, Config, Identity, UdpLinkConfig, FULL};
 use incircle_testkit::{Network, NetworkFaults};
 
 /// Clocks of the device in a microsecond, and in the whole time that passes at once while it works.
@@ -42,13 +43,43 @@ impl WordDevice for Paced {
     }
 }
 
+/// The device behind the link.
+pub enum Core {
+    Paced(Paced),
+    /// A chip of several engines, clock by clock.
+    Chip(Box<ChipModel>),
+}
+
+impl WordDevice for Core {
+    fn reset(&mut self) {
+        match self {
+            Self::Paced(core) => core.reset(),
+            Self::Chip(core) => core.reset(),
+        }
+    }
+
+    fn step(&mut self, command: Option<u32>, takes_answer: bool) -> Passed {
+        match self {
+            Self::Paced(core) => core.step(command, takes_answer),
+            Self::Chip(core) => core.step(command, takes_answer),
+        }
+    }
+
+    fn owes_answers(&self) -> bool {
+        match self {
+            Self::Paced(core) => core.owes_answers(),
+            Self::Chip(core) => core.owes_answers(),
+        }
+    }
+}
+
 /// Makes the datagrams of a stranger, one after another.
 pub type Stranger = Box<dyn FnMut() -> Vec<u8>>;
 
 /// A host, a network and a device.
 pub struct VirtualNetwork {
     pub protocol: UdpProtocol,
-    pub board: UdpModel<Paced>,
+    pub board: UdpModel<Core>,
     down: Network<SocketAddrV4>,
     up: Network<SocketAddrV4>,
     now: u64,
@@ -68,10 +99,21 @@ impl VirtualNetwork {
     /// Connects a host to a device; each round trip takes `trip` besides the time on the wire.
     pub fn new(faults: &NetworkFaults, trip: Duration) -> Self {
         let core = Instantly::of(FULL).expect("a named configuration");
+        let identity = core.identity();
+        Self::around(Core::Paced(Paced { core, every: 15, left: 0 }), identity, faults, trip)
+    }
+
+    /// Connects a host to a chip.
+    pub fn of_chip(config: Config, faults: &NetworkFaults, trip: Duration) -> Self {
+        let chip = ChipModel::new(config).expect("a possible chip");
+        Self::around(Core::Chip(Box::new(chip)), core_identity(config), faults, trip)
+    }
+
+    fn around(core: Core, identity: Identity, faults: &NetworkFaults, trip: Duration) -> Self {
         let latency = trip.as_nanos() as u64 / 2;
         Self {
             protocol: UdpProtocol::new(UdpParams::of_random(faults.seed)),
-            board: UdpModel::new(LINK, core.identity(), Paced { core, every: 15, left: 0 }),
+            board: UdpModel::new(LINK, identity, core),
             down: Network::new(faults, latency, 0),
             up: Network::new(faults, latency, 1),
             now: 0,
@@ -101,6 +143,17 @@ impl VirtualNetwork {
     pub fn restart_host(&mut self, random: u64) {
         self.protocol = UdpProtocol::new(UdpParams::of_random(random));
         self.host.set_port(self.host.port() + 1);
+    }
+
+    /// Lets time pass until the host has received so many datagrams since it began. Panics if they do not come.
+    pub fn run_to_datagram(&mut self, datagrams: u64) {
+        for _ in 0..1_000_000 {
+            if self.protocol.statistics().received >= datagrams {
+                return;
+            }
+            self.step();
+        }
+        panic!("the host got only {} datagrams", self.protocol.statistics().received);
     }
 
     /// Lets this time pass without the host.
@@ -205,8 +258,19 @@ impl Transport for VirtualTransport {
         Ok(came)
     }
 
+    fn receive_next(
+        &mut self,
+        words_of: &mut dyn FnMut(AnswerHead) -> Option<usize>,
+        payload: &mut Vec<u32>,
+        _deadline: Instant,
+    ) -> Result<AnswerHead, TransportError> {
+        let (came, words) = self.network.borrow_mut().drive(self.limit, UdpProtocol::take_answer)?;
+        *payload = if words_of(came) == Some(words.len()) { words } else { Vec::new() };
+        Ok(came)
+    }
+
     fn capabilities(&self) -> Capabilities {
-        Capabilities { takes_ahead: true, jobs_ahead: 8, ..Capabilities::default() }
+        self.network.borrow().protocol.capabilities()
     }
 }
 

@@ -2,7 +2,7 @@
 
 use incircle_protocol::{Config, Identity, CORE_COORD_BITS, CORE_VERSION, MAGIC, PROTOCOL_VERSION};
 
-use crate::{ClockModel, CommandModel, Inputs};
+use crate::{ChipModel, ClockModel, CommandModel, Inputs, Outputs};
 
 /// A device with a stream of command words and a stream of answer words, driven clock by clock.
 pub trait WordDevice {
@@ -12,6 +12,12 @@ pub trait WordDevice {
     /// Simulates one clock. The device is offered a command word, or none, and may give answer words if `takes_answer`.
     /// On both sides, an offered word that was not taken stays offered in the next clock.
     fn step(&mut self, command: Option<u32>, takes_answer: bool) -> Passed;
+
+    /// Whether an engine of several is at work although an answer has just ended. On a device of one engine the words
+    /// alone tell whether it is at work.
+    fn owes_answers(&self) -> bool {
+        false
+    }
 }
 
 /// The words that passed in a clock.
@@ -89,22 +95,40 @@ impl WordDevice for Instantly {
     }
 }
 
+/// Simulates one clock of a model by clock in which a command word, or none, is offered.
+fn clocked(outputs: Outputs, command: Option<u32>, takes_answer: bool, clock: impl FnOnce(Inputs)) -> Passed {
+    clock(Inputs {
+        reset: false,
+        command_valid: command.is_some(),
+        command_data: command.unwrap_or(0),
+        response_ready: takes_answer,
+    });
+    let mut words = outputs.answer_words();
+    let mut word = || words.next().filter(|_| takes_answer);
+    Passed { is_taken: command.is_some() && outputs.command_ready, answer: [word(), word()] }
+}
+
 impl WordDevice for ClockModel {
     fn reset(&mut self) {
         self.clock(Inputs { reset: true, ..Inputs::default() });
     }
 
     fn step(&mut self, command: Option<u32>, takes_answer: bool) -> Passed {
-        let outputs = self.outputs();
-        self.clock(Inputs {
-            reset: false,
-            command_valid: command.is_some(),
-            command_data: command.unwrap_or(0),
-            response_ready: takes_answer,
-        });
-        let mut words = outputs.answer_words();
-        let mut word = || words.next().filter(|_| takes_answer);
-        Passed { is_taken: command.is_some() && outputs.command_ready, answer: [word(), word()] }
+        clocked(self.outputs(), command, takes_answer, |inputs| self.clock(inputs))
+    }
+}
+
+impl WordDevice for ChipModel {
+    fn reset(&mut self) {
+        self.clock(Inputs { reset: true, ..Inputs::default() });
+    }
+
+    fn step(&mut self, command: Option<u32>, takes_answer: bool) -> Passed {
+        clocked(self.outputs(), command, takes_answer, |inputs| self.clock(inputs))
+    }
+
+    fn owes_answers(&self) -> bool {
+        self.is_at_work()
     }
 }
 

@@ -60,7 +60,7 @@ impl Flow {
     /// in which there was something to do; in all others nothing changes until a frame comes or goes.
     pub fn pass(&mut self, core: &mut impl WordDevice, clocks: u64) -> u64 {
         for clock in 0..clocks {
-            if self.is_stalled() {
+            if self.is_stalled(core) {
                 return clock;
             }
             self.quiet += 1;
@@ -85,8 +85,9 @@ impl Flow {
     }
 
     /// Whether the core has nothing to do, or cannot go on before an answer leaves.
-    pub fn is_stalled(&self) -> bool {
-        self.fifo.is_empty() && (!self.is_busy || self.quiet > self.patience) || !self.answers.has_room()
+    pub fn is_stalled(&self, core: &impl WordDevice) -> bool {
+        let is_at_work = self.is_busy || core.owes_answers();
+        self.fifo.is_empty() && (!is_at_work || self.quiet > self.patience) || !self.answers.has_room()
     }
 
     /// Number of bytes in the FIFO.

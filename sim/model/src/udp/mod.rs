@@ -86,7 +86,7 @@ impl<D: WordDevice> UdpModel<D> {
 
     /// Whether the core has something to do and can do it.
     pub fn is_at_work(&self) -> bool {
-        self.session.as_ref().is_some_and(|session| !session.flow.is_stalled())
+        self.session.as_ref().is_some_and(|session| !session.flow.is_stalled(&self.core))
     }
 
     /// Lets this many clocks pass: the core works, and the silence grows longer. Returns the number of clocks in which

@@ -58,11 +58,11 @@ impl UdpProtocol {
         self.resent_before += self.sender.resent();
         let identity = self.greeting.map(|greeting| greeting.identity);
         // A session opens only after a checked greeting, so the default is never used.
-        let layout = identity.map_or(Layout { point_words: 1, record_words: 3 }, |identity| {
-            Layout::of(identity.coord_bits, identity.capacity)
+        let (layout, engines) = identity.map_or((Layout { point_words: 1, record_words: 3 }, 1), |identity| {
+            (Layout::of(identity.coord_bits, identity.capacity), identity.engines)
         });
         self.sender = Sender::default();
-        self.reader.begin_session(layout);
+        self.reader.begin_session(layout, engines);
         (self.polled, self.stage) = (None, Stage::Open);
         (self.last_heard, self.last_said) = (now, now);
         self.trips.shorten();
@@ -89,7 +89,7 @@ impl UdpProtocol {
             }
             _ => {}
         }
-        self.reader.count(now, grace, true);
+        self.reader.count(now, grace, true)?;
         if is_current {
             match message.header.kind {
                 DeviceDatagram::Nak => self.go_back_once(now),

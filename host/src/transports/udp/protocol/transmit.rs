@@ -117,8 +117,8 @@ impl UdpProtocol {
             self.fault = Some(UdpFault::Lost { milliseconds: milliseconds(silent_for) });
             return;
         }
-        self.reader.count(now, self.grace(), false);
-        if let Err(fault) = self.reader.ask_more(&mut self.sender) {
+        let counted = self.reader.count(now, self.grace(), false);
+        if let Err(fault) = counted.and_then(|()| self.reader.ask_more(&mut self.sender)) {
             self.fault = Some(fault);
             return;
         }

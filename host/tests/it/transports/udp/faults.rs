@@ -3,14 +3,14 @@
 use std::cell::RefCell;
 use std::net::{Ipv4Addr, SocketAddrV4};
 use std::rc::Rc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crate::common::network::{VirtualNetwork, VirtualTransport};
 use crate::common::{by_cpu, Random};
 use incircle::transports::parts::{UdpParams, UdpProtocol};
 use incircle::udp::UdpFault;
-use incircle::{Device, Error, Options, Session};
-use incircle_protocol::Command;
+use incircle::{Device, Error, Options, Session, Transport};
+use incircle_protocol::{Clear, Command, Layout, RecordRange};
 use incircle_testkit::NetworkFaults;
 
 const TRIP: Duration = Duration::from_micros(200);
@@ -172,6 +172,36 @@ fn a_host_that_vanished_is_forgotten_and_the_next_one_served() {
     assert_eq!(solution.mesh, by_cpu(&points).mesh);
     assert!(network.borrow().now() - begun < Duration::from_millis(2500));
     std::mem::forget(first);
+}
+
+/// The next host waits for the silence of the first one, whatever the device was doing for that one: taking points,
+/// inserting them, or giving answers.
+#[test]
+fn a_host_that_vanishes_in_mid_job_is_forgotten_and_the_next_one_served() {
+    let (mut random, layout) = (Random(12), Layout { point_words: 1, record_words: 3 });
+    let silence = Duration::from_secs(2);
+    // A greeting and an `Opened` come before the first receipt; of answers there are some 26 datagrams.
+    for datagrams in [3, 4, 5, 8, 20] {
+        let (network, _) = connect("", 12);
+        let mut first = VirtualTransport { network: Rc::clone(&network), limit: LIMIT };
+        let points = random.points(3000, 1 << 16);
+        let words: Vec<u32> = points.iter().map(|point| point.x | point.y << 16).collect();
+        let range = RecordRange { first: 0, count: 5000 };
+        let insert = Command::insert(&words[..], layout);
+        let commands = [Command::Clear(Clear::one_mesh(0)), insert, Command::Triangles(range)];
+        first.submit(&commands, Instant::now()).expect("no fault yet");
+        network.borrow_mut().run_to_datagram(datagrams);
+        let old = network.borrow().board.session();
+        assert!(old.is_some() && network.borrow_mut().protocol.take_answer().is_none(), "in mid-job");
+        network.borrow_mut().restart_host(78);
+        let begun = network.borrow().now();
+        let points = random.points(400, 1 << 12);
+        let solution = device(&network).session().expect("a session").triangulate(&points).expect("a mesh");
+        assert_eq!(solution.mesh, by_cpu(&points).mesh);
+        let waited = network.borrow().now() - begun;
+        assert!(waited > silence * 9 / 10 && waited < silence + Duration::from_millis(500), "{waited:?}");
+        std::mem::forget(first);
+    }
 }
 
 #[test]
