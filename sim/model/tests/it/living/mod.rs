@@ -1,0 +1,3 @@
+//! The living engine, clock by clock.
+
+mod scripts;
