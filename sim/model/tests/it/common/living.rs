@@ -41,7 +41,7 @@ impl Pair {
         };
         let model = CommandModel::new(16, config.points, config.ring).expect("a model that can be built");
         let layout = Layout::of(16, config.points);
-        Self { bench, model: model.with_runs(), layout, points: vec![None; config.points as usize] }
+        Self { bench, model: model.with_contexts(config.contexts).with_runs(), layout, points: vec![None; config.points as usize] }
     }
 
     /// The answers of both to a command, the core's first.
@@ -196,7 +196,17 @@ fn meaning(part: &[u32]) -> (u32, Vec<(u32, u64)>) {
         let lowest = (0..3).min_by_key(|&k| named[k].0).unwrap_or(0);
         named.rotate_left(lowest);
     } else if !is_ordered {
+        // Of two triangles that hold a place on an edge either may be weighed: the weights have the same ratio.
+        let divisor = named.iter().fold(0, |divisor, &(_, weight)| gcd(divisor, weight)).max(1);
+        named.iter_mut().for_each(|(_, weight)| *weight /= divisor);
         named.sort_unstable();
     }
     (part[0], named)
+}
+
+fn gcd(a: u64, b: u64) -> u64 {
+    match b {
+        0 => a,
+        _ => gcd(b, a % b),
+    }
 }

@@ -77,6 +77,15 @@ impl Script {
             RunKind::Move => self.moves(pair),
             _ => (0..1 + self.random.below(40)).map(|_| self.any_place()).collect(),
         };
+        let mut items = items;
+        if self.ring < 32 && self.contexts > 1 {
+            // The number of neighbours, which the list may refuse, depends on the order of the changes.
+            match kind {
+                RunKind::Delete => items.truncate(1),
+                RunKind::Move => items.truncate(2),
+                _ => {}
+            }
+        }
         let changes = kind.is_change();
         pair.run(kind, &items, self.stalls, &mut self.random)?;
         if changes {
