@@ -180,7 +180,10 @@ impl LivingEngine {
         if let Some(context) = self.sh.release.clock() {
             self.note_release(context);
         }
-        self.begin_solo(memory);
+        // The flips begin when the last write has reached the memory.
+        if write.is_none() && !signals.port.valid {
+            self.begin_solo(memory);
+        }
         if let Some(word) = signals.word {
             self.port.take(word, &mut self.contexts, &mut self.sh, &mut self.reader);
         }

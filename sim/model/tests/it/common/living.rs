@@ -154,7 +154,7 @@ impl Pair {
             (0..records as usize).map(at).map(turned).collect::<BTreeSet<_>>()
         });
         if triangles[0] != triangles[1] || triangles[0].len() != records as usize {
-            return Err(Fault::Wrong("another mesh".into()));
+            return Err(Fault::Wrong(format!("another mesh, {:?} and not {:?}", triangles[0].difference(&triangles[1]).collect::<Vec<_>>(), triangles[1].difference(&triangles[0]).collect::<Vec<_>>())));
         }
         let is_locked = |id| self.bench.core.lock_holder(id).is_some();
         match (0..2 * self.bench.config.points).find(|&id| is_locked(id)) {

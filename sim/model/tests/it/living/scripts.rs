@@ -59,7 +59,8 @@ impl Script {
             (b.0 - a.0) * (c.1 - a.1) == (b.1 - a.1) * (c.0 - a.0)
         };
         while is_flat(&first) {
-            shuffle(&mut first, &mut self.random);
+            shuffle(&mut self.places, &mut self.random);
+            first = self.places[..count].to_vec();
         }
         pair.load(&first, self.contexts)?;
         pair.check()?;
@@ -86,6 +87,7 @@ impl Script {
                 _ => {}
             }
         }
+        if std::env::var("SEED").is_ok() { let words: Vec<String> = items.iter().map(|w| format!("{},{}", w & 0xffff, w >> 16)).collect(); eprintln!("{kind:?} {words:?} points {:?}", pair.points.iter().enumerate().filter_map(|(v,p)| p.map(|p| (v, p & 0xffff, p >> 16))).collect::<Vec<_>>()); }
         let changes = kind.is_change();
         pair.run(kind, &items, self.stalls, &mut self.random)?;
         if changes {
@@ -222,4 +224,14 @@ fn run(seeds: std::ops::Range<u32>) {
             panic!("script {seed}: {fault:?}");
         }
     }
+}
+
+#[test]
+#[ignore = "debug"]
+fn debug_one() {
+    let seed = std::env::var("SEED").unwrap().parse().unwrap();
+    let mut script = Script::new(seed);
+    eprintln!("contexts {} points {} ring {} places {}", script.contexts, script.points, script.ring, script.places.len());
+    let r = script.run(None);
+    eprintln!("{:?}", r.err());
 }
