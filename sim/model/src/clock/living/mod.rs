@@ -102,6 +102,11 @@ impl LivingEngine {
         self.port.is_active()
     }
 
+    /// Whether nothing is in progress. Without its fence, an engine may still write when a command has ended.
+    pub(super) fn rests(&self) -> bool {
+        !self.is_active() && self.sh.defect.is_none()
+    }
+
     pub(super) fn is_ready(&self) -> bool {
         self.port.is_ready(&self.contexts)
     }
@@ -149,7 +154,10 @@ impl LivingEngine {
             for (place, hint) in hints.into_iter().enumerate() {
                 self.contexts[(place + 1) % contexts as usize].hint = hint;
             }
+            // The first stretch begins where it began in the run before.
+            self.contexts[0].hint = self.sh.first_hint.unwrap_or(self.contexts[0].hint);
         }
+        self.sh.first_hint = None;
         for context in &mut self.contexts {
             context.near = [None; 2];
             context.sight.by_number = self.sh.defect == Some(LivingDefect::NearestByNumber);

@@ -10,7 +10,7 @@ use crate::predicate::Point;
 use incircle_protocol::{answer_header, signed_header, InsertReport, Opcode, RunKind, Status};
 
 /// Number of items that wait for a context, at most.
-pub(super) const DEPTH: usize = 16;
+pub(super) const DEPTH: usize = 32;
 
 /// The meaning of the next word, or the event that is awaited.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -34,6 +34,8 @@ pub(super) struct Shared {
     pub arrived: u32,
     pub duplicates: u32,
     pub refused: u32,
+    /// The record at which the first context was when it ended its first item.
+    pub first_hint: Option<u32>,
     /// Number of items that have begun and have no part yet.
     pub begun: u32,
     pub answers: Answers,
@@ -60,6 +62,7 @@ impl Shared {
             arrived: 0,
             duplicates: 0,
             refused: 0,
+            first_hint: None,
             begun: 0,
             answers: Answers::default(),
             commit: Committer::default(),

@@ -141,6 +141,9 @@ impl Work<'_> {
     fn rest(&mut self) {
         self.return_priority();
         self.cx.next = Next::Item;
+        if self.x == 0 && self.sh.first_hint.is_none() {
+            self.sh.first_hint = Some(self.cx.hint);
+        }
         if self.asked.is_empty() && !self.cx.items.is_empty() && self.sh.ready.is_empty() {
             self.begin();
         } else {

@@ -4,7 +4,7 @@ use super::bench::{Answer, Bench, Hang, Stalls};
 use super::Random;
 use incircle_model::{ClockModel, CommandModel, LivingDefect};
 use incircle_protocol::{
-    part_item, part_outcome, Clear, Command, Config, InsertReport, Layout, Opcode, Outcome, RecordRange, RunKind,
+    part_item, part_outcome, Clear, Command, Config, InsertReport, Layout, Outcome, RecordRange, RunKind,
     Status,
 };
 use std::collections::BTreeSet;
@@ -154,25 +154,13 @@ impl Pair {
             (0..records as usize).map(at).map(turned).collect::<BTreeSet<_>>()
         });
         if triangles[0] != triangles[1] || triangles[0].len() != records as usize {
-            return Err(Fault::Wrong(format!("another mesh, {:?} and not {:?}", triangles[0].difference(&triangles[1]).collect::<Vec<_>>(), triangles[1].difference(&triangles[0]).collect::<Vec<_>>())));
+            return Err(Fault::Wrong("another mesh".into()));
         }
         let is_locked = |id| self.bench.core.lock_holder(id).is_some();
         match (0..2 * self.bench.config.points).find(|&id| is_locked(id)) {
             Some(id) => Err(Fault::Wrong(format!("the lock of record {id} is left"))),
             None => Ok(()),
         }
-    }
-
-    /// The answer to a command that is no run, from both.
-    ///
-    /// # Errors
-    /// The core hangs, or answers with another status or length.
-    pub fn answers(&mut self, opcode: Opcode) -> Result<[Answer; 2], Fault> {
-        let command = match opcode {
-            Opcode::Hello => Command::Hello,
-            _ => Command::Counters,
-        };
-        self.ask(&command, Stalls::default(), &mut Random(0))
     }
 }
 

@@ -44,6 +44,11 @@ impl Script {
         Self { random, contexts, points, ring, places, stalls }
     }
 
+    /// A script in 16 contexts.
+    pub fn crowded(seed: u32) -> Self {
+        Self { contexts: 16, ..Self::new(seed) }
+    }
+
     /// Runs the script on a core with or without one of its rules.
     ///
     /// # Errors
@@ -87,7 +92,6 @@ impl Script {
                 _ => {}
             }
         }
-        if std::env::var("SEED").is_ok() { let words: Vec<String> = items.iter().map(|w| format!("{},{}", w & 0xffff, w >> 16)).collect(); eprintln!("{kind:?} {words:?} points {:?}", pair.points.iter().enumerate().filter_map(|(v,p)| p.map(|p| (v, p & 0xffff, p >> 16))).collect::<Vec<_>>()); }
         let changes = kind.is_change();
         pair.run(kind, &items, self.stalls, &mut self.random)?;
         if changes {
@@ -224,14 +228,4 @@ fn run(seeds: std::ops::Range<u32>) {
             panic!("script {seed}: {fault:?}");
         }
     }
-}
-
-#[test]
-#[ignore = "debug"]
-fn debug_one() {
-    let seed = std::env::var("SEED").unwrap().parse().unwrap();
-    let mut script = Script::new(seed);
-    eprintln!("contexts {} points {} ring {} places {}", script.contexts, script.points, script.ring, script.places.len());
-    let r = script.run(None);
-    eprintln!("{:?}", r.err());
 }
