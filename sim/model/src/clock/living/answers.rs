@@ -4,7 +4,7 @@ use crate::clock::beat::Beat;
 use std::collections::VecDeque;
 
 /// Number of words for which the queue has room.
-const ROOM: usize = 160;
+const ROOM: usize = 512;
 
 #[derive(Clone, Debug, Default)]
 pub(super) struct Answers {
