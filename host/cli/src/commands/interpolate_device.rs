@@ -13,7 +13,8 @@ use crate::lattice::{Laid, Numbers};
 /// The back end of the arguments, if it is a device. A device gives neither other methods, nor contours, nor values
 /// outside the hull.
 pub fn choose(arguments: &InterpolateArguments) -> Result<Option<Choice>, Failure> {
-    let Some(address) = arguments.backend.as_ref().filter(|address| !matches!(address, DeviceAddress::Cpu { .. })) else {
+    let Some(address) = arguments.backend.as_ref().filter(|address| !matches!(address, DeviceAddress::Cpu { .. }))
+    else {
         return Ok(None);
     };
     let is_linear = arguments.method == MethodName::Linear && arguments.contours.is_none();
