@@ -8,7 +8,7 @@ use super::error::Error;
 use crate::cpu::Connectivity;
 use crate::lattice::{Lattice, Numbers};
 use crate::mesh::Mesh;
-use crate::plan::Plan;
+use crate::plan::{Mark, Plan};
 use crate::plane_point::PlanePoint;
 use crate::site::Site;
 
@@ -61,7 +61,13 @@ pub(super) fn in_numbers<P: PlanePoint, T, E: Restored>(
         &joined[..]
     };
     if let Some(index) = places.iter().position(|place| !place.site().is_finite()) {
-        return Err(Error::NotFinite { index }.into());
+        let [first_hole, first_region] = [points.len(), points.len() + plan.holes.len()];
+        let error = match index {
+            index if index >= first_region => Error::MarkNotFinite { kind: Mark::Region, number: index - first_region },
+            index if index >= first_hole => Error::MarkNotFinite { kind: Mark::Hole, number: index - first_hole },
+            index => Error::NotFinite { index },
+        };
+        return Err(error.into());
     }
     let count = points.len() as u32;
     let holes: Vec<u32> = (count..).take(plan.holes.len()).collect();

@@ -56,7 +56,8 @@ impl Restored for TriangulateError {
 /// together in memory. Use `constrain` if there is a mesh already, for example that of a device.
 ///
 /// `threads` and `watch` are those of `cpu::triangulate`; one thread forces the constraints. O(n) on even sets, then for
-/// each constraint the edges that it crosses, and the flips around them.
+/// each constraint the edges that it crosses, and the flips around them. Where the answer is an error, the work begins
+/// anew by the slower way, which finds out what is wrong; so the stages that `watch` hears of come twice.
 ///
 /// ```
 /// use core::num::NonZeroUsize;
