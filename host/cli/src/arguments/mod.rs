@@ -27,7 +27,7 @@ use crate::values::{
 
 pub use backend::{BackendArguments, ConfigName};
 pub use generate::GenerateArguments;
-pub use interpolate::{InterpolateArguments, ValueFormat};
+pub use interpolate::{InterpolateArguments, MethodName, OutsideName, ValueFormat};
 pub use job::JobArguments;
 pub use lloyd::LloydArguments;
 pub use plan::{Crossings, PlanArguments};

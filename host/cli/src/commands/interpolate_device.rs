@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use incircle::interpolate::Error::NoTriangle;
 use incircle::{linear_values, DeviceAddress, LivingMesh, Options, Point};
 
 use crate::arguments::{BackendArguments, InterpolateArguments, MethodName, OutsideName};
@@ -40,10 +41,25 @@ pub fn values(choice: &Choice, laid: &Laid<'_>, values: &[f64]) -> Result<Vec<f6
         return Err(Failure::input(format!("the points and places lie on no lattice of up to 32 bits: {remedy}")));
     };
     let (points, places) = grid.split_at(values.len());
+    if is_on_line(points) {
+        return Err(Failure::input(NoTriangle.to_string()));
+    }
     let mut backend = backend::open_with_room(choice, Some(points.len()), None, None)?;
     let found = interrupt::working(|| answer(&mut backend.device, points, values, places));
     interrupt::check()?;
     found.map_err(|error| failure_of(&error))
+}
+
+/// Whether all points lie on one line, or are fewer than three: then there is no surface, on a device as elsewhere.
+fn is_on_line(points: &[Point]) -> bool {
+    let Some(&first) = points.first() else { return true };
+    let Some(&other) = points.iter().find(|&&point| point != first) else { return true };
+    let vector = |to: Point| [(to.x, first.x), (to.y, first.y)].map(|(to, from)| i128::from(to) - i128::from(from));
+    let [u, v] = vector(other);
+    points.iter().all(|&point| {
+        let [x, y] = vector(point);
+        u * y == v * x
+    })
 }
 
 fn answer(

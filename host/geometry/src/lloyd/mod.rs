@@ -99,8 +99,7 @@ pub struct Relaxed {
 /// Relaxes points inside a clip, on at most `threads` threads. Points at one place move together. A point whose cell has
 /// no area in the clip stays where it is.
 ///
-/// A step makes the mesh of the points and clips all cells: at a million points it takes two to three times as long as
-/// the mesh alone.
+/// A step makes the mesh of the points and takes O(n) more; only cells near the border of the clip are cut.
 ///
 /// # Errors
 /// A coordinate has more than 31 bits, or there are too many points.

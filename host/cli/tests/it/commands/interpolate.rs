@@ -208,11 +208,13 @@ fn a_model_gives_the_bytes_of_the_processor() {
     scratch.run("interpolate p.csv --grid 0.5 -o one.csv --backend cpu --quiet").ok();
     assert_eq!(scratch.read("one.csv"), scratch.read("cpu.csv"));
     scratch.write("wide.csv", "x,y,z\n0,0,1\n1,4000000000,2\n7,9,3\n");
+    scratch.write("line.csv", "x,y,z\n0,0,1\n1,1,2\n7,7,3\n");
     let files = scratch.files();
     for (arguments, code, part) in [
         ("p.csv --grid 1 --method sibson --backend model", 2, "a device gives linear values at places"),
         ("p.csv --grid 1 --outside nearest --backend model", 2, "leave out --backend"),
         ("wide.csv --at p.csv --backend model", 3, "give --backend cpu"),
+        ("line.csv --at p.csv --backend model", 3, "there is no triangle between the points"),
         ("p.csv --at p.csv --backend clock", 2, "cannot keep a mesh that lives: use the back end model"),
     ] {
         scratch.run(&format!("interpolate {arguments} -o x.csv")).fails(code, &[part]);
