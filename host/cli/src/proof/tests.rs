@@ -119,7 +119,7 @@ fn compare(rounds: u64, most: u64, seed: u64, budget: impl Fn(&mut SplitMix64) -
     let (mut random, mut kinds) = (SplitMix64::new(seed), std::collections::BTreeSet::new());
     for round in 0..rounds {
         let points = set(round, most, &mut random);
-        let mut triangles = incircle::cpu::triangulate(&points).expect("few points").triangles;
+        let mut triangles = incircle::triangulate(&points).expect("few points").triangles;
         spoil(&mut triangles, points.len() as u32, &mut random);
         let right = incircle::verify(&points, &triangles);
         let found = folder.prove(&points, &triangles, &budget(&mut random));
@@ -158,4 +158,29 @@ fn rows_beyond_the_memory_go_through_files() {
         Budget::narrow(1 << 20, strip, strip * 9 / 4)
     });
     assert!(kinds >= 5, "only {kinds} kinds of results");
+}
+
+#[test]
+fn files_that_change_meanwhile_are_refused() {
+    let folder = Folder::new("change");
+    let [points, mesh] = ["points.csv", "mesh.csv"].map(|name| folder.0.join(name));
+    fs::write(&points, "0,0\n9,0\n0,9\n").expect("the folder can be written");
+    fs::write(&mesh, "0,1,2\n").expect("the folder can be written");
+    let (paths, read) = ([points.clone()], ReadArguments::of_whole_file());
+    let survey = Survey::of(&paths, &read, true).expect("three points");
+    let file = MeshFile::new(&mesh, MeshFormat::Csv, 0);
+    assert_eq!(file.count(), Ok(1));
+    for (text, changed) in [("0,0\n9,0\n0,8\n", true), ("0,0\n9,0\n", true), ("0.0,0\n9,0\n0,9\n", false)] {
+        fs::write(&points, text).expect("the folder can be written");
+        let sites = Sites::of(&survey, (&paths, &read, true), &folder.0, &Budget::narrow(1 << 20, 9, 9));
+        let refused = sites.err().map(|failure| failure.message);
+        assert_eq!(refused.is_some_and(|message| message.contains("has changed while it was read")), changed, "{text}");
+    }
+    for text in ["0,1,2\n0,1,2\n", "0,2,1\n"] {
+        fs::write(&mesh, text).expect("the folder can be written");
+        let message = file.count().expect_err("other triangles").message;
+        assert!(message.contains("has changed while it was read"), "{message}");
+        let found = file.places(&[[5, 6, 7]]).map_err(|failure| failure.message);
+        assert!(found.is_err_and(|message| message.contains("has changed")), "a triangle that is not there");
+    }
 }

@@ -138,6 +138,8 @@ csv\t'Rows `a,b,c`'
 npy\t'An array of NumPy, of shape (m, 3) and type u4'"
 complete -c incircle -n "__fish_incircle_using_subcommand verify" -l coord-bits -d 'Bits of a coordinate of the grid of --quantize, 8 to 31 (default: 31, or 16 for a core)' -r
 complete -c incircle -n "__fish_incircle_using_subcommand verify" -l quantize -d 'Round the points onto a grid: \'fit\', \'SCALE\' or \'SCALE,X0,Y0\'' -r
+complete -c incircle -n "__fish_incircle_using_subcommand verify" -l memory -d 'Memory that the check may take, from 32M on, such as 300M or 2G: the rest lies in files' -r
+complete -c incircle -n "__fish_incircle_using_subcommand verify" -l scratch -d 'Folder for the files of a check with --memory (default: the folder of the mesh)' -r -F
 complete -c incircle -n "__fish_incircle_using_subcommand verify" -l script -d 'POINTS is a script of \'replay\': check the mesh of the points that live at its end'
 complete -c incircle -n "__fish_incircle_using_subcommand verify" -l unordered -d 'Take the triangles in any order, as \'triangulate --unordered\' writes them'
 complete -c incircle -n "__fish_incircle_using_subcommand verify" -l json -d 'Print the result as one JSON object on standard output'
