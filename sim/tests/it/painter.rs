@@ -65,7 +65,7 @@ fn area(a: [i64; 2], b: [i64; 2], c: [i64; 2]) -> i64 {
 /// as fine, where each pixel is moved a little to the right and less upwards, so that none lies on an edge.
 fn values(points: &[Moving]) -> Vec<i64> {
     const FINE: i64 = 1_000_000;
-    let set: Vec<Point> = points.iter().map(|point| Point::from((point.at[0] as i32, point.at[1] as i32))).collect();
+    let set: Vec<Point> = points.iter().map(|point| Point::from(point.at.map(|place| place as u32))).collect();
     let mesh = incircle::triangulate(&set).unwrap();
     let mut values = vec![None; (WIDTH * HEIGHT) as usize];
     for triangle in &mesh.triangles {
