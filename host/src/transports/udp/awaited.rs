@@ -14,7 +14,7 @@ use incircle_protocol::{answer_engine, answer_tag};
 
 use super::fault::UdpFault;
 
-/// Number of later datagrams after which an answer that they overtook counts as lost.
+/// Number of later datagrams after which an answer that they overtook counts as lost, on a device of one engine.
 const OVERTAKEN: u32 = 3;
 
 /// A question whose answer is awaited.
@@ -161,10 +161,12 @@ impl Awaited {
     /// Counts a datagram of the session, or only looks at the time, and finds the answers that are lost.
     pub fn count(&mut self, now: Duration, grace: Duration, is_datagram: bool) {
         let passed = usize::try_from(self.horizon.saturating_sub(self.first)).unwrap_or(usize::MAX);
+        // With several engines a loss costs more than to wait for a late answer, so there only the time counts.
+        let overtaken = if self.has_tags() { u32::MAX } else { OVERTAKEN };
         for slot in self.slots.iter_mut().take(passed).filter(|slot| slot.words.is_none()) {
             let passed_at = *slot.passed_at.get_or_insert(now);
             slot.passed_by += u32::from(is_datagram);
-            slot.is_lost |= slot.passed_by > OVERTAKEN || now >= passed_at + grace;
+            slot.is_lost |= slot.passed_by > overtaken || now >= passed_at + grace;
         }
     }
 
@@ -326,7 +328,9 @@ mod tests {
         assert!(matches!(fates(&mut awaited)[..], [Outcome::Came(Asked { unit: 3, .. }, _)]));
         // What is lost now can only be of the second job.
         awaited.passed(5, 8).expect("so many were asked");
-        (0..=OVERTAKEN).for_each(|_| awaited.count(GRACE, GRACE, true));
+        (0..9).for_each(|_| awaited.count(GRACE, GRACE, true));
+        assert_eq!(fates(&mut awaited), [], "the answer may be late");
+        awaited.count(2 * GRACE, GRACE, false);
         assert_eq!(fates(&mut awaited), [Outcome::Lost(asked(2, 1))]);
         assert!(awaited.is_settled() && awaited.words() == 0);
     }
