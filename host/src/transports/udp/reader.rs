@@ -138,8 +138,8 @@ impl Reader {
         self.goes_ahead = self.lossy < if self.goes_ahead { LOSSY } else { CLEAN };
     }
 
-    /// Sends the questions that may be sent. Once the window is full, half of it must come before more is asked, so that
-    /// a datagram carries many questions: each datagram costs both sides a receipt.
+    /// Sends the questions that may be sent. Once the window is full, half of it must come before more is asked, so
+    /// that a datagram carries many questions: each datagram costs both sides a receipt.
     pub fn ask_more(&mut self, sender: &mut Sender) -> Result<(), UdpFault> {
         self.is_filled &= self.awaited.words() > self.window / 2;
         if self.is_filled {
