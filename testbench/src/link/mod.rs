@@ -16,7 +16,7 @@ pub use goodput::{document, measure, Goodput, Way, RATES, TARGET};
 pub use jobs::{is_one_mesh, random_points};
 pub use served::Served;
 pub use soak::{soak, Soak, SoakReport};
-pub use throughput::{throughput_document, Load};
+pub use throughput::{throughput_document, throughput_rows, Load};
 pub use virtual_ether::{EtherTransport, VirtualEther};
 pub use virtual_line::{VirtualLine, VirtualTransport};
 

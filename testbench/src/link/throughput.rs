@@ -101,6 +101,21 @@ impl Load {
     }
 }
 
+/// Measures the rows of the core of this name, and tells each to `say`.
+///
+/// # Errors
+/// The errors of [`Load::measure`], and a name that no row has.
+pub fn throughput_rows(core: &str, say: &dyn Fn(&str)) -> Result<(), Box<dyn Error>> {
+    let mut loads = LOADS.into_iter().filter(|load| load.config.name == core).peekable();
+    if loads.peek().is_none() {
+        return Err(format!("the page has no row of a core '{core}'").into());
+    }
+    loads.try_for_each(|load| {
+        say(load.row()?.trim_end());
+        Ok(())
+    })
+}
+
 /// Returns the text of `throughput-udp.md`, and tells `say` each row as soon as it is known.
 ///
 /// # Errors

@@ -4,8 +4,8 @@
 //! questions. A device of one engine answers all jobs in one order, so there the number alone tells the question. A
 //! device of several engines answers jobs side by side, so there the tag tells the job.
 //!
-//! The tag of a lost answer is not known. A job goes to an engine that owes no answer, so the lost answer belongs to one
-//! of the first unfinished jobs, as many as there are engines. If there is more than one, all of them begin again.
+//! The tag of a lost answer is not known. A job goes to an engine that owes no answer, so the lost answer belongs to
+//! one of the first unfinished jobs, as many as there are engines. If there is more than one, all of them begin again.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::time::Duration;
@@ -14,7 +14,7 @@ use incircle_protocol::{answer_engine, answer_tag};
 
 use super::fault::UdpFault;
 
-/// Number of later datagrams after which an answer that they overtook counts as lost.
+/// Number of later datagrams after which an answer that they overtook counts as lost, on a device of one engine.
 const OVERTAKEN: u32 = 3;
 
 /// A question whose answer is awaited.
@@ -41,8 +41,8 @@ pub(super) enum Outcome {
 /// The place of an answer, by its number.
 #[derive(Debug)]
 struct Slot {
-    /// Bytes of the session up to the end of the question that was asked as the so-manieth. The device cannot have given
-    /// so many answers before it took these.
+    /// Bytes of the session up to the end of the question with this number. The device cannot have given an answer with
+    /// this number before it took these.
     end: u64,
     words: Option<Vec<u32>>,
     /// Time at which a later answer was first seen, or heard of, and number of datagrams since.
@@ -125,8 +125,8 @@ impl Awaited {
         self.words += asked.words;
     }
 
-    /// Takes the words of the answer with this number. Returns true if it was awaited. `taken_bytes` are the bytes of the
-    /// session that the device has taken.
+    /// Takes the words of the answer with this number. Returns true if it was awaited. `taken_bytes` are the bytes of
+    /// the session that the device has taken.
     ///
     /// # Errors
     /// There cannot be an answer with this number.
@@ -161,10 +161,12 @@ impl Awaited {
     /// Counts a datagram of the session, or only looks at the time, and finds the answers that are lost.
     pub fn count(&mut self, now: Duration, grace: Duration, is_datagram: bool) {
         let passed = usize::try_from(self.horizon.saturating_sub(self.first)).unwrap_or(usize::MAX);
+        // With several engines a loss costs more than to wait for a late answer, so there only the time counts.
+        let overtaken = if self.has_tags() { u32::MAX } else { OVERTAKEN };
         for slot in self.slots.iter_mut().take(passed).filter(|slot| slot.words.is_none()) {
             let passed_at = *slot.passed_at.get_or_insert(now);
             slot.passed_by += u32::from(is_datagram);
-            slot.is_lost |= slot.passed_by > OVERTAKEN || now >= passed_at + grace;
+            slot.is_lost |= slot.passed_by > overtaken || now >= passed_at + grace;
         }
     }
 
@@ -260,97 +262,4 @@ impl Awaited {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use incircle_protocol::signed_header;
-
-    const GRACE: Duration = Duration::from_micros(200);
-
-    fn asked(unit: u64, question: usize) -> Asked {
-        Asked { unit, run: 0, question, words: 10 }
-    }
-
-    fn answer(engine: u8, tag: u8) -> Vec<u32> {
-        vec![signed_header(0x0700_0000, engine, tag), 0]
-    }
-
-    /// The fates that are known now.
-    fn fates(awaited: &mut Awaited) -> Vec<Outcome> {
-        std::iter::from_fn(|| awaited.next().expect("sound answers")).collect()
-    }
-
-    /// Two jobs with two questions each, on a device of two engines.
-    fn two_jobs() -> (Awaited, [u8; 2]) {
-        let mut awaited = Awaited::new(2);
-        let tags = [1, 2].map(|unit| {
-            let tag = awaited.new_tag().expect("several engines");
-            (0..2).for_each(|question| awaited.ask(tag, asked(unit, question), 8));
-            tag
-        });
-        (awaited, tags)
-    }
-
-    #[test]
-    fn the_tag_tells_the_job_and_the_order_the_question() {
-        let (mut awaited, [first, second]) = two_jobs();
-        let order = [(second, 0), (first, 1), (second, 0), (first, 1)];
-        // Answer 1 overtakes answer 0, and waits for it.
-        for number in [1, 0, 2, 3] {
-            let (tag, engine) = order[number as usize];
-            assert_eq!(awaited.take(number, &answer(engine, tag), 8), Ok(true));
-        }
-        let came = |fate| if let Outcome::Came(asked, _) = fate { (asked.unit, asked.question) } else { (0, 9) };
-        let all: Vec<_> = fates(&mut awaited).into_iter().map(came).collect();
-        assert_eq!(all, [(2, 0), (1, 0), (2, 1), (1, 1)]);
-        assert!(awaited.is_settled() && awaited.words() == 0);
-        assert_eq!(awaited.take(3, &answer(0, second), 8), Ok(false), "doubled on the way");
-    }
-
-    #[test]
-    fn a_lost_answer_that_two_jobs_may_have_lost_begins_both_again() {
-        let (mut awaited, [first, second]) = two_jobs();
-        assert_eq!(awaited.take(0, &answer(0, first), 8), Ok(true));
-        assert_eq!(awaited.take(2, &answer(1, second), 8), Ok(true));
-        awaited.count(Duration::ZERO, GRACE, false);
-        assert_eq!((fates(&mut awaited).len(), awaited.lost_at(GRACE)), (1, Some(GRACE)));
-        awaited.count(GRACE, GRACE, false);
-        let after = fates(&mut awaited);
-        assert_eq!(after[0], Outcome::LostOfOne(vec![(1, 0), (2, 0)]));
-        assert!(matches!(after[1], Outcome::Came(Asked { unit: 2, .. }, _)));
-        // No new job gets the tag of an answer that may still come.
-        assert!((0..300).all(|_| awaited.new_tag().is_some_and(|tag| tag != first && tag != second)));
-        // The engine of the first job answers to a third one, so the first job gets no more answers.
-        let third = awaited.new_tag().expect("several engines");
-        awaited.ask(third, asked(3, 0), 8);
-        assert_eq!(awaited.take(3, &answer(0, third), 8), Ok(true));
-        assert!(matches!(fates(&mut awaited)[..], [Outcome::Came(Asked { unit: 3, .. }, _)]));
-        // What is lost now can only be of the second job.
-        awaited.passed(5, 8).expect("so many were asked");
-        (0..=OVERTAKEN).for_each(|_| awaited.count(GRACE, GRACE, true));
-        assert_eq!(fates(&mut awaited), [Outcome::Lost(asked(2, 1))]);
-        assert!(awaited.is_settled() && awaited.words() == 0);
-    }
-
-    #[test]
-    fn one_engine_needs_no_tag() {
-        let mut awaited = Awaited::new(1);
-        assert_eq!(awaited.new_tag(), None);
-        (0..3).for_each(|question| awaited.ask(0, asked(question, question as usize), 8));
-        assert_eq!(awaited.take(1, &answer(0, 77), 8), Ok(true));
-        (0..=OVERTAKEN).for_each(|_| awaited.count(Duration::ZERO, GRACE, true));
-        let all = fates(&mut awaited);
-        assert_eq!(all[0], Outcome::Lost(asked(0, 0)));
-        assert!(matches!(all[1], Outcome::Came(Asked { unit: 1, .. }, _)));
-        assert_eq!(awaited.words(), 10);
-    }
-
-    #[test]
-    fn answers_that_nobody_asked_for_are_a_fault() {
-        let (mut awaited, [first, _]) = two_jobs();
-        assert_eq!(awaited.take(4, &answer(0, first), 8), Err(UdpFault::Unasked { number: 4 }));
-        assert_eq!(awaited.take(0, &answer(0, first), 7), Err(UdpFault::Unasked { number: 0 }), "before the question");
-        assert_eq!(awaited.passed(5, 8), Err(UdpFault::Unasked { number: 4 }));
-        assert_eq!(awaited.take(0, &answer(0, first + 9), 8), Ok(true));
-        assert_eq!(awaited.next(), Err(UdpFault::Unasked { number: 0 }), "no job has this tag");
-    }
-}
+mod tests;

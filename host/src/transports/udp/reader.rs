@@ -125,16 +125,21 @@ impl Reader {
         while self.ready.is_empty() {
             let is_whole = |unit: &mut Unit| unit.is_done() && unit.end <= sender.proved_bytes();
             let unit = self.units.pop_front_if(is_whole)?;
-            let share = if unit.had_loss { 256 } else { 0 };
-            self.lossy = (self.lossy * (MEMORY - 1) + share) / MEMORY;
-            self.goes_ahead = self.lossy < if self.goes_ahead { LOSSY } else { CLEAN };
+            self.note_loss(unit.had_loss);
             self.ready = unit.into_answers();
         }
         self.ready.pop_front()
     }
 
-    /// Sends the questions that may be sent. Once the window is full, half of it must come before more is asked, so that
-    /// a datagram carries many questions: each datagram costs both sides a receipt.
+    /// Notes whether a unit had a loss, and decides whether jobs go ahead of each other.
+    fn note_loss(&mut self, had_loss: bool) {
+        let share = if had_loss { 256 } else { 0 };
+        self.lossy = (self.lossy * (MEMORY - 1) + share) / MEMORY;
+        self.goes_ahead = self.lossy < if self.goes_ahead { LOSSY } else { CLEAN };
+    }
+
+    /// Sends the questions that may be sent. Once the window is full, half of it must come before more is asked, so
+    /// that a datagram carries many questions: each datagram costs both sides a receipt.
     pub fn ask_more(&mut self, sender: &mut Sender) -> Result<(), UdpFault> {
         self.is_filled &= self.awaited.words() > self.window / 2;
         if self.is_filled {
@@ -221,7 +226,11 @@ impl Reader {
             match outcome {
                 Outcome::Came(asked, words) => self.hand_on(asked, words)?,
                 Outcome::Lost(asked) => self.lose(asked),
-                Outcome::LostOfOne(runs) => runs.into_iter().for_each(|(unit, run)| self.begin_again(unit, run)),
+                Outcome::LostOfOne(runs) => {
+                    // Jobs that begin again and again must not keep the share from growing.
+                    self.note_loss(true);
+                    runs.into_iter().for_each(|(unit, run)| self.begin_again(unit, run));
+                }
             }
         }
         Ok(())
