@@ -135,6 +135,11 @@ impl Memory {
         self.vertices[id as usize % self.vertices.len()]
     }
 
+    /// Number of points that the vertex memory holds.
+    pub(super) fn capacity(&self) -> u32 {
+        self.vertices.len() as u32
+    }
+
     /// Writes the point of a vertex.
     pub(super) fn set_vertex(&mut self, id: u32, point: Point) {
         let place = id as usize % self.vertices.len();

@@ -8,6 +8,7 @@ use super::sight::Sight;
 use super::visit::{Ask, Visit};
 use crate::clock::memory::{Memory, Write};
 use crate::mesh::Record;
+use incircle_protocol::patience;
 use std::collections::BTreeMap;
 
 /// Number of clocks of a visit, from its request to the next.
@@ -43,6 +44,8 @@ impl<'m> Solo<'m> {
 
     fn visit(&mut self, id: u32) -> (Record, Verdict) {
         self.visits += 1;
+        // A mesh that a defect has spoilt may send the walk in circles.
+        assert!(self.visits <= u64::from(patience(self.memory.capacity())), "a solo insertion does not end");
         let record = self.changed.get(&id).copied().unwrap_or_else(|| self.memory.record(id));
         (record, judge(&Visit::new(0, Ask::Walk, id), &record, &self.sight, self.memory))
     }
