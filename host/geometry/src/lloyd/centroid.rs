@@ -25,8 +25,8 @@ impl Sums {
     /// Adds a polygon, counter-clockwise.
     pub(super) fn add(&mut self, ring: &[[i64; 2]]) {
         for corner in ring {
-            self.low = std::array::from_fn(|axis| self.low[axis].min(corner[axis]));
-            self.high = std::array::from_fn(|axis| self.high[axis].max(corner[axis]));
+            self.low = core::array::from_fn(|axis| self.low[axis].min(corner[axis]));
+            self.high = core::array::from_fn(|axis| self.high[axis].max(corner[axis]));
         }
         let is_near = self.low.iter().all(|&value| value > -NEAR) && self.high.iter().all(|&value| value < NEAR);
         let Some(mut from) = ring.last().copied() else { return };

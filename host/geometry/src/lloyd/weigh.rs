@@ -36,8 +36,8 @@ impl<'a> Masses<'a> {
         let mut from = self.place(last);
         for &corner in ring {
             let to = self.place(corner);
-            self.low = std::array::from_fn(|axis| self.low[axis].min(to[axis]));
-            self.high = std::array::from_fn(|axis| self.high[axis].max(to[axis]));
+            self.low = core::array::from_fn(|axis| self.low[axis].min(to[axis]));
+            self.high = core::array::from_fn(|axis| self.high[axis].max(to[axis]));
             self.add_edge(from, to);
             from = to;
         }
