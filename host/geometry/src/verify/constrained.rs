@@ -12,7 +12,7 @@ use super::sites::Sites;
 use super::summary::VerifySummary;
 use super::{check_all_used, check_finite, check_sizes, check_triangles};
 use crate::lattice::Numbers;
-use crate::plan::{Domain, Plan};
+use crate::plan::{Domain, Mark, Plan};
 use crate::plane_point::PlanePoint;
 
 /// Proves that `triangles` are those of the domain of a plan in the canonical constrained mesh of `points`, and counts
@@ -52,7 +52,11 @@ pub fn verify_constrained<P: PlanePoint>(
     let all = [points, holes].concat();
     let numbers = P::numbers(&all);
     if let Numbers::Doubles(all) = &numbers {
-        check_finite(all)?;
+        let (points, holes) = all.split_at(points.len());
+        check_finite(points)?;
+        if let Some(number) = holes.iter().position(|hole| !hole.iter().all(|value| value.is_finite())) {
+            return Err(VerifyError::MarkNotFinite { kind: Mark::Hole, number });
+        }
     }
     match &numbers {
         Numbers::Grid(all) => check(all.split_at(points.len()), triangles, plan),

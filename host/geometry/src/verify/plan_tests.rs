@@ -216,3 +216,12 @@ fn many_islands_and_a_comb_are_checked_soon() {
     let comb: Vec<[u32; 2]> = (0..teeth).flat_map(|k| [[4 * k, 4 * k + 1], [4 * k + 2, 4 * k + 1]]).collect();
     check_large(&points, &comb, &[], Domain::All);
 }
+
+#[test]
+fn a_hole_whose_place_is_no_number_is_named() {
+    let points = [[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]];
+    let holes = [[1.0, 1.0], [f64::NAN, 0.0]];
+    let plan = Plan { domain: Domain::Holes, holes: &holes, ..Plan::new(&[]) };
+    let found = verify_constrained(&points, &[], &plan);
+    assert_eq!(found, Err(VerifyError::MarkNotFinite { kind: Mark::Hole, number: 1 }));
+}

@@ -53,7 +53,7 @@ fn in_all_numbers(graph: &Graph) -> [Result<Constrained, Error>; 5] {
         constrained(graph, |[x, y]| Point::new(x * (u32::MAX / 4), y * (u32::MAX / 4))),
         constrained(graph, |[x, y]| [i64::from(x) << 50, i64::from(y) << 50]),
         constrained(graph, |[x, y]| [f64::from(x) * 2f64.powi(900), f64::from(y) * 2f64.powi(900)]),
-        constrained(graph, |[x, y]| [f64::from(x) * 2f64.powi(-1074), f64::from(y) * 2f64.powi(-1074)]),
+        constrained(graph, |[x, y]| [f64::from_bits(x.into()), f64::from_bits(y.into())]),
     ]
 }
 
