@@ -91,7 +91,8 @@ impl Script<'_> {
         // Seldom an index that no point has, or has any more.
         let indices: Vec<u32> = (0..count).map(|_| random.below_u32(next + 1)).collect();
         let living: Vec<u32> = indices.iter().copied().filter(|&index| self.host.point(index).is_some()).collect();
-        let (device, host): (&mut dyn LivingMesh<Point>, &mut dyn LivingMesh<Point>) = (&mut self.device, &mut self.host);
+        let (device, host): (&mut dyn LivingMesh<Point>, &mut dyn LivingMesh<Point>) =
+            (&mut self.device, &mut self.host);
         let results = match random.below(4) {
             0 => {
                 self.log.push(format!("insert {places:?}"));
@@ -116,7 +117,8 @@ impl Script<'_> {
 
     /// Questions about several places in one call.
     fn ask_in_runs(&mut self, random: &mut SplitMix64) {
-        let places: Vec<Point> = (0..random.below(20)).map(|_| Point::new(random.below_u32(9), random.below_u32(9))).collect();
+        let places: Vec<Point> =
+            (0..random.below(20)).map(|_| Point::new(random.below_u32(9), random.below_u32(9))).collect();
         let located = self.device.locate_all(&places).expect("answers");
         let expected: Vec<Location> = places.iter().map(|&place| self.host.locate(place)).collect();
         assert_eq!(located, expected, "{:?}", self.log);

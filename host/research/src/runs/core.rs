@@ -36,7 +36,12 @@ impl Core {
     }
 
     /// Does a run, of which every item must have this outcome if one is given.
-    pub(super) fn run(&mut self, kind: RunKind, items: &[Item], outcome: Option<Outcome>) -> Result<&RunCounts, Failure> {
+    pub(super) fn run(
+        &mut self,
+        kind: RunKind,
+        items: &[Item],
+        outcome: Option<Outcome>,
+    ) -> Result<&RunCounts, Failure> {
         let mut words = Vec::with_capacity(2 * items.len());
         for Item { vertex, point } in items {
             words.extend(Some(*vertex).filter(|_| kind.has_vertex()));

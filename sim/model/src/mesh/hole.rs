@@ -101,9 +101,8 @@ impl Hole {
     /// Whether no finite triangle is left beside the star and the hole is filled by ghost triangles alone, so that all
     /// other points lie on one line.
     pub(crate) fn is_flat(&self, infinite: u32) -> bool {
-        let is_ghost = |filling: &Filling| {
-            filling.corners.iter().any(|&corner| self.ring[usize::from(corner)].from == infinite)
-        };
+        let is_ghost =
+            |filling: &Filling| filling.corners.iter().any(|&corner| self.ring[usize::from(corner)].from == infinite);
         let is_lonely = |(place, edge): (usize, &RingEdge)| {
             let ends = [edge.from, self.ring[(place + 1) % self.ring.len()].from];
             ends.contains(&infinite) || edge.ghost_outside

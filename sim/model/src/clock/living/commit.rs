@@ -38,7 +38,16 @@ pub(super) struct Job {
 
 impl Job {
     pub(super) fn new(context: usize, since: u64) -> Self {
-        Self { context, steps: VecDeque::new(), locks: Vec::new(), part: None, ends: false, since, point: None, starts: 0 }
+        Self {
+            context,
+            steps: VecDeque::new(),
+            locks: Vec::new(),
+            part: None,
+            ends: false,
+            since,
+            point: None,
+            starts: 0,
+        }
     }
 }
 

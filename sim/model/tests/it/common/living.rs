@@ -4,8 +4,7 @@ use super::bench::{Answer, Bench, Hang, Stalls};
 use super::Random;
 use incircle_model::{ClockModel, CommandModel, LivingDefect};
 use incircle_protocol::{
-    part_item, part_outcome, Clear, Command, Config, InsertReport, Layout, Outcome, RecordRange, RunKind,
-    Status,
+    part_item, part_outcome, Clear, Command, Config, InsertReport, Layout, Outcome, RecordRange, RunKind, Status,
 };
 use std::collections::BTreeSet;
 
@@ -41,7 +40,12 @@ impl Pair {
         };
         let model = CommandModel::new(16, config.points, config.ring).expect("a model that can be built");
         let layout = Layout::of(16, config.points);
-        Self { bench, model: model.with_contexts(config.contexts).with_runs(), layout, points: vec![None; config.points as usize] }
+        Self {
+            bench,
+            model: model.with_contexts(config.contexts).with_runs(),
+            layout,
+            points: vec![None; config.points as usize],
+        }
     }
 
     /// The answers of both to a command, the core's first.

@@ -29,8 +29,7 @@ impl Script {
         let (w, h) = (3 + random.below(6), 3 + random.below(6));
         // Small moves need room between the places.
         let step = [1, 1, 9][random.below(3) as usize];
-        let mut places: Vec<u32> =
-            (0..w * h).map(|cell| place(step * (cell % w), step * (cell / w))).collect();
+        let mut places: Vec<u32> = (0..w * h).map(|cell| place(step * (cell % w), step * (cell / w))).collect();
         shuffle(&mut places, &mut random);
         let contexts = [1, 2, 4, 8, 16, 16][random.below(6) as usize];
         let ring = [6, 12, 32, 32][random.below(4) as usize];
@@ -54,8 +53,7 @@ impl Script {
     /// # Errors
     /// What went wrong first.
     pub fn run(&mut self, defect: Option<LivingDefect>) -> Result<Pair, Fault> {
-        let config =
-            Config { name: "test", points: self.points, ring: self.ring, contexts: self.contexts, engines: 1 };
+        let config = Config { name: "test", points: self.points, ring: self.ring, contexts: self.contexts, engines: 1 };
         let mut pair = Pair::new(config, defect);
         let count = (4 + self.random.below(self.places.len() as u32 - 4)).min(self.points - 1) as usize;
         let mut first: Vec<u32> = self.places[..count].to_vec();
@@ -108,8 +106,7 @@ impl Script {
 
     /// Vertices that are in the mesh, in random order.
     fn living(&mut self, pair: &Pair) -> Vec<u32> {
-        let mut living: Vec<u32> =
-            (0..self.points).filter(|&vertex| pair.points[vertex as usize].is_some()).collect();
+        let mut living: Vec<u32> = (0..self.points).filter(|&vertex| pair.points[vertex as usize].is_some()).collect();
         shuffle(&mut living, &mut self.random);
         living
     }
