@@ -219,6 +219,10 @@ impl Work<'_> {
     /// Ends an attempt that has drained: the context tries again later, from its root, unless its list is too short.
     pub(super) fn end_drained(&mut self) {
         self.cx.drains = false;
+        if self.sh.lacks(LivingDefect::ReleasesBeforeDrained) {
+            // The release has passed: nothing clears the locks that visits in flight took after it.
+            self.cx.log.clear();
+        }
         self.release();
         if std::mem::take(&mut self.cx.overflows) {
             if self.cx.inserts {
