@@ -22,13 +22,24 @@ pub struct Edges {
     pub count: u64,
     /// The number of ties.
     pub ties: u64,
-    /// The first edge whose sides do not fit, and the direction of the hull there.
-    unfit: Option<([u32; 2], Vec<Side>, Option<[u32; 2]>)>,
+    /// The first edge whose sides do not fit.
+    unfit: Option<UnfitEdge>,
     /// The first edge of the hull that has no triangle, with its rank.
     missing: Option<(u64, [u32; 2])>,
     /// The first edge that is not Delaunay.
     wrong: Option<([u32; 2], Vec<Side>)>,
 }
+
+/// An edge whose sides do not fit.
+struct UnfitEdge {
+    ends: [u32; 2],
+    sides: Vec<Side>,
+    /// The ends in the direction of the hull, if the edge lies on it.
+    due: Option<[u32; 2]>,
+}
+
+/// An edge of the hull: its ends in the direction of the hull, and its place there.
+type HullEdge = ([u32; 2], u32);
 
 /// Checks the edges of all strips.
 ///
@@ -56,12 +67,12 @@ pub fn check(
 
 impl Edges {
     /// Judges one edge.
-    fn take(&mut self, edge: [u32; 2], sides: &[Side], on_hull: Option<([u32; 2], u32)>, hull: &Hull) {
+    fn take(&mut self, edge: [u32; 2], sides: &[Side], on_hull: Option<HullEdge>, hull: &Hull) {
         let due = on_hull.map(|(ends, _)| ends);
         self.count += u64::from(!sides.is_empty());
         if !sides.is_empty() && check_sides(sides, due).is_err() {
-            if self.unfit.as_ref().is_none_or(|(first, ..)| edge < *first) {
-                self.unfit = Some((edge, sides.to_vec(), due));
+            if self.unfit.as_ref().is_none_or(|first| edge < first.ends) {
+                self.unfit = Some(UnfitEdge { ends: edge, sides: sides.to_vec(), due });
             }
             return;
         }
@@ -88,8 +99,8 @@ impl Edges {
     /// # Errors
     /// The mesh cannot be read, or has changed.
     pub fn error(&self, mesh: &MeshFile) -> Result<Option<VerifyError>, Failure> {
-        if let Some((_, sides, hull)) = &self.unfit {
-            return Ok(check_sides(&placed(sides, mesh)?, *hull).err());
+        if let Some(UnfitEdge { sides, due, .. }) = &self.unfit {
+            return Ok(check_sides(&placed(sides, mesh)?, *due).err());
         }
         if let Some((_, edge)) = self.missing {
             return Ok(Some(VerifyError::MissingHullEdge { edge }));
@@ -148,7 +159,7 @@ impl Strip {
         &self,
         crossing: &mut Stream<'_, SIDE>,
         hull: &mut Stream<'_, 5>,
-        take: &mut dyn FnMut([u32; 2], &[Side], Option<([u32; 2], u32)>),
+        take: &mut dyn FnMut([u32; 2], &[Side], Option<HullEdge>),
     ) -> Result<(), Failure> {
         let (mut next, mut sides) = (0, Vec::new());
         loop {
