@@ -41,6 +41,9 @@ struct UnfitEdge {
 /// An edge of the hull: its ends in the direction of the hull, and its place there.
 type HullEdge = ([u32; 2], u32);
 
+/// Takes an edge: its ends in rising order, its sides, and what it is on the hull.
+type TakeEdge<'t> = dyn FnMut([u32; 2], &[Side], Option<HullEdge>) + 't;
+
 /// Checks the edges of all strips.
 ///
 /// # Errors
@@ -159,7 +162,7 @@ impl Strip {
         &self,
         crossing: &mut Stream<'_, SIDE>,
         hull: &mut Stream<'_, 5>,
-        take: &mut dyn FnMut([u32; 2], &[Side], Option<HullEdge>),
+        take: &mut TakeEdge<'_>,
     ) -> Result<(), Failure> {
         let (mut next, mut sides) = (0, Vec::new());
         loop {
