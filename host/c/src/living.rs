@@ -6,10 +6,10 @@ use std::ffi::c_void;
 use incircle::living::{Location, Triangulation};
 use incircle::PlanePoint;
 
-use crate::border::{copied, exclusive, give, look_for_memory, shared};
+use crate::answers::Questions;
+use crate::border::{copied, exclusive, give, look_for_memory, place, shared};
 use crate::mesh::{boxed, incircle_mesh, of_type};
-use crate::questions::Questions;
-use crate::status::{guarded, Failure, Outcome, INCIRCLE_ARGUMENT};
+use crate::status::{guarded, Failure, Outcome};
 
 /// The place is none: there are no triangles and it lies on no edge, or a coordinate is NaN or infinite.
 pub const INCIRCLE_NONE: u32 = 0;
@@ -56,12 +56,6 @@ pub(crate) trait Living: Questions {
     fn indices(&self) -> Vec<u32>;
     fn len(&self) -> usize;
     fn mesh(&self) -> *mut incircle_mesh;
-}
-
-/// One place of the caller.
-pub(crate) unsafe fn place<P: Copy>(pointer: *const c_void) -> Outcome<P> {
-    // SAFETY: the caller promises two coordinates.
-    unsafe { copied::<P>(pointer, 1, "place") }?.pop().ok_or_else(|| Failure::new(INCIRCLE_ARGUMENT, "no place"))
 }
 
 impl<P: PlanePoint + Send + Sync + 'static> Living for Triangulation<P> {
