@@ -116,7 +116,9 @@ fn points_of_more_bits_than_announced_are_kept() {
         // The corners of the grid are in three of the cells, which follow each other only if they are few.
         let cells: u32 = occupancy.stretches().iter().map(|[first, end]| end - first).sum();
         assert_eq!(cells, 3, "{bits}: {occupancy:?}");
-        assert!(!occupancy.beyond(&crate::tiles::Region { east: Some(9), ..crate::tiles::Region::WHOLE }).is_clear(far));
+        assert!(!occupancy
+            .beyond(&crate::tiles::Region { east: Some(9), ..crate::tiles::Region::WHOLE })
+            .is_clear(far));
     }
 }
 
