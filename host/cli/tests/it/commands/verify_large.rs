@@ -114,10 +114,12 @@ fn what_cannot_be_done_within_a_memory_is_said() {
     scratch.run("verify p.csv m.obj --memory 32M").fails(2, &["read as a whole", "npy, csv or ele"]);
     scratch.run("verify p.csv - --format csv --memory 32M").fails(2, &["read more than once"]);
     scratch.run("verify - m.csv --memory 32M").fails(2, &["standard input"]);
-    scratch.run("verify p.csv m.csv --scratch .").fails(2, &["--memory"]);
-    scratch.run("verify p.csv m.csv --memory 32M --quantize fit").fails(2, &["--quantize"]);
+    for (wrong, part) in [("--scratch .", "--memory"), ("--memory 32M --quantize fit", "--quantize")] {
+        let run = scratch.run(&format!("verify p.csv m.csv {wrong}"));
+        assert!(run.code == Some(2) && run.stderr.contains(part), "{run:?}");
+    }
     scratch.run("verify p.csv m.csv --memory 32M --constraints m.csv").fails(2, &["constraints", "leave --memory out"]);
-    scratch.run("verify far.csv m.csv --memory 32M -q").fails(3, &["lattice", "work in one memory"]);
+    scratch.run("verify far.csv m.csv --memory 32M -q").fails(3, &["37 bits", "work in one memory"]);
     scratch.run("verify p.csv none.csv --memory 32M -q").fails(3, &["none.csv", "No such file"]);
     scratch.run("verify p.csv m.csv --memory 32M --scratch none -q").fails(3, &["none"]);
     scratch.write("short.csv", "0,1,2\n3,4\n");
