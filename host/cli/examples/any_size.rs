@@ -89,7 +89,7 @@ fn set(number: usize) -> String {
         Some(&kind) => generate(kind, count, bits, seed)
             .or_else(|_| generate(Distribution::Uniform, count, bits, seed))
             .unwrap_or_default(),
-        None if number % 2 == 0 => vec![[5, 7]; count],
+        None if number.is_multiple_of(2) => vec![[5, 7]; count],
         None => (0..count as u32).map(|k| [k % 300, 2 * (k % 300)]).collect(),
     };
     points.extend_from_within(..points.len() / 3);

@@ -68,6 +68,9 @@ fn kinds_of_sets_are_proved_within_the_memory() {
     }
 }
 
+/// A change of the corners of a triangle, which also sees those of the next one.
+type Change<'c> = &'c dyn Fn(&mut [u32; 3], [u32; 3]);
+
 /// The mesh with the bytes of one triangle changed, as `w.npy`.
 fn spoil(scratch: &Scratch, triangle: usize, change: impl Fn(&mut [u32; 3], [u32; 3])) {
     let mut bytes = scratch.bytes("m.npy");
@@ -83,7 +86,7 @@ fn spoil(scratch: &Scratch, triangle: usize, change: impl Fn(&mut [u32; 3], [u32
 #[test]
 fn a_wrong_mesh_has_the_same_first_defect() {
     let scratch = large(150_000);
-    let defects: [(&str, &dyn Fn(&mut [u32; 3], [u32; 3])); 5] = [
+    let defects: [(&str, Change<'_>); 5] = [
         ("names point 4000000000", &|corners, _| corners[2] = 4_000_000_000),
         ("is not counter-clockwise", &|corners, _| corners.swap(1, 2)),
         ("does not start with its smallest", &|corners, _| corners.rotate_left(1)),
