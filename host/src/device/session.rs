@@ -225,8 +225,8 @@ impl<'d> Session<'d> {
         Ok(solutions.into_iter().flatten().collect())
     }
 
-    /// Whether the device can keep a mesh that lives. Of the devices of this library only the back end `model` can; on
-    /// the processor use [`Triangulation`](crate::Triangulation).
+    /// Whether the device can keep a mesh that lives. Of the devices of this library the back ends `model`, and
+    /// `clock` with one engine, can; on the processor use [`Triangulation`](crate::Triangulation).
     pub fn keeps_living_meshes(&self) -> bool {
         self.identity.features & FEATURE_RUNS != 0
     }

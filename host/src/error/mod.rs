@@ -166,7 +166,7 @@ pub enum Error {
     },
     /// The device cannot change a mesh that stands.
     #[error(
-        "{device} cannot keep a mesh that lives: use the back end model, or a Triangulation, which is on the processor"
+        "{device} cannot keep a mesh that lives: use the back end model or clock, or a Triangulation, which is on the processor"
     )]
     NoRuns {
         /// Name of the device.

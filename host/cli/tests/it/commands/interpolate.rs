@@ -194,7 +194,7 @@ fn a_geotiff_of_many_strips_keeps_its_rows() {
 }
 
 #[test]
-fn a_model_gives_the_bytes_of_the_processor() {
+fn devices_with_meshes_that_live_give_the_bytes_of_the_processor() {
     let scratch = Scratch::new();
     let mut text = "x,y,z\n".to_owned();
     for k in 0..300u32 {
@@ -203,8 +203,10 @@ fn a_model_gives_the_bytes_of_the_processor() {
     }
     scratch.write("p.csv", text);
     scratch.run("interpolate p.csv --grid 0.5 -o cpu.csv --quiet").ok();
-    scratch.run("interpolate p.csv --grid 0.5 -o model.csv --backend model --quiet").ok();
-    assert_eq!(scratch.read("model.csv"), scratch.read("cpu.csv"));
+    for device in ["model", "clock"] {
+        scratch.run(&format!("interpolate p.csv --grid 0.5 -o {device}.csv --backend {device} --quiet")).ok();
+        assert_eq!(scratch.read(&format!("{device}.csv")), scratch.read("cpu.csv"));
+    }
     scratch.run("interpolate p.csv --grid 0.5 -o one.csv --backend cpu --quiet").ok();
     assert_eq!(scratch.read("one.csv"), scratch.read("cpu.csv"));
     scratch.write("wide.csv", "x,y,z\n0,0,1\n1,4000000000,2\n7,9,3\n");
@@ -215,7 +217,7 @@ fn a_model_gives_the_bytes_of_the_processor() {
         ("p.csv --grid 1 --outside nearest --backend model", 2, "leave out --backend"),
         ("wide.csv --at p.csv --backend model", 3, "give --backend cpu"),
         ("line.csv --at p.csv --backend model", 3, "there is no triangle between the points"),
-        ("p.csv --at p.csv --backend clock", 2, "cannot keep a mesh that lives: use the back end model"),
+        ("p.csv --at p.csv --backend clock?config=dual", 2, "cannot keep a mesh that lives: use the back end model or clock"),
     ] {
         scratch.run(&format!("interpolate {arguments} -o x.csv")).fails(code, &[part]);
         assert_eq!(scratch.files(), files, "{arguments}");

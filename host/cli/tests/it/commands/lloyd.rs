@@ -51,8 +51,8 @@ fn points_gather_in_the_dark_of_an_image() {
         numbers.next() < Some(2048.0) && numbers.next() > Some(2048.0)
     };
     let gathered = scratch.read("end.csv").lines().filter(is_in).count();
-    // By the square roots of the weights it would be 42.
-    assert!(gathered > 30, "{gathered} of 60");
+    // Spread evenly it would be 15. Steps are slow to gather points: in the end it would be 42.
+    assert!(gathered > 20, "{gathered} of 60");
     scratch.run("generate uniform -n 4500 --bits 12 --seed 7 -o p.csv").ok();
     let region = "--clip 0,0,4096,4096 --iterations 3";
     scratch.run(&format!("lloyd p.csv -o q.csv {region} --density i.pgm --quiet")).ok();
