@@ -6,7 +6,7 @@ use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 use zune_jpeg::JpegDecoder;
 
-use super::{checked, damaged, of_channels, widened, Image, MOST_SIDE};
+use super::pixels::{checked, damaged, of_channels, widened, Image, MOST_SIDE};
 use crate::failure::{one_line, Failure};
 use crate::memory::Memory;
 

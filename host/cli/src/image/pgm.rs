@@ -1,6 +1,6 @@
 //! PGM images, the grey ones of Netpbm: `P2` with numbers as text, `P5` with bytes.
 
-use super::{checked, damaged, of_grey, Image};
+use super::pixels::{checked, damaged, of_grey, Image};
 use crate::failure::Failure;
 use crate::memory::Memory;
 

@@ -4,7 +4,7 @@ use std::io::Cursor;
 
 use png::{BitDepth, Decoder, Limits, Transformations};
 
-use super::{checked, damaged, of_channels, widened, Image};
+use super::pixels::{checked, damaged, of_channels, widened, Image};
 use crate::failure::{one_line, Failure};
 use crate::memory::Memory;
 

@@ -30,6 +30,7 @@
 
 mod centroid;
 mod density;
+mod error;
 mod quotient;
 mod stars;
 mod step;
@@ -39,28 +40,13 @@ use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 use core::num::NonZeroUsize;
 
-use crate::cpu;
 use crate::order::{hilbert, mix};
 use crate::point::Point;
-use crate::voronoi::{self, Clip};
+use crate::voronoi::Clip;
 
 pub use density::{Density, DensityError};
+pub use error::Error;
 pub use step::{step, weighted_step};
-
-/// The reasons why points cannot be relaxed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum Error {
-    /// The points have no mesh.
-    #[error(transparent)]
-    Mesh(#[from] cpu::Error),
-    /// The points or the clip have no cells.
-    #[error(transparent)]
-    Cells(#[from] voronoi::Error),
-    /// The density is that of another clip.
-    #[error(transparent)]
-    Density(#[from] DensityError),
-}
 
 /// When a relaxation ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

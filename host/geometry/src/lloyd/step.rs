@@ -11,10 +11,10 @@ use core::ops::ControlFlow;
 
 use super::centroid::{Sums, BITS};
 use super::density::{Density, DensityError};
+use super::error::Error;
 use super::quotient::floor_quotient;
 use super::stars::{Star, Stars};
 use super::weigh::Masses;
-use super::Error;
 use crate::cpu::{self, in_parallel};
 use crate::mesh::Mesh;
 use crate::point::{Point, MAX_COORD_BITS};

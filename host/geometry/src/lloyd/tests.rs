@@ -3,7 +3,8 @@
 use core::ops::ControlFlow;
 
 use super::*;
-use crate::voronoi::{Cells, Voronoi};
+use crate::cpu;
+use crate::voronoi::{self, Cells, Voronoi};
 use incircle_testkit::SplitMix64;
 
 fn square(side: u32) -> Clip {

@@ -3,8 +3,8 @@
 use alloc::vec::Vec;
 use core::mem;
 
-use super::cells::ClippedCell;
 use super::clip::Clip;
+use super::clipped::ClippedCell;
 use super::cut::{Bend, Cutter, Side, View};
 use super::place::Place;
 use crate::point::Point;

@@ -48,6 +48,7 @@ mod border;
 mod build;
 mod cells;
 mod clip;
+mod clipped;
 mod clipper;
 mod corner;
 mod cut;
@@ -58,8 +59,9 @@ mod place;
 mod tests;
 mod wide;
 
-pub use cells::{Cells, ClippedCell, Piece, Ring};
+pub use cells::Cells;
 pub use clip::Clip;
+pub use clipped::{ClippedCell, Piece, Ring};
 pub(crate) use clipper::Clipper;
 pub(crate) use corner::center_seen;
 pub use corner::{nearest_quotient, Corner};

@@ -8,8 +8,8 @@ use incircle_model::RunCounts;
 use incircle_protocol::{Outcome, RunKind};
 use incircle_testkit::{generate, Distribution, SplitMix64};
 
+use super::arguments::RunsArguments;
 use super::core::{Core, Item};
-use super::RunsArguments;
 use crate::orders::Failure;
 
 /// Side of the grid.

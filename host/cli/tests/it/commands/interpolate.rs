@@ -217,7 +217,11 @@ fn devices_with_meshes_that_live_give_the_bytes_of_the_processor() {
         ("p.csv --grid 1 --outside nearest --backend model", 2, "leave out --backend"),
         ("wide.csv --at p.csv --backend model", 3, "give --backend cpu"),
         ("line.csv --at p.csv --backend model", 3, "there is no triangle between the points"),
-        ("p.csv --at p.csv --backend clock?config=dual", 2, "cannot keep a mesh that lives: use the back end model or clock"),
+        (
+            "p.csv --at p.csv --backend clock?config=dual",
+            2,
+            "cannot keep a mesh that lives: use the back end model or clock",
+        ),
     ] {
         scratch.run(&format!("interpolate {arguments} -o x.csv")).fails(code, &[part]);
         assert_eq!(scratch.files(), files, "{arguments}");
