@@ -198,7 +198,8 @@
 //! | small sets one after the other, such as points that move | [`Triangulator`], which keeps its memory |
 //! | points that come, go or move, or questions about places | [`Triangulation`], which changes with them |
 //! | the same with the mesh on a device | [`Session::living`], with the trait [`LivingMesh`] |
-//! | edges that must be in the mesh, or triangles inside polygons | [`constraints::constrain`] |
+//! | edges that must be in the mesh, or triangles inside polygons | [`Session::triangulate_constrained`] |
+//! | the same for a mesh that there is already | [`constraints::constrain`] |
 //! | the region nearest to each point, clipped to a polygon | [`voronoi`], with the mesh of grid points |
 //! | grid points and a clip from points of any numbers | [`GridSet`] |
 //! | cells as flat lists, for another language or a graphics card | [`VoronoiLists`] |
@@ -240,7 +241,7 @@ pub mod transports;
 mod voronoi_lists;
 
 pub use device::{Device, DeviceAddress, Fleet, LivingMesh, LivingSession, Session};
-pub use error::{DeviceFault, Error, ErrorKind, Shown, TransportError};
+pub use error::{ConstrainedError, DeviceFault, Error, ErrorKind, Shown, TransportError};
 pub use grid_set::{GridSet, GridSetError};
 pub use incircle_geometry::constraints;
 pub use incircle_geometry::cpu::{Error as TriangulatorError, Triangulator};

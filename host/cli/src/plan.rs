@@ -173,9 +173,12 @@ impl Request {
 
     /// Forces the constraints into a mesh. The places of holes and regions stand behind the points in `laid`.
     pub fn force(&self, mesh: &mut Connections, set: &PlannedSet, laid: &Laid<'_>) -> Result<Planned, Failure> {
-        let mut made = self
-            .force_numbers(&laid.numbers, set.points, mesh)
-            .map_err(|error| self.refuse(error, &set.table, laid))?;
+        let made = self.force_numbers(&laid.numbers, set.points, mesh);
+        made.map(|made| self.planned(made)).map_err(|error| self.refuse(error, &set.table, laid))
+    }
+
+    /// What constraints made of the mesh, with the names and numbers of the file.
+    pub fn planned(&self, mut made: Constrained) -> Planned {
         let mut constraints = self.constraints.len();
         if let Some(parts) = &self.parts {
             made.pieces = made.pieces.renamed(parts);
@@ -190,7 +193,7 @@ impl Request {
                 attributes[region as usize].clone_from(attribute);
             }
         }
-        Ok(Planned { made, attributes, domain: self.domain, constraints, snapping: None })
+        Planned { made, attributes, domain: self.domain, constraints, snapping: None }
     }
 
     /// The plan in these numbers.
@@ -216,7 +219,7 @@ impl Request {
     }
 
     /// The failure of constraints that have no mesh. The place of a crossing is told in the numbers of the file.
-    fn refuse(&self, error: Error, table: &PointTable, laid: &Laid<'_>) -> Failure {
+    pub fn refuse(&self, error: Error, table: &PointTable, laid: &Laid<'_>) -> Failure {
         let Error::Crossing { constraints, ends, mut place } = error else {
             return Failure::input(error.to_string());
         };
