@@ -2,7 +2,7 @@
 
 use incircle_geometry::Point;
 use incircle_model::{ClockModel, Inputs, RunCounts};
-use incircle_protocol::{part_outcome, Clear, Command, Config, Layout, Outcome, RunKind};
+use incircle_protocol::{part_item, part_outcome, Clear, Command, Config, Layout, Outcome, RunKind};
 
 use crate::orders::Failure;
 
@@ -35,26 +35,33 @@ impl Core {
         self.exchange(&Command::insert(words, self.layout)).map(|_| ())
     }
 
-    /// Does a run, of which every item must have this outcome if one is given.
+    /// Does a run, of which every item must have this outcome if one is given. Also gives the vertices that have too many
+    /// neighbours to be deleted.
     pub(super) fn run(
         &mut self,
         kind: RunKind,
         items: &[Item],
         outcome: Option<Outcome>,
-    ) -> Result<&RunCounts, Failure> {
+    ) -> Result<(&RunCounts, Vec<u32>), Failure> {
         let mut words = Vec::with_capacity(2 * items.len());
         for Item { vertex, point } in items {
             words.extend(Some(*vertex).filter(|_| kind.has_vertex()));
             words.extend(Some(point.x | point.y << 16).filter(|_| kind.has_point()));
         }
         let answer = self.exchange(&Command::run(kind, words, self.layout))?;
+        let mut refused = Vec::new();
         for part in answer[2..].chunks(kind.part_words()) {
             let found = part_outcome(part[0]);
+            if found == Outcome::ManyNeighbors as u8 {
+                refused.extend(items.get(part_item(part[0]) as usize).map(|item| item.vertex));
+                continue;
+            }
             if outcome.is_some_and(|outcome| outcome as u8 != found) {
                 return Err(format!("{kind:?}: the outcome {found} of an item").into());
             }
         }
-        self.model.run_counts().ok_or_else(|| Failure::from("the core has no runs"))
+        let counts = self.model.run_counts().ok_or_else(|| Failure::from("the core has no runs"))?;
+        Ok((counts, refused))
     }
 
     /// Sends a command and takes the words of its answer.

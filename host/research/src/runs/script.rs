@@ -26,10 +26,13 @@ pub(super) struct Tally {
     pub aborts: u64,
     pub in_place: u64,
     pub latencies: Vec<u32>,
+    /// The vertices that have too many neighbours to be deleted.
+    pub refused: HashSet<u32>,
 }
 
 impl Tally {
-    fn add(&mut self, items: usize, counts: &RunCounts) {
+    fn add(&mut self, items: usize, counts: &RunCounts, refused: Vec<u32>) {
+        self.refused.extend(refused);
         self.items += items;
         self.clocks += counts.clocks;
         self.visits += counts.visits;
@@ -99,14 +102,18 @@ impl<'a> Script<'a> {
         self.random.shuffle(&mut vertices);
         vertices.truncate(self.points.len() / 4);
         let item = |vertex: u32| Item { vertex, point: self.points[vertex as usize] };
-        let items: Vec<Item> = vertices.into_iter().map(item).collect();
-        give("Delete", &self.tally(RunKind::Delete, items.clone(), Some(Outcome::Done))?)?;
+        let mut items: Vec<Item> = vertices.into_iter().map(item).collect();
+        let deleted = self.tally(RunKind::Delete, items.clone(), Some(Outcome::Done))?;
+        give("Delete", &deleted)?;
+        items.retain(|item| !deleted.refused.contains(&item.vertex));
         give("InsertAs", &self.tally(RunKind::InsertAs, items.clone(), Some(Outcome::Done))?)?;
         // Runs of both kinds in turn, each of a quarter of the items.
         let mut mix = Tally::default();
         for part in items.chunks(items.len().div_ceil(2)) {
+            let mut part = part.to_vec();
             for kind in [RunKind::Delete, RunKind::InsertAs] {
-                let tally = self.tally(kind, part.to_vec(), Some(Outcome::Done))?;
+                let tally = self.tally(kind, part.clone(), Some(Outcome::Done))?;
+                part.retain(|item| !tally.refused.contains(&item.vertex));
                 mix.items += tally.items;
                 mix.clocks += tally.clocks;
                 mix.visits += tally.visits;
@@ -125,7 +132,8 @@ impl<'a> Script<'a> {
         self.random.shuffle(&mut items);
         for chunk in items.chunks(self.arguments.items as usize) {
             let dealt = self.deal(kind, chunk);
-            tally.add(dealt.len(), self.core.run(kind, &dealt, outcome)?);
+            let (counts, refused) = self.core.run(kind, &dealt, outcome)?;
+            tally.add(dealt.len(), counts, refused);
         }
         Ok(tally)
     }
