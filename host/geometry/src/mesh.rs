@@ -2,6 +2,7 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
+use core::hint::select_unpredictable;
 
 use crate::edges::EdgeList;
 use crate::plane_point::PlanePoint;
@@ -14,10 +15,10 @@ pub const EMPTY: u32 = u32::MAX;
 /// A triangle, turned so that the smallest of its indices or ids comes first.
 #[inline(always)]
 pub(crate) fn smallest_first<I: Copy + Ord>([a, b, c]: [I; 3]) -> [I; 3] {
-    // An index instead of branches, because no processor predicts which corner is the smallest.
-    let first = usize::from((b < a) & (b < c)) + 2 * usize::from((c < a) & (c < b));
-    let twice = [a, b, c, a, b];
-    [twice[first], twice[first + 1], twice[first + 2]]
+    // Selections instead of branches, because no processor predicts which corner is the smallest.
+    let (is_b, is_c) = ((b < a) & (b < c), (c < a) & (c < b));
+    let pick = |from_a, from_b, from_c| select_unpredictable(is_b, from_b, select_unpredictable(is_c, from_c, from_a));
+    [pick(a, b, c), pick(b, c, a), pick(c, a, b)]
 }
 
 /// The Delaunay triangulation of the distinct points of a set, in canonical form.

@@ -81,9 +81,14 @@ struct Links {
     numbers: Vec<u32>,
 }
 
-/// A side of a triangle or of the outside: the larger of its ends, and its number in the list of all sides, doubled,
-/// plus 1 if it leads to the smaller end.
-type Side = (u32, u32);
+/// A side of a triangle or of the outside. The upper 32 bits are the larger of its ends. The lower ones are its number
+/// in the list of all sides, doubled, plus 1 if the side leads to the smaller end. One word is quicker to sort than two.
+type Side = u64;
+
+/// The larger end of a side.
+fn larger_end(side: Side) -> u32 {
+    (side >> u32::BITS) as u32
+}
 
 impl Links {
     /// Gives a pair of half-edges to each edge. An edge that has a side with no triangle lies at a hole.
@@ -92,7 +97,7 @@ impl Links {
         let mut links = Self { halves: Vec::new(), holes: Vec::new(), numbers: vec![NONE; sides.list.len()] };
         links.halves.reserve(sides.list.len() + 2);
         for smaller in 0..vertices {
-            for own in sides.at(smaller).chunk_by(|one, other| one.0 == other.0) {
+            for own in sides.at(smaller).chunk_by(|&one, &other| larger_end(one) == larger_end(other)) {
                 links.add_edge(smaller as u32, own)?;
             }
         }
@@ -106,17 +111,17 @@ impl Links {
     /// Makes the pair of an edge from its sides, of which there are one or two.
     fn add_edge(&mut self, smaller: u32, sides: &[Side]) -> Result<(), Unsound> {
         let pair = self.halves.len() as u32;
-        let larger = sides[0].0;
+        let larger = larger_end(sides[0]);
         let half = |end| Half { next: NONE, previous: NONE, end };
         self.halves.extend([half(larger), half(smaller)]);
-        let number = |side: &Side| pair + (side.1 & 1);
+        let number = |side: Side| pair + (side as u32 & 1);
         match sides {
-            [only] => self.holes.push(number(only) ^ 1),
-            [one, other] if number(one) != number(other) => {}
+            &[only] => self.holes.push(number(only) ^ 1),
+            &[one, other] if number(one) != number(other) => {}
             _ => return Err(Unsound),
         }
-        for side in sides {
-            self.numbers[side.1 as usize / 2] = number(side);
+        for &side in sides {
+            self.numbers[side as u32 as usize / 2] = number(side);
         }
         Ok(())
     }
@@ -201,10 +206,10 @@ impl Sides {
         for end in &mut ends {
             start += core::mem::replace(end, start);
         }
-        let mut list = vec![(0, 0); count];
+        let mut list = vec![0; count];
         for ([from, to], number) in sides().zip(0u32..) {
             let end = &mut ends[from.min(to) as usize];
-            list[*end as usize] = (from.max(to), 2 * number + u32::from(to < from));
+            list[*end as usize] = Side::from(from.max(to)) << u32::BITS | Side::from(2 * number + u32::from(to < from));
             *end += 1;
         }
         let mut all = Self { list, ends };

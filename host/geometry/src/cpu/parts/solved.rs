@@ -66,15 +66,17 @@ impl Parts {
         let sides = Point::sides(&self.region(&range));
         let mut open = Vec::new();
         // The final triangles stay in their list, whose memory the processor has in its cache.
-        triangles.retain_mut(|corners| {
-            let is_final = Point::reach(&sides, corners.map(point)) == Reach::Within;
-            if is_final {
-                *corners = smallest_first(corners.map(|v| ids[v as usize]));
+        let mut finals = 0;
+        for place in 0..triangles.len() {
+            let corners = triangles[place];
+            if Point::reach(&sides, corners.map(point)) == Reach::Within {
+                triangles[finals] = smallest_first(corners.map(|v| ids[v as usize]));
+                finals += 1;
             } else {
-                open.push(*corners);
+                open.push(corners);
             }
-            is_final
-        });
+        }
+        triangles.truncate(finals);
         let border = Border::of(&open, hull, sites.len());
         let own = border.vertices.iter().map(|&v| v as usize);
         let (border_sites, border_ids): (Vec<Site>, Vec<u32>) = own.map(|v| (sites[v], ids[v])).unzip();
