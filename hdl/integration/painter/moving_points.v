@@ -7,7 +7,7 @@
 // | `begins` | in | 1 | high for a clock: move all points, and send them |
 // | `point_valid`, `point_ready`, `point_data` | out, in, out | 1, 1, 32 | the points in the order of their ids, `y << 16 \| x` |
 // | `read_id` | in | 7 | a point whose place and value are asked for |
-// | `read_point` | out | 25 | of the point that `read_id` named a clock before: value, y, x in bits 24 to 17, 16 to 9, 8 to 0 |
+// | `read_point` | out | 25 | of the point that `read_id` named two clocks before: value, y, x in bits 24 to 17, 16 to 9, 8 to 0 |
 //
 // 1. Points 0 to 3 are the corners (0, 0), (256, 0), (256, 240) and (0, 240). They never move, so the mesh always covers
 //    the picture, and the first three points span a triangle, as the core asks.
@@ -15,7 +15,8 @@
 //    in y. A point that would leave the picture stays, and turns round.
 // 3. Nothing may be read between `begins` and the last point taken.
 //
-// A point takes three clocks: read, move, send.
+// A point takes four clocks: read, keep, move, send. What a block RAM of an ECP5 gives comes so late in the clock that
+// it must be kept in registers before anything is computed from it.
 // SPDX-License-Identifier: MIT OR Apache-2.0
 `default_nettype none
 module moving_points (
@@ -28,17 +29,19 @@ module moving_points (
     input wire [6:0] read_id,
     output wire [24:0] read_point
 );
-    localparam REST = 2'd0, READ = 2'd1, MOVE = 2'd2, SEND = 2'd3;
+    localparam REST = 3'd0, READ = 3'd1, KEEP = 3'd2, MOVE = 3'd3, SEND = 3'd4;
 
     // Of each point: step in y, step in x, value, y, x.
     reg [30:0] table_of_points [0:127];
+    reg [30:0] table_output;
     reg [30:0] was;
     reg [30:0] now;
-    reg [1:0] state;
+    reg [2:0] state;
     reg [6:0] id;
     reg is_first_picture;
 
-    always @(posedge clock) was <= table_of_points[state == REST ? read_id : id];
+    always @(posedge clock) table_output <= table_of_points[state == REST ? read_id : id];
+    always @(posedge clock) was <= table_output;
     always @(posedge clock) if (state == SEND) table_of_points[id] <= now;
     assign read_point = was[24:0];
 
@@ -78,7 +81,8 @@ module moving_points (
     always @(posedge clock) begin
         case (state)
             REST: if (begins) state <= READ;
-            READ: state <= MOVE;
+            READ: state <= KEEP;
+            KEEP: state <= MOVE;
             MOVE: begin
                 state <= SEND;
                 random <= random_c;

@@ -5,7 +5,7 @@
 // |---|---|---|---|
 // | `clock`, `reset` | in | 1 | `reset` is synchronous and active high |
 // | `triangle_valid`, `triangle_ready`, `triangle_ids` | in, out, in | 1, 1, 21 | three ids of points, counter-clockwise, the first in bits 6 to 0 |
-// | `read_id`, `read_point` | out, in | 7, 25 | an id, and a clock later its point: value, y, x in bits 24 to 17, 16 to 9, 8 to 0 |
+// | `read_id`, `read_point` | out, in | 7, 25 | an id, and two clocks later its point: value, y, x in bits 24 to 17, 16 to 9, 8 to 0 |
 // | `pixel_valid`, `pixel_at`, `pixel_value` | out | 1, 16, 8 | a pixel to write, at `y << 8 \| x` |
 // | `is_idle` | out | 1 | no triangle is at work, and no pixel is under way |
 //
@@ -33,8 +33,8 @@ module triangle_fill (
     output wire [7:0] pixel_value,
     output wire is_idle
 );
-    // Steps before the first pixel: the three ids are asked for in steps 1 to 3, and their points come in 2 to 4.
-    localparam IDLE = 3'd0, LAST_POINT = 3'd4, EDGES = 3'd5, SCAN = 3'd6;
+    // Steps before the first pixel: the three ids are asked for in steps 1 to 3, and their points come in 3 to 5.
+    localparam IDLE = 3'd0, FIRST_POINT = 3'd3, LAST_POINT = 3'd5, EDGES = 3'd6, SCAN = 3'd7;
     reg [2:0] step;
     reg [20:0] ids;
     reg [8:0] x0, x1, x2, left, right;
@@ -66,16 +66,16 @@ module triangle_fill (
                 ids <= triangle_ids;
                 step <= 3'd1;
             end
-            3'd1: step <= 3'd2;
-            3'd2, 3'd3, LAST_POINT: begin
+            3'd1, 3'd2: step <= step + 3'd1;
+            FIRST_POINT, 3'd4, LAST_POINT: begin
                 step <= step + 3'd1;
                 {x0, x1, x2} <= {x1, x2, new_x};
                 {y0, y1, y2} <= {y1, y2, new_y};
                 {value0, value1, value2} <= {value1, value2, read_point[24:17]};
-                if (step == 3'd2 || new_x < left) left <= new_x;
-                if (step == 3'd2 || new_x > right) right <= new_x;
-                if (step == 3'd2 || new_y < low) low <= new_y;
-                if (step == 3'd2 || new_y > high) high <= new_y;
+                if (step == FIRST_POINT || new_x < left) left <= new_x;
+                if (step == FIRST_POINT || new_x > right) right <= new_x;
+                if (step == FIRST_POINT || new_y < low) low <= new_y;
+                if (step == FIRST_POINT || new_y > high) high <= new_y;
             end
             EDGES: begin
                 step <= SCAN;

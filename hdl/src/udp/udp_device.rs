@@ -5,8 +5,9 @@
 //! FIFO takes the answers of a job, and the core goes on with the next job while the cable carries them. P is the number
 //! of bits of a pointer of the FIFO, which holds `2^(P-1)` entries of one or two words.
 //!
-//! 1. `reset` is needed once, after power-up, for 8 clocks of each of the two clocks. It may change at any time: each
-//!    clock has a synchroniser for it.
+//! 1. `reset` is needed once, after power-up, for 4 clocks of the core. It may change at any time. The core's side stays
+//!    in reset until the port's side has been in reset for 8 of its own clocks; so a reset ends well on both sides, also
+//!    if the clock of the PHY stands when it begins. As long as that clock stands, the device stays in reset.
 //! 2. The addresses of the device are constants.
 //! 3. A reset of the core empties the FIFO. It lasts for the length of a datagram at least, as the FIFO asks.
 //!
@@ -28,7 +29,7 @@ use crate::leaf::{Parameter, Synchroniser, Unpack};
 use crate::prelude::*;
 use crate::serial::types::{Byte, Lamps};
 use crate::serial::CommandProgress;
-use crate::stream::AsyncFifo;
+use crate::stream::{AsyncFifo, ResetReply, ResetRequest};
 use incircle_protocol::Config;
 
 #[derive(LogicBlock, Default)]
@@ -58,8 +59,12 @@ pub struct UdpDevice<const P: usize> {
     progress: CommandProgress,
     /// The core gave the last word of an answer one clock earlier.
     ended: DFF<Bit>,
-    port_resets: Synchroniser<Bit>,
-    core_resets: Synchroniser<Bit>,
+    /// The reset in the core's clock, then the core's side and the port's side of it, and what they say to each other.
+    reset_seen: Synchroniser<Bit>,
+    core_resets: ResetRequest,
+    port_resets: ResetReply,
+    request_seen: Synchroniser<Bit>,
+    reply_seen: Synchroniser<Bit>,
     station: Parameter<Station>,
     lamps: Signal<Local, Lamps>,
     entry: Signal<Local, AnswerEntry>,
@@ -78,6 +83,7 @@ impl<const P: usize> UdpDevice<P> {
             port: UdpPort::new(),
             link: UdpLink::new(config, link)?,
             answers: AsyncFifo::new(),
+            port_resets: ResetReply::new(),
             station: Parameter::new(parameters.station()),
             ..Self::default()
         })
@@ -88,15 +94,22 @@ impl<const P: usize> Logic for UdpDevice<P> {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, core_clock, ended);
-        clock!(self, core_clock, link, core_resets, progress);
-        clock!(self, port_clock, port_resets);
-        self.core_resets.sent.next = self.reset.val();
-        self.port_resets.sent.next = self.reset.val();
+        clock!(self, core_clock, link, reset_seen, core_resets, reply_seen, progress);
+        clock!(self, port_clock, port_resets, request_seen);
+        self.reset_seen.sent.next = self.reset.val();
+        self.core_resets.reset.next = self.reset_seen.received.val();
+        self.core_resets.asks.next = false;
+        self.request_seen.sent.next = self.core_resets.request.val();
+        self.port_resets.request.next = self.request_seen.received.val();
+        self.reply_seen.sent.next = self.port_resets.reply.val();
+        self.core_resets.reply.next = self.reply_seen.received.val();
+        // Nobody asks whether the clock of the PHY runs.
+        self.core_resets.core_beat.next = false;
         self.port.port_clock.next = self.port_clock.val();
-        self.port.port_reset.next = self.port_resets.received.val();
+        self.port.port_reset.next = self.port_resets.resets.val();
         self.port.core_clock.next = self.core_clock.val();
-        self.port.core_reset.next = self.core_resets.received.val();
-        self.link.reset.next = self.core_resets.received.val();
+        self.port.core_reset.next = self.core_resets.resets.val();
+        self.link.reset.next = self.core_resets.resets.val();
         self.port.station.next = self.station.val();
         self.port.rx_valid.next = self.rx_valid.val();
         self.port.rx_error.next = self.rx_error.val();
