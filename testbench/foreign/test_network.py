@@ -204,3 +204,4 @@ async def reset_of_one_side(dut: Any) -> None:
         await board.open()
         points = board.points(min(POINTS, 8))
         assert await board.job(points) == delaunay(points), ends_before
+        await board.close()
