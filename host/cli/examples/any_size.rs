@@ -5,7 +5,7 @@
 //! cargo run --release -p incircle-cli --example any_size -- 14        # another number of sets
 //! ```
 //!
-//! Each set is cut in every way of [`WAYS`], for every size of [`SIZES`] that the way takes. A cell of the table has the
+//! Each set is cut in every way of [`WAYS`], for every size of [`SIZES`] that the way takes. An entry of the table has the
 //! number of sets whose mesh file has the bytes of `triangulate --backend cpu --threads 1`, and how many meshes were
 //! compared. The program ends with exit code 1 if one of them differs.
 
@@ -24,7 +24,7 @@ const SIZES: [usize; 4] = [8, 40, 200, 1000];
 
 /// Ways to a mesh. Each `{}` stands for the most points of a part; ways without it have one size.
 const WAYS: [(&str, Way); 7] = [
-    ("a device that holds so many points", Way::Backends(&["model?capacity={}"])),
+    ("a device that holds one part", Way::Backends(&["model?capacity={}"])),
     ("such a device and the processor", Way::Backends(&["model?capacity={}", "cpu?threads=1"])),
     ("two devices, one of 64 points", Way::Backends(&["model?capacity={}", "model?capacity=64"])),
     ("the core `tiny`, clock by clock", Way::Backends(&["clock?config=tiny"])),
@@ -118,7 +118,7 @@ fn table(folder: &Path, sets: usize) -> io::Result<bool> {
         }
     }
     let head: String = SIZES.iter().map(|size| format!(" {size} |")).collect();
-    println!("| equal of all meshes, parts of at most |{head}\n|---|{}", "---:|".repeat(SIZES.len()));
+    println!("| sets with equal bytes, in parts of at most so many points |{head}\n|---|{}", "---:|".repeat(SIZES.len()));
     let mut is_right = true;
     for (name, way) in WAYS {
         print!("| {name} |");
