@@ -2,8 +2,8 @@
 //! between them, and a FIFO for answers.
 //!
 //! The core gives words several times faster than the cable takes them, and inserts nothing while words wait. So the
-//! FIFO takes the answers of a job, and the core goes on with the next job while the cable carries them. P is the number
-//! of bits of a pointer of the FIFO, which holds `2^(P-1)` entries of one or two words.
+//! FIFO takes the answers of a job, and the core goes on with the next job while the cable carries them. P is the
+//! number of bits of a pointer of the FIFO, which holds `2^(P-1)` entries of one or two words.
 //!
 //! 1. `reset` is needed once, after power-up, for 8 clocks of each of the two clocks. It may change at any time: each
 //!    clock has a synchroniser for it.

@@ -1,13 +1,14 @@
-//! Compares the meshes of sets in parts and in tiles with those of the run in memory, byte for byte, and prints a table.
+//! Compares the meshes of sets in parts and in tiles with those of the run in memory, byte for byte, and prints a
+//! table.
 //!
 //! ```text
 //! cargo run --release -p incircle-cli --example any_size              # 200 sets
 //! cargo run --release -p incircle-cli --example any_size -- 14        # another number of sets
 //! ```
 //!
-//! Each set is cut in every way of [`WAYS`], for every size of [`SIZES`] that the way takes. An entry of the table has the
-//! number of sets whose mesh file has the bytes of `triangulate --backend cpu --threads 1`, and how many meshes were
-//! compared. The program ends with exit code 1 if one of them differs.
+//! Each set is cut in every way of [`WAYS`], for every size of [`SIZES`] that the way takes. An entry of the table has
+//! the number of sets whose mesh file has the bytes of `triangulate --backend cpu --threads 1`, and how many meshes
+//! were compared. The program ends with exit code 1 if one of them differs.
 
 use std::ffi::OsString;
 use std::io::{self, Write};
@@ -80,8 +81,8 @@ fn command(folder: &Path, words: &str) -> bool {
     incircle_cli::run(words) == ExitCode::SUCCESS
 }
 
-/// The points of a set as CSV: every distribution in turn, one place, and a line, of 4 to 16 bits. A third of the points
-/// are there twice.
+/// The points of a set as CSV: every distribution in turn, one place, and a line, of 4 to 16 bits. A third of the
+/// points are there twice.
 fn set(number: usize) -> String {
     let (bits, count, seed) = ([16, 10, 7, 4][number / 3 % 4], 50 + number * 37 % 1500, number as u64);
     let mut points = match Distribution::ALL.get(number % (Distribution::ALL.len() + 2)) {

@@ -1,5 +1,5 @@
-//! The rings of a polygon in GeoJSON (RFC 7946): one polygon, perhaps with holes, bare, in a feature, or in a collection
-//! of one feature.
+//! The rings of a polygon in GeoJSON (RFC 7946): one polygon, perhaps with holes, bare, in a feature, or in a
+//! collection of one feature.
 
 use crate::failure::{counted, quoted, Failure};
 use crate::formats::json_text;

@@ -6,7 +6,8 @@ use crate::failure::Failure;
 const LEAST: u64 = 32 << 20;
 /// The bytes that the program itself takes, with the buffers of its files.
 const PROGRAM: u64 = 16 << 20;
-/// The most triangles of a strip that are kept in memory, for each four of its points. Triangles beyond go through files.
+/// The most triangles of a strip that are kept in memory, for each four of its points. Triangles beyond go through
+/// files.
 const TRIANGLES_OF_FOUR: u64 = 9;
 /// The bytes of a point of a strip: 12 for itself, up to 8 to find it, and for each triangle 12 and 36 for its sides.
 const POINT_BYTES: u64 = 20 + TRIANGLES_OF_FOUR * 48 / 4;

@@ -111,8 +111,8 @@ pub struct Hull {
     pub area: i128,
     /// The place of the lowest index.
     pub start: u32,
-    /// Rows of a strip, the two points of an edge in rising order, whether the edge runs the other way, and its place on
-    /// the hull. The strip is the one of the first point.
+    /// Rows of a strip, the two points of an edge in rising order, whether the edge runs the other way, and its place
+    /// on the hull. The strip is the one of the first point.
     pub edges: Sorted<5>,
 }
 
@@ -318,7 +318,8 @@ impl Merged {
 }
 
 impl Hull {
-    /// The hull with these sides, which begin at one point and end at another one. The points on its edges belong to it.
+    /// The hull with these sides, which begin at one point and end at another one. The points on its edges belong to
+    /// it.
     fn of(sides: [Stack; 2], strips: &[Point], folder: &Path, memory: u64) -> Result<Self, Failure> {
         let [mut lower, mut upper] = sides;
         let count = (lower.len() + upper.len()).saturating_sub(2);

@@ -116,8 +116,8 @@ fn cross(
     sides.finish()
 }
 
-/// The first defect of the triangles so far, in the order of the list. All triangles differ and are in order, so this is
-/// the order of their corners.
+/// The first defect of the triangles so far, in the order of the list. All triangles differ and are in order, so this
+/// is the order of their corners.
 struct Judge {
     area: i128,
     /// The corners of the triangle and the number of the corner, or 3 for the triangle as a whole.

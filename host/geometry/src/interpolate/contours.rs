@@ -1,8 +1,8 @@
 //! Contour lines of the surface that is linear on triangles.
 //!
 //! A corner counts as above a level if its value is the level or more. A triangle with corners above and below has
-//! exactly one edge that leads down, counter-clockwise, and one that leads up. The line enters across the first and leaves
-//! across the second, so that higher ground lies on its left. No triangle is crossed twice at a level.
+//! exactly one edge that leads down, counter-clockwise, and one that leads up. The line enters across the first and
+//! leaves across the second, so that higher ground lies on its left. No triangle is crossed twice at a level.
 
 use alloc::vec::Vec;
 

@@ -94,8 +94,8 @@ impl Density {
         self.bounds
     }
 
-    /// The mass left of a place in its row, for a height of 2^-4 of a step. The pixel is the one at the place, or one at
-    /// whose border the place lies.
+    /// The mass left of a place in its row, for a height of 2^-4 of a step. The pixel is the one at the place, or one
+    /// at whose border the place lies.
     pub(super) fn left_of(&self, x: i64, [column, row]: [usize; 2]) -> i128 {
         let columns = self.borders[0].len() - 1;
         let weight = i128::from(self.weights[row * columns + column]);

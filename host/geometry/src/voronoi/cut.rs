@@ -4,8 +4,8 @@
 //! edges lie on edges of the clip or on borders. The part nearer to `p` is kept: chains of corners strictly on that
 //! side. Each chain begins and ends on the border. Just beside the border on the side of `p`, the inside of the region
 //! begins where a chain ends, for the inside is on the left of a chain, and stops where a chain begins. So in the order
-//! of positions ends and beginnings alternate, and each end is joined with the beginning behind it. Where several chains
-//! end and begin at one place, the order just beside the border is that of their directions there.
+//! of positions ends and beginnings alternate, and each end is joined with the beginning behind it. Where several
+//! chains end and begin at one place, the order just beside the border is that of their directions there.
 //!
 //! A ring that touches the border with one corner and is on the side of `p` elsewhere stays as it is. One that touches
 //! it with more corners may be a hole that cuts off a piece between them, so it is joined with the others.
@@ -122,8 +122,8 @@ pub(super) struct Cutter {
 }
 
 impl Cutter {
-    /// Appends to `out` and `counts` what is left of some rings, of which each has so many corners: the corners, and how
-    /// many each new ring has.
+    /// Appends to `out` and `counts` what is left of some rings, of which each has so many corners: the corners, and
+    /// how many each new ring has.
     pub(super) fn cut(
         &mut self,
         rings: (&[Bend], &[usize]),

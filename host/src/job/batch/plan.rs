@@ -117,8 +117,8 @@ impl Plan {
         Self { rounds: rounds(contexts), most_of_team, capacity, most_shared: capacity }
     }
 
-    /// The same plan with at most so many points in jobs that share the memory: those whose mesh the device can keep for
-    /// the line.
+    /// The same plan with at most so many points in jobs that share the memory: those whose mesh the device can keep
+    /// for the line.
     pub(super) fn sharing_at_most(self, points: usize) -> Self {
         Self { most_shared: self.most_shared.min(points), ..self }
     }

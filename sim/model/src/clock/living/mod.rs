@@ -1,4 +1,5 @@
-//! The living engine, clock by clock: runs of questions and changes of a mesh that stands, in all contexts side by side.
+//! The living engine, clock by clock: runs of questions and changes of a mesh that stands, in all contexts side by
+//! side.
 //!
 //! The engine has the memories, the locks and the stages of the insertion engine, and works while that one rests. Its
 //! rules, M1 to M13, are those of `docs/living-mesh.md`. Each clock, one visit completes and one is issued, one record
