@@ -119,7 +119,10 @@ fn table(folder: &Path, sets: usize) -> io::Result<bool> {
         }
     }
     let head: String = SIZES.iter().map(|size| format!(" {size} |")).collect();
-    println!("| sets with equal bytes, in parts of at most so many points |{head}\n|---|{}", "---:|".repeat(SIZES.len()));
+    println!(
+        "| sets with equal bytes, in parts of at most so many points |{head}\n|---|{}",
+        "---:|".repeat(SIZES.len())
+    );
     let mut is_right = true;
     for (name, way) in WAYS {
         print!("| {name} |");
