@@ -28,7 +28,7 @@ pub struct Triangulated {
     pub duplicates: Vec<Duplicate>,
 }
 
-/// Why points and constraints have no mesh.
+/// The reason why points and constraints have no mesh.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TriangulateError {
@@ -111,7 +111,7 @@ pub fn triangulate_numbers(
             return Ok(Triangulated { made, hull: forced.hull, duplicates: forced.duplicates });
         }
     }
-    // There are no triangles, or the answer is an error: the steps one by one say which.
+    // There are no triangles, or the answer is an error: the steps one by one find out which of the two.
     let own = numbers.first(points);
     let Connectivity { triangles, hull, duplicates } = connect(&own, threads, watch)?;
     let lists = MeshLists { triangles: &triangles, hull: &hull, duplicates: &duplicates };

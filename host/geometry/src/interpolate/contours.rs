@@ -13,7 +13,7 @@ use super::record::{after, Record, NONE};
 pub struct Crossing {
     /// The ends of the edge, the lower index first.
     pub edge: [u32; 2],
-    /// How far the crossing lies from the first end to the second: 0 to 1.
+    /// The position of the crossing along the edge: 0 at the first end, 1 at the second.
     pub share: f64,
 }
 

@@ -136,7 +136,7 @@ impl<P: PlanePoint> Triangulation<P> {
         if !level.is_plane() {
             return false;
         }
-        // What stands here for a free vertex is never used.
+        // The entry of a free vertex is never used.
         let place = |vertex: &Vertex<P>| below.vertices.get(vertex.name as usize).map_or(vertex.point, |own| own.point);
         let moved: Vec<P> = level.vertices.iter().map(place).collect();
         let most = level.count / MOST;

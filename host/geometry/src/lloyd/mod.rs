@@ -48,7 +48,7 @@ pub use density::{Density, DensityError};
 pub use error::Error;
 pub use step::{step, weighted_step};
 
-/// When a relaxation ends.
+/// The conditions under which a relaxation ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stop {
     /// The most steps.
@@ -58,7 +58,7 @@ pub struct Stop {
     pub when_still: bool,
 }
 
-/// Why a relaxation ended.
+/// The reason why a relaxation ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum End {
     /// All steps were done.
@@ -78,7 +78,7 @@ pub struct Relaxed {
     pub iterations: u32,
     /// The points that moved in the last step.
     pub moved: usize,
-    /// Why the relaxation ended.
+    /// The reason why the relaxation ended.
     pub end: End,
 }
 

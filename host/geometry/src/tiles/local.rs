@@ -1,4 +1,4 @@
-//! The first step: which triangles of a tile are final, and what the tile leaves for joins.
+//! The first step: finding the final triangles of a tile, and the border that it leaves for joins.
 
 use alloc::vec;
 use alloc::vec::Vec;

@@ -18,7 +18,7 @@ use super::corner::{cross, vector};
 use super::place::Place;
 use crate::point::Point;
 
-/// What an edge of a clipped cell lies on.
+/// The line on which an edge of a clipped cell lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// The border with the cell of the point of this index.
@@ -223,8 +223,8 @@ impl Cutter {
         }
     }
 
-    /// What the edge between two tips lies on. Where a ring itself runs along the border and has its inside on the side
-    /// of `p`, the edge stays that of the ring: the inside does not reach the other cell.
+    /// The line on which the edge between two tips lies. Where a ring itself runs along the border and has its inside
+    /// on the side of `p`, the edge stays that of the ring: the inside does not reach the other cell.
     fn side_between(&self, bends: &[Bend], end: Tip, begin: Tip, q: u32) -> Side {
         let (Some(first), Some(last)) = (end.corner, begin.corner) else { return Side::Neighbor(q) };
         let chain = self.chains[end.chain];
