@@ -90,8 +90,9 @@ pub enum Command {
     Tile(TileArguments),
     /// Carry out a script of changes and questions on a mesh that lives
     ///
-    /// The back ends 'cpu' and 'model' make all changes and answer all questions. Any other only makes
-    /// the mesh at the end, from the points that live then; the bytes are the same.
+    /// The back ends 'cpu', 'model' and, with a core of one engine, 'clock' make all changes and answer
+    /// all questions. With any other the CPU does that, and the device makes the mesh at the end, from
+    /// the points that live then; the bytes are the same.
     #[command(verbatim_doc_comment, after_help = help::REPLAY, after_long_help = help::REPLAY_LONG)]
     Replay(ReplayArguments),
     /// Compute the Voronoi cells of a file of points, exactly
@@ -262,8 +263,7 @@ pub struct VerifyArguments {
     )]
     pub memory: Option<u64>,
     /// Folder for the files of a check with --memory (default: the folder of the mesh)
-    ///
-    /// They take about 44 bytes for each point of an even set, and have no names on Unix.
+    /// The files take about 44 bytes for each point of an even set, and have no names on Unix.
     #[arg(long, value_name = "DIR", requires = "memory")]
     pub scratch: Option<PathBuf>,
     /// Print the result as one JSON object on standard output

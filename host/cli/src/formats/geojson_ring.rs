@@ -11,7 +11,7 @@ use crate::text;
 pub struct Rings {
     /// The corners of the outer ring, then those of each hole. The last corner of a ring repeats its first.
     pub corners: PointTable,
-    /// How many corners each ring has.
+    /// The number of corners of each ring.
     pub counts: Vec<usize>,
 }
 

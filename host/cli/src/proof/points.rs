@@ -260,7 +260,7 @@ impl<const N: usize> Writer<N> {
     }
 }
 
-/// What becomes of points that come in lexicographic order.
+/// The strips, duplicates and hull of points that come in lexicographic order.
 struct Merged {
     sorted: Writer<3>,
     strips: Vec<Point>,

@@ -124,7 +124,7 @@ struct Judge {
     first: Option<([u32; 4], Flaw)>,
 }
 
-/// What is wrong with a triangle.
+/// A defect of a triangle.
 enum Flaw {
     Duplicate { index: u32, of: u32 },
     Shape([Point; 3]),

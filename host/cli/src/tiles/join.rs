@@ -18,7 +18,7 @@ use crate::memory::Memory;
 use crate::path;
 use crate::progress::CountMeter;
 
-/// The triangles of the joins have one in so many bytes of the memory. They are few, and the rest is for borders.
+/// One byte in this many of the memory is for the triangles of the joins. They are few, and the rest is for borders.
 const SHARE: u64 = 8;
 /// The most bytes that a point of the borders takes while they are joined. Measured: 105 for points on a circle, and
 /// 112 for points on a parabola.

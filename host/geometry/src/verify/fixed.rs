@@ -3,9 +3,10 @@
 //! A sweep goes over the points from left to right, in lexicographic order, and keeps the constraints that it has met
 //! and not left, from the lowest to the highest. Constraints that overlap are one strand. At each point the strands
 //! through it end a piece there, and those that go on begin the next. O(n log n) for points and constraints, however
-//! many of them overlap or meet at one point. Where constraints cross, the strands lose their order. No wrong mesh is
-//! accepted because of that: pieces then are missing or pass through points, so either the end of a constraint is not
-//! found, or some piece is no edge of any mesh.
+//! many of them overlap or meet at one point.
+//!
+//! Where constraints cross, the strands lose their order. No wrong mesh is accepted because of that: pieces then are
+//! missing or pass through points, so either the end of a constraint is not found, or some piece is no edge of any mesh.
 
 use alloc::vec;
 use alloc::vec::Vec;
