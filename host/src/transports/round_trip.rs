@@ -1,4 +1,4 @@
-//! How long the host waits for news of a device before it polls.
+//! The time that the host waits for news of a device before it polls.
 
 use std::time::Duration;
 

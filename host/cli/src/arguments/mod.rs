@@ -263,6 +263,7 @@ pub struct VerifyArguments {
     )]
     pub memory: Option<u64>,
     /// Folder for the files of a check with --memory (default: the folder of the mesh)
+    ///
     /// The files take about 44 bytes for each point of an even set, and have no names on Unix.
     #[arg(long, value_name = "DIR", requires = "memory")]
     pub scratch: Option<PathBuf>,

@@ -6,7 +6,8 @@
 //! many of them overlap or meet at one point.
 //!
 //! Where constraints cross, the strands lose their order. No wrong mesh is accepted because of that: pieces then are
-//! missing or pass through points, so either the end of a constraint is not found, or some piece is no edge of any mesh.
+//! missing or pass through points, so either the end of a constraint is not found, or some piece is no edge of any
+//! mesh.
 
 use alloc::vec;
 use alloc::vec::Vec;

@@ -1,6 +1,6 @@
 //! Meshes that live, on the host and on a device, behind one trait.
 //!
-//! [`LivingSession`] keeps the mesh on a device that takes runs, `runs` puts items together to runs, `names` knows the
+//! [`LivingSession`] keeps the mesh on a device that takes runs, `runs` gathers items into runs, `names` knows the
 //! point of every index, `line` answers while all points lie on one line, and `exchange` speaks with the device.
 
 mod exchange;

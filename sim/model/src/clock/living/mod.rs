@@ -53,7 +53,7 @@ pub(super) struct Standing {
     pub refused: u32,
 }
 
-/// What the engine sees of the rest of the core at an edge.
+/// The signals from the rest of the core that the engine sees at an edge.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Signals {
     /// The command word that is taken.
