@@ -27,7 +27,7 @@ pub const INCIRCLE_EMPTY: u32 = u32::MAX;
 
 /// The most bytes a point that a new triangulation needs while it is made.
 const BYTES_OF_A_POINT: usize = 400;
-/// After this many insertions the memory for the growth of all lists is looked for again.
+/// After so many insertions the memory for the growth of all lists is looked for again.
 const LOOK: u32 = 1024;
 
 /// What a place is, and the vertices there.

@@ -28,7 +28,7 @@ pub struct Triangulated {
     pub duplicates: Vec<Duplicate>,
 }
 
-/// The reason why points and constraints have no mesh.
+/// Why points and constraints have no mesh.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TriangulateError {
@@ -55,9 +55,9 @@ impl Restored for TriangulateError {
 /// byte, in less time: the constraints are forced in before the triangles are sorted, while neighbours lie close
 /// together in memory. Use `constrain` if there is a mesh already, for example that of a device.
 ///
-/// `threads` and `watch` are those of `cpu::triangulate`; one thread forces the constraints. O(n) on even sets, then
-/// for each constraint the edges that it crosses, and the flips around them. Where the answer is an error, the work
-/// begins anew by the slower way, which finds out what is wrong; so the stages that `watch` hears of come twice.
+/// `threads` and `watch` are those of `cpu::triangulate`; one thread forces the constraints. O(n) on even sets, then for
+/// each constraint the edges that it crosses, and the flips around them. Where the answer is an error, the work begins
+/// anew by the slower way, which finds out what is wrong; so the stages that `watch` hears of come twice.
 ///
 /// ```
 /// use core::num::NonZeroUsize;
@@ -111,7 +111,7 @@ pub fn triangulate_numbers(
             return Ok(Triangulated { made, hull: forced.hull, duplicates: forced.duplicates });
         }
     }
-    // There are no triangles, or the answer is an error: the steps one by one find out which of the two.
+    // There are no triangles, or the answer is an error: the steps one by one say which.
     let own = numbers.first(points);
     let Connectivity { triangles, hull, duplicates } = connect(&own, threads, watch)?;
     let lists = MeshLists { triangles: &triangles, hull: &hull, duplicates: &duplicates };

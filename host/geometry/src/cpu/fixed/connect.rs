@@ -36,7 +36,7 @@ pub(crate) struct Forced {
     pub border: Vec<[u32; 2]>,
 }
 
-/// The plan of a mesh with constraints, and the bounds of the work on it.
+/// What a mesh with constraints is made of.
 #[derive(Clone, Copy)]
 pub(crate) struct Asked<'a> {
     /// The constraints and the domain. All indices of points and places exist.
