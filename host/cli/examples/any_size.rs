@@ -34,7 +34,7 @@ const WAYS: [(&str, Way); 7] = [
     ("tiles in files, by `model`", Way::Tiles("model")),
 ];
 
-/// How a mesh is made.
+/// A way in which a mesh is made.
 #[derive(Clone, Copy)]
 enum Way {
     /// `triangulate` with these back ends.

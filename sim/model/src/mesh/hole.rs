@@ -21,7 +21,7 @@ pub(crate) struct RingEdge {
 pub(crate) enum Across {
     /// The ring edge of this number.
     Ring(u8),
-    /// This slot of the filling triangle of this number.
+    /// The slot of a filling triangle, given the number of the triangle.
     Filling(u8, u8),
 }
 
