@@ -638,8 +638,7 @@ int32_t incircle_diagram_cell_corners(const incircle_diagram *diagram,
                                       size_t room,
                                       size_t *count);
 
-// The place in `incircle_diagram_cell_corners` at which each piece begins. There is one item more than pieces: the end
-// of the last.
+// Where each piece begins in `incircle_diagram_cell_corners`. There is one item more than pieces: the end of the last.
 //
 // # Safety
 // As for `incircle_diagram_vertices`.

@@ -166,8 +166,7 @@ pub unsafe extern "C" fn incircle_diagram_cell_corners(
     guarded(|| unsafe { give(of_cells(shared(diagram, "diagram")?, |cells| &cells.corners)?, buffer, room, count) })
 }
 
-/// The place in `incircle_diagram_cell_corners` at which each piece begins. There is one item more than pieces: the end
-/// of the last.
+/// Where each piece begins in `incircle_diagram_cell_corners`. There is one item more than pieces: the end of the last.
 ///
 /// # Safety
 /// As for `incircle_diagram_vertices`.

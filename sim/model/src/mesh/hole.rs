@@ -21,7 +21,7 @@ pub(crate) struct RingEdge {
 pub(crate) enum Across {
     /// The ring edge of this number.
     Ring(u8),
-    /// The slot of a filling triangle, given the number of the triangle.
+    /// The filling triangle of the first number, at the slot of the second.
     Filling(u8, u8),
 }
 
