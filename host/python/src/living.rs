@@ -18,7 +18,7 @@ type Place<'a, 'py> = (&'a Bound<'py, PyAny>, &'a Bound<'py, PyAny>);
 
 /// Changes between two looks for signals.
 const LOOK: usize = 65_536;
-/// After this many single insertions the memory for the growth of all lists is looked for again.
+/// After so many single insertions the memory for the growth of all lists is looked for again.
 const LOOK_FOR_MEMORY: u32 = 1024;
 
 /// The triangulation that can be changed, in one of the types of numbers.
@@ -84,8 +84,8 @@ fn fresh<P: PlanePoint + Send>(py: Python<'_>, points: Vec<P>) -> PyResult<Trian
     py.detach(|| Triangulation::from(points)).map_err(|error| of_living(py, error))
 }
 
-/// Looks for the memory for `insertions` insertions. A list that doubles needs twice its bytes while it is copied, and
-/// all lists may double in turn.
+/// Looks for the memory for so many insertions. A list that doubles needs twice its bytes while it is copied, and all
+/// lists may double in turn.
 fn look_for_growth<P: PlanePoint>(py: Python<'_>, mesh: &Triangulation<P>, insertions: usize) -> PyResult<()> {
     look_for_memory(py, 2 * mesh.bytes() + insertions.saturating_mul(BYTES_OF_A_LIVING_POINT), 1)
 }
