@@ -585,8 +585,8 @@ int32_t incircle_diagram_vertices(const incircle_diagram *diagram,
                                   size_t room,
                                   size_t *count);
 
-// The place in `incircle_diagram_neighbors` and `incircle_diagram_corners` at which the edges of each point's cell
-// begin. There is one item more than points: the end of the last. A duplicate has no edges.
+// Where the edges of the cell of each point begin in `incircle_diagram_neighbors` and `incircle_diagram_corners`.
+// There is one item more than points: the end of the last. A duplicate has no edges.
 //
 // # Safety
 // As for `incircle_diagram_vertices`.
@@ -674,8 +674,8 @@ int32_t incircle_diagram_inside(const incircle_diagram *diagram,
                                 size_t room,
                                 size_t *count);
 
-// The place in `incircle_diagram_inside` at which the items of each point begin. There is one item more than points:
-// the end of the last.
+// Where the items of each point begin in `incircle_diagram_inside`. There is one item more than points: the end of the
+// last.
 //
 // # Safety
 // As for `incircle_diagram_vertices`.

@@ -76,8 +76,8 @@ pub unsafe extern "C" fn incircle_diagram_vertices(
     guarded(|| unsafe { give(&shared(diagram, "diagram")?.lists.vertices, buffer, room, count) })
 }
 
-/// The place in `incircle_diagram_neighbors` and `incircle_diagram_corners` at which the edges of each point's cell
-/// begin. There is one item more than points: the end of the last. A duplicate has no edges.
+/// Where the edges of the cell of each point begin in `incircle_diagram_neighbors` and `incircle_diagram_corners`.
+/// There is one item more than points: the end of the last. A duplicate has no edges.
 ///
 /// # Safety
 /// As for `incircle_diagram_vertices`.
@@ -226,8 +226,8 @@ pub unsafe extern "C" fn incircle_diagram_inside(
     guarded(|| unsafe { give(of_cells(shared(diagram, "diagram")?, |cells| &cells.neighbors)?, buffer, room, count) })
 }
 
-/// The place in `incircle_diagram_inside` at which the items of each point begin. There is one item more than points:
-/// the end of the last.
+/// Where the items of each point begin in `incircle_diagram_inside`. There is one item more than points: the end of the
+/// last.
 ///
 /// # Safety
 /// As for `incircle_diagram_vertices`.
