@@ -24,7 +24,7 @@ impl ClockModel {
         self
     }
 
-    /// The events of the last run, counted. `None` for a core without runs.
+    /// What the last run did. `None` for a core without runs.
     pub fn run_counts(&self) -> Option<&RunCounts> {
         self.living.as_ref().map(LivingEngine::counts)
     }
