@@ -162,7 +162,8 @@ pub(crate) struct BoardArguments {
     )]
     pub(crate) name: Option<Board>,
     /// Make a bitstream for every row of the table of boards, and for every Ethernet port. The folders are called BOARD
-    /// for the board's first core, BOARD-CONFIGURATION for the others, and BOARD-udp for the first core behind Ethernet.
+    /// for the board's first core, BOARD-CONFIGURATION for the others, and BOARD-udp for the first core behind
+    /// Ethernet.
     #[arg(long, conflicts_with = "table")]
     pub(crate) all: bool,
     /// Write the tables in the documents again from the reports of the boards.

@@ -6,8 +6,8 @@
 //! ```
 //!
 //! The example makes its own pair of images: a slanted wall, a box before it and a slanted board, all with a random
-//! texture. The *disparity* of a place is how many pixels farther left it lies in the right image; near things have large
-//! ones. The last line says how far the planes are from the true disparities.
+//! texture. The *disparity* of a place is how many pixels farther left it lies in the right image; near things have
+//! large ones. The last line says how far the planes are from the true disparities.
 
 use std::error::Error;
 use std::fmt::Write;

@@ -14,7 +14,7 @@ use std::fmt::Write;
 
 use incircle::interpolate::Surface;
 
-/// How much steeper the ground is drawn than it is, so that shades differ.
+/// The factor by which the ground is drawn steeper than it is, so that shades differ.
 const STEEPNESS: f64 = 3.0;
 /// The direction to the sun: north-west, 45 degrees high.
 const SUN: [f64; 3] = [-0.5, 0.5, std::f64::consts::FRAC_1_SQRT_2];

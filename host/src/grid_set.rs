@@ -81,7 +81,7 @@ pub struct GridSet {
     origin: Origin,
 }
 
-/// Where the coordinates of the grid come from.
+/// The source of the coordinates of the grid: a lattice, or a quantisation.
 #[derive(Clone, Debug)]
 enum Origin {
     Lattice(Lattice),
@@ -155,7 +155,7 @@ impl GridSet {
         Clip::rectangle(low, Point::new(xs.max()?, ys.max()?)).ok()
     }
 
-    /// What the quantisation did, if one was asked for.
+    /// The report of the quantisation, if one was asked for.
     pub fn quantization(&self) -> Option<&Quantization> {
         match &self.origin {
             Origin::Lattice(_) => None,

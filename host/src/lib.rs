@@ -83,7 +83,7 @@
 //! # Points that change on a device
 //!
 //! A device that can keep a mesh does so in a [`LivingSession`], which shares the trait [`LivingMesh`] with
-//! [`Triangulation`]. Of the devices of this library only the model can.
+//! [`Triangulation`]. Of the devices of this library the back ends `model`, and `clock` with one engine, can.
 //!
 //! ```
 //! use incircle::living::Location;

@@ -10,9 +10,9 @@ use crate::error::Error;
 /// The linear values at places, where the mesh answers in which triangle each place lies; NaN outside the hull.
 ///
 /// `points` and `values` are those of the mesh, by index. The values have the bits of those that
-/// [`Surface`](crate::interpolate::Surface) gives by [`Method::Linear`](crate::interpolate::Method::Linear) for the same
-/// points, whatever the mesh: a device says where a place lies, which is exact, and the processor works out the value
-/// from the corners.
+/// [`Surface`](crate::interpolate::Surface) gives by [`Method::Linear`](crate::interpolate::Method::Linear) for the
+/// same points, whatever the mesh: a device says where a place lies, which is exact, and the processor works out the
+/// value from the corners.
 ///
 /// One question for each place: O(log n) expected on the processor; a device walks from the place of the question
 /// before, so ask for places along a curve.

@@ -1,4 +1,5 @@
-//! Reverse COBS, in which frames come to the host, decoded without memory of its own. `protocol/SERIAL.md` describes it.
+//! Reverse COBS, in which frames come to the host, decoded without memory of its own. `protocol/SERIAL.md` describes
+//! it.
 
 /// Length byte of a full piece of 254 bytes. Unlike other length bytes, it does not stand for a zero.
 const FULL_PIECE: u8 = 255;

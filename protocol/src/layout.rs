@@ -29,7 +29,7 @@ pub struct Identity {
     /// Number of boundary edges that a context's list holds. A point with a longer boundary becomes a
     /// solo insertion, by flips.
     pub ring_capacity: u32,
-    /// What the device has beyond the commands of every device, a bit each:
+    /// The features that the device has beyond the commands of every device, a bit each:
     /// [`FEATURE_RUNS`](crate::FEATURE_RUNS). All other bits are 0, and a host does not look at them.
     pub features: u32,
 }

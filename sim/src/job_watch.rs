@@ -2,7 +2,7 @@
 
 use incircle_protocol::{Command, CommandReader, Layout};
 
-/// What a word means for the waveform of the chosen job.
+/// The meaning of a word for the waveform of the chosen job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Moment {
     /// The chosen job begins with this word, its `Clear`.

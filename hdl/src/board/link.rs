@@ -1,4 +1,5 @@
-//! The link between the core of a board and its host: which files of the board's folder belong to it, and its parameters.
+//! The link between the core of a board and its host: which files of the board's folder belong to it, and its
+//! parameters.
 
 use super::error::BoardError;
 use super::pll::MHZ;

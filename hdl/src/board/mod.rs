@@ -111,7 +111,8 @@ pub const BOARDS: [Board; 3] = [
         fifo_bytes: 4096,
         bridge: "DAPLink",
         bridge_rate: 115_200,
-        // litex-boards' target delays nothing on the way to the PHY, and LiteEth received data by 2 ns unless told else.
+        // litex-boards' target delays nothing on the way to the PHY, and LiteEth received data by 2 ns unless told
+        // else.
         ethernet: Some(Rgmii { phy: "B50612D", delay: 80, clock_delay: 0 }),
     },
     Board {

@@ -45,8 +45,8 @@ fn counts_of(text: &str) -> Result<(Cells, Cells), String> {
     Ok((core, all))
 }
 
-/// The highest frequencies of a board in MHz: of the core's clock, and of the clock of the Ethernet port if `port` gives
-/// the name of its pin and its constraint.
+/// The highest frequencies of a board in MHz: of the core's clock, and of the clock of the Ethernet port if `port`
+/// gives the name of its pin and its constraint.
 pub(super) fn fmax(path: &Path, clock_mhz: u32, port: Option<(&str, u32)>) -> Result<(f64, Option<f64>), BoardError> {
     fmax_of(&json::read(path)?, clock_mhz, port).map_err(|reason| BoardError::form(path, reason))
 }

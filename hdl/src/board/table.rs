@@ -313,7 +313,7 @@ fn readings(measurement: &Measurement) -> [(&'static str, String); 10] {
     ]
 }
 
-/// What a report says of the link, with a name.
+/// The link in words, as a report gives it, with its name.
 fn link(report: &Report) -> (&'static str, String) {
     if let Some(Serial { bridge, bits_per_second, fifo_bytes }) = &report.serial {
         return ("serial", format!("{bits_per_second} bit/s ({bridge}), FIFO of {fifo_bytes} bytes"));

@@ -5,8 +5,8 @@
 //! Latency: 1 clock from a byte to the state.
 //!
 //! Source: polynomial 04C11DB7, reflected, as `serial/crc32.rs`, which takes a bit a clock in a quarter of the logic.
-//! The state is linear: a byte of eight bits adds one constant for each bit that is 1. The register holds the inverse of
-//! the state, because a register of an FPGA begins with 0, and needs a LUT a bit to be set to 1 later.
+//! The state is linear: a byte of eight bits adds one constant for each bit that is 1. The register holds the inverse
+//! of the state, because a register of an FPGA begins with 0, and needs a LUT a bit to be set to 1 later.
 
 use super::types::Byte;
 use crate::commands::types::Word;

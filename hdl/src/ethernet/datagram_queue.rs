@@ -13,13 +13,13 @@
 //! Two of the longest datagrams and two of the shortest fit. So a short one between long ones, such as a receipt
 //! between answers, does not make the cable wait until the next long one is whole.
 //!
-//! Latency: 2 clocks from `read_index` to `read_data`; 3 clocks of the reader from the last byte to `holds`, perhaps one
-//! more; 2 clocks of the writer from the last byte to `byte_ready` for the next datagram if there is room; 5 of the
+//! Latency: 2 clocks from `read_index` to `read_data`; 3 clocks of the reader from the last byte to `holds`, perhaps
+//! one more; 2 clocks of the writer from the last byte to `byte_ready` for the next datagram if there is room; 5 of the
 //! writer from `lets_go` to `byte_ready`, perhaps one more.
 //!
-//! Source: each side has a flag for each of the four places of datagrams that changes when the place is filled or freed,
-//! and sees the other's flags through a synchroniser. A place is filled while they differ. Flags, the bytes in the
-//! memory and the four lengths are all that crosses; bytes and lengths are stable before the flag is seen.
+//! Source: each side has a flag for each of the four places of datagrams that changes when the place is filled or
+//! freed, and sees the other's flags through a synchroniser. A place is filled while they differ. Flags, the bytes in
+//! the memory and the four lengths are all that crosses; bytes and lengths are stable before the flag is seen.
 
 use super::types::{Byte, Place};
 use crate::leaf::{DualClockMemory, Synchroniser};

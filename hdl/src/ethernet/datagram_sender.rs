@@ -17,7 +17,7 @@ use super::types::{Byte, HeaderRow, Place, Station};
 use crate::leaf::LookupTable;
 use crate::prelude::*;
 
-/// What the sender does with the oldest datagram.
+/// The step of the sender, which takes the oldest datagram.
 #[derive(Clone, Copy, Debug, PartialEq, LogicState)]
 pub enum DatagramPhase {
     /// Awaits a datagram.

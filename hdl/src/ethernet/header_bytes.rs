@@ -13,7 +13,7 @@ use crate::prelude::*;
 pub struct HeaderBytes {
     pub clock: Signal<In, Clock>,
     pub station: Signal<In, Station>,
-    /// Where the byte comes from.
+    /// The source of the byte.
     pub row: Signal<In, HeaderRow>,
     /// The byte, if it comes from the datagram.
     pub datagram_byte: Signal<In, Byte>,

@@ -26,7 +26,7 @@ use super::types::{Byte, Place};
 use crate::commands::types::Word;
 use crate::prelude::*;
 
-/// What the receiver awaits from the PHY.
+/// The part of a frame that the receiver awaits from the PHY.
 #[derive(Clone, Copy, Debug, PartialEq, LogicState)]
 pub enum FrameState {
     /// The beginning of a frame.

@@ -19,7 +19,7 @@ use super::byte_crc::ByteCrc;
 use super::types::Byte;
 use crate::prelude::*;
 
-/// What the sender puts on the line.
+/// The part of a frame that the sender puts on the line.
 #[derive(Clone, Copy, Debug, PartialEq, LogicState)]
 pub enum SendPart {
     /// Nothing.

@@ -1,14 +1,15 @@
 //! The sending pins of RGMII: puts the bytes of GMII on the pins at both edges of the clock.
 //!
 //! 1. The low half of a byte is on the pins while the clock is high, the high half while the clock is low. The pin of
-//!    the clock follows the clock itself, so that something must delay it by about 2 ns: the PHY, the board, or the pin.
+//!    the clock follows the clock itself, so that something must delay it by about 2 ns: the PHY, the board, or the
+//!    pin.
 //! 2. With `INCIRCLE_ECP5` defined, `DELAY` taps of 25 ps, 0 to 127, delay the pin of the clock. The right number is a
 //!    matter of the board.
 //!
 //! Latency: a byte that is valid before an edge is on the pins behind the next edge.
 //!
-//! Source: RGMII 1.3 and 2.0; Lattice, ECP5 High-Speed I/O Interface, ODDRX1F and DELAYG. Without `INCIRCLE_ECP5` the Verilog has
-//! plain registers, and a choice by the level of the clock.
+//! Source: RGMII 1.3 and 2.0; Lattice, ECP5 High-Speed I/O Interface, ODDRX1F and DELAYG. Without `INCIRCLE_ECP5` the
+//! Verilog has plain registers, and a choice by the level of the clock.
 
 use super::types::Byte;
 use rust_hdl_core::prelude::*;

@@ -81,7 +81,7 @@ crate::packed! {
         pub broadcast: Byte,
     }
 
-    /// What a frame may still be, by the bytes of it that have come.
+    /// The kinds of frames that a frame may still be one of, by the bytes of it that have come.
     pub struct Kinds {
         /// A UDP datagram for the device, in IPv4 without options and not a fragment.
         pub is_udp: bool,
@@ -93,7 +93,7 @@ crate::packed! {
         pub is_to_all: bool,
     }
 
-    /// What the numbers in the headers of a datagram say; each is final once the bytes that it needs have come.
+    /// The checks of the numbers in the headers of a datagram; each is final once the bytes that it needs have come.
     pub struct DatagramState {
         /// The check sum of the header of IPv4 is right.
         pub header_is_right: bool,

@@ -8,8 +8,8 @@
 //! 3. If the reader is slower than the wire, datagrams are lost as a whole. The FIFO holds 2,050 entries.
 //! 4. Both resets are held together, at least for three clocks of either.
 //!
-//! Latency: datagrams of 1,472 bytes go out one in 1,538 clocks of the port, if the writer is as fast. The first byte of
-//! a datagram is on the pins about 40 clocks after its last byte was taken.
+//! Latency: datagrams of 1,472 bytes go out one in 1,538 clocks of the port, if the writer is as fast. The first byte
+//! of a datagram is on the pins about 40 clocks after its last byte was taken.
 //!
 //! ```text
 //! PHY -> MacIn -> ByteRoles -> FrameMatch, DatagramCheck -> DatagramGate -> AsyncFifo -------> entries

@@ -228,9 +228,9 @@ pub fn udp_device(config: Config, parameters: UdpParameters, name: &str) -> Resu
     }
 }
 
-/// Number of bits of a pointer of the FIFO between core and UDP link. The FIFO holds the mesh of all points of the chip,
-/// three words a point and two words an entry, but [`UDP_KEPT_WORDS`] at most, the mesh of 5,400 points: more block RAM
-/// is not left on the boards.
+/// Number of bits of a pointer of the FIFO between core and UDP link. The FIFO holds the mesh of all points of the
+/// chip, three words a point and two words an entry, but [`UDP_KEPT_WORDS`] at most, the mesh of 5,400 points: more
+/// block RAM is not left on the boards.
 fn answer_pointer_bits(config: Config) -> usize {
     match config.points * config.engines {
         0..=64 => 8,

@@ -2,8 +2,8 @@
 //! answer has been sent.
 //!
 //! 1. The core may take words of the next command as soon as it offers the last word of an answer, so a word that it
-//!    takes in that clock or later belongs to the next command. At most three answers are not sent to their end yet: one
-//!    in the frames, one that waits as a single beat, and one that the core offers.
+//!    takes in that clock or later belongs to the next command. At most three answers are not sent to their end yet:
+//!    one in the frames, one that waits as a single beat, and one that the core offers.
 //! 2. A word of zeros where a command may begin is padding and begins no command.
 //!
 //! Latency: 1 clock from a word taken and from the end of an answer.

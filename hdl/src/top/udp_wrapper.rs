@@ -64,7 +64,7 @@ impl UdpPins {
         }
     }
 
-    /// What stands between the pins and the device, whose ports are those of GMII.
+    /// The Verilog between the pins and the device, whose ports are those of GMII.
     fn inside(self) -> String {
         match self {
             Self::Gmii => String::new(),

@@ -13,7 +13,7 @@ use incircle_protocol::{DeviceDatagram, HostDatagram};
 #[derive(LogicBlock, Default)]
 pub struct DatagramJudge {
     pub clock: Signal<In, Clock>,
-    /// What the beginning of the datagram is, from `DatagramMatch`.
+    /// The kind of the beginning of the datagram, from `DatagramMatch`.
     pub head: Signal<In, DatagramHead>,
     /// The datagram has ended.
     pub comes: Signal<In, Bit>,

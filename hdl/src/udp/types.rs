@@ -11,7 +11,7 @@ pub type HeadIndex = Bits<5>;
 pub(super) const ANSWER_ENTRY_BITS: usize = 66;
 
 crate::packed! {
-    /// What the bytes of a datagram say by themselves, valid when the datagram ends.
+    /// The facts that the bytes of a datagram show by themselves, valid when the datagram ends.
     pub struct DatagramVerdict {
         /// The Ethernet port found the datagram right and for this device.
         pub counts: bool,

@@ -2,8 +2,8 @@
 //! between them, and a FIFO for answers.
 //!
 //! The core gives words several times faster than the cable takes them, and inserts nothing while words wait. So the
-//! FIFO takes the answers of a job, and the core goes on with the next job while the cable carries them. P is the number
-//! of bits of a pointer of the FIFO, which holds `2^(P-1)` entries of one or two words.
+//! FIFO takes the answers of a job, and the core goes on with the next job while the cable carries them. P is the
+//! number of bits of a pointer of the FIFO, which holds `2^(P-1)` entries of one or two words.
 //!
 //! 1. `reset` is needed once, after power-up, for 4 clocks of the core. It may change at any time. The core's side stays
 //!    in reset until the port's side has been in reset for 8 of its own clocks; so a reset ends well on both sides, also

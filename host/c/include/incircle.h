@@ -167,7 +167,7 @@ typedef struct {
   uint32_t threads;
   // The function that hears of the progress, or null.
   incircle_progress progress;
-  // What is handed to that function.
+  // A pointer that every call of `progress` gets as its argument `user`.
   void *user;
 } incircle_options;
 
@@ -180,9 +180,9 @@ typedef struct {
   const uint32_t (*constraints)[2];
   // The number of constraints.
   size_t constraint_count;
-  // How many constraints at the end bound nothing: they are edges, but no parts of rings.
+  // The number of constraints at the end that bound nothing: they are edges, but no parts of rings.
   size_t lines;
-  // Which triangles are wanted: `INCIRCLE_ALL`, `INCIRCLE_HOLES`, `INCIRCLE_EVEN_ODD` or `INCIRCLE_NON_ZERO`.
+  // The triangles that are wanted: `INCIRCLE_ALL`, `INCIRCLE_HOLES`, `INCIRCLE_EVEN_ODD` or `INCIRCLE_NON_ZERO`.
   uint32_t domain;
   // x and y of a place in each hole of `INCIRCLE_HOLES`, in the type of numbers of the mesh.
   const void *holes;
@@ -222,13 +222,13 @@ typedef struct {
   size_t corner_count;
 } incircle_relaxation;
 
-// What became of a relaxation.
+// The outcome of a relaxation.
 typedef struct {
   // The steps that were done.
   uint32_t iterations;
-  // Why it ended: `INCIRCLE_ITERATIONS`, `INCIRCLE_STILL` or `INCIRCLE_CYCLE`.
+  // The reason why the relaxation ended: `INCIRCLE_ITERATIONS`, `INCIRCLE_STILL` or `INCIRCLE_CYCLE`.
   uint32_t end;
-  // How many points moved in the last step.
+  // The number of points that moved in the last step.
   size_t moved;
   // The farthest that `INCIRCLE_QUANTIZE` moved a point along an axis; 0 if nothing was rounded.
   double largest_error;
@@ -368,8 +368,8 @@ int32_t incircle_constrained_pieces(const incircle_constrained *constrained,
                                     size_t room,
                                     size_t *count);
 
-// Where the constraints of each piece begin in `incircle_constrained_piece_constraints`. There is one item more than
-// pieces: the end of the last.
+// The place in `incircle_constrained_piece_constraints` at which the constraints of each piece begin. There is one
+// item more than pieces: the end of the last.
 //
 // # Safety
 // As for `incircle_constrained_triangles`.
@@ -496,7 +496,7 @@ int32_t incircle_triangulation_mesh(const incircle_triangulation *triangulation,
 void incircle_triangulation_free(incircle_triangulation *triangulation);
 
 // The indices of the `number` places nearest to `place`, the nearest first; of places at the same distance, the one
-// with the smaller x, then y, comes first. Fewer if there are not so many; none if a coordinate is NaN or infinite. A
+// with the smaller x, then y, comes first. Fewer if there are fewer places; none if a coordinate is NaN or infinite. A
 // call costs O(k log k) for `k` places, beside the search for the first.
 //
 // # Safety
@@ -754,7 +754,8 @@ int32_t incircle_contours_places(const incircle_contours *contours,
                                  size_t room,
                                  size_t *count);
 
-// Where each line begins in `incircle_contours_places`. There is one item more than lines: the end of the last.
+// The place in `incircle_contours_places` at which each line begins. There is one item more than lines: the end of the
+// last.
 //
 // # Safety
 // As for `incircle_contours_places`.

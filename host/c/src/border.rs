@@ -12,7 +12,7 @@ fn bad(name: &str) -> Failure {
     Failure::new(INCIRCLE_ARGUMENT, format!("the pointer `{name}` is null or not aligned: give the address of an item"))
 }
 
-/// What a pointer of the caller points to.
+/// The item that a pointer of the caller points to.
 ///
 /// # Safety
 /// A pointer that is not null points to an item that nobody else changes meanwhile.
@@ -24,7 +24,7 @@ pub unsafe fn shared<'a, T>(pointer: *const T, name: &str) -> Outcome<&'a T> {
     unsafe { pointer.as_ref() }.ok_or_else(|| bad(name))
 }
 
-/// What a pointer of the caller points to, to be changed.
+/// The item that a pointer of the caller points to, to be changed.
 ///
 /// # Safety
 /// A pointer that is not null points to an item that nobody else uses meanwhile.
@@ -113,7 +113,7 @@ pub unsafe fn give<T: Copy>(list: &[T], buffer: *mut T, room: usize, count: *mut
     Ok(())
 }
 
-/// Looks whether there are so many bytes of memory. The library takes memory without a way to refuse, so this is asked
+/// Looks whether there are `bytes` bytes of memory. The library takes memory without a way to refuse, so this is asked
 /// before.
 pub fn look_for_memory(bytes: usize) -> Outcome {
     Vec::<u8>::new().try_reserve_exact(bytes).map_err(|_| no_memory(bytes))

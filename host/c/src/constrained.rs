@@ -36,9 +36,9 @@ pub struct incircle_plan {
     pub constraints: *const [u32; 2],
     /// The number of constraints.
     pub constraint_count: usize,
-    /// How many constraints at the end bound nothing: they are edges, but no parts of rings.
+    /// The number of constraints at the end that bound nothing: they are edges, but no parts of rings.
     pub lines: usize,
-    /// Which triangles are wanted: `INCIRCLE_ALL`, `INCIRCLE_HOLES`, `INCIRCLE_EVEN_ODD` or `INCIRCLE_NON_ZERO`.
+    /// The triangles that are wanted: `INCIRCLE_ALL`, `INCIRCLE_HOLES`, `INCIRCLE_EVEN_ODD` or `INCIRCLE_NON_ZERO`.
     pub domain: u32,
     /// x and y of a place in each hole of `INCIRCLE_HOLES`, in the type of numbers of the mesh.
     pub holes: *const c_void,
@@ -224,8 +224,8 @@ pub unsafe extern "C" fn incircle_constrained_pieces(
     guarded(|| unsafe { give(shared(constrained, "constrained")?.made.pieces.edges(), buffer, room, count) })
 }
 
-/// Where the constraints of each piece begin in `incircle_constrained_piece_constraints`. There is one item more than
-/// pieces: the end of the last.
+/// The place in `incircle_constrained_piece_constraints` at which the constraints of each piece begin. There is one
+/// item more than pieces: the end of the last.
 ///
 /// # Safety
 /// As for `incircle_constrained_triangles`.

@@ -24,7 +24,7 @@ impl From<GridSetError> for Failure {
     }
 }
 
-/// How points are laid onto a grid.
+/// The way in which points are laid onto a grid.
 fn how(quantize: u32) -> Outcome<Option<Quantize>> {
     match quantize {
         INCIRCLE_EXACT => Ok(None),

@@ -44,16 +44,16 @@ pub struct incircle_relaxation {
     pub corner_count: usize,
 }
 
-/// What became of a relaxation.
+/// The outcome of a relaxation.
 #[allow(non_camel_case_types)]
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct incircle_relaxed {
     /// The steps that were done.
     pub iterations: u32,
-    /// Why it ended: `INCIRCLE_ITERATIONS`, `INCIRCLE_STILL` or `INCIRCLE_CYCLE`.
+    /// The reason why the relaxation ended: `INCIRCLE_ITERATIONS`, `INCIRCLE_STILL` or `INCIRCLE_CYCLE`.
     pub end: u32,
-    /// How many points moved in the last step.
+    /// The number of points that moved in the last step.
     pub moved: usize,
     /// The farthest that `INCIRCLE_QUANTIZE` moved a point along an axis; 0 if nothing was rounded.
     pub largest_error: f64,

@@ -138,7 +138,7 @@ pub struct incircle_options {
     pub threads: u32,
     /// The function that hears of the progress, or null.
     pub progress: incircle_progress,
-    /// What is handed to that function.
+    /// A pointer that every call of `progress` gets as its argument `user`.
     pub user: *mut c_void,
 }
 

@@ -8,7 +8,7 @@ use crate::living::incircle_triangulation;
 use crate::status::guarded;
 
 /// The indices of the `number` places nearest to `place`, the nearest first; of places at the same distance, the one
-/// with the smaller x, then y, comes first. Fewer if there are not so many; none if a coordinate is NaN or infinite. A
+/// with the smaller x, then y, comes first. Fewer if there are fewer places; none if a coordinate is NaN or infinite. A
 /// call costs O(k log k) for `k` places, beside the search for the first.
 ///
 /// # Safety

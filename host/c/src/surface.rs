@@ -168,7 +168,8 @@ pub unsafe extern "C" fn incircle_contours_places(
     guarded(|| unsafe { give(&shared(contours, "contours")?.places, buffer, room, count) })
 }
 
-/// Where each line begins in `incircle_contours_places`. There is one item more than lines: the end of the last.
+/// The place in `incircle_contours_places` at which each line begins. There is one item more than lines: the end of the
+/// last.
 ///
 /// # Safety
 /// As for `incircle_contours_places`.

@@ -1,13 +1,14 @@
-//! Compares the meshes of sets in parts and in tiles with those of the run in memory, byte for byte, and prints a table.
+//! Compares the meshes of sets in parts and in tiles with those of the run in memory, byte for byte, and prints a
+//! table.
 //!
 //! ```text
 //! cargo run --release -p incircle-cli --example any_size              # 200 sets
 //! cargo run --release -p incircle-cli --example any_size -- 14        # another number of sets
 //! ```
 //!
-//! Each set is cut in every way of [`WAYS`], for every size of [`SIZES`] that the way takes. A cell of the table has the
-//! number of sets whose mesh file has the bytes of `triangulate --backend cpu --threads 1`, and how many meshes were
-//! compared. The program ends with exit code 1 if one of them differs.
+//! Each set is cut in every way of [`WAYS`], for every size of [`SIZES`] that the way takes. An entry of the table has
+//! the number of sets whose mesh file has the bytes of `triangulate --backend cpu --threads 1`, and how many meshes
+//! were compared. The program ends with exit code 1 if one of them differs.
 
 use std::ffi::OsString;
 use std::io::{self, Write};
@@ -24,7 +25,7 @@ const SIZES: [usize; 4] = [8, 40, 200, 1000];
 
 /// Ways to a mesh. Each `{}` stands for the most points of a part; ways without it have one size.
 const WAYS: [(&str, Way); 7] = [
-    ("a device that holds so many points", Way::Backends(&["model?capacity={}"])),
+    ("a device that holds one part", Way::Backends(&["model?capacity={}"])),
     ("such a device and the processor", Way::Backends(&["model?capacity={}", "cpu?threads=1"])),
     ("two devices, one of 64 points", Way::Backends(&["model?capacity={}", "model?capacity=64"])),
     ("the core `tiny`, clock by clock", Way::Backends(&["clock?config=tiny"])),
@@ -33,7 +34,7 @@ const WAYS: [(&str, Way); 7] = [
     ("tiles in files, by `model`", Way::Tiles("model")),
 ];
 
-/// How a mesh is made.
+/// A way in which a mesh is made.
 #[derive(Clone, Copy)]
 enum Way {
     /// `triangulate` with these back ends.
@@ -80,8 +81,8 @@ fn command(folder: &Path, words: &str) -> bool {
     incircle_cli::run(words) == ExitCode::SUCCESS
 }
 
-/// The points of a set as CSV: every distribution in turn, one place, and a line, of 4 to 16 bits. A third of the points
-/// are there twice.
+/// The points of a set as CSV: every distribution in turn, one place, and a line, of 4 to 16 bits. A third of the
+/// points are there twice.
 fn set(number: usize) -> String {
     let (bits, count, seed) = ([16, 10, 7, 4][number / 3 % 4], 50 + number * 37 % 1500, number as u64);
     let mut points = match Distribution::ALL.get(number % (Distribution::ALL.len() + 2)) {
@@ -118,7 +119,10 @@ fn table(folder: &Path, sets: usize) -> io::Result<bool> {
         }
     }
     let head: String = SIZES.iter().map(|size| format!(" {size} |")).collect();
-    println!("| equal of all meshes, parts of at most |{head}\n|---|{}", "---:|".repeat(SIZES.len()));
+    println!(
+        "| sets with equal bytes, in parts of at most so many points |{head}\n|---|{}",
+        "---:|".repeat(SIZES.len())
+    );
     let mut is_right = true;
     for (name, way) in WAYS {
         print!("| {name} |");

@@ -45,7 +45,7 @@ impl Board {
 pub struct Backend {
     /// The device that does the jobs.
     pub device: Device,
-    /// The name in reports: `cpu`, `model`, `clock`, `sim`, `serial` or `pcie`.
+    /// The name in reports: `cpu`, `model`, `clock`, `sim`, `serial`, `udp` or `pcie`.
     pub name: &'static str,
     /// The configuration of a core in simulation, which is our choice.
     pub config: Option<Config>,
@@ -153,7 +153,7 @@ impl Choice {
         }
     }
 
-    /// The same back end, with so many threads if it is the CPU triangulator.
+    /// The same back end, with this number of threads if it is the CPU triangulator.
     pub fn with_cpu_threads(self, threads: NonZeroUsize) -> Self {
         let threads = u32::try_from(threads.get()).ok().and_then(NonZeroU32::new);
         match self.address {
@@ -312,7 +312,7 @@ fn open_sim(config: Config, trace: Option<Trace<'_>>) -> Result<Device, Failure>
 }
 
 /// The configuration for a job of `distinct` points: the chosen one, or else the smallest that holds the points, or
-/// else the largest, which does the job in parts. Fails if no core has coordinates of so many bits.
+/// else the largest, which does the job in parts. Fails if the coordinates have more bits than any core takes.
 fn config_for(choice: &Choice, distinct: Option<usize>) -> Result<Config, Failure> {
     choice.check_bits()?;
     let holds = |config: &Config| distinct.is_some_and(|distinct| config.points as usize >= distinct);

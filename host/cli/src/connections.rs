@@ -18,7 +18,7 @@ pub struct Connections {
     pub hull: Vec<u32>,
     /// Pairs of a duplicate and the lowest index at the same place.
     pub duplicates: Vec<[u32; 2]>,
-    /// What constraints made of the mesh, if there are any.
+    /// The regions and pieces that constraints made, if there are any.
     pub planned: Option<Planned>,
 }
 
@@ -28,7 +28,7 @@ impl Connections {
         Self { triangles: mesh.triangles, hull: mesh.hull, duplicates: pairs(&mesh.duplicates), planned: None }
     }
 
-    /// The triangles of a domain. What constraints made of the mesh is not there yet.
+    /// The triangles of a domain, without the regions and pieces that constraints made.
     pub fn of_domain(found: &Triangulated) -> Self {
         let (triangles, hull) = (found.made.triangles.clone(), found.hull.clone());
         Self { triangles, hull, duplicates: pairs(&found.duplicates), planned: None }

@@ -1,8 +1,8 @@
 //! Grids of values as GeoTIFF: one band of doubles, the highest row first.
 //!
-//! The tags of GeoTIFF say where the grid lies: the coordinates of the first pixel, the size of a pixel, and that a pixel
-//! stands for a point, its node. Which projection the coordinates have is not known, so the file names none. Nodes
-//! without a value are NaN, which the tag of GDAL for missing values names.
+//! The tags of GeoTIFF say where the grid lies: the coordinates of the first pixel, the size of a pixel, and that a
+//! pixel stands for a point, its node. Which projection the coordinates have is not known, so the file names none.
+//! Nodes without a value are NaN, which the tag of GDAL for missing values names.
 
 use std::io::{self, Cursor, Write};
 

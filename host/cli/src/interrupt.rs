@@ -20,7 +20,7 @@ static DONE: AtomicBool = AtomicBool::new(false);
 static TOLD: Mutex<bool> = Mutex::new(false);
 /// The unfinished outputs of the run, which an interrupt removes.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
-/// How the run can go on after an interrupt; empty if it cannot.
+/// The sentence that says how the run can go on after an interrupt; empty if it cannot.
 static REMEDY: Mutex<String> = Mutex::new(String::new());
 /// Time for a job to end by itself. A slice of a simulated job takes less.
 const GRACE: Duration = Duration::from_millis(1500);

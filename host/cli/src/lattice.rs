@@ -152,7 +152,8 @@ impl Laid<'_> {
         )))
     }
 
-    /// What the points need, if it is more than coordinates of `coord_bits` bits, for a message.
+    /// The beginning of a message about points that need more than coordinates of `coord_bits` bits; `None` if they do
+    /// not.
     pub fn beyond_bits(&self, coord_bits: u32) -> Option<String> {
         match (&self.numbers, self.bits) {
             (Numbers::Grid(_), Some(bits)) if bits <= coord_bits => None,

@@ -60,7 +60,7 @@ impl Target {
 #[derive(Debug)]
 pub struct Output {
     target: Target,
-    /// How the bytes are packed.
+    /// The packing of the bytes.
     compression: Compression,
     name: String,
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::failure::printable;
 
-/// How the bytes of a file are packed.
+/// The packing of the bytes of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Compression {
     /// The bytes stand in the file as they are.

@@ -17,11 +17,11 @@ use crate::planned::Planned;
 use crate::points::PointTable;
 use crate::source;
 
-/// What is asked of the mesh of a set.
+/// The constraints, holes and regions that are asked of the mesh of a set.
 pub struct Request {
     /// The constraints. Those that bound nothing stand at the end.
     constraints: Vec<[u32; 2]>,
-    /// How many constraints bound nothing.
+    /// The number of constraints that bound nothing.
     lines: usize,
     pub domain: Domain,
     /// The number of holes, whose places stand behind the points.
@@ -34,7 +34,7 @@ pub struct Request {
     lacks_grid: bool,
 }
 
-/// A set of points, and what is asked of its mesh.
+/// A set of points, and the constraints and the domain that are asked of its mesh.
 pub struct PlannedSet {
     /// The points; behind them the places of holes, and then those of regions.
     pub table: PointTable,
@@ -177,7 +177,7 @@ impl Request {
         made.map(|made| self.planned(made)).map_err(|error| self.refuse(error, &set.table, laid))
     }
 
-    /// What constraints made of the mesh, with the names and numbers of the file.
+    /// The regions and pieces that constraints made, with the names and numbers of the file.
     pub fn planned(&self, mut made: Constrained) -> Planned {
         let mut constraints = self.constraints.len();
         if let Some(parts) = &self.parts {

@@ -1,11 +1,11 @@
-//! What constraints made of a mesh, for its file and for the report.
+//! The regions and pieces of a mesh with constraints, for its file and for the report.
 
 use incircle::constraints::{Constrained, Domain};
 use serde_json::{json, Value};
 
 use crate::failure::counted;
 
-/// What snapping the crossings of a set did.
+/// The outcome of snapping the crossings of a set.
 #[derive(Clone, Copy, Debug)]
 pub struct Snapping {
     pub new_points: usize,
@@ -38,12 +38,12 @@ pub struct Planned {
     pub domain: Domain,
     /// The number of constraints.
     pub constraints: usize,
-    /// What snapping their crossings did, if there was any to snap.
+    /// The outcome of snapping their crossings, if there was any to snap.
     pub snapping: Option<Snapping>,
 }
 
 impl Planned {
-    /// What the file of a mesh says of the region with this number: its attribute, or else its number. `None` if the
+    /// The attribute that the file of a mesh gives the region of this number, or else that number. `None` if the
     /// triangles are all of the hull and no region is named.
     pub fn attribute(&self, region: u32) -> Option<String> {
         match self.attributes.get(region as usize) {

@@ -23,7 +23,7 @@ pub struct RunReport<'a> {
     pub laid: &'a Laid<'a>,
     /// The sentence about what was left out of the points, if anything was.
     pub left_out: Option<String>,
-    /// What constraints made of the mesh, if there are any.
+    /// The regions and pieces that constraints made, if there are any.
     pub planned: Option<&'a Planned>,
     /// Seconds of the stages of the command, in the order in which they ran.
     pub stages: Vec<(&'static str, Duration)>,
@@ -130,7 +130,7 @@ impl<'a> RunReport<'a> {
     }
 }
 
-/// What one of several back ends did, as a line.
+/// The share of one of several back ends, as a line.
 fn share_line(share: &Share) -> String {
     let did = format!("{}: {}, {}", share.device, counted(share.parts, "part"), counted(share.points, "point"));
     match &share.left_out {
@@ -139,7 +139,7 @@ fn share_line(share: &Share) -> String {
     }
 }
 
-/// What one of several back ends did, as a JSON object.
+/// The share of one of several back ends, as a JSON object.
 fn share_json(share: &Share) -> Value {
     json!({ "backend": share.device, "parts": share.parts, "points": share.points, "left_out": share.left_out })
 }

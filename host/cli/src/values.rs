@@ -56,15 +56,15 @@ pub fn domain_parser() -> impl clap::builder::TypedValueParser<Value = Domain> {
     let named = |domain: Domain| {
         PossibleValue::new(domain.name()).help(match domain {
             Domain::All => "All triangles of the hull",
-            Domain::Holes => "Those that constraints separate from the outside and from all holes",
-            Domain::EvenOdd => "Those that an odd number of rings surround",
-            Domain::NonZero => "Those around which rings run, clockwise against counter-clockwise",
+            Domain::Holes => "Triangles that constraints separate from the outside and from all holes",
+            Domain::EvenOdd => "Triangles that an odd number of rings surround",
+            Domain::NonZero => "Triangles that rings run around more often in one direction than in the other",
         })
     };
     PossibleValuesParser::new(Domain::ALL.map(named)).try_map(|name| name.parse::<Domain>())
 }
 
-/// What `incircle generate` makes.
+/// A set or a script, which `incircle generate` makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Made {
     /// A set of points.

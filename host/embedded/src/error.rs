@@ -84,7 +84,7 @@ pub enum Error<E> {
         /// Bits of a coordinate on the device.
         bits: u32,
     },
-    /// The device said what no sound device says.
+    /// The device gave an answer that no sound device gives.
     #[error("{0}: reset the device, and if that does not help, do not trust it")]
     Device(#[source] Fault),
 }
@@ -95,7 +95,7 @@ impl<E> From<Fault> for Error<E> {
     }
 }
 
-/// What an unsound device said. Noise on the line is repaired and never ends in one of these.
+/// A fault of an unsound device. Noise on the line is repaired and never ends in one of these.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
@@ -168,7 +168,7 @@ pub enum Fault {
     Vertices {
         /// Number of the record.
         record: usize,
-        /// Its vertices, as the device numbers them.
+        /// The vertices of the record, as the device numbers them.
         vertices: [u32; 3],
     },
     /// A triangle is flat or turns clockwise.

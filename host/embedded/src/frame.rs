@@ -83,7 +83,7 @@ pub(crate) struct Header {
     pub status: u8,
 }
 
-/// What the reader holds.
+/// The content of the reader.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Held {
     /// Bytes of a frame that has not ended.

@@ -1,4 +1,4 @@
-//! The driver of a board with the incircle core, for a microcontroller that holds the board at a serial port.
+//! The driver of a board with the incircle core, for a microcontroller that reaches the board through a serial port.
 //!
 //! The caller gives points and two buffers, and gets the canonical mesh: the same triangles in the same order as from
 //! every other back end of incircle. The crate needs neither the standard library nor an allocator, and no input makes

@@ -143,7 +143,7 @@ impl<'l, P: Read + ReadReady + Write, C: Clock> Session<'l, P, C> {
         Ok(())
     }
 
-    /// The moment in so many milliseconds.
+    /// The moment that is `milliseconds` from now.
     pub(crate) fn after(&mut self, milliseconds: u32) -> u32 {
         self.line.now().wrapping_add(milliseconds)
     }

@@ -40,7 +40,7 @@ impl Step {
 }
 
 impl fmt::Display for Step {
-    /// `1` or `2^-20`.
+    /// Writes `1`, or a power of two such as `2^-20`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Whole => write!(f, "1"),

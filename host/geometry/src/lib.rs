@@ -62,6 +62,7 @@ mod plan;
 mod plane_point;
 mod point;
 pub mod predicate;
+mod product;
 mod site;
 pub mod sort;
 mod tie;

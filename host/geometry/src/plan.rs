@@ -1,20 +1,21 @@
-//! What is asked of a mesh: constraints, and the domain that they bound.
+//! Plans of constrained meshes: constraints, and the domain that they bound.
 
 use core::fmt;
 use core::str::FromStr;
 
-/// Which triangles of a constrained mesh are wanted.
+/// The triangles of a constrained mesh that a [`Plan`] asks for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Domain {
     /// All triangles of the hull.
     #[default]
     All,
-    /// Those that constraints separate from the outside of the hull and from all holes, as in Shewchuk's Triangle.
+    /// The triangles that constraints separate from the outside of the hull and from all holes, as in Shewchuk's
+    /// Triangle.
     Holes,
-    /// Those that an odd number of rings surround.
+    /// The triangles that an odd number of rings surround.
     EvenOdd,
-    /// Those around which the rings run a number of times that is not zero, counter-clockwise counted up and clockwise
-    /// counted down.
+    /// The triangles around which the rings run a number of times that is not zero, counter-clockwise counted up and
+    /// clockwise counted down.
     NonZero,
 }
 
@@ -39,7 +40,7 @@ impl fmt::Display for Domain {
     }
 }
 
-/// A name that is none of a [`Domain`].
+/// The error of a name that no [`Domain`] has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("a domain is all, holes, even-odd or non-zero")]
 pub struct UnknownDomain;
@@ -52,8 +53,8 @@ impl FromStr for Domain {
     }
 }
 
-/// Constraints and the domain that they bound. `M` is how holes and regions are given: as points, or as indices of
-/// places behind the points of the mesh.
+/// Constraints and the domain that they bound. `M` is the type by which holes and regions are given: points, or indices
+/// of places behind the points of the mesh.
 ///
 /// ```
 /// use incircle_geometry::constraints::{Domain, Plan};
@@ -66,10 +67,10 @@ impl FromStr for Domain {
 pub struct Plan<'a, M> {
     /// The constraints: pairs of indices of points. Their places in the list are their numbers.
     pub constraints: &'a [[u32; 2]],
-    /// How many constraints at the end of the list bound nothing. They are edges of the mesh like all others, but no
-    /// parts of rings: [`Domain::EvenOdd`] and [`Domain::NonZero`] do not count them.
+    /// The number of constraints at the end of the list that bound nothing. They are edges of the mesh like all others,
+    /// but no parts of rings: [`Domain::EvenOdd`] and [`Domain::NonZero`] do not count them.
     pub lines: usize,
-    /// Which triangles are wanted.
+    /// The triangles that are wanted.
     pub domain: Domain,
     /// A place in each hole of [`Domain::Holes`]. Other domains have no holes, and take no notice of these.
     pub holes: &'a [M],
@@ -94,7 +95,7 @@ impl<'a, M> Plan<'a, M> {
     }
 }
 
-/// What a place inside a domain stands for.
+/// The part of the hull that a place of a [`Plan`] asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
     /// A hole: the part of the hull around the place does not belong to the domain.

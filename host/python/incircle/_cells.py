@@ -110,9 +110,9 @@ class Relaxed:
     iterations: int
     """The steps that were done."""
     moved: int
-    """How many points moved in the last step."""
+    """The number of points that moved in the last step."""
     end: str
-    """Why it ended: `"iterations"`, `"still"`, or `"cycle"` if a state came again."""
+    """The reason why the relaxation ended: `"iterations"`, `"still"`, or `"cycle"` if a state came again."""
     largest_error: float | None
     """The farthest that `quantize` moved a point along an axis at the beginning; `None` if nothing was rounded."""
 

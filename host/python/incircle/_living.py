@@ -22,7 +22,7 @@ KINDS = ("none", "vertex", "edge", "triangle", "outside")
 
 
 class Location(NamedTuple):
-    """What a place is, and the vertices there.
+    """The kind of a place, and the vertices there.
 
     `kind` is `"vertex"`, `"edge"`, `"triangle"`, `"outside"` or `"none"`. The vertices of a triangle are
     counter-clockwise, the smallest index first. Outside the hull they are the first hull edge, counter-clockwise, that
@@ -110,7 +110,15 @@ class Triangulation:
     # Changes
 
     def insert(self, point: Place) -> int:
-        """Inserts a point and returns its index. A point at the place of a living one is a duplicate, and no error."""
+        """Inserts a point and returns its index. A point at the place of a living one is a duplicate, and no error.
+
+        Raises
+        ------
+        InputError
+            A coordinate is NaN or infinite, or a number that the type does not hold.
+        CapacityError
+            There are as many points or indices as there can be.
+        """
         return self._living.insert(*_two(point))
 
     def insert_all(self, points: Any) -> NDArray[np.uint32]:
@@ -148,11 +156,19 @@ class Triangulation:
         ------
         UnknownPointError
             No living point has the index.
+        InputError
+            A coordinate is NaN or infinite, or a number that the type does not hold.
         """
         self._living.move_to(self._index(index), *_two(place))
 
     def move_all(self, places: Any) -> None:
-        """Moves all living points, given a place for each in the order of their indices. Short moves are quick."""
+        """Moves all living points, given a place for each in the order of their indices. Short moves are quick.
+
+        Raises
+        ------
+        InputError
+            There is not one place for each living point, or a coordinate is NaN, infinite or not held by the type.
+        """
         self._living.move_all(check_finite(self._array(places)))
 
     def renumber(self) -> NDArray[np.uint32]:

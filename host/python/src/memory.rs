@@ -18,7 +18,7 @@ pub const BYTES_OF_A_CELL: usize = 700;
 /// The most bytes a place that an answer needs.
 pub const BYTES_OF_A_PLACE: usize = 60;
 
-/// Raises `OutOfMemoryError` if there is no memory for `count` items of so many bytes.
+/// Raises `OutOfMemoryError` if there is no memory for `count` items of `bytes_of_one` bytes.
 pub fn look_for_memory(py: Python<'_>, count: usize, bytes_of_one: usize) -> PyResult<()> {
     let bytes = count.saturating_mul(bytes_of_one);
     if Vec::<u8>::new().try_reserve_exact(bytes).is_ok() {

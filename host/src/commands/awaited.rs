@@ -43,7 +43,7 @@ impl Awaited {
         self.last
     }
 
-    /// Notes a command of the job with this tag, whose answer will have a payload of so many words.
+    /// Notes a command of the job with this tag, whose answer will have a payload of `words` words.
     pub(super) fn add(&mut self, tag: u8, opcode: Opcode, words: u32) {
         self.jobs.entry(tag).or_default().commands.push_back((opcode, words));
     }

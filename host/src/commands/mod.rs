@@ -35,12 +35,12 @@ pub(crate) struct CommandChannel {
     is_out_of_step: bool,
 }
 
-/// How an answer was received.
+/// The outcome of receiving an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Came {
     /// The device did what the command asked.
     Whole,
-    /// This engine is stuck, but others may do the job. All other answers to the job are dropped.
+    /// The engine of this number is stuck, but others may do the job. All other answers to the job are dropped.
     Stuck(u32),
 }
 

@@ -135,8 +135,8 @@ impl Session<'_> {
     }
 }
 
-/// The threads of the host that work on a set of so many points. The system is asked for its processors only if there is
-/// work for several, because the answer may take longer than a small set: it is read from files.
+/// The threads of the host that work on a set of `points` points. The system is asked for its processors only if there
+/// is work for several, because the answer may take longer than a small set: it is read from files.
 pub(super) fn host_threads(points: usize) -> NonZeroUsize {
     if threads_for(points, NonZeroUsize::MAX) == NonZeroUsize::MIN {
         return NonZeroUsize::MIN;

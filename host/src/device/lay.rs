@@ -6,7 +6,7 @@ use incircle_geometry::{PlanePoint, Point};
 use crate::error::Error;
 use crate::quantize::check_finite;
 
-/// What a device asks of points.
+/// The conditions that a device sets for points.
 pub(super) struct Asked<'a> {
     pub(super) coord_bits: u32,
     /// Whether points need not lie on a lattice.

@@ -18,7 +18,7 @@ pub enum ErrorKind {
     Device,
     /// The device did not answer in time.
     Timeout,
-    /// No job may have so many points, or the memory of the device is full.
+    /// There are more points than a job may have, or the memory of the device is full.
     Capacity,
     /// The progress listener ended the job.
     Cancelled,

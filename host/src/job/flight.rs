@@ -20,8 +20,8 @@ use crate::error::{DeviceFault, Error};
 use crate::limit::Limit;
 use incircle_geometry::Point;
 
-/// Most loads under way for each engine of several: one in the engine, one behind it. The device has one more under way,
-/// since a job waits at the device until some engine is free.
+/// Most loads under way for each engine of several: one in the engine, one behind it. The device has one more under
+/// way, since a job waits at the device until some engine is free.
 const MOST_SENT: usize = 2;
 /// Most loads under way on a device that gives answers in any order: half of the tags.
 const MOST_TAGGED: usize = 128;

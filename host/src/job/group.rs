@@ -38,7 +38,7 @@ pub(crate) struct Group {
 }
 
 impl Group {
-    /// A group of jobs that share the memory, the longest first, each with a team of so many contexts, for which its
+    /// A group of jobs that share the memory, the longest first, each with a team of `contexts` contexts, for which its
     /// points are dealt.
     pub(crate) fn sharing(jobs: Vec<Ordered>, contexts: u32) -> Self {
         Self { jobs, contexts, is_shared: true }

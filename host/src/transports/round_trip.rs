@@ -1,4 +1,4 @@
-//! How long the host waits for news of a device before it polls.
+//! The time that the host waits for news of a device before it polls.
 
 use std::time::Duration;
 
@@ -51,8 +51,8 @@ impl RoundTrip {
         once.saturating_mul(1 << self.asked.min(10)).min(self.bounds.poll_every)
     }
 
-    /// The mean round trip, or `least` if that is longer, which doubles with each poll that brings no progress: how long
-    /// to wait for something that is sure to come.
+    /// The mean round trip, or `least` if that is longer, which doubles with each poll that brings no progress: how
+    /// long to wait for something that is sure to come.
     pub fn repeated(&self, least: Duration) -> Duration {
         self.mean().max(least).saturating_mul(1 << self.asked.min(10)).min(self.bounds.poll_every)
     }

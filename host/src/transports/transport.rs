@@ -100,11 +100,11 @@ pub trait Transport {
 pub struct Capabilities {
     /// Whether commands may be submitted before the answers to earlier ones are received. Set it only if
     /// [`submit`](Transport::submit) never waits until answers are received: the transport must keep what comes
-    /// meanwhile: the answers of [`jobs_ahead`](Self::jobs_ahead) jobs, and on a device of several engines those of two jobs for each and of one
-    /// more.
+    /// meanwhile: the answers of [`jobs_ahead`](Self::jobs_ahead) jobs, and on a device of several engines those of two
+    /// jobs for each and of one more.
     pub takes_ahead: bool,
-    /// Most jobs under way at a time on a device of one engine, if commands may be sent ahead: 2 on a bus. More hide the
-    /// round trip of a network; the transport must keep the answers of so many.
+    /// Most jobs under way at a time on a device of one engine, if commands may be sent ahead: 2 on a bus. More hide
+    /// the round trip of a network; the transport must keep the answers of so many.
     pub jobs_ahead: usize,
     /// Whether answers are taken in the order in which they come, by [`receive_next`](Transport::receive_next). Without
     /// it a device of several engines gets one job at a time.
@@ -112,9 +112,9 @@ pub struct Capabilities {
     /// Whether meshes are read with `Triangles`, which leaves out the neighbours and so half of the words. Clear it for
     /// a transport that only knows `Read`, such as one that asks again for parts of an answer.
     pub packs_records: bool,
-    /// Words of answers that the device keeps for the line while its core goes on, or `usize::MAX` where the core does not
-    /// wait for the line. Jobs are put side by side only while their meshes fit, because a core inserts nothing while its
-    /// answers wait.
+    /// Words of answers that the device keeps for the line while its core goes on, or `usize::MAX` where the core does
+    /// not wait for the line. Jobs are put side by side only while their meshes fit, because a core inserts nothing
+    /// while its answers wait.
     pub kept_words: usize,
     /// Speed of the transport.
     pub pace: Pace,

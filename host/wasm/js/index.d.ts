@@ -13,7 +13,7 @@ export interface Mesh {
 }
 
 /**
- * The triangulation of a set of points in the shape of delaunator: triangles and hull are counter-clockwise on a
+ * The triangulation of a set of points with the interface of delaunator: triangles and hull are counter-clockwise on a
  * screen, where y grows downwards. Throws a `TypeError` or `RangeError` for input that is no set of finite points.
  */
 export default class Incircle<T extends Coordinates = Coordinates> {
@@ -44,7 +44,7 @@ export interface Pen {
 }
 
 /**
- * The Voronoi cells of a set in the shape of d3-delaunay. The neighbours of a cell are exact; its corners are computed in
+ * The Voronoi cells of a set with the interface of d3-delaunay. The neighbours of a cell are exact; its corners are computed in
  * doubles, each from its point, and so are right to some units in the last place of the size of the cell.
  */
 export class Voronoi {
@@ -88,6 +88,7 @@ export function verify(coords: Coordinates): void;
  */
 export function ties(coords: Coordinates): Uint32Array;
 
+/** The triangles that are wanted: all of the hull, or those inside the rings or outside the holes of constraints. */
 export type Domain = 'all' | 'holes' | 'even-odd' | 'non-zero';
 /**
  * The canonical mesh with pairs of indices as edges, cut to a domain. For the domain `holes`, `holes` has a place in each
@@ -98,6 +99,7 @@ export function constrain(coords: Coordinates, pairs: number[] | Uint32Array, do
 /** The triangles of a polygon; `holes` has the first vertex of each hole. */
 export function earcut(vertices: Coordinates, holes?: number[]): Uint32Array;
 
+/** What a place can be; `none` if there are no triangles and the place lies on no edge. */
 export type Kind = 'none' | 'vertex' | 'edge' | 'triangle' | 'outside';
 
 /** A mesh that lives: points come, go and move, and the mesh stays canonical. */
@@ -114,13 +116,20 @@ export class Triangulation {
      * million points.
      */
     insert(x: number, y: number): number;
+    /** Deletes the point of an index. Throws a `RangeError` if no living point has the index. */
     delete(point: number): void;
+    /** Moves the point of an index, which it keeps. Throws a `RangeError` if no living point has the index. */
     move(point: number, x: number, y: number): void;
-    /** Moves all living points, in the order of their indices. */
+    /** Moves all living points: x and y of each new place in turn, in the order of the indices. */
     moveAll(coords: Coordinates): void;
+    /**
+     * Says what a place is, with the indices of the vertices there. Those of a triangle are counter-clockwise if y grows
+     * upwards, the smallest first. Outside the hull they are the first hull edge that is visible from the place.
+     */
     locate(x: number, y: number): {kind: Kind; vertices: Uint32Array};
     /** The index of the nearest point, or -1 if there is none. */
     nearest(x: number, y: number): number;
+    /** The points that have an edge to a point. Throws a `RangeError` if no living point has the index. */
     neighbors(point: number): Uint32Array;
     /** The triangles by the indices of their points, in no order. */
     triangles(): Uint32Array;

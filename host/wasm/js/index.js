@@ -22,7 +22,7 @@ function coordinates(points, getX = first, getY = second) {
     return coords;
 }
 
-/** The triangulation of a set of points in the shape of delaunator. */
+/** The triangulation of a set of points with the interface of delaunator. */
 export default class Incircle {
     static from(points, getX, getY) {
         return new Incircle(coordinates(points, getX, getY));
@@ -95,7 +95,7 @@ export function constrain(coords, pairs, domain = 'all', holes = []) {
     }
 }
 
-/** The triangles of a polygon with holes, in the shape of earcut: `holes` has the first vertex of each hole. */
+/** The triangles of a polygon with holes, with the interface of earcut: `holes` has the first vertex of each hole. */
 export function earcut(vertices, holes = []) {
     const count = countOf(vertices);
     if (!isList(holes)) throw new TypeError('holes must be an Array or a typed array of indices of vertices');

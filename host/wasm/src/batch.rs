@@ -16,7 +16,7 @@ const BYTES_OF_A_JOB: usize = 400;
 /// product, are up to twice as quick. The mesh is the same.
 const MOST_BITS_OF_INTEGERS: u32 = 16;
 
-/// Checks that there is memory for the mesh of so many points.
+/// Checks that there is memory for the mesh of these points.
 pub fn check_room(points: &Points) -> Result<(), String> {
     let bytes = points.len().saturating_mul(BYTES_OF_A_JOB);
     if !has_memory(bytes) {
@@ -52,8 +52,8 @@ pub fn pairs(duplicates: &[Duplicate]) -> Vec<u32> {
     duplicates.iter().flat_map(|one| [one.index, one.of]).collect()
 }
 
-/// Triangulates the points in the buffer. The lists are the triangles, the hull, the duplicates, and in the shape of
-/// delaunator (`clockwise` is not 0) also the half-edges.
+/// Triangulates the points in the buffer. The lists are the triangles, the hull, the duplicates, and for the interface
+/// of delaunator (`clockwise` is not 0) also the half-edges.
 ///
 /// Delaunator turns triangles and hull counter-clockwise on a screen, where y grows downwards. That is clockwise here.
 #[no_mangle]

@@ -1,7 +1,7 @@
-//! What crosses the border between JavaScript and the engine: points and indices in, lists and messages out.
+//! The data that crosses the border between JavaScript and the engine: points and indices in, lists and messages out.
 //!
-//! A module of WebAssembly has one thread here, so one set of buffers is enough. JavaScript asks for room, writes to the
-//! address that it gets, calls a function, copies the lists, and drops them with [`forget`].
+//! A module of WebAssembly has one thread here, so one set of buffers is enough. JavaScript asks for room, writes to
+//! the address that it gets, calls a function, copies the lists, and drops them with [`forget`].
 #![allow(unsafe_code)] // names of functions that JavaScript calls
 
 use std::cell::RefCell;

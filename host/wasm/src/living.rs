@@ -13,7 +13,7 @@ type Mesh = Triangulation<[f64; 2]>;
 
 /// The most bytes a point that a mesh needs while it is made.
 const BYTES_OF_A_POINT: usize = 500;
-/// After so many insertions the memory for the growth of all lists is looked for again.
+/// After this many insertions the memory for the growth of all lists is looked for again.
 const LOOK: u32 = 1024;
 
 thread_local! {
@@ -38,7 +38,7 @@ fn with(handle: usize, ask: impl FnOnce(&mut Mesh) -> Result<f64, Failure>) -> R
     })
 }
 
-/// Looks whether there are so many bytes of memory. What needs them takes memory without a way to refuse.
+/// Looks whether there are `bytes` bytes of memory, because the library takes memory without a way to refuse.
 fn look_for_memory(bytes: usize) -> Result<(), Failure> {
     let text = || Failure(format!("this may need {bytes} bytes more, and the module cannot get them"));
     has_memory(bytes).then_some(()).ok_or_else(text)

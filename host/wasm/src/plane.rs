@@ -113,7 +113,7 @@ impl Plane {
         named.collect()
     }
 
-    /// Draws all edges, each once, with the grid's origin at a place of the picture and so many pixels a step of the
+    /// Draws all edges, each once, with the grid's origin at a place of the picture and `scale` pixels a step of the
     /// grid.
     fn draw(&mut self, [left, bottom]: [f64; 2], scale: f64) {
         let in_picture =

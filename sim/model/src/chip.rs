@@ -58,8 +58,8 @@ impl ChipModel {
         self.owed.iter().any(|&owed| owed > 0) || !self.router.is_ready()
     }
 
-    /// The same chip with the commands for a mesh that stands, the runs, if it is a single engine. A chip of several has
-    /// none: it has no one mesh that stands.
+    /// The same chip with the commands for a mesh that stands, the runs, if it is a single engine. A chip of several
+    /// has none: it has no one mesh that stands.
     #[must_use]
     pub fn with_runs(mut self) -> Self {
         if let [only] = &mut self.engines[..] {

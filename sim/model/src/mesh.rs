@@ -37,7 +37,7 @@ pub enum Insertion {
     Refused,
 }
 
-/// What a change of a standing mesh did: its outcome, and the vertex that the answer names.
+/// The result of a change of a standing mesh: its outcome, and the vertex that the answer names.
 pub type Changed = (Outcome, u32);
 
 /// Numbers of events since the last clear; see `incircle_protocol::Counter`.

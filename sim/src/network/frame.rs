@@ -8,7 +8,7 @@ use incircle_model::serial::Crc32;
 const HEADERS: usize = 14 + 20 + 8;
 /// Shortest frame without its check sum.
 const SHORTEST: usize = 60;
-/// What goes before a frame.
+/// The bytes that go before a frame.
 const PREAMBLE: [u8; 8] = [0x55, 0x55, 0x55, 0x55, 0x55, 0x55, 0x55, 0xd5];
 
 /// Ethernet address of the simulated host of this IPv4 address.

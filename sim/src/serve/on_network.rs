@@ -35,7 +35,7 @@ pub(super) trait OnNetwork {
     /// Whether there is something to do.
     fn is_at_work(&self) -> bool;
 
-    /// How often the device may work before the network is looked at again.
+    /// The number of times that the device may work before the network is looked at again.
     fn burst(&self) -> usize;
 
     /// Lets this much real time pass, in nanoseconds since the start.

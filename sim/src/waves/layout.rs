@@ -10,7 +10,7 @@ use super::named_state::NamedState;
 const PORTS: &str = "TOP";
 /// The part of the screen for the waves, in the steps of GTKWave's ruler, of 200 pixels each.
 const STEPS: f64 = 5.0;
-/// How GTKWave shows a signal: as bits, in hexadecimal, or by the names of a file.
+/// The form in which GTKWave shows a signal: as bits, in hexadecimal, or by the names of a file.
 const AS_BITS: &str = "@28";
 const IN_HEXADECIMAL: &str = "@22";
 const BY_NAMES: &str = "@2022";

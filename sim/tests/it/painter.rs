@@ -61,8 +61,8 @@ fn area(a: [i64; 2], b: [i64; 2], c: [i64; 2]) -> i64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// The value of every pixel, row by row. Whether a pixel lies in a triangle is decided on a grid that is a million times
-/// as fine, where each pixel is moved a little to the right and less upwards, so that none lies on an edge.
+/// The value of every pixel, row by row. Whether a pixel lies in a triangle is decided on a grid that is a million
+/// times as fine, where each pixel is moved a little to the right and less upwards, so that none lies on an edge.
 fn values(points: &[Moving]) -> Vec<i64> {
     const FINE: i64 = 1_000_000;
     let set: Vec<Point> = points.iter().map(|point| Point::from(point.at.map(|place| place as u32))).collect();

@@ -9,7 +9,8 @@ use incircle_hdl::udp::{
     UdpSessionState,
 };
 
-/// A UDP link that is quick to simulate: a slow clock and the smallest FIFO. The silence is longer than any answer takes.
+/// A UDP link that is quick to simulate: a slow clock and the smallest FIFO. The silence is longer than any answer
+/// takes.
 pub const QUICK_UDP_LINK: UdpLinkConfig =
     UdpLinkConfig { clock_hz: 1_000_000, fifo_bytes: 2_048, silence_ms: 400, mac: [2, 0x69, 0x6e, 0x43, 0x75, 1] };
 

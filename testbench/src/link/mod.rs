@@ -2,7 +2,8 @@
 //!
 //! [`VirtualLine`] joins the protocol that runs over ports of the operating system to a board with its pins or without,
 //! with faults and a delay each way in between. No real time is involved, so every run can be repeated.
-//! [`VirtualEther`] does the same for the UDP link and a board behind the pins of its PHY. [`Served`] is a board behind a pseudo-terminal, in real time.
+//! [`VirtualEther`] does the same for the UDP link and a board behind the pins of its PHY. [`Served`] is a board behind
+//! a pseudo-terminal, in real time.
 
 mod goodput;
 mod jobs;

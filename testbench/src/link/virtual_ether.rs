@@ -50,8 +50,8 @@ impl VirtualEther {
         }
     }
 
-    /// Simulates every clock for up to this many microseconds of a silent cable. The core must not take longer for a job:
-    /// time without clocks would pass for it.
+    /// Simulates every clock for up to this many microseconds of a silent cable. The core must not take longer for a
+    /// job: time without clocks would pass for it.
     pub fn set_longest_job(&mut self, microseconds: u32) {
         self.most_quiet = microseconds;
     }

@@ -4,7 +4,7 @@ use super::super::mapping;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-/// How many cells of each kind a core takes in one family.
+/// The numbers of cells of each kind that a core takes in one family.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FamilyCells {
     /// Look-up tables of any number of inputs. Multiplexers count only where they take the place of look-up tables, in

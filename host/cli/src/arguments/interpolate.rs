@@ -39,7 +39,7 @@ impl ValueFormat {
     }
 }
 
-/// How values between points are made.
+/// The methods by which values between points are made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum MethodName {
     /// The plane through the corners of the triangle
@@ -64,7 +64,7 @@ impl MethodName {
 /// The value outside the hull of the points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum OutsideName {
-    /// Not a number
+    /// No value: not a number (NaN)
     Nan,
     /// The value of the nearest point
     Nearest,
@@ -106,13 +106,13 @@ pub struct InterpolateArguments {
     /// Without this option the extension of the file chooses the format.
     #[arg(long, value_enum)]
     pub format: Option<ValueFormat>,
-    /// How values between points are made
+    /// Method by which values between points are made
     #[arg(long, value_enum, default_value = "linear")]
     pub method: MethodName,
     /// The value outside the hull of the points
     #[arg(long, value_enum, default_value = "nan")]
     pub outside: OutsideName,
-    /// Back end that says in which triangle each place lies: 'cpu' (default) or 'model'
+    /// Back end that says in which triangle each place lies: 'cpu' (default), 'model' or 'clock'
     ///
     /// The values have the same bytes. A device serves --method linear alone, with points and places on
     /// a lattice that it takes.

@@ -38,7 +38,7 @@ impl JobArguments {
         Options::default().timeout(self.timeout).order(self.order()).contexts(self.contexts).progress(listener)
     }
 
-    /// Whether the choices make sense only for a back end that inserts points one by one.
+    /// Whether the choices have a meaning only for a back end that inserts points one by one.
     pub fn wants_insertion(&self) -> bool {
         self.order.is_some() || self.contexts.is_some()
     }

@@ -12,8 +12,9 @@ use crate::values::domain_parser;
 pub struct PlanArguments {
     /// Edges that must be in the mesh: a CSV file of pairs of point indices, counted from 0
     ///
-    /// Constraints may overlap, touch, and pass through points. Two that cross are an error, which tells the place.
-    /// A .poly file, and lines and polygons of GeoJSON and WKT, have constraints without this option.
+    /// Constraints may overlap, touch, and pass through points. Two constraints that cross are an error, whose message
+    /// has the place of the crossing. A .poly file, and lines and polygons of GeoJSON and WKT, have constraints without
+    /// this option.
     #[arg(long, value_name = "EDGES.csv")]
     pub constraints: Option<PathBuf>,
     /// Triangles that are wanted
@@ -21,18 +22,18 @@ pub struct PlanArguments {
     /// Default: 'holes' for a .poly file, 'even-odd' for polygons, 'all' for anything else.
     #[arg(long, value_parser = domain_parser())]
     pub domain: Option<Domain>,
-    /// What becomes of constraints that cross
+    /// Treatment of constraints that cross
     ///
     /// A place that is a point of the set is no crossing. 'snap' needs points that take at most 24 bits: --quantize
-    /// rounds others. With it, the coordinates of the mesh are those of the grid.
+    /// rounds others, and the coordinates of the mesh are then those of the grid.
     #[arg(long, value_enum, default_value = "reject")]
     pub crossings: Crossings,
 }
 
-/// What becomes of constraints that cross.
+/// The treatment of constraints that cross.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Crossings {
-    /// They are an error, which tells the place
+    /// Crossings are an error, whose message has the place
     Reject,
     /// Crossings become points, rounded to a grid 256 times finer
     Snap,

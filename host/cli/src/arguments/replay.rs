@@ -16,8 +16,9 @@ use crate::values::whole_number;
 pub struct ReplayArguments {
     /// File of commands, a row each: insert X Y, delete I, move I X Y, locate X Y, nearest X Y
     ///
-    /// I is the number of the insertion, counted from 0. Empty rows are skipped, and so is all that
-    /// follows a '#'. '-' is standard input.
+    /// Two more are constrain I J and unconstrain C. I and J are numbers of insertions, and C is that of
+    /// a constraint, all counted from 0. Empty rows are skipped, and so is all that follows a '#'. '-' is
+    /// standard input.
     #[arg(verbatim_doc_comment)]
     pub script: PathBuf,
     /// File for the mesh at the end, in the format of its extension

@@ -143,7 +143,7 @@ fn by_text(whole: i128, rest: i128, d: i128, digits: u32) -> f64 {
     }
 }
 
-/// The decimal digits of `whole + rest / d`, so many behind the point, and what remains.
+/// The decimal digits of `whole + rest / d`, with the given number of digits behind the point, and the remainder.
 fn expanded(whole: i128, mut rest: i128, d: i128, digits: u32) -> (String, i128) {
     let mut text = format!("{whole}.");
     for _ in 0..digits {

@@ -18,9 +18,9 @@ use crate::source;
 pub struct Border {
     /// The corners of all rings, or two opposite corners of a rectangle.
     pub corners: PointTable,
-    /// How many corners each ring has: the outer one, then the holes. A rectangle has none.
+    /// The number of corners of each ring: the outer one, then the holes. Empty for a rectangle.
     counts: Vec<usize>,
-    /// Where the clip comes from, for messages.
+    /// The option or the file from which the clip comes, for messages.
     from: String,
 }
 

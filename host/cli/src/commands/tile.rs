@@ -15,7 +15,7 @@ use crate::progress::Meter;
 use crate::tiles::{self, Budget, JoinMemory, Joined, Manifest, Order, Outcome, Plan, Summary, TileAt};
 use crate::{interrupt, path, source};
 
-/// Runs a verb.
+/// Runs the verb that the arguments name.
 pub fn run(arguments: &TileArguments) -> Result<(), Failure> {
     match &arguments.command {
         TileCommand::Split(arguments) => split(arguments),
@@ -98,7 +98,7 @@ pub fn check_backend(choice: &Choice, job: &JobArguments) -> Result<(), Failure>
     solution.map(drop).map_err(|error| failure_of(&error))
 }
 
-/// Triangulates the points of a tile, which need so many bits, with the back end.
+/// Triangulates the points of a tile, whose coordinates need `bits` bits, with the back end.
 pub fn triangulate_tile(
     points: &[Point],
     bits: u32,

@@ -22,7 +22,7 @@ use crate::tiles::{self, Budget, JoinMemory, Manifest, Needed, Order, Plan, Scra
 use crate::watch::{self, Watch};
 use crate::{interrupt, path, source};
 
-/// If `--memory` is not given, the run leaves one in so many bytes of the free memory to other programs.
+/// If `--memory` is not given, the run leaves one part in this many of the free memory to other programs.
 const SPARED: u64 = 5;
 
 /// The memory for a set that is cut into tiles, because the arguments ask for it or because the set does not fit.
@@ -98,7 +98,7 @@ impl Most {
     }
 }
 
-/// Triangulates the set within a memory of so many bytes.
+/// Triangulates the set within a memory of `memory` bytes.
 pub fn run(arguments: &TriangulateArguments, memory: u64) -> Result<(), Failure> {
     let format = source::mesh_format(&arguments.output, arguments.format)?;
     check_choices(arguments, format)?;

@@ -23,7 +23,7 @@ impl Kind {
     }
 }
 
-/// How a result is told.
+/// The form in which a result is printed.
 #[derive(Clone, Copy)]
 pub struct Verdict<'a> {
     /// The kind of mesh.
@@ -36,7 +36,7 @@ pub struct Verdict<'a> {
     pub quiet: bool,
 }
 
-/// What was seen in a mesh that is right.
+/// The counts of a mesh that is right.
 pub struct Seen {
     /// The numbers of points, of triangles, of points on the hull, and of ties.
     pub counts: [usize; 4],

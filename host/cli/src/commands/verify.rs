@@ -132,7 +132,7 @@ fn check_planned(
     }
 }
 
-/// What was seen in a mesh that is right.
+/// The counts of a mesh that is right, with its lattice.
 fn seen(summary: &VerifySummary, laid: &Laid<'_>) -> Seen {
     let [points, triangles, hull, ties] = [summary.points, summary.triangles, summary.hull.len(), summary.ties];
     Seen { counts: [points, triangles, hull, ties], report: to_json(summary, laid) }

@@ -16,7 +16,7 @@ use crate::proof::{self, Plan, Proven};
 use crate::tiles::{Ground, Length};
 use crate::{number, output, source};
 
-/// Checks a mesh within a memory of so many bytes.
+/// Checks a mesh within a memory of `memory` bytes.
 pub fn run(arguments: &VerifyArguments, memory: u64) -> Result<(), Failure> {
     let (points, mesh) = arguments.files()?;
     if arguments.plan.is_given() {

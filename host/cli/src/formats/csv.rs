@@ -83,7 +83,8 @@ impl<'v> PointReader<'v> {
             None => CsvRows::after(self.rows, bytes, separator_of(bytes)),
         };
         loop {
-            // The quick way reads rows of two columns, x and y. In a file with the header `x,z` one of the two is the z.
+            // The quick way reads rows of two columns, x and y. In a file with the header `x,z` one of the two is the
+            // z.
             if self.width == 2 && self.columns == [0, 1] && self.z.is_none() {
                 while let Some((row, pair)) = rows.next_pair() {
                     self.table.push_decimals(pair, row)?;

@@ -61,7 +61,7 @@ impl<'a> CsvRows<'a> {
         Self::after(0, bytes, separator_of(bytes))
     }
 
-    /// The rows of a text that has so many rows before these bytes.
+    /// The rows of a text that has `row` rows before these bytes.
     pub fn after(row: usize, bytes: &'a [u8], separator: u8) -> Self {
         let reader = ReaderBuilder::new().delimiter(separator).build();
         Self { rest: bytes, row, separator, reader, unquoted: Vec::new(), ends: Vec::new() }

@@ -2,7 +2,8 @@
 //!
 //! Points come from `Point` and `MultiPoint` geometries, bare or in features and collections, in the order of the file;
 //! heights are kept as z. In a plan, every position of a line or polygon is a point, too, and the lines and rings are
-//! constraints. Where only points are wanted, any other geometry is refused, because its corners would be lost silently.
+//! constraints. Where only points are wanted, any other geometry is refused, because its corners would be lost
+//! silently.
 
 use std::fmt;
 use std::io::{self, Write};

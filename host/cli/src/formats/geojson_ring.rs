@@ -1,5 +1,5 @@
-//! The rings of a polygon in GeoJSON (RFC 7946): one polygon, perhaps with holes, bare, in a feature, or in a collection
-//! of one feature.
+//! The rings of a polygon in GeoJSON (RFC 7946): one polygon, perhaps with holes, bare, in a feature, or in a
+//! collection of one feature.
 
 use crate::failure::{counted, quoted, Failure};
 use crate::formats::json_text;
@@ -11,7 +11,7 @@ use crate::text;
 pub struct Rings {
     /// The corners of the outer ring, then those of each hole. The last corner of a ring repeats its first.
     pub corners: PointTable,
-    /// How many corners each ring has.
+    /// The number of corners of each ring.
     pub counts: Vec<usize>,
 }
 

@@ -2,8 +2,8 @@
 //!
 //! `points` has the input points `[x, y]`, `triangles` triples of indices into `points`, `hull` indices, and
 //! `duplicates` pairs `[index, lowest index at the same place]`. The key `numbers` with the value `doubles` says that
-//! the decimals in `points` stand for the nearest doubles. A mesh with constraints also has `regions`, the region of each
-//! triangle, and `pieces` with items `[a, b, [constraints]]`.
+//! the decimals in `points` stand for the nearest doubles. A mesh with constraints also has `regions`, the region of
+//! each triangle, and `pieces` with items `[a, b, [constraints]]`.
 
 use std::io::{self, Write};
 

@@ -15,12 +15,12 @@ pub struct MeshView<'a> {
     pub hull: &'a [u32],
     /// Pairs of a duplicate and the lowest index at the same place.
     pub duplicates: &'a [[u32; 2]],
-    /// What constraints made of the mesh, if there are any.
+    /// The regions and pieces that constraints made, if there are any.
     pub planned: Option<&'a Planned>,
 }
 
 impl MeshView<'_> {
-    /// What a file of Triangle says of the region of a triangle; `None` if it says nothing.
+    /// The attribute of a triangle in a file of Shewchuk's Triangle; `None` if it has none.
     pub fn attribute(&self, triangle: usize) -> Option<String> {
         let planned = self.planned?;
         planned.attribute(*planned.made.regions.get(triangle)?)

@@ -144,8 +144,8 @@ impl PointFormat {
     }
 
     /// The most points that an input can have, as far as that is known without reading points: by the header of an
-    /// array or a LAS file, and by the rows of a text. `None` for other formats, for packed inputs, and for headers that
-    /// promise more points than the file has bytes.
+    /// array or a LAS file, and by the rows of a text. `None` for other formats, for packed inputs, and for headers
+    /// that promise more points than the file has bytes.
     pub fn most_points(self, input: Input) -> Option<u64> {
         let bytes = input.size();
         match self {

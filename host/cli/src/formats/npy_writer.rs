@@ -68,7 +68,7 @@ pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
     write_triangles(mesh.triangles, out)
 }
 
-/// Writes the header of an array of so many triangles.
+/// Writes the header of an array of this number of triangles.
 pub fn write_mesh_head(triangles: u64, out: &mut dyn Write) -> io::Result<()> {
     let item: TypeStr = "<u4".parse().map_err(io::Error::other)?;
     let options = WriteOptions::new_header_only().dtype(DType::Plain(item)).shape(&[triangles, 3]);
@@ -77,7 +77,7 @@ pub fn write_mesh_head(triangles: u64, out: &mut dyn Write) -> io::Result<()> {
 
 /// Writes triangles behind the header.
 pub fn write_triangles(triangles: &[[u32; 3]], out: &mut dyn Write) -> io::Result<()> {
-    // So many triangles become bytes together that the calls of the output do not count.
+    // Many triangles become bytes together, so that the time of the calls of the output does not count.
     const SOME: usize = 1 << 12;
     let mut bytes = Vec::with_capacity(SOME.min(triangles.len()) * 12);
     for some in triangles.chunks(SOME) {

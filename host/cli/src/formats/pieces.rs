@@ -1,4 +1,4 @@
-//! What the formats whose files are read piece by piece have in common.
+//! The functions and the failure that all formats share whose files are read piece by piece.
 
 use crate::failure::Failure;
 use crate::points::Coordinates;

@@ -55,7 +55,7 @@ fn read(bytes: &[u8], mut plan: PlanTable) -> Result<PlanTable, Failure> {
     plan.complete()
 }
 
-/// Which numbers a point has behind x and y.
+/// The meaning of the numbers that a point has behind x and y.
 #[derive(Clone, Copy, PartialEq)]
 enum Dimensions {
     /// No letter is given, so a third number is z.

@@ -1,7 +1,7 @@
 //! Images as densities: dark is dense.
 //!
-//! Every machine reads the same weights. Pixels become integers of 16 bits by integer arithmetic alone, and the decoders
-//! use no vector instructions and no doubles.
+//! Every machine reads the same weights. Pixels become integers of 16 bits by integer arithmetic alone, and the
+//! decoders use no vector instructions and no doubles.
 
 mod jpeg;
 mod pgm;

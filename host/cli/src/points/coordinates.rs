@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use crate::number::{self, Coordinate, Decimal, Number};
 
-/// How steps become coordinates: `(steps * factor + offset) * 10^-digits`.
+/// The rule by which steps become coordinates: `(steps * factor + offset) * 10^-digits`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unit {
     /// Digits behind the point.
@@ -53,7 +53,7 @@ pub enum Coordinates {
     Steps {
         /// The coordinates of each point, in steps.
         steps: Vec<[i64; 2]>,
-        /// How the steps become coordinates.
+        /// The rule by which the steps become coordinates.
         unit: Unit,
     },
     /// Doubles.

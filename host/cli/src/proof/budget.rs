@@ -6,7 +6,8 @@ use crate::failure::Failure;
 const LEAST: u64 = 32 << 20;
 /// The bytes that the program itself takes, with the buffers of its files.
 const PROGRAM: u64 = 16 << 20;
-/// The most triangles of a strip that are kept in memory, for each four of its points. Triangles beyond go through files.
+/// The most triangles of a strip that are kept in memory, for each four of its points. Triangles beyond go through
+/// files.
 const TRIANGLES_OF_FOUR: u64 = 9;
 /// The bytes of a point of a strip: 12 for itself, up to 8 to find it, and for each triangle 12 and 36 for its sides.
 const POINT_BYTES: u64 = 20 + TRIANGLES_OF_FOUR * 48 / 4;
@@ -27,7 +28,7 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// Divides a memory.
+    /// Divides a memory of `memory` bytes among the steps.
     ///
     /// # Errors
     /// Less than 32 MiB are too little for any set.
@@ -43,7 +44,7 @@ impl Budget {
         Ok(Self { free, strip: strip as usize, triangles: (strip * TRIANGLES_OF_FOUR / 4) as usize })
     }
 
-    /// A memory of `free` bytes with strips of so many points and triangles.
+    /// A memory of `free` bytes, with the given numbers of points and triangles in a strip.
     #[cfg(test)]
     pub fn narrow(free: u64, strip: usize, triangles: usize) -> Self {
         Self { free, strip, triangles }
@@ -54,7 +55,7 @@ impl Budget {
         self.free / parts
     }
 
-    /// The bytes of the buffer of one of so many strips.
+    /// The bytes of the buffer of one of `strips` strips.
     ///
     /// # Errors
     /// The memory does not hold the buffers of all strips.
@@ -72,8 +73,8 @@ impl Budget {
         Ok(share.min(BUFFER.end))
     }
 
-    /// The bytes of all files for a set of so many points, if they are spread evenly and the mesh has as many triangles
-    /// as it should.
+    /// The bytes of all files for a set of `points` points, if they are spread evenly and the mesh has as many
+    /// triangles as it should.
     pub fn disk(&self, points: u64, is_unordered: bool) -> u64 {
         let strips = points.div_ceil(self.strip as u64).max(1);
         // A line through evenly spread points crosses `64 / (3 pi^2) sqrt(n) = 2.2 sqrt(n)` edges.

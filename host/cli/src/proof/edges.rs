@@ -4,8 +4,9 @@ use incircle::verify::local::{check_inner_edge, check_sides, Placed, Side};
 use incircle::{Point, VerifyError};
 
 use super::budget::Budget;
+use super::hull::Hull;
 use super::mesh::MeshFile;
-use super::points::{Hull, Sites};
+use super::points::Sites;
 use super::sorter::{Sorted, Stream};
 use super::strips::{members, Deal, Member, Table};
 use super::triangles::SIDE;

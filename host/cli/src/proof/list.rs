@@ -117,7 +117,8 @@ impl Used {
         }
     }
 
-    /// The lowest index of a distinct point that is no corner. Reads the mesh again for each further stretch of indices.
+    /// The lowest index of a distinct point that is no corner. Reads the mesh again for each further stretch of
+    /// indices.
     ///
     /// # Errors
     /// The mesh cannot be read or has changed.

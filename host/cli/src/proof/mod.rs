@@ -3,18 +3,20 @@
 //! The tests themselves are those of the validator ([`incircle::verify::local`]), and the first defect is the one that
 //! the validator finds in memory. What the validator does by looking up points and edges, this module does by sorting:
 //!
-//! 1. [`points`]: all points are sorted by x and y. So equal ones meet, the hull is two chains, and the distinct ones are
-//!    cut into *strips* of as many consecutive points as fit the memory.
+//! 1. [`survey`] finds the lattice, and [`points`] sorts all points by x and y. So equal ones meet, the [`hull`] is two
+//!    chains, and the distinct ones are cut into *strips* of as many consecutive points as fit the memory.
 //! 2. [`list`]: the list of triangles is read once. Its order shows, and each triangle goes to the strip of its first
 //!    corner. First corners rise, so their points are read in the order of the input.
-//! 3. [`triangles`]: strip by strip, most triangles have all corners in the strip. The points of the others are found by
-//!    sorting their corners by index. Then each triangle is checked.
-//! 4. [`edges`]: strip by strip, the sides of each edge meet in the strip of the lower index, where the edge is checked.
+//! 3. [`triangles`]: strip by strip, most triangles have all corners in the strip. The points of the others are found
+//!    by sorting their corners by index. Then each triangle is checked.
+//! 4. [`edges`]: strip by strip, the sides of each edge meet in the strip of the lower index, where the edge is
+//!    checked.
 //!
 //! Nothing but the reading of files and the lattice of the points is shared with the code that makes meshes in tiles.
 
 mod budget;
 mod edges;
+mod hull;
 mod list;
 mod mesh;
 mod place;
@@ -23,6 +25,7 @@ mod sorter;
 mod spill;
 mod stack;
 mod strips;
+mod survey;
 mod triangles;
 
 use std::path::{Path, PathBuf};
@@ -40,7 +43,8 @@ use crate::{output, path};
 use budget::Budget;
 use mesh::MeshFile;
 use place::Place;
-use points::{Sites, Survey};
+use points::Sites;
+use survey::Survey;
 
 /// A mesh to be checked, and where.
 pub struct Plan<'a> {

@@ -1,8 +1,8 @@
-//! Where the files of a proof go.
+//! The folder of the files of a proof.
 
 use std::path::Path;
 
-/// Where files go, and whether no progress is shown.
+/// The folder of the files of a proof, and whether no progress is shown.
 #[derive(Clone, Copy)]
 pub struct Place<'a> {
     /// The folder for files.

@@ -2,84 +2,20 @@
 
 use std::path::{Path, PathBuf};
 
-use incircle::verify::local::{sector, turn};
+use incircle::verify::local::turn;
 use incircle::Point;
 
 use super::budget::Budget;
+use super::hull::{point_of, strip_of, Hull};
 use super::sorter::{Sorted, Sorter, Stream};
 use super::spill::Spill;
 use super::stack::Stack;
+use super::survey::Survey;
 use crate::arguments::ReadArguments;
 use crate::failure::Failure;
-use crate::path;
-use crate::tiles::{each_piece, Digest, Extent, Ground};
 
-/// The most points of a set: each index fits 32 bits, and two values stay free.
-const MOST_POINTS: u64 = u32::MAX as u64 - 1;
 /// The number of rows that are written or read at once.
 const ROWS: usize = 1 << 13;
-
-/// The inputs of a set, read once.
-pub struct Survey {
-    /// The lattice of all points.
-    pub ground: Ground,
-    /// The number of points.
-    pub points: u64,
-    digests: Vec<Digest>,
-}
-
-impl Survey {
-    /// Reads all inputs for the first time.
-    ///
-    /// # Errors
-    /// An input cannot be read, or the points have no lattice of up to 32 bits in common.
-    pub fn of(paths: &[PathBuf], read: &ReadArguments, quiet: bool) -> Result<Self, Failure> {
-        let (mut extent, mut digests, mut points) = (Extent::default(), Vec::new(), 0);
-        for path in paths {
-            let mut digest = Digest::default();
-            each_piece(path, read, quiet, &mut |piece| {
-                digest.add(piece);
-                if points + digest.points() > MOST_POINTS {
-                    return Err(Failure::input(format!(
-                        "a set has at most {MOST_POINTS} points, and this one has more"
-                    )));
-                }
-                extent.add(piece).map_err(|failure| failure.in_file(path::name(path)))
-            })?;
-            points += digest.points();
-            digests.push(digest);
-        }
-        Ok(Self { ground: extent.ground()?, points, digests })
-    }
-
-    /// Reads all inputs again, and calls `take` with each point and its index.
-    fn each(
-        &self,
-        (paths, read, quiet): (&[PathBuf], &ReadArguments, bool),
-        take: &mut dyn FnMut(u32, Point) -> Result<(), Failure>,
-    ) -> Result<(), Failure> {
-        let (mut index, mut grid) = (0u32, Vec::new());
-        for (path, seen) in paths.iter().zip(&self.digests) {
-            let mut digest = Digest::default();
-            each_piece(path, read, quiet, &mut |piece| {
-                digest.add(piece);
-                grid.clear();
-                if digest.points() > seen.points() || self.ground.lay(piece, &mut grid).is_none() {
-                    return Err(changed(path));
-                }
-                for &point in &grid {
-                    take(index, point)?;
-                    index += 1;
-                }
-                Ok(())
-            })?;
-            if digest != *seen {
-                return Err(changed(path));
-            }
-        }
-        Ok(())
-    }
-}
 
 /// The points of a set, ready for a proof.
 pub struct Sites {
@@ -101,19 +37,6 @@ pub struct Sites {
     duplicates: Sorted<2>,
     /// The hull.
     pub hull: Hull,
-}
-
-/// The hull of a set.
-pub struct Hull {
-    /// The number of points on it.
-    pub count: u64,
-    /// Twice its area.
-    pub area: i128,
-    /// The place of the lowest index.
-    pub start: u32,
-    /// Rows of a strip, the two points of an edge in rising order, whether the edge runs the other way, and its place on
-    /// the hull. The strip is the one of the first point.
-    pub edges: Sorted<5>,
 }
 
 impl Sites {
@@ -234,7 +157,7 @@ impl Indexed<'_> {
     }
 }
 
-/// A file of rows that is written from its begin to its end.
+/// A file of rows that is written from its beginning to its end.
 struct Writer<const N: usize> {
     spill: Spill,
     rows: Vec<[u32; N]>,
@@ -260,7 +183,7 @@ impl<const N: usize> Writer<N> {
     }
 }
 
-/// What becomes of points that come in lexicographic order.
+/// The strips, duplicates and hull of points that come in lexicographic order.
 struct Merged {
     sorted: Writer<3>,
     strips: Vec<Point>,
@@ -315,58 +238,4 @@ impl Merged {
         upper.push(row)?;
         self.sorted.push(row)
     }
-}
-
-impl Hull {
-    /// The hull with these sides, which begin at one point and end at another one. The points on its edges belong to it.
-    fn of(sides: [Stack; 2], strips: &[Point], folder: &Path, memory: u64) -> Result<Self, Failure> {
-        let [mut lower, mut upper] = sides;
-        let count = (lower.len() + upper.len()).saturating_sub(2);
-        let mut hull = Self { count, area: 0, start: 0, edges: Sorter::new(folder, 0).finish()? };
-        let (mut edges, mut lowest) = (Sorter::new(folder, memory), u32::MAX);
-        let mut add = |hull: &mut Self, place: u64, [from, to]: [[u32; 3]; 2]| {
-            let place = (place % count.max(1)) as u32;
-            hull.area += sector(point_of(from), point_of(to));
-            if from[2] < lowest {
-                (lowest, hull.start) = (from[2], place);
-            }
-            let (least, most) = if from[2] < to[2] { (from, to) } else { (to, from) };
-            let strip = strip_of(strips, point_of(least)) as u32;
-            edges.push([strip, least[2], most[2], u32::from(from[2] > to[2]), place])
-        };
-        // The lower side runs counter-clockwise, and comes from its end here; the upper one the other way round.
-        let mut after = lower.pop()?;
-        while let (Some(to), Some(from)) = (after, lower.pop()?) {
-            add(&mut hull, lower.len(), [from, to])?;
-            after = Some(from);
-        }
-        let (mut from, mut place) = (upper.pop()?, count.saturating_sub(upper.len()));
-        while let (Some(begin), Some(to)) = (from, upper.pop()?) {
-            add(&mut hull, place, [begin, to])?;
-            (from, place) = (Some(to), place + 1);
-        }
-        hull.edges = edges.finish()?;
-        Ok(hull)
-    }
-
-    /// The place of an edge when counting begins at the lowest index.
-    pub fn rank(&self, place: u32) -> u64 {
-        (u64::from(place) + self.count - u64::from(self.start)) % self.count.max(1)
-    }
-}
-
-/// The failure of an input that is not the same as at first.
-fn changed(path: &Path) -> Failure {
-    Failure::input(format!(
-        "{} has changed while it was read: verify the mesh again, and leave the file alone meanwhile",
-        path::name(path)
-    ))
-}
-
-fn point_of([x, y, _]: [u32; 3]) -> Point {
-    Point::new(x, y)
-}
-
-fn strip_of(strips: &[Point], point: Point) -> usize {
-    strips.partition_point(|first| *first <= point).saturating_sub(1)
 }

@@ -1,5 +1,5 @@
-//! Rows that come in any order, sorted within a bound on the memory. The validator shares no sort with the back ends, so
-//! this one is its own.
+//! Rows that come in any order, sorted within a bound on the memory. The validator shares no sort with the back ends,
+//! so this one is its own.
 
 use std::cmp::Reverse;
 use std::collections::binary_heap::PeekMut;

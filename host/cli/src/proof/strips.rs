@@ -27,7 +27,7 @@ struct Dealt {
 }
 
 impl Deal {
-    /// Makes empty lists for so many strips, each with a buffer of `buffer` bytes.
+    /// Makes empty lists for `strips` strips, each with a buffer of `buffer` bytes.
     ///
     /// # Errors
     /// The folder cannot be written.

@@ -116,15 +116,15 @@ fn cross(
     sides.finish()
 }
 
-/// The first defect of the triangles so far, in the order of the list. All triangles differ and are in order, so this is
-/// the order of their corners.
+/// The first defect of the triangles so far, in the order of the list. All triangles differ and are in order, so this
+/// is the order of their corners.
 struct Judge {
     area: i128,
     /// The corners of the triangle and the number of the corner, or 3 for the triangle as a whole.
     first: Option<([u32; 4], Flaw)>,
 }
 
-/// What is wrong with a triangle.
+/// A defect of a triangle.
 enum Flaw {
     Duplicate { index: u32, of: u32 },
     Shape([Point; 3]),

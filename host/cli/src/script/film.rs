@@ -76,12 +76,12 @@ impl Film {
         }
     }
 
-    /// Whether a frame follows after so many commands.
+    /// Whether a frame follows after the first `done` commands.
     pub fn is_due(&self, done: usize) -> bool {
         done.is_multiple_of(self.every) || done == self.commands
     }
 
-    /// Adds the frame after so many commands.
+    /// Adds the frame after the first `done` commands.
     pub fn take<P: PlanePoint>(&mut self, mesh: &mut impl LivingMesh<P>, done: usize) -> Result<(), Error> {
         let (indices, mesh) = (mesh.indices(), mesh.mesh()?);
         let place = |rank: u32| self.place_of[indices[rank as usize] as usize];

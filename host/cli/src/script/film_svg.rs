@@ -11,7 +11,7 @@ use crate::formats::svg::{draw_dots, draw_hull, draw_triangles, side, write_head
 
 /// Frames a second.
 const RATE: usize = 10;
-/// The last frame is shown for so many more frames before the film begins again.
+/// The last frame is shown for this many more frames before the film begins again.
 const HOLD: usize = 10;
 /// Colours of points and of the places of questions.
 const POINT: &str = "#1d2b53";
@@ -41,7 +41,7 @@ pub fn write_film(film: &Film, places: &[[f64; 2]], commands: usize, out: &mut d
     writeln!(out, "</svg>")
 }
 
-/// The width of a dot where there are so many.
+/// The width of a dot where there are `count` of them.
 fn dot(count: usize) -> f64 {
     (3_000.0 / (count.max(1) as f64).sqrt()).clamp(60.0, 280.0)
 }

@@ -12,7 +12,7 @@ use crate::numbers::{signed, Double, NumberKind, Single, SixDigits};
 const USUAL_FRAMES: u32 = 60;
 /// Commands of `churn` for each point, unless they are chosen.
 const USUAL_CHURN: u64 = 20;
-/// In each frame, one in so many features vanishes by chance.
+/// In each frame, one in this many features vanishes by chance.
 const LIFE: u64 = 60;
 /// The number of frames after which the camera pans in another direction.
 const TURN: u32 = 20;
@@ -216,7 +216,7 @@ fn write_tracks(start: &[[u32; 2]], frames: u32, to: &mut ScriptWriter<'_>) -> i
     Ok(())
 }
 
-/// Asks what so many random places are.
+/// Asks what `count` random places are.
 fn ask(count: usize, to: &mut ScriptWriter<'_>) -> io::Result<()> {
     for _ in 0..count {
         let place = to.anywhere();

@@ -38,7 +38,7 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// Divides a memory of so many bytes among at most `workers` tiles that are triangulated at once.
+    /// Divides a memory of `memory` bytes among at most `workers` tiles that are triangulated at once.
     ///
     /// # Errors
     /// Less than 32 MiB are too little for any set.
@@ -78,7 +78,7 @@ impl Budget {
         }
     }
 
-    /// Whether a memory of so many bytes is enough for tiles.
+    /// Whether a memory of `memory` bytes is enough for tiles.
     pub fn is_enough(memory: u64) -> bool {
         memory >= LEAST
     }

@@ -157,7 +157,7 @@ pub fn remove_stale(folder: &Path, ending: &str) {
     }
 }
 
-/// The size of a buffer, in bytes, if so many files share `bytes`.
+/// The size of a buffer, in bytes, if `files` files share `bytes`.
 pub fn room_for(bytes: usize, files: usize) -> usize {
     (bytes / files.max(1)).clamp(BUFFER.start, BUFFER.end)
 }

@@ -10,8 +10,8 @@ use crate::path;
 /// Bytes of a point in the files of points, and of its two triangles in the files of tiles.
 const POINTS: u64 = 12;
 const TRIANGLES: u64 = 24;
-/// Borders and the triangles of joins add one in so many bytes to the files of tiles. Sets with large empty circles,
-/// such as points on one circle, need more: at worst they fill the disk, and the step fails.
+/// Borders and the triangles of joins add one byte to this many bytes of the files of tiles. Sets with large empty
+/// circles, such as points on one circle, need more: at worst they fill the disk, and the step fails.
 const EXTRA: u64 = 20;
 
 /// The bytes that the steps of an even set have on disk at one time, at most.
@@ -19,12 +19,12 @@ const EXTRA: u64 = 20;
 pub struct Needed {
     /// The files of the tiles.
     pub scratch: u64,
-    /// The mesh.
+    /// The file of the mesh.
     pub mesh: u64,
 }
 
 impl Needed {
-    /// The bytes for an even set of so many points.
+    /// The bytes for an even set of `points` points.
     pub fn of(points: u64, format: MeshFormat) -> Self {
         let tiles = points * TRIANGLES;
         // The points of a tile go when it is triangulated.
@@ -45,7 +45,7 @@ impl Needed {
     }
 }
 
-/// The bytes of a mesh of so many points, at most: two triangles for each.
+/// The bytes of a mesh of `points` points, at most: two triangles for each.
 fn mesh_bytes(points: u64, format: MeshFormat) -> u64 {
     let digits = u64::from(points.max(1).ilog10()) + 2;
     match format {

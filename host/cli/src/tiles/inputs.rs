@@ -13,8 +13,8 @@ use crate::points::{Coordinates, PointTable};
 use crate::source;
 
 /// Calls `take` with the coordinates of all points of a file, in pieces as
-/// [`PointFormat::read_pieces`](crate::formats::PointFormat::read_pieces) makes them. Failures of reading name the file;
-/// those of `take` are passed on.
+/// [`PointFormat::read_pieces`](crate::formats::PointFormat::read_pieces) makes them. Failures of reading name the
+/// file; those of `take` are passed on.
 pub fn each_piece(path: &Path, read: &ReadArguments, quiet: bool, take: Take<'_>) -> Result<(), Failure> {
     if path::is_standard(path) {
         return Err(Failure::usage("the points are read twice, and standard input can be read only once: give a file"));

@@ -18,10 +18,10 @@ use crate::memory::Memory;
 use crate::path;
 use crate::progress::CountMeter;
 
-/// The triangles of the joins have one in so many bytes of the memory. They are few, and the rest is for borders.
+/// One byte in this many of the memory is for the triangles of the joins. They are few, and the rest is for borders.
 const SHARE: u64 = 8;
-/// The most bytes that a point of the borders takes while they are joined. Measured: 105 for points on a circle, and 112
-/// for points on a parabola.
+/// The most bytes that a point of the borders takes while they are joined. Measured: 105 for points on a circle, and
+/// 112 for points on a parabola.
 const JOIN_BYTES: u64 = 112;
 /// The bytes that the program itself takes while it joins. Measured: 9 MiB.
 const PROGRAM: u64 = 10 << 20;

@@ -18,7 +18,7 @@ use crate::path;
 /// A tile of a folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TileAt {
-    /// The folder.
+    /// The folder of the tiles.
     pub folder: PathBuf,
     /// The number of the tile.
     pub tile: u32,
@@ -52,7 +52,7 @@ pub struct Outcome {
     pub was_there: bool,
 }
 
-/// Gives the canonical mesh of points that need so many bits.
+/// Gives the canonical mesh of points whose coordinates need the given number of bits.
 pub type Triangulate<'a> = dyn FnMut(&[Point], u32) -> Result<Mesh, Failure> + 'a;
 
 /// Triangulates the points of a tile and writes its file, unless that file is there and sound.

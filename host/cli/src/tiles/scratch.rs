@@ -9,7 +9,7 @@ use super::manifest::manifest_path;
 use crate::failure::Failure;
 use crate::{interrupt, output, path};
 
-/// So often a folder is made again that another process removes at the same time.
+/// The number of times that a folder is made again if another process removes it at the same time.
 const TRIES: usize = 100;
 
 /// A folder that this process alone works in. Dropping the value removes the folder if it has nothing to go on from.
@@ -88,7 +88,7 @@ fn is_of_tiles(name: &str) -> bool {
     is_tile || name.starts_with('.') && name.ends_with(".part")
 }
 
-/// What is gone already need not be removed.
+/// The result of a removal, where a file that is gone already is no failure.
 fn gone(removed: io::Result<()>) -> io::Result<()> {
     match removed {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),

@@ -71,7 +71,7 @@ extern "C" fn reset() -> ! {
     crate::main()
 }
 
-/// What stands behind the first stack pointer in the flash.
+/// The words that stand behind the first stack pointer in the flash.
 #[repr(C)]
 struct Vectors {
     reset: extern "C" fn() -> !,

@@ -1,4 +1,4 @@
-//! A microcontroller that holds a board with the incircle core: it triangulates the points in its flash and prints the
+//! A microcontroller that drives a board with the incircle core: it triangulates the points in its flash and prints the
 //! canonical mesh over semihosting, as rows `a,b,c`.
 //!
 //! Lines that begin with `#` are for people: the points, the time and the deepest stack. The script `run` beside this

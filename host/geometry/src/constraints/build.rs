@@ -50,7 +50,8 @@ fn filtered<C: Coordinate>(places: &[[C; 2]]) -> Vec<FilteredSite<C>> {
     places.iter().map(|&place| FilteredSite::of(place)).collect()
 }
 
-/// Twice the sum of the areas. Each is below 2^65, and there are fewer than 2^30, so 128 bits hold the sum.
+/// Twice the sum of the areas of the triangles. Twice an area is below 2^65, and there are fewer than 2^30 triangles,
+/// so 128 bits hold the sum.
 fn twice_area(places: &[Point], triangles: &[[u32; 3]]) -> i128 {
     let area = |corners: &[u32; 3]| {
         let [a, b, c] = corners.map(|corner| places[corner as usize]);
@@ -130,9 +131,9 @@ fn ends_of(constraints: &[[u32; 2]], points: usize, duplicates: &[Duplicate]) ->
     (0..).zip(constraints).map(checked).collect()
 }
 
-/// What ended the forcing of constraints.
+/// The reason why not all constraints could be forced into the mesh.
 pub(super) enum Ended {
-    /// These constraints cross; the smaller number comes first.
+    /// The constraints of these two numbers cross; the smaller number comes first.
     Crossing([u32; 2]),
     Error(Error),
 }
@@ -167,7 +168,7 @@ fn check_room(parts: usize) -> Result<(), Error> {
     }
 }
 
-/// How many constraints have an end at each vertex.
+/// The number of constraints with an end at each vertex.
 struct Crowds(Vec<u32>);
 
 impl Crowds {

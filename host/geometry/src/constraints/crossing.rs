@@ -49,7 +49,7 @@ impl Fraction {
 }
 
 impl fmt::Display for Fraction {
-    /// `7/2`, or `3` for a whole number.
+    /// Writes `7/2`, or `3` for a whole number.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.denominator {
             1 => write!(f, "{}", self.numerator),

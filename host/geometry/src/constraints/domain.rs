@@ -25,16 +25,16 @@ const NONE: u32 = u32::MAX;
 pub(super) struct Parts {
     /// The part of each triangle, by its number.
     pub of: Vec<u32>,
-    /// How often the rings run around each part.
+    /// The number of times that the rings run around each part.
     turns: Vec<i64>,
 }
 
-/// What is known of the constraints while parts are labelled.
+/// The constraints, as far as labelling the parts needs them.
 pub(super) struct Boundary<'a> {
     pub pieces: &'a Pieces,
     /// The ends of each constraint, under the lowest indices of their places.
     pub ends: &'a [[u32; 2]],
-    /// How many constraints, from the first on, bound the domain.
+    /// The number of constraints, from the first on, that bound the domain.
     pub count: usize,
     pub domain: Domain,
 }
@@ -130,7 +130,7 @@ impl Parts {
         }
     }
 
-    /// Which parts belong to the domain.
+    /// For each part, whether it belongs to the domain.
     pub fn chosen<S: Site>(&self, network: &Network<'_, S>, plan: &Plan<'_, u32>) -> Result<Vec<bool>, Error> {
         let mut chosen: Vec<bool> = match plan.domain {
             Domain::All => vec![true; self.turns.len()],

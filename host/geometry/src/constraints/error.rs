@@ -1,4 +1,4 @@
-//! What keeps constraints from being forced into a mesh.
+//! The reasons why constraints cannot be forced into a mesh.
 
 use super::crossing::Place;
 use crate::plan::Mark;

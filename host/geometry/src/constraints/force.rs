@@ -13,7 +13,7 @@ use super::fixed_mesh::{FixedMesh, Link, NoMesh};
 use crate::living::plane::{Side, INFINITE};
 use crate::site::Site;
 
-/// Where a constraint goes from one of its vertices.
+/// The way of a constraint from one of its vertices on.
 enum Way {
     /// Along this edge, to this vertex.
     Along(Side, u32),
@@ -21,7 +21,7 @@ enum Way {
     Through(Side),
 }
 
-/// Why a step along a constraint ended before a vertex.
+/// The reason why a step along a constraint ended before a vertex.
 pub(crate) enum Stop {
     /// The constraint crosses this edge, which is fixed.
     Crossing([u32; 2]),

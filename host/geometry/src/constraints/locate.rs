@@ -7,11 +7,11 @@ use super::network::Network;
 use crate::living::plane::{Side, INFINITE};
 use crate::site::Site;
 
-/// What is at a place.
+/// The triangle or the edge at a place.
 pub(super) enum Found {
-    /// This triangle, inside or on a free edge or at a vertex without fixed edges.
+    /// The place lies in this triangle: inside, on a free edge, or at a vertex without fixed edges.
     Inside(u32),
-    /// A fixed edge or one of its ends.
+    /// The place lies on this fixed edge, or at one of its ends.
     OnFixed([u32; 2]),
     Outside,
 }
@@ -52,7 +52,7 @@ impl<S: Site> Network<'_, S> {
         !self.plane.ends(side).contains(&INFINITE) && self.turn(side, q).is_lt()
     }
 
-    /// What is at a place in a triangle or on its border.
+    /// The triangle or the fixed edge at a place in a triangle or on its border.
     fn at_place(&self, triangle: u32, q: S) -> Found {
         let sides = [0, 1, 2].map(|slot| Side::new(triangle, slot));
         let corner = self.plane.get(triangle).vertices.into_iter().find(|&vertex| self.site(vertex) == q);

@@ -1,8 +1,8 @@
 //! Constrained Delaunay triangulation: edges that must be in the mesh, and the domain that they bound.
 //!
-//! Use [`triangulate`] if roads, walls, coastlines or outlines must be edges of a mesh. A constraint is a pair of indices
-//! of points. The answer is canonical, as without constraints: of all triangulations that have the constraints as
-//! edges, it is the one in which every other edge is locally Delaunay, with ties decided by the tie rule. The page
+//! Use [`triangulate`] if roads, walls, coastlines or outlines must be edges of a mesh. A constraint is a pair of
+//! indices of points. The answer is canonical, as without constraints: of all triangulations that have the constraints
+//! as edges, it is the one in which every other edge is locally Delaunay, with ties decided by the tie rule. The page
 //! `docs/constraints.md` of the repository has the contract and the proof.
 //!
 //! | you want | call |
@@ -15,10 +15,10 @@
 //! | constraints in the mesh of a device | [`constrain_numbers`] |
 //!
 //! **How it works, file by file.** `triangulate` lets the CPU triangulator force constraints in before it sorts its
-//! triangles. The others work on the lists of a mesh. `build` has the steps. `network` links the triangles of a mesh and
-//! marks fixed edges; `fixed_mesh` flips free ones; `force` brings a constraint in; `pieces` collects what constraints
-//! became; `crossing` works out where two of them cross, and `snap` and `pixels` round crossings to a finer grid;
-//! `domain` floods the parts between them, and `locate` finds holes and regions.
+//! triangles. The others work on the lists of a mesh. `build` has the steps. `network` links the triangles of a mesh
+//! and marks fixed edges; `fixed_mesh` flips free ones; `force` brings a constraint in; `pieces` collects what
+//! constraints became; `crossing` works out where two of them cross, and `snap` and `pixels` round crossings to a finer
+//! grid; `domain` floods the parts between them, and `locate` finds holes and regions.
 
 mod build;
 mod constrain;

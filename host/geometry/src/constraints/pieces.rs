@@ -15,8 +15,8 @@ pub struct Pieces {
 }
 
 impl Pieces {
-    /// Collects edges, each with both ends in rising order and the number of a constraint. O(n) by a radix sort, and O(k
-    /// log k) for each edge of `k` constraints.
+    /// Collects edges, each with both ends in rising order and the number of a constraint. O(n) by a radix sort, and
+    /// O(k log k) for each edge of `k` constraints.
     pub(crate) fn of(parts: Vec<([u32; 2], u32)>) -> Self {
         let entry = |([a, b], constraint): ([u32; 2], u32)| Wide::new(u64::from(a) << 32 | u64::from(b), constraint);
         let mut entries: Vec<Wide> = parts.into_iter().map(entry).collect();

@@ -12,12 +12,12 @@ use super::pixels::{Hot, Segment};
 use crate::lattice::{Lattice, Step};
 use crate::point::{Point, MAX_POINTS};
 
-/// How many bits finer the grid of a snapped set is than that of the points.
+/// The number of bits by which the grid of a snapped set is finer than that of the points.
 pub const SNAP_BITS: u32 = 8;
 /// The most pairs of constraint and crossing that are kept. They take 512 MiB.
 const MOST_CROSSINGS: usize = 1 << 26;
 
-/// Why crossings cannot be snapped.
+/// The reason why crossings cannot be snapped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SnapError {
@@ -101,7 +101,8 @@ impl Snapped {
 /// If no two constraints cross inside both at a place without a point, the set is returned as it is. Else all
 /// coordinates are multiplied by 256, and every constraint is led through the points of the finer grid in whose pixel
 /// it meets a point or a crossing. Constraints move by less than 0.708 steps of the finer grid, and may then share
-/// edges. The result is the same in whatever order the constraints come, but for their order and that of their parts.
+/// edges. If the constraints come in another order, the result is the same, except for the order of the constraints and
+/// of their parts.
 ///
 /// O(c log c + p) for `c` constraints, crossings and points, where `p` counts the pairs of constraints that overlap in
 /// x, and the cells of a grid of about `c` cells that the constraints touch.

@@ -17,7 +17,7 @@ pub(super) trait Kernel: Copy + Sync + 'static {
     type Seen: Copy;
     /// The place of a point in the tree of cuts.
     type Place: Copy + Send + Sync;
-    /// What a kernel computes once for a set of points, so that the predicates cost less.
+    /// Numbers that a kernel computes once for a set of points, so that the predicates cost less.
     type Bounds: Copy;
 
     /// The bounds for all points in the bounding box of `sites`. A kernel that needs no bounds does not call `sites`.

@@ -11,6 +11,7 @@ use core::cmp::Ordering;
 
 use super::big::Big;
 use super::coordinate::Coordinate;
+use crate::product::product;
 
 /// Most bits of a coordinate for which the products are worked out in machine integers.
 const NARROW_BITS: i32 = 61;
@@ -51,7 +52,7 @@ pub(super) fn incircle<C: Coordinate>(a: [C; 2], b: [C; 2], c: [C; 2], d: [C; 2]
     match whole([a, b, c, d]) {
         Whole::Narrow([a, b, c, d]) => {
             let (c, d) = (View::of(a, b, c), View::of(a, b, d));
-            product(c.dot, d.cross).cmp(&product(d.dot, c.cross))
+            signed_product(c.dot, d.cross).cmp(&signed_product(d.dot, c.cross))
         }
         Whole::Wide([a, b, c, d]) => {
             let (c, d) = (WideView::of(&a, &b, &c), WideView::of(&a, &b, &d));
@@ -115,13 +116,8 @@ impl WideView {
 }
 
 /// The product as a number of 256 bits in two's complement, the upper half first, so that the order is that of numbers.
-fn product(one: i128, other: i128) -> (i128, u128) {
-    const LOW: u128 = u64::MAX as u128;
-    let (a, b) = (one.unsigned_abs(), other.unsigned_abs());
-    let (a1, a0, b1, b0) = (a >> 64, a & LOW, b >> 64, b & LOW);
-    let (middle, carry) = (a1 * b0).overflowing_add(a0 * b1);
-    let (low, carry_of_low) = (a0 * b0).overflowing_add(middle << 64);
-    let high = a1 * b1 + (middle >> 64) + (u128::from(carry) << 64) + u128::from(carry_of_low);
+fn signed_product(one: i128, other: i128) -> (i128, u128) {
+    let (high, low) = product(one.unsigned_abs(), other.unsigned_abs());
     if (one < 0) == (other < 0) {
         return (high as i128, low);
     }
@@ -143,9 +139,9 @@ mod tests {
                 [0, 1, 2, 3].map(|k| (values[k], shifts[k], i128::from(values[k]) << shifts[k]));
             let big = |(value, shift, _): (i64, u32, i128)| Big::shifted(value, shift);
             let expected = big(a).times(&big(b)).minus(&big(c).times(&big(d))).sign();
-            prop_assert_eq!(product(a.2, b.2).cmp(&product(c.2, d.2)), expected);
-            prop_assert_eq!(product(a.2, b.2).cmp(&product(b.2, a.2)), Ordering::Equal);
-            prop_assert_eq!(product(a.2, b.2).cmp(&(0, 0)), big(a).times(&big(b)).sign());
+            prop_assert_eq!(signed_product(a.2, b.2).cmp(&signed_product(c.2, d.2)), expected);
+            prop_assert_eq!(signed_product(a.2, b.2).cmp(&signed_product(b.2, a.2)), Ordering::Equal);
+            prop_assert_eq!(signed_product(a.2, b.2).cmp(&(0, 0)), big(a).times(&big(b)).sign());
         }
     }
 }

@@ -1,15 +1,15 @@
 //! Inverses of points with respect to a circle, which tell by products whether a neighbour of a vertex is nearer to a
 //! place than the vertex itself.
 //!
-//! Let a vertex be the origin, `q` the place and `w` another point. The inverse of `w` is `w / |w|²`. Then `w` is nearer
-//! to `q` than the vertex is if the product of `q` and the inverse of `w`, the *height* of `w`, is larger than 1/2,
-//! because `|q - w|² - |q|² = |w|² - 2 q w`.
+//! Let a vertex be the origin, `q` the place and `w` another point. The inverse of `w` is `w / |w|²`. Then `w` is
+//! nearer to `q` than the vertex is if the product of `q` and the inverse of `w`, the *height* of `w`, is larger than
+//! 1/2, because `|q - w|² - |q|² = |w|² - 2 q w`.
 //!
-//! **The bound.** Let `u = 2^-53`. The product `q w` errs by at most `(4 u + O(u²)) s`, where `s` is its size, and `|w|²`
-//! by `4 u` of itself. So a height errs by at most `(9 u + O(u²)) s / |w|²`. Here `|q|` is at most about `2^10 |w|`, so
-//! the error is less than `2^-39`. The bound is `2^-30`, because nothing is lost if the exact stage decides a few more.
-//! **Underflow** of the products of `q w` adds less than `2^-114`, because `|w|²` is at least `2^-960`, and nothing
-//! **overflows** because it is at most `2^1000`. Points outside these ranges have no height.
+//! **The bound.** Let `u = 2^-53`. The product `q w` errs by at most `(4 u + O(u²)) s`, where `s` is its size, and
+//! `|w|²` by `4 u` of itself. So a height errs by at most `(9 u + O(u²)) s / |w|²`. Here `|q|` is at most about `2^10
+//! |w|`, so the error is less than `2^-39`. The bound is `2^-30`, because nothing is lost if the exact stage decides a
+//! few more. **Underflow** of the products of `q w` adds less than `2^-114`, because `|w|²` is at least `2^-960`, and
+//! nothing **overflows** because it is at most `2^1000`. Points outside these ranges have no height.
 
 use super::LEAST_SIZE;
 

@@ -1,8 +1,8 @@
 //! Contour lines of the surface that is linear on triangles.
 //!
 //! A corner counts as above a level if its value is the level or more. A triangle with corners above and below has
-//! exactly one edge that leads down, counter-clockwise, and one that leads up. The line enters across the first and leaves
-//! across the second, so that higher ground lies on its left. No triangle is crossed twice at a level.
+//! exactly one edge that leads down, counter-clockwise, and one that leads up. The line enters across the first and
+//! leaves across the second, so that higher ground lies on its left. No triangle is crossed twice at a level.
 
 use alloc::vec::Vec;
 
@@ -13,7 +13,7 @@ use super::record::{after, Record, NONE};
 pub struct Crossing {
     /// The ends of the edge, the lower index first.
     pub edge: [u32; 2],
-    /// How far the crossing lies from the first end to the second: 0 to 1.
+    /// The position of the crossing along the edge: 0 at the first end, 1 at the second.
     pub share: f64,
 }
 

@@ -3,7 +3,7 @@
 use super::record::{after, Record, NONE};
 use crate::double::orient2d;
 
-/// What is at a place.
+/// The corner, edge or record at a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Place {
     /// The corner of a record.
@@ -12,7 +12,7 @@ pub(super) enum Place {
     Edge(u32, usize),
     /// The inside of a record.
     Inside(u32),
-    /// Beyond an edge of a record that lies on the hull.
+    /// The place lies outside the hull, beyond an edge of this record.
     Outside(u32),
 }
 

@@ -20,7 +20,7 @@ const THREAD_QUERIES: usize = 4096;
 /// Pairs of consecutive places that are looked at, to tell whether places are scattered.
 const SAMPLES: usize = 512;
 
-/// How values between points are made.
+/// The method by which values between points are made.
 ///
 /// With `u = 2^-53`, values of a linear function are reproduced to the following errors, where `v` is the largest
 /// magnitude of a value near the place and `d` the largest difference of two. A thin triangle makes them larger: `t` is
@@ -30,17 +30,17 @@ const SAMPLES: usize = 512;
 pub enum Method {
     /// The plane through the corners of the triangle: continuous, with a kink at each edge. Error: `4 u v + 16 u t d`.
     Linear,
-    /// Natural neighbours, weighted by edge length over distance: continuous, smooth but for kinks on some circles.
+    /// Natural neighbours, weighted by edge length over distance: continuous, smooth except for kinks on some circles.
     /// Error: `4 u v + 64 u t d`, with `t` of the triangles of the place with the edges of the ring.
     Laplace,
-    /// Natural neighbours, weighted by area: smooth but at the points themselves. Error: `4 u v + 256 u r² d`.
+    /// Natural neighbours, weighted by area: smooth except at the points themselves. Error: `4 u v + 256 u r² d`.
     Sibson,
 }
 
 /// The value outside the hull of the points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Outside {
-    /// Not a number.
+    /// No value: the result is not a number (NaN).
     Nan,
     /// The value of the nearest point; of points at one distance, that of the lowest index.
     Nearest,

@@ -14,8 +14,8 @@ use crate::site::Site;
 /// Positions are looked up in a table if it is at most this many times as long as the list of living indices.
 const SPARSE: usize = 8;
 /// If more than one in this many vertices would have to be taken out, the mesh is made anew. Measured with a million
-/// points: steps of half the mean distance take 240 ns a point by the sweep and 440 by a new mesh, and steps of the whole
-/// distance take 460 either way. In tests all may be, so that small sets take out some.
+/// points: steps of half the mean distance take 240 ns a point by the sweep and 440 by a new mesh, and steps of the
+/// whole distance take 460 either way. In tests all may be, so that small sets take out some.
 const MOST: usize = if cfg!(test) { 1 } else { 2 };
 
 /// The positions of living indices in the list of all.
@@ -136,7 +136,7 @@ impl<P: PlanePoint> Triangulation<P> {
         if !level.is_plane() {
             return false;
         }
-        // What stands here for a free vertex is never used.
+        // The entry of a free vertex is never used.
         let place = |vertex: &Vertex<P>| below.vertices.get(vertex.name as usize).map_or(vertex.point, |own| own.point);
         let moved: Vec<P> = level.vertices.iter().map(place).collect();
         let most = level.count / MOST;

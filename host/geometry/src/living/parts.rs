@@ -1,4 +1,4 @@
-//! Which constraints each fixed edge of a mesh that lives is a piece of.
+//! The fixed edges of a mesh that lives, and the constraints of which each is a piece.
 
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;

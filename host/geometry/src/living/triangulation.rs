@@ -149,7 +149,7 @@ impl<P: PlanePoint> Triangulation<P> {
         self.names.get(index).ok_or_else(|| self.missing(index))
     }
 
-    /// Why an index is not living.
+    /// The error of an index that no living point has.
     pub(super) fn missing(&self, index: u32) -> Error {
         if index < self.next {
             Error::Deleted { index }
@@ -169,7 +169,8 @@ impl<P: PlanePoint> Triangulation<P> {
         self.find_with_vertex(q).0
     }
 
-    /// What a place is in the lowest level, and a vertex near it, which is noted for the next call.
+    /// The vertex, edge or triangle at a place in the lowest level, and a vertex near it, which is noted for the next
+    /// call.
     #[inline]
     pub(super) fn find_with_vertex(&self, q: P::Site) -> (Place, Option<u32>) {
         let (base, hint) = (self.base(), self.hint.get());

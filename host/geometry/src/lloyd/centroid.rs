@@ -8,8 +8,8 @@ pub(super) const BITS: u32 = 8;
 /// Polygons whose corners lie this near to the point have twice an area below 2^63.
 const NEAR: i64 = 1 << 30;
 
-/// Twice the area and six times the moments of polygons around a point, from corners as seen from it, in 2^-8 of a step.
-/// Inside the grid these have 40 bits, so the sums have at most 80 and 122.
+/// Twice the area and six times the moments of polygons around a point, from corners as seen from it, in 2^-8 of a
+/// step. Inside the grid these have 40 bits, so the sums have at most 80 and 122.
 pub(super) struct Sums {
     area: i128,
     moments: [i128; 2],

@@ -29,7 +29,7 @@ pub enum DensityError {
     OtherClip,
 }
 
-/// How densely mass is spread over a clip: an image of weights, stretched over the smallest rectangle around the clip.
+/// The density of mass over a clip: an image of weights, stretched over the smallest rectangle around the clip.
 ///
 /// The density is the weight of the pixel at each place. A border between pixels lies at its exact place, rounded down
 /// to 2^-4 of a step. The density takes 18 bytes a pixel.
@@ -51,7 +51,7 @@ pub struct Density {
     bounds: [Point; 2],
     /// The borders of columns and of rows, from the lower left corner on, in 2^-4 of a step. Rows grow upwards.
     pub(super) borders: [Vec<i64>; 2],
-    /// Row by row.
+    /// The weights row by row, from the lower left corner on.
     weights: Vec<u16>,
     /// The mass between the left end of each row and each border of a column, for a height of 2^-4 of a step.
     in_rows: Vec<u64>,
@@ -94,8 +94,8 @@ impl Density {
         self.bounds
     }
 
-    /// The mass left of a place in its row, for a height of 2^-4 of a step. The pixel is the one at the place, or one at
-    /// whose border the place lies.
+    /// The mass left of a place in its row, for a height of 2^-4 of a step. The pixel is the one at the place, or one
+    /// at whose border the place lies.
     pub(super) fn left_of(&self, x: i64, [column, row]: [usize; 2]) -> i128 {
         let columns = self.borders[0].len() - 1;
         let weight = i128::from(self.weights[row * columns + column]);

@@ -2,17 +2,17 @@
 //! evenly.
 //!
 //! **Why every machine gives the same bits.** A step rounds at two places, both by integer division. A corner of a cell
-//! as seen from its point is the fraction `(x / d, y / d)`, and becomes `floor(x 2^8 / d)`, and the same for y. Area and
-//! moments of the polygon of these integers are integers, too, and are summed exactly. Their quotient is rounded to the
-//! nearest grid point, halves upwards. So the new place of a point depends on its clipped cell alone, which is exact and
-//! canonical, and neither threads nor the order of the points can change it.
+//! as seen from its point is the fraction `(x / d, y / d)`, and becomes `floor(x 2^8 / d)`, and the same for y. Area
+//! and moments of the polygon of these integers are integers, too, and are summed exactly. Their quotient is rounded to
+//! the nearest grid point, halves upwards. So the new place of a point depends on its clipped cell alone, which is
+//! exact and canonical, and neither threads nor the order of the points can change it.
 //!
 //! **Where mass counts.** With a [`Density`], an image over the rectangle around the clip, points move to the centre of
 //! mass of their cells. Borders of cells are cut at the borders of pixels, and each cut becomes integers by division,
 //! too; the mass and the moments of what lies between are integers.
 //!
-//! **How exact it is.** Each corner is off by less than `2^-8` of a step of the grid, and the centroid of a cell that is
-//! many steps wide by about as much. Points move to grid points, so give them a grid with spare bits: multiply the
+//! **How exact it is.** Each corner is off by less than `2^-8` of a step of the grid, and the centroid of a cell that
+//! is many steps wide by about as much. Points move to grid points, so give them a grid with spare bits: multiply the
 //! coordinates by a power of two.
 //!
 //! ```
@@ -48,7 +48,7 @@ pub use density::{Density, DensityError};
 pub use error::Error;
 pub use step::{step, weighted_step};
 
-/// When a relaxation ends.
+/// The conditions under which a relaxation ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stop {
     /// The most steps.
@@ -58,7 +58,7 @@ pub struct Stop {
     pub when_still: bool,
 }
 
-/// Why a relaxation ended.
+/// The reason why a relaxation ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum End {
     /// All steps were done.
@@ -78,12 +78,12 @@ pub struct Relaxed {
     pub iterations: u32,
     /// The points that moved in the last step.
     pub moved: usize,
-    /// Why the relaxation ended.
+    /// The reason why the relaxation ended.
     pub end: End,
 }
 
-/// Relaxes points inside a clip, on at most `threads` threads. Points at one place move together. A point whose cell has
-/// no area in the clip stays where it is.
+/// Relaxes points inside a clip, on at most `threads` threads. Points at one place move together. A point whose cell
+/// has no area in the clip stays where it is.
 ///
 /// A step makes the mesh of the points and takes O(n) more; only cells near the border of the clip are cut.
 ///

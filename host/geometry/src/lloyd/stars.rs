@@ -17,9 +17,11 @@ const FEW: usize = 24;
 /// The triangles of a mesh by their points, and the centre of each.
 pub(super) struct Stars<'a> {
     triangles: &'a [[u32; 3]],
-    /// The centre of each triangle in 2^-8 of a step, rounded down; at [`FAR`] or beyond it is no more than a direction.
+    /// The centre of each triangle in 2^-8 of a step, rounded down; at [`FAR`] or beyond it is no more than a
+    /// direction.
     centers: Vec<[i64; 2]>,
-    /// The corners at point `i` are those from `starts[i]` to `starts[i + 1]`; corner `3 t + k` is that of triangle `t`.
+    /// The corners at point `i` are those from `starts[i]` to `starts[i + 1]`; corner `3 t + k` is that of triangle
+    /// `t`.
     starts: Vec<u32>,
     corners: Vec<u32>,
 }

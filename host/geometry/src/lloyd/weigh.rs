@@ -5,8 +5,8 @@
 //! a place in its column, the moment in x is the integral of `-x B dx`. Inside a pixel `L`, `B`, x and y are linear
 //! along an edge, so twice the first integral and six times the others are sums of products of integers.
 //!
-//! **Where edges are cut.** An edge is cut wherever it crosses a border of pixels, and the cut is rounded down to 2^-4 of
-//! a step. Rounding keeps cuts in their order along the edge and each piece in its pixel, because the borders are
+//! **Where edges are cut.** An edge is cut wherever it crosses a border of pixels, and the cut is rounded down to 2^-4
+//! of a step. Rounding keeps cuts in their order along the edge and each piece in its pixel, because the borders are
 //! integers. A cut depends on the line alone, not on its direction.
 
 use super::centroid::BITS;

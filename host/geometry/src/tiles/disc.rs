@@ -1,9 +1,9 @@
 //! The circumscribed disc of a triangle beside a rectangle.
 //!
 //! **The test.** Let `a` be a corner and `C` the centre relative to `a`. A place `p` relative to `a` lies outside the
-//! closed disc if `|p|² - 2 p·C > 0`. This sum has a part for each axis, `t (t - 2 C)`, which is least at the `t` of the
-//! rectangle that is nearest to `C`. So the rectangle misses the disc if the least parts of both axes have a positive
-//! sum.
+//! closed disc if `|p|² - 2 p·C > 0`. This sum has a part for each axis, `t (t - 2 C)`, which is least at the `t` of
+//! the rectangle that is nearest to `C`. So the rectangle misses the disc if the least parts of both axes have a
+//! positive sum.
 //!
 //! **Rounding.** Let `e = 2^-52`. For 32 bits, the numerators and the denominator of `C` are whole numbers below 2^100,
 //! so `C` has an error of at most `2 e |C|`: both are rounded once, and so is the quotient. Differences of places are

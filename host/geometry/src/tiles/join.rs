@@ -126,7 +126,7 @@ pub fn join<P: TilePoint, I: Copy + Ord>(
 /// Like [`join`], with more final triangles: also those whose disc touches no occupied cell beyond the joined region.
 /// `occupancy` must have all points of the whole set.
 ///
-/// Takes about 130 bytes a point of the borders, and gives back those of the children.
+/// Takes about 130 bytes a point of the borders, and frees the borders of the children.
 ///
 /// # Errors
 /// Those of [`Union::of`].

@@ -1,4 +1,4 @@
-//! The first step: which triangles of a tile are final, and what the tile leaves for joins.
+//! The first step: finding the final triangles of a tile, and the border that it leaves for joins.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -83,8 +83,8 @@ pub fn local<P: TilePoint, I: Copy + Ord>(
 
 /// Like [`local`], with more final triangles: also those whose disc touches no occupied cell beyond the region.
 ///
-/// `occupancy` must have all points of the whole set. Takes up to 2 µs more for each triangle that [`local`] would leave
-/// open.
+/// `occupancy` must have all points of the whole set. Takes up to 2 µs more for each triangle that [`local`] would
+/// leave open.
 ///
 /// # Errors
 /// Those of [`local`].

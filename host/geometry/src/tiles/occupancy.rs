@@ -1,8 +1,8 @@
 //! The places where a set has points, and the second question about a triangle: does its disc touch one of them?
 //!
 //! A disc that reaches beyond its region ([`reach`](super::reach())) may still touch no place with a point there: the
-//! large discs of points on a curve are nearly empty. Then no point beyond the region conflicts with the triangle, which
-//! is as final as one whose disc stays within the region.
+//! large discs of points on a curve are nearly empty. Then no point beyond the region conflicts with the triangle,
+//! which is as final as one whose disc stays within the region.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -56,8 +56,8 @@ pub struct OccupiedCells {
 }
 
 impl OccupiedCells {
-    /// Begins with a set of no points, whose coordinates should have up to `bits` bits, at most 32: the cells are as small
-    /// as that allows. Takes up to 2 MiB.
+    /// Begins with a set of no points, whose coordinates should have up to `bits` bits, at most 32: the cells are as
+    /// small as that allows. Takes up to 2 MiB.
     pub fn new(bits: u32) -> Self {
         let levels = bits.min(MOST_LEVELS);
         Self { shift: bits.min(u32::BITS) - levels, bits: vec![0; (1usize << (2 * levels)).div_ceil(64)] }

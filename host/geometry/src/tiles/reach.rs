@@ -69,7 +69,7 @@ pub trait TilePoint: PlanePoint {
     /// The numbers of the sides of a region.
     type Side: Copy + PartialOrd + core::fmt::Debug;
 
-    /// The coordinates.
+    /// The coordinates of the point, x and y.
     fn place(self) -> [Self::Side; 2];
 
     /// The sides of a region, prepared for many triangles.

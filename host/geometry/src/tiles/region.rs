@@ -28,7 +28,7 @@ pub struct Region<C = i64> {
 }
 
 impl<C> Region<C> {
-    /// The whole plane.
+    /// The region of the whole plane, which has no sides.
     pub const WHOLE: Self = Self { west: None, east: None, south: None, north: None };
 }
 

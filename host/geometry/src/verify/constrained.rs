@@ -128,7 +128,7 @@ fn check_unused<P: ExactPoint>(sites: &Sites<'_, P>, triangles: &[[u32; 3]]) -> 
     Ok(())
 }
 
-/// What is expected of the edges of a mesh.
+/// The pieces, and the sides of each that must have triangles.
 struct Expected<'a> {
     pieces: &'a [Piece],
     /// Whether the faces at the left and at the right of each piece belong to the domain.

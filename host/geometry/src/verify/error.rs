@@ -189,7 +189,7 @@ pub enum VerifyError {
     /// The place of a hole is on a constraint.
     #[error("{kind} {number} lies on the constraint from point {} to point {}", edge[0], edge[1])]
     MarkOnConstraint {
-        /// What the place stands for.
+        /// Whether the place is that of a hole or of a region.
         kind: Mark,
         /// Number of the hole in the list.
         number: usize,
@@ -199,7 +199,7 @@ pub enum VerifyError {
     /// The place of a hole has a coordinate that is infinite or not a number.
     #[error("{kind} {number} has a coordinate that is infinite or not a number")]
     MarkNotFinite {
-        /// What the place stands for.
+        /// Whether the place is that of a hole or of a region.
         kind: Mark,
         /// Number of the hole in the list.
         number: usize,

@@ -121,7 +121,7 @@ impl Faces {
         Ok((0..pieces.len()).map(|piece| [2 * piece, 2 * piece + 1].map(|side| is_in[self.0[side]])).collect())
     }
 
-    /// How often the boundary runs around each face, by the leader of the face.
+    /// The number of times that the boundary runs around each face, by the leader of the face.
     fn turns(&self, pieces: &[Piece], domain: Domain) -> Vec<i64> {
         let mut beside: Vec<(usize, usize, i64)> = Vec::new();
         for (number, piece) in pieces.iter().enumerate() {

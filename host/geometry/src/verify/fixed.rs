@@ -5,8 +5,9 @@
 //! through it end a piece there, and those that go on begin the next. O(n log n) for points and constraints, however
 //! many of them overlap or meet at one point.
 //!
-//! Where constraints cross, the strands lose their order. That is no harm: pieces then are missing or pass through
-//! points, so either the end of a constraint is not found, or some piece is no edge of any mesh.
+//! Where constraints cross, the strands lose their order. No wrong mesh is accepted because of that: pieces then are
+//! missing or pass through points, so either the end of a constraint is not found, or some piece is no edge of any
+//! mesh.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -28,14 +29,14 @@ pub(super) struct Piece {
     pub turns: i64,
 }
 
-/// What lies under a place.
+/// The piece at a place, or directly below it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Under {
     /// The place is on this piece.
     On(usize),
-    /// This piece is the next below.
+    /// The place is on no piece, and this is the next one below.
     Piece(usize),
-    /// There is no piece below.
+    /// The place is on no piece, and there is none below.
     Nothing,
 }
 
@@ -43,9 +44,9 @@ pub(super) enum Under {
 pub(super) struct Pieces {
     /// Each piece once.
     pub list: Vec<Piece>,
-    /// What lies under each point from which pieces run to the right and none to the left.
+    /// The piece directly below each point from which pieces run to the right and none to the left.
     pub under: Vec<Under>,
-    /// What lies under each mark.
+    /// The piece at each mark, or directly below it.
     pub marks: Vec<Under>,
 }
 

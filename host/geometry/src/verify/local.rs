@@ -94,8 +94,8 @@ pub fn check_sides(sides: &[Side], hull: Option<[u32; 2]>) -> Result<(), VerifyE
     check_directions(sides.len(), |place| (sides[place].of.triangle, sides[place].ends()))
 }
 
-/// Checks that the edge between two triangles is locally Delaunay, ties by the tie rule. `one` is the side whose triangle
-/// comes first in the list. Returns true for a tie.
+/// Checks that the edge between two triangles is locally Delaunay, ties by the tie rule. `one` is the side whose
+/// triangle comes first in the list. Returns true for a tie.
 ///
 /// # Errors
 /// A point lies inside the circle of the other triangle, or the tie rule asks for the other diagonal.
@@ -104,8 +104,8 @@ pub fn check_inner_edge(one: &Side, other: &Side) -> Result<bool, VerifyError> {
     check_circle(one.of.triangle, corners, [one.point(0), one.point(1), one.point(2), other.point(2)])
 }
 
-/// Checks Euler's formula: a triangulation of n distinct points with h of them on the hull has 2n - 2 - h triangles. The
-/// points must not lie on one line.
+/// Checks Euler's formula: a triangulation of n distinct points with h of them on the hull has 2n - 2 - h triangles.
+/// The points must not lie on one line.
 ///
 /// # Errors
 /// There are more or fewer triangles.
@@ -167,8 +167,8 @@ pub(super) fn check_only_side(triangle: usize, edge: [u32; 2], hull: Option<[u32
     Err(VerifyError::OpenEdge { triangle, edge })
 }
 
-/// Refuses two sides of one edge that run the same way. Among three or more sides there are always two such. `side` gives
-/// the triangle and the ends of the side at a place.
+/// Refuses two sides of one edge that run the same way. Among three or more sides there are always two such. `side`
+/// gives the triangle and the ends of the side at a place.
 pub(super) fn check_directions(count: usize, side: impl Fn(usize) -> (usize, [u32; 2])) -> Result<(), VerifyError> {
     for later in 0..count {
         let (other, edge) = side(later);

@@ -26,7 +26,7 @@ pub(super) struct Strand {
 }
 
 impl Strand {
-    /// Where a point lies: `Greater` above the strand, `Equal` on its line.
+    /// The side of the strand on which a point lies: `Greater` above the strand, `Equal` on its line.
     pub(super) fn side<P: ExactPoint>(&self, sites: &Sites<'_, P>, q: P) -> Ordering {
         let [a, b] = self.line.map(|index| sites.at(index));
         P::orient2d(a, b, q)

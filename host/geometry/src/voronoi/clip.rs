@@ -13,7 +13,7 @@ use crate::predicate::orient2d;
 pub struct Clip {
     /// The outer ring, counter-clockwise, then the holes, clockwise.
     corners: Vec<Point>,
-    /// Where each ring ends in the list.
+    /// The end of each ring in the list.
     ends: Vec<usize>,
     /// The corner behind each corner in its ring.
     next: Vec<u32>,

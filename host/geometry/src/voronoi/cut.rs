@@ -4,8 +4,8 @@
 //! edges lie on edges of the clip or on borders. The part nearer to `p` is kept: chains of corners strictly on that
 //! side. Each chain begins and ends on the border. Just beside the border on the side of `p`, the inside of the region
 //! begins where a chain ends, for the inside is on the left of a chain, and stops where a chain begins. So in the order
-//! of positions ends and beginnings alternate, and each end is joined with the beginning behind it. Where several chains
-//! end and begin at one place, the order just beside the border is that of their directions there.
+//! of positions ends and beginnings alternate, and each end is joined with the beginning behind it. Where several
+//! chains end and begin at one place, the order just beside the border is that of their directions there.
 //!
 //! A ring that touches the border with one corner and is on the side of `p` elsewhere stays as it is. One that touches
 //! it with more corners may be a hole that cuts off a piece between them, so it is joined with the others.
@@ -18,7 +18,7 @@ use super::corner::{cross, vector};
 use super::place::Place;
 use crate::point::Point;
 
-/// What an edge of a clipped cell lies on.
+/// The line on which an edge of a clipped cell lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// The border with the cell of the point of this index.
@@ -122,8 +122,8 @@ pub(super) struct Cutter {
 }
 
 impl Cutter {
-    /// Appends to `out` and `counts` what is left of some rings, of which each has so many corners: the corners, and how
-    /// many each new ring has.
+    /// Appends to `out` and `counts` what is left of some rings, of which each has so many corners: the corners, and
+    /// how many each new ring has.
     pub(super) fn cut(
         &mut self,
         rings: (&[Bend], &[usize]),
@@ -223,8 +223,8 @@ impl Cutter {
         }
     }
 
-    /// What the edge between two tips lies on. Where a ring itself runs along the border and has its inside on the side
-    /// of `p`, the edge stays that of the ring: the inside does not reach the other cell.
+    /// The line on which the edge between two tips lies. Where a ring itself runs along the border and has its inside
+    /// on the side of `p`, the edge stays that of the ring: the inside does not reach the other cell.
     fn side_between(&self, bends: &[Bend], end: Tip, begin: Tip, q: u32) -> Side {
         let (Some(first), Some(last)) = (end.corner, begin.corner) else { return Side::Neighbor(q) };
         let chain = self.chains[end.chain];

@@ -53,8 +53,8 @@ impl<'a> Voronoi<'a> {
     ///
     /// O(n): the two sides of every edge are sorted, and one walk around each point follows. The peak of memory is
     /// about 300 bytes a point. The mesh may have any diagonals where points lie on one circle: the diagram is the same
-    /// but for the numbers of its vertices. Those follow the order of the triangles, so the canonical mesh gives canonical
-    /// numbers. A mesh that is no Delaunay triangulation gives lists without meaning, and no panic.
+    /// but for the numbers of its vertices. Those follow the order of the triangles, so the canonical mesh gives
+    /// canonical numbers. A mesh that is no Delaunay triangulation gives lists without meaning, and no panic.
     ///
     /// # Errors
     /// A coordinate has more than 31 bits, or the mesh names points that are not there or has a triangle that is not

@@ -29,7 +29,7 @@ fn sum(one: i64, other: i64) -> i128 {
     i128::from(one) + i128::from(other)
 }
 
-/// How far the crossing with the border between `p` and `q` lies along the edge from `a` to `b`: a fraction of the
+/// The position of the crossing with the border between `p` and `q` along the edge from `a` to `b`: a fraction of the
 /// edge. The denominator is zero if edge and border are parallel.
 fn along(p: Point, [a, b, q]: [Point; 3]) -> [i128; 2] {
     let v = vector(p, q);

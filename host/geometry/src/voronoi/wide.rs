@@ -2,16 +2,7 @@
 
 use core::cmp::Ordering;
 
-/// The product of two numbers of 128 bits: its upper and its lower half.
-fn product(one: u128, other: u128) -> (u128, u128) {
-    const HALF: u128 = u64::MAX as u128;
-    let ([a, b], [c, d]) = ([one >> 64, one & HALF], [other >> 64, other & HALF]);
-    let (low, middle) = (b * d, a * d);
-    // Neither sum passes 2^128: a product of two halves is at most (2^64 - 1)^2.
-    let middle = middle + (low >> 64);
-    let other = b * c + (middle & HALF);
-    (a * c + (middle >> 64) + (other >> 64), other << 64 | low & HALF)
-}
+use crate::product::product;
 
 /// Compares the products of two pairs.
 #[inline]

@@ -1,8 +1,8 @@
 //! `plans`: compares constrained triangulation with that of other libraries, on one thread.
 //!
 //! Every contestant makes the mesh of the same points and constraints, from lists in its own form to a mesh in its own
-//! form, and all triangles are compared with ours. The contestants take turns in random order, so that other work on the
-//! machine touches all. Ratios are medians over the rounds, of times taken next to each other.
+//! form, and all triangles are compared with ours. The contestants take turns in random order, so that other work on
+//! the machine touches all. Ratios are medians over the rounds, of times taken next to each other.
 
 mod cgal;
 mod run;

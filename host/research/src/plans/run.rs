@@ -1,4 +1,4 @@
-//! What a contestant gives.
+//! The result of a contestant.
 
 /// The seconds of a run, and the triangles in canonical order.
 pub(super) struct Run {

@@ -35,8 +35,8 @@ impl Core {
         self.exchange(&Command::insert(words, self.layout)).map(|_| ())
     }
 
-    /// Does a run, of which every item must have this outcome if one is given. Also gives the vertices that have too many
-    /// neighbours to be deleted.
+    /// Does a run, of which every item must have this outcome if one is given. Also gives the vertices that have too
+    /// many neighbours to be deleted.
     pub(super) fn run(
         &mut self,
         kind: RunKind,

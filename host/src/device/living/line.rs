@@ -13,7 +13,7 @@ impl Names {
         ends.is_none_or(|(&first, &last)| orient2d(first, last, point) == 0)
     }
 
-    /// What a place is, if all points lie on one line.
+    /// The vertex or the edge at a place, if all points lie on one line.
     pub(super) fn locate_on_line(&self, place: Point) -> Location {
         if let Some(here) = self.place(place) {
             return Location::Vertex(here.name());

@@ -1,7 +1,7 @@
 //! Meshes that live, on the host and on a device, behind one trait.
 //!
-//! [`LivingSession`] keeps the mesh on a device that takes runs, `runs` puts items together to runs, `names` knows the point of every index, `line` answers
-//! while all points lie on one line, and `exchange` speaks with the device.
+//! [`LivingSession`] keeps the mesh on a device that takes runs, `runs` gathers items into runs, `names` knows the
+//! point of every index, `line` answers while all points lie on one line, and `exchange` speaks with the device.
 
 mod exchange;
 mod line;
@@ -117,8 +117,8 @@ pub trait LivingMesh<P: PlanePoint> {
         places.iter().map(|&place| self.nearest(place)).collect()
     }
 
-    /// Deletes the points of these indices, as [`delete`](Self::delete) does one after another. A device deletes several
-    /// at a time.
+    /// Deletes the points of these indices, as [`delete`](Self::delete) does one after another. A device deletes
+    /// several at a time.
     ///
     /// # Errors
     /// Those of [`delete`](Self::delete). The points before the one at fault are deleted.
@@ -126,8 +126,8 @@ pub trait LivingMesh<P: PlanePoint> {
         indices.iter().try_for_each(|&index| self.delete(index))
     }
 
-    /// Moves the points of these indices to other places, as [`move_to`](Self::move_to) does one after another. A device
-    /// moves several at a time; a move whose index or place an earlier one has touched waits for that one.
+    /// Moves the points of these indices to other places, as [`move_to`](Self::move_to) does one after another. A
+    /// device moves several at a time; a move whose index or place an earlier one has touched waits for that one.
     ///
     /// # Errors
     /// Those of [`move_to`](Self::move_to). The points before the one at fault are moved.

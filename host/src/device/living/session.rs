@@ -25,7 +25,7 @@ pub(crate) struct Choices {
 
 /// A mesh that lives on a device, with the methods of [`LivingMesh`].
 ///
-/// It comes from [`Session::living`](crate::Session::living). The device changes its mesh in place: an insertion, a
+/// [`Session::living`](crate::Session::living) makes one. The device changes its mesh in place: an insertion, a
 /// deletion or a move costs it what depends on the neighbours and on the way from the last place, and not on the number
 /// of points. The host keeps the points and their indices, and knows which vertex of the device each place is.
 ///

@@ -54,7 +54,7 @@ fn rounds(most: u32) -> Vec<u64> {
     sums.collect()
 }
 
-/// Cost that the last of so many contexts adds to a round.
+/// Cost that the last of `contexts` contexts adds to a round.
 fn one_more(contexts: u64) -> u64 {
     match contexts {
         1 => UNDISTURBED_INSERTION,
@@ -64,7 +64,7 @@ fn one_more(contexts: u64) -> u64 {
     }
 }
 
-/// Cost of the contention in a mesh of so many points: a small mesh has no room for many insertions at once, which
+/// Cost of the contention in a mesh of `points` points: a small mesh has no room for many insertions at once, which
 /// costs `CONTENTION * (min(points, CONTENTION_POINTS) * contexts^3)^(1/4)` clocks. Fitted to the table at
 /// [`Plan::exclusive_with`].
 fn contention(points: usize, contexts: u32) -> u64 {
@@ -80,7 +80,7 @@ fn contention(points: usize, contexts: u32) -> u64 {
 /// A part of a batch that has the memory of the device at one time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
-    /// A group of this many jobs, side by side, with a team of so many contexts for each.
+    /// A group of `jobs` jobs, side by side, with a team of `contexts` contexts for each.
     Group { jobs: usize, contexts: u32 },
     /// One job that has the memory to itself.
     Exclusive,
@@ -117,8 +117,8 @@ impl Plan {
         Self { rounds: rounds(contexts), most_of_team, capacity, most_shared: capacity }
     }
 
-    /// The same plan with at most so many points in jobs that share the memory: those whose mesh the device can keep for
-    /// the line.
+    /// The same plan with at most `points` points in jobs that share the memory: those whose mesh the device can keep
+    /// for the line.
     pub(super) fn sharing_at_most(self, points: usize) -> Self {
         Self { most_shared: self.most_shared.min(points), ..self }
     }
@@ -210,7 +210,7 @@ impl Plan {
         fitting.filter(move |&(jobs, ..)| jobs >= least_jobs(contexts)).map(|(jobs, clocks, _)| (jobs, clocks))
     }
 
-    /// Cost that the last of so many jobs adds to a group with teams of this size. Its contexts share its points, so
+    /// Cost that the last of `jobs` jobs adds to a group with teams of this size. Its contexts share its points, so
     /// they add to the cost of `points / contexts` rounds. A job that is over repeats points, which are found at once
     /// and cost next to nothing.
     fn one_more_job(&self, points: usize, jobs: usize, contexts: u32) -> u64 {

@@ -6,7 +6,7 @@ use crate::transports::round_trip::TripBounds;
 
 /// Bits of a byte on the line, with start and stop bit.
 const BITS: u64 = 10;
-/// How long the host waits. A USB adapter with its default latency takes 16 ms.
+/// The times that the host waits. A USB adapter with its default latency takes 16 ms.
 pub(super) const TRIP_BOUNDS: TripBounds = TripBounds {
     first_trip: Duration::from_millis(30),
     least_slack: Duration::from_millis(4),

@@ -146,7 +146,7 @@ impl Awaited {
     /// Hears that the device has sent `answers` answers to their end.
     ///
     /// # Errors
-    /// It cannot have sent so many.
+    /// The device cannot have sent this many answers.
     pub fn passed(&mut self, answers: u32, taken_bytes: u64) -> Result<(), UdpFault> {
         let answers = u64::from(answers);
         let last = answers.checked_sub(self.first + 1).and_then(|last| usize::try_from(last).ok());

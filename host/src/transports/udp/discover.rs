@@ -22,7 +22,7 @@ const GREETINGS: u32 = 3;
 pub struct Discovered {
     /// Address to open it with.
     pub address: UdpAddress,
-    /// Its greeting, checked.
+    /// The greeting of the device, checked.
     pub greeting: UdpGreeting,
     /// Whether a session with it is open.
     pub is_busy: bool,

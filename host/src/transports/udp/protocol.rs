@@ -19,7 +19,7 @@ use crate::transports::{is_begun_as, Capabilities};
 const WINDOW_BYTES: usize = 64 * 1024;
 /// Fewest bytes of answers that are awaited at a time: two datagrams.
 const LEAST_WINDOW_BYTES: usize = 3 * 1024;
-/// How long the host waits, on a local network.
+/// The times that the host waits, on a local network.
 const TRIP_BOUNDS: TripBounds = TripBounds {
     first_trip: Duration::from_millis(2),
     least_slack: Duration::from_micros(500),

@@ -10,14 +10,14 @@ use crate::transports::{is_begun_as, AnswerHead};
 /// Most words of payload of an answer in one datagram.
 const MOST_PAYLOAD: u64 = (MAX_DATAGRAM_WORDS - HEAD) as u64;
 
-/// How far a question is.
+/// The state of a question.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum State {
-    /// It is to be sent.
+    /// The question is to be sent.
     Due,
-    /// It was sent, and its answer is awaited.
+    /// The question was sent, and its answer is awaited.
     Asked,
-    /// Its answer has come, or is no longer needed.
+    /// The answer has come, or is no longer needed.
     Done,
 }
 

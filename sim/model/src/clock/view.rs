@@ -1,4 +1,4 @@
-//! What pictures and tests see of the core at a clock: contexts, visits, locks and records.
+//! The state of the core at a clock, for pictures and tests: contexts, visits, locks and records.
 //!
 //! Nothing here changes the model, and the model does not use it.
 

@@ -1,4 +1,4 @@
-//! What the model by commands is in the middle of: a command, a range that is read, a run.
+//! The unfinished work of the model by commands: a command, a range that is read, a run.
 
 use incircle_protocol::{RunKind, Status};
 

@@ -41,8 +41,8 @@ pub(crate) struct Flow {
 }
 
 impl Flow {
-    /// No words yet, with room for this many words of answers. After `patience` clocks in which no word passes, the core
-    /// can only be waiting for the host.
+    /// No words yet, with room for this many words of answers. After `patience` clocks in which no word passes, the
+    /// core can only be waiting for the host.
     pub fn new(room: usize, patience: u64) -> Self {
         Self {
             fifo: VecDeque::new(),

@@ -1,4 +1,5 @@
-//! What the models of the serial link and of the UDP link share: a session's words on their way between host and core.
+//! The parts that the models of the serial link and of the UDP link share: a session's words on their way between host
+//! and core.
 
 mod answers;
 mod crc;

@@ -21,7 +21,7 @@ pub(crate) struct RingEdge {
 pub(crate) enum Across {
     /// The ring edge of this number.
     Ring(u8),
-    /// This slot of the filling triangle of this number.
+    /// The filling triangle of the first number, at the slot of the second.
     Filling(u8, u8),
 }
 

@@ -5,7 +5,7 @@ use crate::predicate::{orient2d, Point};
 use incircle_protocol::{Located, Outcome};
 
 impl Mesh {
-    /// What a place is, with the weights of the vertices of its triangle.
+    /// The vertex, edge or triangle at a place, with the weights of the vertices of its triangle.
     ///
     /// The outcome is `Vertex`, `Edge`, `Triangle` or `Outside`. The weight of a vertex is twice the area of the
     /// triangle that the place makes with the other two corners. Vertices whose weight is 0 are not named. There must

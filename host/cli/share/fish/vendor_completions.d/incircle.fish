@@ -90,10 +90,10 @@ random\t''"
 complete -c incircle -n "__fish_incircle_using_subcommand triangulate" -l timeout -d 'Seconds that a job may take (default: 60, and 0.002 for each point)' -r
 complete -c incircle -n "__fish_incircle_using_subcommand triangulate" -l constraints -d 'Edges that must be in the mesh: a CSV file of pairs of point indices, counted from 0' -r -F
 complete -c incircle -n "__fish_incircle_using_subcommand triangulate" -l domain -d 'Triangles that are wanted' -r -f -a "all\t'All triangles of the hull'
-holes\t'Those that constraints separate from the outside and from all holes'
-even-odd\t'Those that an odd number of rings surround'
-non-zero\t'Those around which rings run, clockwise against counter-clockwise'"
-complete -c incircle -n "__fish_incircle_using_subcommand triangulate" -l crossings -d 'What becomes of constraints that cross' -r -f -a "reject\t'They are an error, which tells the place'
+holes\t'Triangles that constraints separate from the outside and from all holes'
+even-odd\t'Triangles that an odd number of rings surround'
+non-zero\t'Triangles that rings run around more often in one direction than in the other'"
+complete -c incircle -n "__fish_incircle_using_subcommand triangulate" -l crossings -d 'Treatment of constraints that cross' -r -f -a "reject\t'Crossings are an error, whose message has the place'
 snap\t'Crossings become points, rounded to a grid 256 times finer'"
 complete -c incircle -n "__fish_incircle_using_subcommand triangulate" -l edges -d 'Write the edges of the mesh into this file as well, in the format .edge of Shewchuk\'s Triangle' -r -F
 complete -c incircle -n "__fish_incircle_using_subcommand triangulate" -l neighbors -d 'Write the neighbours of the triangles into this file as well, in the format .neigh' -r -F
@@ -124,10 +124,10 @@ complete -c incircle -n "__fish_incircle_using_subcommand verify" -l bounds -d '
 complete -c incircle -n "__fish_incircle_using_subcommand verify" -l array -d 'Array of points in an .npz archive (default: the only array)' -r
 complete -c incircle -n "__fish_incircle_using_subcommand verify" -l constraints -d 'Edges that must be in the mesh: a CSV file of pairs of point indices, counted from 0' -r -F
 complete -c incircle -n "__fish_incircle_using_subcommand verify" -l domain -d 'Triangles that are wanted' -r -f -a "all\t'All triangles of the hull'
-holes\t'Those that constraints separate from the outside and from all holes'
-even-odd\t'Those that an odd number of rings surround'
-non-zero\t'Those around which rings run, clockwise against counter-clockwise'"
-complete -c incircle -n "__fish_incircle_using_subcommand verify" -l crossings -d 'What becomes of constraints that cross' -r -f -a "reject\t'They are an error, which tells the place'
+holes\t'Triangles that constraints separate from the outside and from all holes'
+even-odd\t'Triangles that an odd number of rings surround'
+non-zero\t'Triangles that rings run around more often in one direction than in the other'"
+complete -c incircle -n "__fish_incircle_using_subcommand verify" -l crossings -d 'Treatment of constraints that cross' -r -f -a "reject\t'Crossings are an error, whose message has the place'
 snap\t'Crossings become points, rounded to a grid 256 times finer'"
 complete -c incircle -n "__fish_incircle_using_subcommand verify" -l format -d 'Mesh format' -r -f -a "ele\t'Shewchuk\'s Triangle, .ele: `N 3 0`, then `id a b c`, counted from 0'
 obj\t'Wavefront OBJ'
@@ -343,12 +343,12 @@ npy\t'An array of NumPy: the values in the order of the places, or rows of a gri
 asc\t'An ASCII grid of Esri, for --grid'
 tif\t'A GeoTIFF of doubles, for --grid'
 geojson\t'Lines, for --contours'"
-complete -c incircle -n "__fish_incircle_using_subcommand interpolate" -l method -d 'How values between points are made' -r -f -a "linear\t'The plane through the corners of the triangle'
+complete -c incircle -n "__fish_incircle_using_subcommand interpolate" -l method -d 'Method by which values between points are made' -r -f -a "linear\t'The plane through the corners of the triangle'
 laplace\t'Natural neighbours, weighted by edge length over distance'
 sibson\t'Natural neighbours, weighted by area'"
-complete -c incircle -n "__fish_incircle_using_subcommand interpolate" -l outside -d 'The value outside the hull of the points' -r -f -a "nan\t'Not a number'
+complete -c incircle -n "__fish_incircle_using_subcommand interpolate" -l outside -d 'The value outside the hull of the points' -r -f -a "nan\t'No value: not a number (NaN)'
 nearest\t'The value of the nearest point'"
-complete -c incircle -n "__fish_incircle_using_subcommand interpolate" -l backend -d 'Back end that says in which triangle each place lies: \'cpu\' (default) or \'model\'' -r -f -a "cpu\t''
+complete -c incircle -n "__fish_incircle_using_subcommand interpolate" -l backend -d 'Back end that says in which triangle each place lies: \'cpu\' (default), \'model\' or \'clock\'' -r -f -a "cpu\t''
 model\t''
 clock\t''
 sim\t''

@@ -2,7 +2,7 @@
 
 use npyz::{DType, Endianness, TypeChar};
 
-/// What the bytes of a number mean.
+/// The kinds of numbers that bytes may stand for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     Signed,
@@ -45,7 +45,7 @@ impl Item {
 /// The numbers of one column in a piece of an array.
 #[derive(Clone, Copy, Debug)]
 pub struct Cells<'a> {
-    /// Whole rows.
+    /// The bytes of whole rows.
     pub bytes: &'a [u8],
     /// The number of bytes of a row.
     pub stride: usize,

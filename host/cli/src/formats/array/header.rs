@@ -24,9 +24,9 @@ const DEEPEST: usize = 8;
 /// The most bytes that a row may have.
 pub const LONGEST_ROW: usize = 1 << 20;
 
-/// What an array must hold.
+/// The shapes and fields that an array must have.
 pub struct Wanted {
-    /// What one row stands for, such as `point`, for messages.
+    /// The name of the item that one row stands for, such as `point`, for messages.
     pub item: &'static str,
     /// The numbers of columns that an array may have.
     pub widths: &'static [u64],
@@ -78,7 +78,7 @@ impl Layout {
         Ok((Self::of(&header, wanted)?, text.len() as u64))
     }
 
-    /// All columns.
+    /// The columns of all passes.
     pub fn columns(&self) -> impl Iterator<Item = &Column> {
         self.passes.iter().flat_map(|pass| &pass.columns)
     }

@@ -30,7 +30,7 @@ impl Pieces {
         Ok(Self { source, layout, head, at: head })
     }
 
-    /// Where the numbers of the array are.
+    /// The places of the numbers of the array.
     pub fn layout(&self) -> &Layout {
         &self.layout
     }

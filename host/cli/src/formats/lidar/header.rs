@@ -20,7 +20,7 @@ const EVLR_HEAD: u64 = 60;
 /// The name and the number of the variable-length record in which LAZ describes its packing.
 const PACKING: (&[u8], u16) = (b"laszip encoded", 22204);
 
-/// What the reader needs of a header, all checked against the length of the file.
+/// The fields of a header that the reader needs, all checked against the length of the file.
 #[derive(Clone, Debug)]
 pub struct Header {
     /// The point format, 0 to 10.

@@ -37,8 +37,8 @@ pub fn read_points(input: Input, selection: &Selection) -> Result<PointTable, Fa
     Ok(sieve.into_table())
 }
 
-/// Calls `take` with the coordinates of the selected points, in pieces. The memory holds one piece, and one packed chunk
-/// of a LAZ file. An input that is packed as a whole is unpacked into the memory.
+/// Calls `take` with the coordinates of the selected points, in pieces. The memory holds one piece, and one packed
+/// chunk of a LAZ file. An input that is packed as a whole is unpacked into the memory.
 ///
 /// # Errors
 /// As for [`read_points`], except that there may be any number of points; or `take` fails.

@@ -19,7 +19,7 @@ const EXTRA: u16 = 0;
 /// The item of the extra bytes of the formats of LAS 1.4.
 const EXTRA_LAYERED: u16 = 14;
 
-/// How points are packed.
+/// The packing of the points of a file.
 pub struct Packing {
     /// The record in the form that the decoder takes.
     pub vlr: LazVlr,

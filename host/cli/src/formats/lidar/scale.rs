@@ -9,7 +9,7 @@ use super::header::Header;
 /// The most digits behind the point of a scale or an offset. Powers of ten up to this one fit 64 bits.
 const MOST_DIGITS: u32 = 18;
 
-/// How the integers of a file become coordinates.
+/// The rule by which the integers of a file become coordinates.
 #[derive(Clone, Debug)]
 pub struct Scale {
     scale: [f64; 3],
@@ -18,10 +18,10 @@ pub struct Scale {
     height: Option<Line>,
 }
 
-/// How the integers of x and y become steps of one length: `steps = integer * multiple + start`.
+/// The rule by which the integers of x and y become steps of one length: `steps = integer * multiple + start`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Plane {
-    /// How the steps become coordinates.
+    /// The rule by which the steps become coordinates.
     pub unit: Unit,
     /// The number of steps from one integer to the next, on each axis.
     pub multiple: [i64; 2],
@@ -29,7 +29,7 @@ pub struct Plane {
     pub start: [i64; 2],
 }
 
-/// How the integers of one axis become decimals: `(integer * factor + offset) * 10^-digits`.
+/// The rule by which the integers of one axis become decimals: `(integer * factor + offset) * 10^-digits`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Line {
     factor: i64,

@@ -1,4 +1,5 @@
-//! `triangulate` and `verify` with constraints: what plans of all formats become, and what is refused with one sentence.
+//! `triangulate` and `verify` with constraints: what plans of all formats become, and what is refused with one
+//! sentence.
 
 use crate::common::{Run, Scratch};
 

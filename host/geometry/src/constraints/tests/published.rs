@@ -137,8 +137,8 @@ fn fixtures_of_earcut_have_the_canonical_mesh_or_cross() {
     assert_eq!(found, EXPECTED, "{found:#?}");
 }
 
-/// The number of triangles inside each, or the first constraints that cross. For 30 of them earcut's own tests expect the
-/// same number. The test proves each mesh with the validator.
+/// The number of triangles inside each, or the first constraints that cross. For 30 of them earcut's own tests expect
+/// the same number. The test proves each mesh with the validator.
 const EXPECTED: [&str; 46] = [
     "bad-diagonals 7",
     "bad-hole 17 crosses 44",

@@ -42,8 +42,8 @@ impl<K: Kernel> Fixed<'_, K> {
     fn must_flip(&self, around: &Around) -> bool {
         let [a, b, c, d] =
             [around.ends[0], around.ends[1], around.apexes[0], around.apexes[1]].map(|vertex| self.site(vertex));
-        // Seen from the edge between `c` and `a`, both `b` and `d` lie to the left if the edge can be flipped. Where `d`
-        // does not, it lies in the angle opposite that at `a`, which is outside the circle.
+        // Seen from the edge between `c` and `a`, both `b` and `d` lie to the left if the edge can be flipped. Where
+        // `d` does not, it lies in the angle opposite that at `a`, which is outside the circle.
         let ends = Ends { a: c, b: a, bounds: K::bounds(|| [a, b, c, d]) };
         K::is_left_and_inside(ends, K::see(ends, b), K::see(ends, d))
     }

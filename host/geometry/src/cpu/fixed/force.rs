@@ -17,7 +17,7 @@ use super::turn::{is_between, Way};
 use crate::cpu::kernel::Kernel;
 use crate::sort::{sort_by_key, Keyed};
 
-/// Why constraints were not forced in.
+/// The reason why not all constraints were forced in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Stop {
     /// A constraint crosses a fixed edge.

@@ -25,8 +25,8 @@ pub(super) struct Fixed<'a, K: Kernel> {
     /// The fixed edges, by the numbers of their pairs.
     pub(super) fixed: Vec<u32>,
     /// The lists of a step, kept so that a step allocates nothing: the edges that may have to be flipped, the edges
-    /// that a constraint crosses, the chains of edges on either side of them, and the part of a chain that is not filled
-    /// yet.
+    /// that a constraint crosses, the chains of edges on either side of them, and the part of a chain that is not
+    /// filled yet.
     pub(super) stack: Vec<u32>,
     pub(super) crossed: Vec<u32>,
     pub(super) right: Vec<u32>,

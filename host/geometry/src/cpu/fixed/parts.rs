@@ -19,7 +19,7 @@ const NONE: u32 = u32::MAX;
 pub(super) struct Parts {
     /// The part at the left of each half-edge.
     of: Vec<u32>,
-    /// How often the rings run around each part.
+    /// The number of times that the rings run around each part.
     turns: Vec<i64>,
 }
 
@@ -29,7 +29,7 @@ pub(super) struct Boundary<'a> {
     pub(super) parts: &'a [Part],
     /// The vertices at the ends of all constraints.
     pub(super) ends: &'a [[u32; 2]],
-    /// How many constraints, from the first on, bound the domain.
+    /// The number of constraints, from the first on, that bound the domain.
     pub(super) count: usize,
     pub(super) domain: Domain,
 }
@@ -124,7 +124,7 @@ impl Parts {
         self.of[edge as usize]
     }
 
-    /// Which parts belong to the domain, as far as rings decide that.
+    /// For each part, whether it belongs to the domain, as far as rings decide that.
     pub(super) fn chosen(&self, domain: Domain) -> Vec<bool> {
         match domain {
             Domain::All => vec![true; self.turns.len()],

@@ -8,7 +8,7 @@ use crate::cpu::kernel::Kernel;
 /// Half-edges that are looked at around one end before the other end takes turns with it.
 const FEW: usize = 12;
 
-/// Where a constraint goes from one of its ends.
+/// The way of a constraint from one of its ends on.
 pub(super) enum Way {
     /// Along this half-edge, which leaves the end.
     Along(u32),

@@ -16,8 +16,8 @@ use incircle_protocol::{UdpLinkConfig, FULL};
 const LINK: UdpLinkConfig =
     UdpLinkConfig { clock_hz: 120_000_000, fifo_bytes: 16_384, silence_ms: 2000, mac: [2, 0, 0, 0, 0, 1] };
 
-/// Devices at a port of this machine until they are dropped. Their sessions never end by silence. All take each datagram,
-/// as boards with one address do that hear a greeting to all.
+/// Devices at a port of this machine until they are dropped. Their sessions never end by silence. All take each
+/// datagram, as boards with one address do that hear a greeting to all.
 struct Served {
     address: SocketAddrV4,
     stops: Arc<AtomicBool>,

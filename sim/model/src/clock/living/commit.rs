@@ -56,7 +56,7 @@ pub(super) struct Committer {
     jobs: VecDeque<Job>,
 }
 
-/// What a clock of the committer did.
+/// The events of a clock of the committer.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Committed {
     /// The write that reaches the port in the next clock.

@@ -6,15 +6,15 @@ use crate::mesh::hole::{Corner, Hole, RingEdge};
 use crate::mesh::Record;
 use std::collections::VecDeque;
 
-/// What a context does when it is next given a place in the queue of visits.
+/// The next step of a context, for its next place in the queue of visits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Next {
-    /// It takes an item.
+    /// The context takes its next item.
     #[default]
     Item,
-    /// It walks from this record.
+    /// The context walks on from this record.
     Walk(u32),
-    /// It visits this root, under its lock.
+    /// The context visits this root, under its lock.
     Root(u32),
 }
 

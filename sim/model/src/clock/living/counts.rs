@@ -1,6 +1,6 @@
 //! Numbers of events of the last run.
 
-/// What a run of the living engine did.
+/// The events of a run of the living engine, counted.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RunCounts {
     /// Number of clocks from the opcode to the last word of the answer.

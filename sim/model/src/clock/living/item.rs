@@ -41,7 +41,7 @@ impl Part {
     }
 }
 
-/// What the answers of an engine are signed with.
+/// The engine and the tag of the job that the headers of answers name.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::clock) struct Signature {
     pub engine: u8,

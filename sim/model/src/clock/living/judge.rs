@@ -1,4 +1,4 @@
-//! What a visit finds out: the predicates of a record and the points of its context.
+//! The results of a visit: the predicates of a record and the points of its context.
 
 use super::sight::Sight;
 use super::visit::{Ask, Visit};
@@ -13,7 +13,7 @@ pub(super) struct Verdict {
     pub is_free: bool,
     /// Slot of the infinite vertex in a ghost triangle.
     pub ghost: Option<usize>,
-    /// Whether the record conflicts with the point: of a test of corners, whether the other vertex replaces the apex.
+    /// Whether the record conflicts with the point; for a test of corners, whether the other vertex replaces the apex.
     pub conflict: bool,
     /// Whether the record holds the place.
     pub holds: bool,
@@ -66,7 +66,7 @@ fn of_record(record: &Record, p: Point, memory: &Memory) -> Verdict {
     Verdict { ghost, conflict, holds, corner, next, sides, ..Verdict::default() }
 }
 
-/// What a walk, a root visit and a visit around the nearest vertex ask for.
+/// The results that a walk, a root visit and a visit around the nearest vertex need.
 fn of_place(record: &Record, sight: &Sight, memory: &Memory) -> Verdict {
     let verdict = of_record(record, sight.place, memory);
     let r = record.v.map(|v| memory.vertex(v));
@@ -101,7 +101,7 @@ fn keeps_edge([before, at, next]: [u32; 3], to: Point, memory: &Memory) -> bool 
     !finite_conflict([to, memory.vertex(before), memory.vertex(at)], memory.vertex(next))
 }
 
-/// Whether `other` is a better apex over the edge of the first two corners than the third; of a move, whether the last
+/// Whether `other` is a better apex over the edge of the first two corners than the third; for a move, whether the last
 /// edge of the star stays.
 fn of_corners(corners: [u32; 3], other: u32, sight: &Sight, memory: &Memory) -> Verdict {
     if other == sight.vertex {

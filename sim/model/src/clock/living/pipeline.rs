@@ -29,7 +29,7 @@ pub(super) struct Flight {
     pub verdict: Verdict,
 }
 
-/// What the memories are told in a clock beside the visit that is issued.
+/// The events of a clock that concern the memories, beside the visit that is issued.
 pub(super) struct Around<'a> {
     pub port: &'a Write,
     /// The lock that is cleared at this edge.

@@ -37,7 +37,7 @@ pub(super) struct Port {
     signature: Signature,
     /// Whether there is a mesh to ask and to change.
     has_mesh: bool,
-    /// Number of items that have come; of a run that is refused, of words that are still to come.
+    /// Number of items that have come; for a run that is refused, number of words that are still to come.
     number: u32,
     left: u64,
     /// The first word of an item that has two.

@@ -12,7 +12,7 @@ pub(super) struct Reader {
     packs: bool,
     next: u32,
     left: u32,
-    /// Number of records that are not free to be passed over.
+    /// Number of records that are still to be skipped; free records do not count.
     passed_over: u32,
     /// Low half of a word whose high half is still to come.
     half: Option<u32>,

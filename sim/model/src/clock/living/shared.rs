@@ -1,4 +1,4 @@
-//! What the contexts of the living engine share.
+//! The state that the contexts of the living engine share.
 
 use super::answers::Answers;
 use super::commit::Committer;

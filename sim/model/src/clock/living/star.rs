@@ -107,7 +107,7 @@ impl Work<'_> {
             return self.move_in_place();
         }
         if moves && self.cx.star.keeps && is_inside {
-            // The edge at which the two chains met is left.
+            // One edge has not been tested: the one at which the two chains met.
             let corners = [ring[ring.len() - 1], ring[0], ring[1]];
             let (other, root) = (self.cx.sight.vertex, self.cx.root);
             return self.ask_across(Ask::Corners { corners, other }, root, root);

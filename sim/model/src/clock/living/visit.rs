@@ -1,6 +1,6 @@
 //! The visits of the living engine.
 
-/// What a visit is for.
+/// The purpose of a visit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Ask {
     /// A step of a walk.
@@ -34,7 +34,7 @@ impl Ask {
     }
 }
 
-/// One visit.
+/// A visit: its context, its purpose and its record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Visit {
     pub context: usize,

@@ -109,7 +109,7 @@ impl Work<'_> {
         self.hand_over_later(job, 0);
     }
 
-    /// As [`hand_over`](Self::hand_over), with a commit that begins so many clocks later.
+    /// As [`hand_over`](Self::hand_over), with a commit that begins `clocks` clocks later.
     pub(super) fn hand_over_later(&mut self, mut job: Job, clocks: u64) {
         if let Some(item) = self.cx.item.take() {
             job.ends = true;

@@ -1,5 +1,5 @@
-//! The exchange in `protocol/UDP.md` is that of the model of the UDP link, byte by byte, and the tables of the page have
-//! the numbers of the crate.
+//! The exchange in `protocol/UDP.md` is that of the model of the UDP link, byte by byte, and the tables of the page
+//! have the numbers of the crate.
 
 use std::collections::BTreeSet;
 use std::net::{Ipv4Addr, SocketAddrV4};

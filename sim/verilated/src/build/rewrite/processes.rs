@@ -19,7 +19,7 @@ struct Statement<'a> {
     reads: Vec<&'a str>,
 }
 
-/// What a line does to the depth of `begin` and `case`.
+/// The change of the depth of `begin` and `case` by a line.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Form {
     Nothing,
