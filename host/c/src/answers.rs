@@ -6,8 +6,11 @@ use std::ffi::c_void;
 use incircle::living::Triangulation;
 use incircle::PlanePoint;
 
-use crate::border::place;
+use crate::border::{look_for_memory, place};
 use crate::status::Outcome;
+
+/// The most bytes a place that the search for the nearest ones needs.
+const BYTES_OF_A_FOUND_PLACE: usize = 200;
 
 /// The questions, for a triangulation in any type of numbers. Each place of the caller is a pointer to two coordinates.
 pub(crate) trait Questions {
@@ -23,7 +26,10 @@ pub(crate) trait Questions {
 impl<P: PlanePoint> Questions for Triangulation<P> {
     unsafe fn k_nearest(&self, at: *const c_void, number: usize) -> Outcome<Vec<u32>> {
         // SAFETY: as above.
-        Ok(Self::k_nearest(self, unsafe { place(at) }?, number.min(self.len())))
+        let at = unsafe { place(at) }?;
+        let number = number.min(self.len());
+        look_for_memory(number * BYTES_OF_A_FOUND_PLACE)?;
+        Ok(Self::k_nearest(self, at, number))
     }
 
     unsafe fn within_circle(&self, center: *const c_void, radius: f64) -> Outcome<Vec<u32>> {

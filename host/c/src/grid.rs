@@ -15,6 +15,7 @@ pub const INCIRCLE_QUANTIZE: u32 = 1;
 
 /// The most bytes a point that a diagram, or a step of a relaxation, needs.
 const BYTES_OF_A_CELL: usize = 700;
+
 impl From<GridSetError> for Failure {
     fn from(error: GridSetError) -> Self {
         match error {

@@ -27,6 +27,8 @@ pub const INCIRCLE_EMPTY: u32 = u32::MAX;
 
 /// The most bytes a point that a new triangulation needs while it is made.
 const BYTES_OF_A_POINT: usize = 400;
+/// The most bytes an index that the list of indices needs while it grows.
+const BYTES_OF_AN_INDEX: usize = 12;
 /// After so many insertions the memory for the growth of all lists is looked for again.
 const LOOK: u32 = 1024;
 
@@ -53,7 +55,7 @@ pub(crate) trait Living: Questions {
     unsafe fn locate(&self, place: *const c_void) -> Outcome<incircle_location>;
     unsafe fn nearest(&self, place: *const c_void) -> Outcome<u32>;
     fn neighbors(&self, index: u32) -> Outcome<Vec<u32>>;
-    fn indices(&self) -> Vec<u32>;
+    fn indices(&self) -> Outcome<Vec<u32>>;
     fn len(&self) -> usize;
     fn mesh(&self) -> *mut incircle_mesh;
 }
@@ -104,8 +106,9 @@ impl<P: PlanePoint + Send + Sync + 'static> Living for Triangulation<P> {
         Ok(Triangulation::neighbors(self, index)?.collect())
     }
 
-    fn indices(&self) -> Vec<u32> {
-        Triangulation::indices(self)
+    fn indices(&self) -> Outcome<Vec<u32>> {
+        look_for_memory(Triangulation::len(self) * BYTES_OF_AN_INDEX)?;
+        Ok(Triangulation::indices(self))
     }
 
     fn len(&self) -> usize {
@@ -270,7 +273,7 @@ pub unsafe extern "C" fn incircle_triangulation_indices(
     count: *mut usize,
 ) -> i32 {
     // SAFETY: the caller promises the pointers.
-    guarded(|| unsafe { give(&shared(triangulation, "triangulation")?.0.indices(), buffer, room, count) })
+    guarded(|| unsafe { give(&shared(triangulation, "triangulation")?.0.indices()?, buffer, room, count) })
 }
 
 /// The canonical mesh of the living points. Index `k` in the mesh is that of the point whose index is item `k` of

@@ -95,7 +95,8 @@ pub(crate) fn guarded(work: impl FnOnce() -> Outcome) -> i32 {
     match catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(defect) {
         Ok(()) => INCIRCLE_OK,
         Err(Failure { status, text }) => {
-            LAST.with(|last| last.replace(text));
+            // In a thread that ends, a destructor of C++ may call when the text is gone. The status must do then.
+            let _ = LAST.try_with(|last| last.replace(text));
             status
         }
     }
@@ -115,7 +116,7 @@ pub extern "C" fn incircle_abi() -> u32 {
 /// `text` points to `room` bytes that may be written.
 #[no_mangle]
 pub unsafe extern "C" fn incircle_error(text: *mut c_char, room: usize) -> usize {
-    LAST.with(|last| {
+    let said = LAST.try_with(|last| {
         let last = last.borrow();
         let cut = last.as_bytes().iter().take(room.saturating_sub(1));
         if room > 0 && !text.is_null() {
@@ -124,5 +125,12 @@ pub unsafe extern "C" fn incircle_error(text: *mut c_char, room: usize) -> usize
             unsafe { fill(&bytes, text) };
         }
         last.len() + 1
+    });
+    said.unwrap_or_else(|_| {
+        if room > 0 && !text.is_null() {
+            // SAFETY: the caller lets us write a byte.
+            unsafe { fill(&[0], text) };
+        }
+        1
     })
 }

@@ -142,6 +142,7 @@ pub unsafe extern "C" fn incircle_surface_contours(
         *out = std::ptr::null_mut();
         // SAFETY: the same.
         let surface = unsafe { shared(surface, "surface") }?;
+        look_for_memory(surface.points.len() * BYTES_OF_A_POINT)?;
         let mut lines = incircle_contours { places: Vec::new(), starts: vec![0], closed: Vec::new() };
         for line in surface.surface.contours(level) {
             lines.places.extend(line.crossings.iter().map(|crossing| crossing.place(&surface.points)));

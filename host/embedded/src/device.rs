@@ -85,6 +85,10 @@ impl<P: Read + ReadReady + Write, C: Clock> Device<P, C> {
                     self.greeting = Some(greeting);
                     return Ok(greeting.identity);
                 }
+                // A device may say other frames without an end.
+                if has_come(until, line.now()) {
+                    break;
+                }
             }
             if has_come(since.wrapping_add(GREET_FOR), line.now()) {
                 return Err(match line.received() {
@@ -206,7 +210,9 @@ impl<P: Read + ReadReady + Write, C: Clock> Device<P, C> {
         }
         self.line.set_rate(set, FIRST_RATE);
         let until = self.line.now().wrapping_add(greeting.silence_ms + SILENCE_SLACK);
-        while self.line.hear(until)?.is_some() {}
+        while !has_come(until, self.line.now()) {
+            self.line.hear(until)?;
+        }
         Ok(false)
     }
 

@@ -63,5 +63,5 @@ pub type Point = [u16; 2];
 ///
 /// With ghost triangles the mesh of `n` distinct points, three or more, has exactly this many records.
 pub const fn records_needed(points: usize) -> usize {
-    2 * points.saturating_sub(1)
+    points.saturating_sub(1).saturating_mul(2)
 }

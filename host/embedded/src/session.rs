@@ -136,7 +136,7 @@ impl<'l, P: Read + ReadReady + Write, C: Clock> Session<'l, P, C> {
         self.line.say(self.number, HostFrame::Close)?;
         let until = self.after(ACK_SLACK);
         while let Some(header) = self.line.hear(until)? {
-            if header.kind == DeviceFrame::Closed {
+            if header.kind == DeviceFrame::Closed || has_come(until, self.line.now()) {
                 break;
             }
         }

@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native, _shapely
-from ._errors import ChoiceError, InputError
+from ._errors import ChoiceError, InputError, UnknownPointError
 from ._input import as_points, as_type, check_finite, refuse_mask
+from ._triangulate import MAX_THREADS
 
 MOST_STEPS = 100_000
 """The most steps of a relaxation that goes on until no point moves."""
@@ -39,8 +40,15 @@ class Cells:
     """The neighbours of point `i` are `neighbors[neighbor_starts[i]:neighbor_starts[i + 1]]`."""
 
     def pieces(self, point: int) -> list[NDArray[np.float64]]:
-        """The pieces of the cell of a point: their corners, counter-clockwise."""
-        first, end = np.searchsorted(self.points, [point, point + 1])
+        """The pieces of the cell of a point: their corners, counter-clockwise.
+
+        Raises
+        ------
+        UnknownPointError
+            There is no point of the index.
+        """
+        number = _index(point, len(self.areas))
+        first, end = np.searchsorted(self.points, [number, number + 1])
         return [self.corners[self.starts[piece] : self.starts[piece + 1]] for piece in range(first, end)]
 
     def __repr__(self) -> str:
@@ -79,12 +87,22 @@ class Voronoi:
     """The cells inside the clip, if one was given."""
 
     def cell(self, point: int) -> NDArray[np.int64]:
-        """The Voronoi vertices of a cell, counter-clockwise; -1 stands for infinity."""
-        return self.corners[self.starts[point] : self.starts[point + 1]]
+        """The Voronoi vertices of a cell, counter-clockwise; -1 stands for infinity.
+
+        Raises
+        ------
+        UnknownPointError
+            There is no point of the index; so in `neighbors_of`.
+        """
+        return self.corners[self._edges(point)]
 
     def neighbors_of(self, point: int) -> NDArray[np.uint32]:
         """The points whose cells share an edge with that of a point, counter-clockwise."""
-        return self.neighbors[self.starts[point] : self.starts[point + 1]]
+        return self.neighbors[self._edges(point)]
+
+    def _edges(self, point: int) -> slice:
+        number = _index(point, len(self.points))
+        return slice(int(self.starts[number]), int(self.starts[number + 1]))
 
     def to_shapely(self) -> NDArray[Any]:
         """The cells inside the clip as an array of polygons of shapely, one for each point. Needs a clip.
@@ -177,7 +195,7 @@ def lloyd(
     clip
         The region to fill, as for `voronoi`; `None` stands for the rectangle around the points.
     threads
-        The most threads, 1 or more. `None` allows one for each processor.
+        The most threads, 1 to 256. `None` allows one for each processor.
     quantize
         `"fit"` rounds points and clip onto a grid of 23 bits first.
 
@@ -199,13 +217,21 @@ def lloyd(
     return Relaxed(*_native.spread(check_finite(array), corners, stop, check_threads(threads), _is_fitted(quantize)))
 
 
+def _index(point: int, count: int) -> int:
+    """The index of one of `count` points, checked. A negative one counts from no end."""
+    number = operator.index(point)
+    if not 0 <= number < count:
+        raise UnknownPointError(f"there is no point {number}: the set has {count}, which are counted from 0")
+    return number
+
+
 def check_threads(threads: int | None) -> int | None:
     """A number of threads, checked."""
     if threads is None:
         return None
     threads = operator.index(threads)
-    if threads < 1:
-        raise ChoiceError(f"{threads} threads are not possible: choose 1 or more")
+    if not 1 <= threads <= MAX_THREADS:
+        raise ChoiceError(f"{threads} threads are not possible: choose 1 to {MAX_THREADS}")
     return threads
 
 

@@ -48,7 +48,7 @@ class Cancelled(Error):
 
 
 class UnknownPointError(Error, IndexError):
-    """No living point of a `Triangulation` has the index."""
+    """No living point of a `Triangulation`, or no point of a diagram, has the index."""
 
 
 class VerifyError(Error, ValueError):

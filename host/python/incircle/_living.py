@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Sequence
-from typing import Any, NamedTuple, Union
+from typing import Any, NamedTuple, NoReturn, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from . import _native
-from ._errors import ChoiceError, InputError, UnknownPointError
-from ._input import NATIVE, as_points, as_type, check_finite
+from ._errors import ChoiceError, InputError, NumberTypeError, UnknownPointError
+from ._input import NATIVE, as_points, as_type, check_finite, refuse_mask
 from ._mesh import Mesh
 
 Place = Union[Sequence[Any], NDArray[Any]]
@@ -40,6 +40,21 @@ def _two(place: Place) -> tuple[Any, Any]:
     except (TypeError, ValueError):
         raise InputError(f"the place is {place!r}: give two coordinates, x and y") from None
     return x, y
+
+
+def _listed(indices: Any) -> list[Any]:
+    """Indices of any container as a list. Whether each is one of a point is not checked."""
+    if isinstance(indices, np.ma.MaskedArray):
+        refuse_mask("indices", indices, "indices")
+    try:
+        array = np.asarray(indices)
+    except ValueError as error:
+        raise InputError(f"the indices are no array, because numpy says: {error}") from error
+    # Integers that are too long for numpy are objects, and each is checked by itself.
+    if array.size and array.dtype.kind not in "iuO":
+        raise NumberTypeError(f"the indices have the type {array.dtype}: give whole numbers")
+    listed: list[Any] = array.ravel().tolist()
+    return listed
 
 
 class Triangulation:
@@ -96,6 +111,9 @@ class Triangulation:
     def __deepcopy__(self, memo: Any) -> Triangulation:
         return self.copy()
 
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a Triangulation cannot be pickled: pickle its points, and its indices if they matter")
+
     def _array(self, points: Any) -> NDArray[Any]:
         return as_type(points, self._dtype)
 
@@ -139,9 +157,18 @@ class Triangulation:
         self._living.delete(self._index(index))
 
     def delete_all(self, indices: ArrayLike) -> None:
-        """Deletes many points, one after the other. All indices must be living, and none may be there twice."""
-        wanted = np.asarray(indices).ravel().tolist()
-        numbers = [self._index(index) for index in wanted]
+        """Deletes many points, one after the other. All indices must be living, and none may be there twice.
+
+        Raises
+        ------
+        UnknownPointError
+            No living point has one of the indices.
+        InputError
+            An index is there twice, or the indices are no array or a masked one.
+        NumberTypeError
+            The indices are no whole numbers. So a mask of booleans, which names no indices, is refused.
+        """
+        numbers = [self._index(index) for index in _listed(indices)]
         for number in numbers:
             if self._living.place_of(number) is None:
                 self._living.delete(number)

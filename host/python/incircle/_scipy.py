@@ -128,7 +128,9 @@ class Delaunay(spatial.Delaunay):  # type: ignore[misc]
 
 def _joggles(options: str | bytes | None) -> bool:
     """Whether options of Qhull ask for joggled input. An option that asks for another mesh is an error."""
-    text = options.decode() if isinstance(options, bytes) else options or ""
+    text = options.decode(errors="replace") if isinstance(options, bytes) else options or ""
+    if not isinstance(text, str):
+        raise ChoiceError(f"the options of Qhull are {options!r}: give a text, such as 'Qbb Qc'")
     asked = set(text.split())
     others = sorted(asked - HARMLESS - {"QJ"})
     if others:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -68,7 +68,7 @@ class Surface:
         outside
             What is outside the hull: `"nan"`, or `"nearest"` for the value of the nearest point.
         threads
-            The most threads, 1 or more. `None` allows one for each processor.
+            The most threads, 1 to 256. `None` allows one for each processor.
 
         Raises
         ------
@@ -77,12 +77,21 @@ class Surface:
         ChoiceError
             An unknown method or value of `outside`, or an impossible number of threads.
         """
-        if method not in METHODS:
-            raise ChoiceError(f"the method is {method!r}: choose one of {', '.join(METHODS)}")
-        if outside not in OUTSIDE:
-            raise ChoiceError(f"outside is {outside!r}: choose one of {', '.join(OUTSIDE)}")
+        for name, choice, choices in (("the method", method, METHODS), ("outside", outside, OUTSIDE)):
+            if not isinstance(choice, str) or choice not in choices:
+                raise ChoiceError(f"{name} is {choice!r}: choose one of {', '.join(choices)}")
         places = as_type(at, np.dtype("float64"), "place")
         return self._surface.values(places, method, outside, check_threads(threads))
+
+    def __copy__(self) -> Surface:
+        # A surface never changes, so a copy would be the same.
+        return self
+
+    def __deepcopy__(self, memo: Any) -> Surface:
+        return self
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a Surface cannot be pickled: pickle its points and values, and make it anew")
 
     def contours(self, level: float) -> list[tuple[NDArray[np.float64], bool]]:
         """The lines of a level on the surface of `"linear"`, with higher ground on their left.

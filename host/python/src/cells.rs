@@ -2,7 +2,7 @@
 
 use std::num::NonZeroUsize;
 
-use incircle::lloyd::{relax, End, Stop};
+use incircle::lloyd::{self, repeat, step, End, Stop};
 use incircle::{CellLists, GridSet, GridSetError, PlanePoint, Quantize, VoronoiLists, EMPTY};
 use numpy::{Element, PyArray1};
 use pyo3::exceptions::PyTypeError;
@@ -12,6 +12,7 @@ use pyo3::types::PyDict;
 use crate::error::{bad_input, of_job};
 use crate::memory::{look_for_memory, BYTES_OF_A_CELL};
 use crate::points::{array, list, of_any_type, Points};
+use crate::watch::Signals;
 
 /// Bits below the lattice that a relaxation needs for places between the points.
 const SPARE_BITS: u32 = 8;
@@ -82,7 +83,14 @@ fn of_grid_set(py: Python<'_>, error: &GridSetError) -> PyErr {
 /// quantisation.
 type Spread<'py> = (Bound<'py, PyAny>, u32, usize, &'static str, Option<f64>);
 
-/// Relaxes points inside a clip.
+/// Why a relaxation failed.
+enum Failure {
+    Library(lloyd::Error),
+    /// An exception of a signal.
+    Raised(PyErr),
+}
+
+/// Relaxes points inside a clip, unless a signal comes.
 #[pyfunction]
 pub fn spread<'py>(
     points: &Bound<'py, PyAny>,
@@ -98,8 +106,17 @@ pub fn spread<'py>(
     let clip = set.clip().map_err(|error| bad_input(py, &error.to_string()))?;
     let stop = Stop { iterations: stop.0, when_still: stop.1 };
     let threads = threads.or(std::thread::available_parallelism().ok()).unwrap_or(NonZeroUsize::MIN);
-    let relaxed = py.detach(|| relax(set.points().to_vec(), &clip, stop, threads));
-    let relaxed = relaxed.map_err(|error| bad_input(py, &error.to_string()))?;
+    let relaxed = py.detach(|| {
+        let signals = Signals::new();
+        repeat(set.points().to_vec(), stop, |points| {
+            signals.look().map_err(Failure::Raised)?;
+            step(points, &clip, threads).map_err(Failure::Library)
+        })
+    });
+    let relaxed = relaxed.map_err(|failure| match failure {
+        Failure::Library(error) => bad_input(py, &error.to_string()),
+        Failure::Raised(error) => error,
+    })?;
     let end = match relaxed.end {
         End::Iterations => "iterations",
         End::Still => "still",

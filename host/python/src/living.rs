@@ -1,6 +1,6 @@
 //! The mesh that lives, for each of the five types of numbers.
 
-use incircle::living::{Error, Location, Triangulation};
+use incircle::living::{Location, Triangulation};
 use incircle::PlanePoint;
 use numpy::PyArray1;
 use pyo3::exceptions::PyTypeError;
@@ -9,15 +9,16 @@ use pyo3::prelude::*;
 use crate::coordinate::{coordinate, Coordinate};
 use crate::error::of_living;
 use crate::job::mesh_lists;
-use crate::memory::{look_for_memory, BYTES_OF_A_LIVING_POINT, BYTES_OF_A_PLACE};
+use crate::memory::{
+    look_for_memory, BYTES_OF_A_FOUND_PLACE, BYTES_OF_A_LISTED_POINT, BYTES_OF_A_LIVING_POINT, BYTES_OF_A_PLACE,
+};
 use crate::points::{array, of_any_type, Points};
+use crate::watch::each;
 
 type Any<'py> = PyResult<Bound<'py, PyAny>>;
 /// A place as it comes from Python: x and y.
 type Place<'a, 'py> = (&'a Bound<'py, PyAny>, &'a Bound<'py, PyAny>);
 
-/// Changes between two looks for signals.
-const LOOK: usize = 65_536;
 /// After so many single insertions the memory for the growth of all lists is looked for again.
 const LOOK_FOR_MEMORY: u32 = 1024;
 
@@ -63,22 +64,6 @@ fn numbered(location: Location) -> (u8, [i64; 3]) {
     }
 }
 
-/// Makes a change for each item, and looks for signals from time to time. What was done stays done if one comes, or if
-/// an item is refused. Other threads of Python go on meanwhile.
-fn each<I: Sync, T: Send>(
-    py: Python<'_>,
-    items: &[I],
-    mut change: impl FnMut(&I) -> Result<T, Error> + Send,
-) -> PyResult<Vec<T>> {
-    let mut done = Vec::with_capacity(items.len());
-    for some in items.chunks(LOOK) {
-        let changed = py.detach(|| some.iter().try_for_each(|item| change(item).map(|made| done.push(made))));
-        changed.map_err(|error| of_living(py, error))?;
-        py.check_signals()?;
-    }
-    Ok(done)
-}
-
 fn fresh<P: PlanePoint + Send>(py: Python<'_>, points: Vec<P>) -> PyResult<Triangulation<P>> {
     look_for_memory(py, points.len(), BYTES_OF_A_LIVING_POINT)?;
     py.detach(|| Triangulation::from(points)).map_err(|error| of_living(py, error))
@@ -88,6 +73,13 @@ fn fresh<P: PlanePoint + Send>(py: Python<'_>, points: Vec<P>) -> PyResult<Trian
 /// lists may double in turn.
 fn look_for_growth<P: PlanePoint>(py: Python<'_>, mesh: &Triangulation<P>, insertions: usize) -> PyResult<()> {
     look_for_memory(py, 2 * mesh.bytes() + insertions.saturating_mul(BYTES_OF_A_LIVING_POINT), 1)
+}
+
+impl Living {
+    /// Looks for the memory for a list of all points or triangles.
+    fn look_for_a_list(&self, py: Python<'_>) -> PyResult<()> {
+        look_for_memory(py, self.__len__(), BYTES_OF_A_LISTED_POINT)
+    }
 }
 
 #[pymethods]
@@ -157,8 +149,9 @@ impl Living {
         })
     }
 
-    fn renumber<'py>(&mut self, py: Python<'py>) -> Bound<'py, PyAny> {
-        PyArray1::from_vec(py, of_any_type!(Mesh, &mut self.0, mesh => mesh.renumber())).into_any()
+    fn renumber<'py>(&mut self, py: Python<'py>) -> Any<'py> {
+        self.look_for_a_list(py)?;
+        Ok(PyArray1::from_vec(py, of_any_type!(Mesh, &mut self.0, mesh => mesh.renumber())).into_any())
     }
 
     fn locate(&self, x: &Bound<'_, PyAny>, y: &Bound<'_, PyAny>) -> PyResult<(u8, [i64; 3])> {
@@ -169,7 +162,8 @@ impl Living {
         let py = places.py();
         let (kinds, vertices) = of_same_type!(&self.0, places, |mesh, list| {
             look_for_memory(py, list.len(), BYTES_OF_A_PLACE)?;
-            Ok::<(Vec<u8>, Vec<_>), PyErr>(py.detach(|| list.iter().map(|&at| numbered(mesh.locate(at))).unzip()))
+            let found = each(py, &list, |&at| Ok(numbered(mesh.locate(at))))?;
+            Ok::<(Vec<u8>, Vec<_>), PyErr>(found.into_iter().unzip())
         })?;
         Ok((PyArray1::from_vec(py, kinds).into_any(), array(py, vertices)?))
     }
@@ -182,13 +176,13 @@ impl Living {
         let py = places.py();
         of_same_type!(&self.0, places, |mesh, list| {
             look_for_memory(py, list.len(), BYTES_OF_A_PLACE)?;
-            let nearest = |&at: &_| mesh.nearest(at).map_or(-1, i64::from);
-            let indices: Vec<i64> = py.detach(|| list.iter().map(nearest).collect());
+            let indices: Vec<i64> = each(py, &list, |&at| Ok(mesh.nearest(at).map_or(-1, i64::from)))?;
             Ok(PyArray1::from_vec(py, indices).into_any())
         })
     }
 
     fn k_nearest<'py>(&self, x: &Bound<'py, PyAny>, y: &Bound<'py, PyAny>, count: usize) -> Any<'py> {
+        look_for_memory(x.py(), count.min(self.__len__()), BYTES_OF_A_FOUND_PLACE)?;
         let found = of_any_type!(Mesh, &self.0, mesh => mesh.k_nearest(place((x, y))?, count));
         Ok(PyArray1::from_vec(x.py(), found).into_any())
     }
@@ -229,23 +223,28 @@ impl Living {
     }
 
     fn triangles<'py>(&self, py: Python<'py>) -> Any<'py> {
+        self.look_for_a_list(py)?;
         array(py, of_any_type!(Mesh, &self.0, mesh => mesh.triangles().collect()))
     }
 
     fn edges<'py>(&self, py: Python<'py>) -> Any<'py> {
+        self.look_for_a_list(py)?;
         array(py, of_any_type!(Mesh, &self.0, mesh => mesh.edges().collect()))
     }
 
-    fn hull<'py>(&self, py: Python<'py>) -> Bound<'py, PyAny> {
-        PyArray1::from_vec(py, of_any_type!(Mesh, &self.0, mesh => mesh.hull().collect())).into_any()
+    fn hull<'py>(&self, py: Python<'py>) -> Any<'py> {
+        self.look_for_a_list(py)?;
+        Ok(PyArray1::from_vec(py, of_any_type!(Mesh, &self.0, mesh => mesh.hull().collect())).into_any())
     }
 
-    fn vertices<'py>(&self, py: Python<'py>) -> Bound<'py, PyAny> {
-        PyArray1::from_vec(py, of_any_type!(Mesh, &self.0, mesh => mesh.vertices().collect())).into_any()
+    fn vertices<'py>(&self, py: Python<'py>) -> Any<'py> {
+        self.look_for_a_list(py)?;
+        Ok(PyArray1::from_vec(py, of_any_type!(Mesh, &self.0, mesh => mesh.vertices().collect())).into_any())
     }
 
-    fn indices<'py>(&self, py: Python<'py>) -> Bound<'py, PyAny> {
-        PyArray1::from_vec(py, of_any_type!(Mesh, &self.0, mesh => mesh.indices())).into_any()
+    fn indices<'py>(&self, py: Python<'py>) -> Any<'py> {
+        self.look_for_a_list(py)?;
+        Ok(PyArray1::from_vec(py, of_any_type!(Mesh, &self.0, mesh => mesh.indices())).into_any())
     }
 
     /// Points, triangles, hull and duplicates of the mesh of the living points.
@@ -258,6 +257,7 @@ impl Living {
 
     /// The coordinates of the living points, in the order of their indices.
     fn points<'py>(&self, py: Python<'py>) -> Any<'py> {
+        self.look_for_a_list(py)?;
         of_any_type!(Mesh, &self.0, mesh => {
             array(py, mesh.indices().into_iter().filter_map(|index| mesh.point(index)).collect())
         })

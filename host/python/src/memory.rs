@@ -1,6 +1,8 @@
 //! Looking for memory before a job. The library takes memory without a way to refuse, and running out of it would end
 //! the program of the caller.
 
+use std::hint::black_box;
+
 use pyo3::prelude::*;
 
 use crate::error::exception;
@@ -11,6 +13,10 @@ pub const BYTES_OF_A_JOB: usize = 200;
 pub const BYTES_OF_A_TRIANGLE: usize = 120;
 /// The most bytes a point that a mesh that lives needs while it is made, moved or listed.
 pub const BYTES_OF_A_LIVING_POINT: usize = 400;
+/// The most bytes a point that the longest list of a mesh that lives needs while it grows.
+pub const BYTES_OF_A_LISTED_POINT: usize = 100;
+/// The most bytes a place that the search for the nearest ones needs.
+pub const BYTES_OF_A_FOUND_PLACE: usize = 200;
 /// The most bytes a point or constraint that a constrained mesh needs.
 pub const BYTES_OF_A_CONSTRAINT: usize = 600;
 /// The most bytes a point that cells, a relaxation or a surface need.
@@ -21,7 +27,11 @@ pub const BYTES_OF_A_PLACE: usize = 60;
 /// Raises `OutOfMemoryError` if there is no memory for `count` items of `bytes_of_one` bytes.
 pub fn look_for_memory(py: Python<'_>, count: usize, bytes_of_one: usize) -> PyResult<()> {
     let bytes = count.saturating_mul(bytes_of_one);
-    if Vec::<u8>::new().try_reserve_exact(bytes).is_ok() {
+    let mut room = Vec::<u8>::new();
+    let has_room = room.try_reserve_exact(bytes).is_ok();
+    // The compiler may leave out memory that nobody looks at.
+    black_box(room.as_ptr());
+    if has_room {
         return Ok(());
     }
     let sentence = format!("there is no memory for {bytes} bytes: use fewer points, or free some");

@@ -11,6 +11,9 @@ use crate::error::{bad_input, of_job};
 use crate::memory::{look_for_memory, BYTES_OF_A_CELL, BYTES_OF_A_PLACE};
 use crate::points::{array, list};
 
+/// Places between two looks for signals: enough for many threads.
+const PART: usize = 1 << 20;
+
 type Any<'py> = PyResult<Bound<'py, PyAny>>;
 
 /// Points with a value each, behind `incircle.Surface`, which documents its calls.
@@ -53,7 +56,12 @@ impl Surface {
             other => return Err(PyTypeError::new_err(format!("{other} is no value outside the hull"))),
         };
         let threads = threads.or(std::thread::available_parallelism().ok()).unwrap_or(NonZeroUsize::MIN);
-        let values = py.detach(|| self.surface.values(method, outside, &at, threads));
+        let mut values = Vec::with_capacity(at.len());
+        // A value depends on its place alone, so places may be asked for in parts.
+        for some in at.chunks(PART) {
+            values.extend(py.detach(|| self.surface.values(method, outside, some, threads)));
+            py.check_signals()?;
+        }
         Ok(PyArray1::from_vec(py, values).into_any())
     }
 

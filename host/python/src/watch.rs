@@ -1,14 +1,18 @@
-//! Watching a job from Python: signals such as Ctrl-C, and a function that hears of the progress.
+//! Watching work from Python: signals such as Ctrl-C, and a function that hears of the progress of a job.
 
 use std::cell::{Cell, RefCell};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use incircle::{Progress, Stage};
+use incircle::{living, Progress, Stage};
 use pyo3::prelude::*;
+
+use crate::error::of_living;
 
 /// The interpreter is asked at most once in this time, because another thread may hold it.
 const PAUSE: Duration = Duration::from_millis(20);
+/// Changes or questions between two looks for signals.
+const LOOK: usize = 65_536;
 
 /// Asks the interpreter for signals while a job runs, and passes its progress on.
 pub struct Watch {
@@ -55,4 +59,39 @@ impl Watch {
 fn tell(listener: &Bound<'_, PyAny>, Progress { stage, done, total }: Progress) -> PyResult<bool> {
     let answer = listener.call1((stage.name(), done, total))?;
     Ok(!answer.is(&*pyo3::types::PyBool::new(listener.py(), false)))
+}
+
+/// Looks for signals while work of many steps goes on.
+pub struct Signals(Cell<Instant>);
+
+impl Signals {
+    pub fn new() -> Self {
+        Self(Cell::new(Instant::now()))
+    }
+
+    /// The exception of a signal, if one has come. The interpreter is asked if the last look was some time ago.
+    pub fn look(&self) -> PyResult<()> {
+        if self.0.get().elapsed() < PAUSE {
+            return Ok(());
+        }
+        let signals = Python::attach(|py| py.check_signals());
+        self.0.set(Instant::now());
+        signals
+    }
+}
+
+/// Does the work for each item, and looks for signals from time to time. What was done stays done if one comes, or if
+/// an item is refused. Other threads of Python go on meanwhile.
+pub fn each<I: Sync, T: Send>(
+    py: Python<'_>,
+    items: &[I],
+    mut work: impl FnMut(&I) -> Result<T, living::Error> + Send,
+) -> PyResult<Vec<T>> {
+    let mut done = Vec::with_capacity(items.len());
+    for some in items.chunks(LOOK) {
+        let worked = py.detach(|| some.iter().try_for_each(|item| work(item).map(|made| done.push(made))));
+        worked.map_err(|error| of_living(py, error))?;
+        py.check_signals()?;
+    }
+    Ok(done)
 }

@@ -107,6 +107,16 @@ def test_duplicates_and_few_points():
     assert len(incircle.voronoi([(0, 0), (1, 1), (2, 2)]).vertices) == 0
 
 
+@pytest.mark.parametrize("point", [-1, -2, 5, 2**70])
+def test_points_that_there_are_not_have_no_cell(point):
+    diagram = incircle.voronoi(SQUARE, clip=BOX)
+    for call in (diagram.cell, diagram.neighbors_of, diagram.cells.pieces):
+        with pytest.raises(incircle.UnknownPointError, match=f"there is no point {point}: the set has 5"):
+            call(point)
+        with pytest.raises(TypeError):
+            call(1.5)
+
+
 def test_doubles_need_a_grid_and_its_error_is_told():
     points = np.random.default_rng(5).random((100, 2))
     with pytest.raises(incircle.InputError, match="on no lattice of up to 32 bits, but 31 bits are possible: quantise"):
@@ -213,7 +223,8 @@ def test_a_relaxation_ends_when_no_point_moves():
         ({}, "a relaxation needs an end"),
         ({"iterations": 0}, "0 iterations are not possible: choose 1 to 4294967295"),
         ({"iterations": 2**32}, "4294967296 iterations"),
-        ({"iterations": 1, "threads": 0}, "0 threads are not possible"),
+        ({"iterations": 1, "threads": 0}, "0 threads are not possible: choose 1 to 256"),
+        ({"iterations": 1, "threads": 2**70}, "1180591620717411303424 threads are not possible"),
         ({"iterations": 1, "quantize": "yes"}, "quantize is 'yes': give 'fit', or leave it out"),
     ],
 )

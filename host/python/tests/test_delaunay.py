@@ -120,9 +120,23 @@ def test_what_cannot_be_is_refused():
         incircle.Delaunay(POINTS, furthest_site=True)
     with pytest.raises(incircle.ChoiceError, match="the option Qu of Qhull"):
         incircle.Delaunay(POINTS, qhull_options="Qbb Qu")
+    for options in (5, ["Qbb"], b"\xff"):
+        with pytest.raises(incircle.ChoiceError, match="of Qhull"):
+            incircle.Delaunay(POINTS, qhull_options=options)
     incircle.Delaunay(POINTS, qhull_options="QJ Pp")
     with pytest.raises(incircle.ChoiceError, match="such as point 500, which lies on point 0"):
         incircle.Delaunay(np.concatenate([POINTS, POINTS]), qhull_options=b"QJ Pp")
+
+
+def test_points_that_are_refused_leave_the_triangulation_as_it_was():
+    mesh = incircle.Delaunay(POINTS, incremental=True)
+    before = mesh.simplices.copy()
+    for points in ([(np.nan, 1)], np.zeros((2, 3)), "text", [(2**53 + 1, 0)]):
+        with pytest.raises(ValueError):
+            mesh.add_points(points)
+    mesh.add_points(np.empty((0, 2)))
+    assert mesh.npoints == len(POINTS)
+    np.testing.assert_array_equal(mesh.simplices, before)
 
 
 def test_a_triangulation_can_be_pickled(both):

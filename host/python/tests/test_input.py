@@ -135,6 +135,48 @@ def test_types_that_are_no_exact_numbers_are_refused(points):
         incircle.triangulate(points)
 
 
+@pytest.mark.parametrize("count", [10**13])
+@pytest.mark.parametrize("dtype", ["float64", "uint32", "float16", ">f8"])
+def test_more_points_than_memory_holds_are_an_error_at_once(count, dtype):
+    points = np.broadcast_to(np.zeros(2, dtype=dtype), (count, 2))
+    for call in (incircle.triangulate, incircle.Triangulation, incircle.voronoi, incircle.Delaunay):
+        # Where numpy must convert first, the exception is numpy's.
+        with pytest.raises(MemoryError):
+            call(points)
+
+
+def test_tables_of_pandas_are_taken_or_refused():
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame(POINTS, columns=["x", "y"])
+    same(frame)
+    same(frame.astype("uint16"))
+    same(frame[["x", "y"]].set_index(frame["x"]))
+    with pytest.raises(incircle.InputError, match=r"have the shape \(5, 3\)"):
+        incircle.triangulate(frame.assign(z=1))
+    with pytest.raises(incircle.InputError, match="the y of point 2 is NaN"):
+        incircle.triangulate(frame.astype(float).replace({"y": {4: NAN}}))
+    # A type with missing values of its own becomes objects.
+    with pytest.raises(incircle.NumberTypeError, match="the points have the type object"):
+        incircle.triangulate(frame.astype("Int64"))
+
+
+def test_subclasses_and_containers_of_others_are_arrays():
+    class Own(np.ndarray):
+        pass
+
+    assert type(same(POINTS.view(Own)).points) is np.ndarray
+    same(type("Wrapped", (), {"__array__": lambda self, dtype=None, copy=None: POINTS})())
+
+    class Refused(Exception):
+        pass
+
+    def refuse(*_, **__):
+        raise Refused
+
+    with pytest.raises(Refused):
+        incircle.triangulate(type("Broken", (), {"__array__": refuse})())
+
+
 def test_text_and_nothing_are_refused():
     for points in ("text", b"bytes", None, {}, object()):
         with pytest.raises(incircle.Error):

@@ -1,6 +1,7 @@
 """`incircle.Triangulation`: the mesh that lives, its answers, and its errors."""
 
 import copy
+import pickle
 import threading
 
 import numpy as np
@@ -165,6 +166,41 @@ def test_places_that_are_no_numbers_are_refused():
     assert len(mesh) == 3
 
 
+@pytest.mark.parametrize(
+    ("indices", "error", "sentence"),
+    [
+        (np.array([True, False, False, False]), incircle.NumberTypeError, "the indices have the type bool"),
+        ([0.0, 1.0], incircle.NumberTypeError, "the indices have the type float64: give whole numbers"),
+        ("12", incircle.NumberTypeError, "the indices have the type <U2"),
+        (None, TypeError, "NoneType"),
+        ([[0], [1, 2]], incircle.InputError, "the indices are no array"),
+        (np.ma.array([0, 1], mask=[0, 1]), incircle.InputError, "a masked array, with 1 of 2 indices masked"),
+    ],
+)
+def test_lists_that_name_no_indices_are_refused(indices, error, sentence):
+    mesh = incircle.Triangulation(SQUARE)
+    with pytest.raises(error, match=sentence):
+        mesh.delete_all(indices)
+    assert len(mesh) == 4
+    mesh.delete_all([])
+    mesh.delete_all(np.array([[0, 1]], dtype=np.uint8))
+    assert mesh.indices.tolist() == [2, 3]
+
+
+def test_a_coordinate_that_changes_the_triangulation_is_an_error():
+    mesh = incircle.Triangulation(np.array(SQUARE, dtype=float))
+
+    class Changing:
+        def __float__(self):
+            mesh.delete(0)
+            return 1.0
+
+    with pytest.raises(RuntimeError, match="borrowed"):
+        mesh.insert((Changing(), 1))
+    assert len(mesh) == 4
+    assert_same_as_a_new_mesh(mesh)
+
+
 def test_a_second_thread_cannot_change_a_triangulation_meanwhile():
     mesh = incircle.Triangulation(np.random.default_rng(0).random((200_000, 2)))
     refused = []
@@ -192,3 +228,5 @@ def test_a_copy_has_a_life_of_its_own():
         other.delete(0)
         assert len(mesh) == 4 and len(other) == 3 and other.dtype == mesh.dtype
     assert repr(mesh) == "Triangulation(4 points of int64)"
+    with pytest.raises(TypeError, match="a Triangulation cannot be pickled: pickle its points"):
+        pickle.dumps(mesh)

@@ -15,6 +15,7 @@ whole = (points[:1_000_000] * 2**20).astype(np.int64)
 small = incircle.triangulate(points[:100_000])
 living = incircle.Triangulation(points[:1000])
 surface = incircle.Surface(points[:1000], points[:1000, 0])
+large = incircle.Triangulation(points)
 with open("/proc/self/statm") as file:
     used = int(file.read().split()[0]) * resource.getpagesize()
 resource.setrlimit(resource.RLIMIT_AS, (used + 150_000_000, resource.RLIM_INFINITY))
@@ -33,6 +34,12 @@ CALLS = {
     "constraints": lambda: incircle.triangulate(points, constraints=[(0, 1)]),
     "voronoi": lambda: incircle.voronoi(whole),
     "lloyd": lambda: incircle.lloyd(whole, 1),
+    "triangles": lambda: large.triangles,
+    "edges": lambda: large.edges,
+    "indices": lambda: large.indices,
+    "k_nearest": lambda: large.k_nearest((0.5, 0.5), 10**9),
+    "mesh": lambda: large.mesh(),
+    "copy": lambda: large.copy(),
     "surface": lambda: incircle.Surface(points, points[:, 0]),
     "values": lambda: surface(np.repeat(points, 2, axis=0)),
 }
@@ -54,6 +61,7 @@ print("done")
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the memory of a process is limited as on Linux")
-def test_too_little_memory_is_an_exception():
-    done = subprocess.run([sys.executable, "-c", PROGRAM], capture_output=True, text=True)
+def test_too_little_memory_is_an_exception(tmp_path):
+    # In another folder, so that the installed package is imported and not the sources beside the tests.
+    done = subprocess.run([sys.executable, "-c", PROGRAM], capture_output=True, text=True, cwd=tmp_path)
     assert done.stdout == "done\n", done.stderr

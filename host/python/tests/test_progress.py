@@ -102,6 +102,24 @@ def test_ctrl_c_ends_a_job(handler):
     assert interrupted(lambda: incircle.triangulate(slow, backend="clock"), 0.2) < 20
 
 
+def test_ctrl_c_ends_a_relaxation(handler):
+    points = np.random.default_rng(1).integers(0, 2**20, (2_000, 2))
+    # All steps would take an hour.
+    assert interrupted(lambda: incircle.lloyd(points, 2**32 - 1), 0.3) < 20
+    few = np.array([(1, 1), (2, 9), (9, 5)])
+    assert interrupted(lambda: incircle.lloyd(few, 2**32 - 1, clip=(0, 0, 10, 10)), 0.3) < 20
+
+
+def test_ctrl_c_ends_questions(handler):
+    mesh = incircle.Triangulation(POINTS[:1000])
+    at = np.tile(POINTS, (60, 1))
+    for ask in (mesh.locate_all, mesh.nearest_all, incircle.Surface(POINTS, POINTS[:, 0])):
+        start = time.monotonic()
+        ask(at[: len(POINTS)])
+        whole = 60 * (time.monotonic() - start)
+        assert interrupted(lambda: ask(at), 0.1 * whole) < 0.8 * whole + 5
+
+
 def test_ctrl_c_ends_changes_of_a_mesh_that_lives(handler):
     mesh = incircle.Triangulation()
     points = np.random.default_rng(1).random((3_000_000, 2))

@@ -1,5 +1,8 @@
 """Values between points: exactness, places outside, contours, and values that are refused."""
 
+import copy
+import pickle
+
 import numpy as np
 import pytest
 
@@ -136,7 +139,10 @@ def test_no_places_have_no_values():
     [
         ({"method": "cubic"}, "the method is 'cubic': choose one of linear, laplace, sibson"),
         ({"outside": 0}, "outside is 0: choose one of nan, nearest"),
+        ({"method": ["linear"]}, "the method is .'linear'.: choose one of"),
+        ({"outside": np.array(["nan", "nearest"])}, "choose one of nan, nearest"),
         ({"threads": -1}, "-1 threads are not possible"),
+        ({"threads": 2**64}, "18446744073709551616 threads are not possible: choose 1 to 256"),
     ],
 )
 def test_bad_choices_are_refused(choices, sentence):
@@ -154,3 +160,18 @@ def test_contours_are_lines_of_equal_value():
     # The cone is higher outside, so the line runs clockwise around its tip.
     assert (line[:, 0] * np.roll(line[:, 1], -1) - np.roll(line[:, 0], -1) * line[:, 1]).sum() < 0
     assert surface.contours(99) == [] and surface.contours(NAN) == []
+
+
+def test_a_surface_is_its_own_copy_and_cannot_be_pickled():
+    surface = incircle.Surface(POINTS, VALUES)
+    assert copy.copy(surface) is surface and copy.deepcopy({"one": surface})["one"] is surface
+    with pytest.raises(TypeError, match="a Surface cannot be pickled: pickle its points and values"):
+        pickle.dumps(surface)
+
+
+def test_many_places_have_the_values_of_few():
+    surface = incircle.Surface(POINTS, VALUES)
+    at = np.random.default_rng(5).random(((1 << 20) + 7, 2)) * 4
+    values = surface(at)
+    np.testing.assert_array_equal(values[-9:], surface(at[-9:]))
+    np.testing.assert_allclose(values, at.sum(axis=1), atol=1e-12)

@@ -1,4 +1,6 @@
-import {checked, coordinate, countOf, engine, givePairs, givePlaces, givePoints, index, isList, lists} from './engine.js';
+import {
+    MAX_POINTS, checked, coordinate, countOf, engine, finite, givePairs, givePlaces, givePoints, index, isList, lists,
+} from './engine.js';
 import {Voronoi} from './voronoi.js';
 
 const first = (point) => point[0];
@@ -9,15 +11,15 @@ function coordinates(points, getX = first, getY = second) {
     if (!Number.isInteger(points?.length) || points.length < 0) {
         throw new TypeError('points must be a list, such as an array of arrays [x, y]: it has no length');
     }
-    if (getX === first || getY === second) {
-        for (let k = 0; k < points.length; k++) {
-            if (points[k] === null || points[k] === undefined) throw new TypeError(`point ${k} is ${points[k]}: give [x, y]`);
-        }
-    }
-    const coords = new Float64Array(2 * points.length);
-    for (let k = 0; k < points.length; k++) {
-        coords[2 * k] = coordinate(`x of point ${k}`, getX(points[k]));
-        coords[2 * k + 1] = coordinate(`y of point ${k}`, getY(points[k]));
+    const count = points.length;
+    if (count > MAX_POINTS) throw new RangeError(`${count} points are more than the ${MAX_POINTS} that half-edges allow`);
+    const isPair = getX === first || getY === second;
+    const coords = new Float64Array(2 * count);
+    for (let k = 0; k < count; k++) {
+        const point = points[k];
+        if (isPair && (point === null || point === undefined)) throw new TypeError(`point ${k} is ${point}: give [x, y]`);
+        coords[2 * k] = finite(getX(point), () => `x of point ${k}`);
+        coords[2 * k + 1] = finite(getY(point), () => `y of point ${k}`);
     }
     return coords;
 }

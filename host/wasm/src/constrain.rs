@@ -7,7 +7,22 @@ use std::ops::ControlFlow;
 use incircle_geometry::constraints::{triangulate, Domain, Plan};
 
 use crate::batch::{check_room, flat};
-use crate::border::{give, indices, places, points, told};
+use crate::border::{give, has_memory, indices, places, points, told};
+
+/// The most bytes a point and a constraint that forcing edges into a mesh needs.
+const BYTES_OF_A_PLAN: usize = 600;
+
+/// Checks that there is memory to force constraints into the mesh of points.
+fn check_room_for_plan(points: usize, constraints: usize) -> Result<(), String> {
+    let bytes = points.saturating_add(constraints).saturating_mul(BYTES_OF_A_PLAN);
+    let text = || {
+        format!(
+            "{points} points with {constraints} constraints need up to {bytes} bytes, and the module cannot get them: \
+             give fewer at a time"
+        )
+    };
+    has_memory(bytes).then_some(()).ok_or_else(text)
+}
 
 /// Triangulates the points in the buffer with the pairs of the buffer of indices as edges, and lists the triangles and
 /// the region of each. `domain` is the number of a domain in the order of [`Domain::ALL`], and the buffer of places
@@ -17,7 +32,8 @@ pub extern "C" fn constrained(domain: usize) -> f64 {
     let constraints = indices();
     let holes = places();
     let points = points();
-    let made = check_room(&points).and_then(|()| {
+    let room = check_room(&points).and_then(|()| check_room_for_plan(points.len(), constraints.len() / 2));
+    let made = room.and_then(|()| {
         let domain = Domain::ALL.get(domain).copied().ok_or("there is no such domain")?;
         let plan = Plan { domain, holes: &holes, ..Plan::new(constraints.as_chunks().0) };
         triangulate(&points, &plan, NonZeroUsize::MIN, &mut |_| ControlFlow::Continue(()))

@@ -6,13 +6,14 @@ import test from 'node:test';
 /** Runs in a process whose modules get at most 64 MB. */
 const PROGRAM = `
 import assert from 'node:assert/strict';
-import Incircle, {Triangulation, triangulate} from '${new URL('../js/index.js', import.meta.url)}';
+import Incircle, {Triangulation, constrain, triangulate} from '${new URL('../js/index.js', import.meta.url)}';
 import {random} from '${new URL('random.js', import.meta.url)}';
 const refused = {name: 'RangeError', message: /bytes|memory/};
 const coords = random(1_000_000, 1);
 assert.throws(() => triangulate(coords), refused);
 assert.throws(() => new Incircle(coords), refused);
 assert.throws(() => new Triangulation(coords), refused);
+assert.throws(() => constrain([0, 0, 1, 0, 0, 1], new Uint32Array(4_000_000).map((_, k) => k % 2)), refused);
 const mesh = new Triangulation();
 let count = 0;
 assert.throws(() => { for (;; count++) mesh.insert(coords[2 * count], coords[2 * count + 1]); }, refused);

@@ -110,6 +110,55 @@ test('ties are the edges whose other diagonal would be Delaunay, too', () => {
     assert.equal(ties(grid).length / 2, 100);
 });
 
+/** A typed array whose buffer went to another thread. */
+function detached(Kind) {
+    const list = new Kind(6);
+    structuredClone(list.buffer, {transfer: [list.buffer]});
+    return list;
+}
+
+test('lists that change while they are read write nothing outside their room', () => {
+    let reads = 0;
+    const growing = new Proxy([0, 0, 4, 0, 0, 4], {
+        get: (list, name) => (name === 'length' && ++reads > 1 ? 4_000_000 : list[name]),
+    });
+    assert.deepEqual([...triangulate(growing).triangles], [0, 1, 2]);
+    const calling = [0, 0, 4, 0, 0, 4];
+    Object.defineProperty(calling, 3, {get: () => triangulate(random(100_000, 3)).hull.length});
+    assert.equal(triangulate(calling).triangles.length, 3);
+    const pairs = [0, 1, 1, 2];
+    let turns = 0;
+    Object.defineProperty(pairs, 0, {get: () => turns++});
+    assert.deepEqual([...constrain([0, 0, 4, 0, 0, 4], pairs).triangles], [0, 1, 2]);
+    assert.equal(turns, 1);
+});
+
+test('update takes the coordinates of the moment, or leaves the mesh as it was', () => {
+    const made = new Incircle(Float64Array.of(0, 0, 4, 0, 4, 4, 0, 4));
+    const {triangles} = made;
+    made.coords[5] = NaN;
+    assert.throws(() => made.update(), /point 2/);
+    assert.equal(made.triangles, triangles);
+    made.coords = [0, 0, 4, 0, 0, 4];
+    made.update();
+    assert.equal(made.triangles.length, 3);
+    made.coords = detached(Float64Array);
+    assert.throws(() => made.update(), /detached/);
+    assert.equal(made.triangles.length, 3);
+});
+
+test('a mesh that was freed stays freed, also where its handle has a new mesh', () => {
+    const gone = new Triangulation([0, 0, 4, 0, 0, 4]);
+    gone.free();
+    gone.free();
+    const next = new Triangulation([1, 1]);
+    for (const call of [() => gone.mesh(), () => gone.nearest(0, 0), () => gone.moveAll([1, 2]), () => gone.triangles()]) {
+        assert.throws(call, /was freed/);
+    }
+    assert.equal(next.size, 1);
+    next.free();
+});
+
 test('bad input is refused with its numbers, and nothing leaks', () => {
     const living = new Triangulation([0, 0, 1, 0, 0, 1]);
     const refused = [
@@ -144,6 +193,19 @@ test('bad input is refused with its numbers, and nothing leaks', () => {
         [() => earcut([0, 0, 1]), /3 coordinates are an odd number/],
         [() => earcut([0, 0, 1, 0, 1, 1], 'x'), /holes must be/],
         [() => new Voronoi(null), /give an Incircle/],
+        [() => new Incircle(detached(Float64Array)), /detached/],
+        [() => new Triangulation(detached(Int8Array)), /detached/],
+        [() => constrain([0, 0, 1, 0, 0, 1], detached(Uint32Array)), /detached/],
+        [() => constrain([0, 0, 1, 0, 0, 1], [0, 1], 'holes', detached(Float32Array)), /detached/],
+        [() => Incircle.from({length: 2 ** 40}), /1099511627776 points are more than/],
+        [() => Incircle.from([[1, 2]], () => { throw new RangeError('the accessor says no'); }), /the accessor says no/],
+        [() => new Incircle(['1', '2']), /coordinate 0 is of type string/],
+        [() => new Incircle([0, 0, , 1]), /coordinate 2 is of type undefined/],
+        [() => living.insert(0, new Date()), TypeError],
+        [() => living.nearest(NaN, 0), /x is NaN/],
+        [() => living.neighbors(2 ** 32), /4294967296 is no index/],
+        [() => constrain([0, 0, 1, 0, 0, 1], [0, -1]), /-1 is no index/],
+        [() => constrain([0, 0, 1, 0, 0, 1], Float64Array.of(0, 1.5)), /1.5 is no index/],
     ];
     const before = usedBytes();
     for (let round = 0; round < 20; round++) {

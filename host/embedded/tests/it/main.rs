@@ -1,5 +1,6 @@
 //! Tests of the driver against a simulated board, on a line in virtual time.
 
+mod chatter;
 mod errors;
 mod faults;
 mod jobs;

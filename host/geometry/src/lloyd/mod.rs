@@ -109,12 +109,36 @@ pub fn relax_weighted(
     repeat(points, stop, |points| weighted_step(points, clip, density, threads))
 }
 
-/// Does steps until the end. `step` gives the new place of each point.
-fn repeat(
+/// Does steps of the caller until the end. `step` gives the new place of each point. Its first error ends the
+/// relaxation, so that a step can also look whether somebody wants the work to end.
+///
+/// ```
+/// use core::num::NonZeroUsize;
+/// use incircle_geometry::lloyd::{repeat, step, Stop};
+/// use incircle_geometry::voronoi::Clip;
+/// use incircle_geometry::Point;
+///
+/// let points = [(100, 100), (200, 900), (900, 500)].map(Point::from).to_vec();
+/// let clip = Clip::rectangle(Point::new(0, 0), Point::new(1000, 1000))?;
+/// let mut patience = 3;
+/// let stopped = repeat(points, Stop { iterations: 1000, when_still: false }, |points| {
+///     patience -= 1;
+///     if patience < 0 {
+///         return Err("somebody waits");
+///     }
+///     step(points, &clip, NonZeroUsize::MIN).map_err(|_| "no cells")
+/// });
+/// assert_eq!(stopped, Err("somebody waits"));
+/// # Ok::<(), incircle_geometry::lloyd::Error>(())
+/// ```
+///
+/// # Errors
+/// Those of `step`.
+pub fn repeat<E>(
     points: Vec<Point>,
     stop: Stop,
-    step: impl Fn(&[Point]) -> Result<Vec<Point>, Error>,
-) -> Result<Relaxed, Error> {
+    mut step: impl FnMut(&[Point]) -> Result<Vec<Point>, E>,
+) -> Result<Relaxed, E> {
     // Points near one another stand near one another in the lists of each step.
     let order = hilbert(&points);
     let mut now: Vec<Point> = order.iter().map(|&index| points[index as usize]).collect();

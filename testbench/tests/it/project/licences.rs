@@ -137,3 +137,29 @@ fn every_lock_file_is_checked() {
     // A checkout without git, such as an unpacked archive, lists none.
     assert!(listed.is_empty() || listed.lines().eq(LOCK_FILES), "{listed}");
 }
+
+/// The strings in double quotes of a text, in their order.
+fn quoted(text: &str) -> Vec<&str> {
+    text.split('"').skip(1).step_by(2).collect()
+}
+
+/// The text between two marks, which must be there.
+fn between<'a>(text: &'a str, start: &str, end: &str) -> &'a str {
+    let (_, rest) = text.split_once(start).unwrap_or_else(|| panic!("there is no {start:?}"));
+    rest.split_once(end).unwrap_or_else(|| panic!("there is no {end:?} behind {start:?}")).0
+}
+
+#[test]
+fn cargo_deny_is_told_the_same() {
+    let read =
+        |file: &str| std::fs::read_to_string(root().join(file)).unwrap_or_else(|error| panic!("{file}: {error}"));
+    let deny = read("deny.toml");
+    assert_eq!(quoted(between(&deny, "\nallow = [", "]")), PERMISSIVE);
+    assert_eq!(quoted(between(&deny, "allow-registry = [", "]")), [CRATES_IO.trim_start_matches("registry+")]);
+    let script = read("testbench/licences");
+    let folders = between(&script, "for folder in ", ";").split(' ').map(|folder| match folder {
+        "." => "Cargo.lock".to_owned(),
+        folder => format!("{folder}/Cargo.lock"),
+    });
+    assert!(folders.eq(LOCK_FILES.map(str::to_owned)), "testbench/licences checks other lock files");
+}
