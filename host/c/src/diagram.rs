@@ -6,9 +6,9 @@ use std::ffi::c_void;
 use incircle::{CellLists, VoronoiLists};
 
 use crate::border::{exclusive, give, shared};
-use crate::grid::laid;
+use crate::grid::{laid, Border};
 use crate::mesh::of_type;
-use crate::status::{guarded, Failure, Outcome, INCIRCLE_CHOICE};
+use crate::status::{guarded, Failure, Outcome, INCIRCLE_CHOICE, INCIRCLE_INPUT};
 
 /// The Voronoi diagram of a set of points. Several threads may read one at a time.
 #[allow(non_camel_case_types)]
@@ -39,18 +39,64 @@ pub unsafe extern "C" fn incircle_diagram_new(
     quantize: u32,
     diagram: *mut *mut incircle_diagram,
 ) -> i32 {
+    let border = Border::of_corners(clip, corner_count);
+    // SAFETY: the caller promises the pointers.
+    guarded(|| unsafe { make((points, count), &border, number, quantize, diagram) })
+}
+
+/// As `incircle_diagram_new`, with a clip that may have holes. `clip` has the corners of all rings, one ring behind the
+/// other: that around the polygon, then those of the holes, which lie side by side inside it. `ring_counts` says how
+/// many corners each of the `ring_count` rings has, three or more. Rings may turn either way, and do not touch.
+///
+/// The status is also `INCIRCLE_INPUT` for a hole that lies outside the polygon or inside another hole, and for rings
+/// that meet.
+///
+/// # Safety
+/// `ring_counts` points to `ring_count` numbers, `clip` to as many pairs of numbers as they add up to; the rest is as for
+/// `incircle_diagram_new`.
+#[no_mangle]
+pub unsafe extern "C" fn incircle_diagram_new_with_holes(
+    points: *const c_void,
+    count: usize,
+    clip: *const c_void,
+    ring_counts: *const usize,
+    ring_count: usize,
+    number: u32,
+    quantize: u32,
+    diagram: *mut *mut incircle_diagram,
+) -> i32 {
     guarded(|| {
         // SAFETY: the caller promises the pointers.
-        let out = unsafe { exclusive(diagram, "diagram") }?;
-        *out = std::ptr::null_mut();
+        *unsafe { exclusive(diagram, "diagram") }? = std::ptr::null_mut();
+        if ring_count == 0 {
+            return Err(Failure::new(INCIRCLE_INPUT, "the clip has 0 rings: give one around the polygon, or more"));
+        }
         // SAFETY: the same.
-        let set = of_type!(number, P => unsafe { laid::<P>((points, count), (clip, corner_count), 0, quantize) })?;
-        let clip = (corner_count > 0).then(|| set.clip()).transpose()?;
-        let lists = VoronoiLists::of(&set, clip.as_ref())?;
-        let largest_error = set.quantization().map_or(0.0, |quantization| quantization.largest_error);
-        *out = Box::into_raw(Box::new(incircle_diagram { lists, largest_error }));
-        Ok(())
+        unsafe { make((points, count), &Border::of_rings(clip, ring_counts, ring_count)?, number, quantize, diagram) }
     })
+}
+
+/// Makes a diagram for the caller.
+///
+/// # Safety
+/// The pointers are as for `incircle_diagram_new`.
+unsafe fn make(
+    points: (*const c_void, usize),
+    border: &Border,
+    number: u32,
+    quantize: u32,
+    diagram: *mut *mut incircle_diagram,
+) -> Outcome {
+    // SAFETY: the caller promises the pointers.
+    let out = unsafe { exclusive(diagram, "diagram") }?;
+    *out = std::ptr::null_mut();
+    // SAFETY: the same.
+    let set = of_type!(number, P => unsafe { laid::<P>(points, border, 0, quantize) })?;
+    let clip = (border.corner_count > 0).then(|| border.clip(&set)).transpose()?;
+    let lists = VoronoiLists::of(&set, clip.as_ref())?;
+    let largest_error = set.quantization().map_or(0.0, |quantization| quantization.largest_error);
+    *out = Box::into_raw(Box::new(incircle_diagram { lists, largest_error }));
+    Ok(())
 }
 
 /// A list of the cells inside the clip.
@@ -150,8 +196,9 @@ pub unsafe extern "C" fn incircle_diagram_largest_error(diagram: *const incircle
     })
 }
 
-/// The corners of the pieces of all cells inside the clip, counter-clockwise, one piece behind the other. A cell has no
-/// piece, one, or several if the clip is not convex. The status is `INCIRCLE_CHOICE` if the diagram has no clip.
+/// The corners of the rings of all cells inside the clip, one ring behind the other: counter-clockwise around a piece,
+/// clockwise around a hole in it. A cell has no piece, one, or several if the clip is not convex, and only a clip with
+/// holes has pieces with holes. The status is `INCIRCLE_CHOICE` if the diagram has no clip.
 ///
 /// # Safety
 /// As for `incircle_diagram_vertices`.
@@ -166,7 +213,7 @@ pub unsafe extern "C" fn incircle_diagram_cell_corners(
     guarded(|| unsafe { give(of_cells(shared(diagram, "diagram")?, |cells| &cells.corners)?, buffer, room, count) })
 }
 
-/// Where each piece begins in `incircle_diagram_cell_corners`. There is one item more than pieces: the end of the last.
+/// Where each ring begins in `incircle_diagram_cell_corners`. There is one item more than rings: the end of the last.
 ///
 /// # Safety
 /// As for `incircle_diagram_vertices`.
@@ -181,7 +228,7 @@ pub unsafe extern "C" fn incircle_diagram_piece_starts(
     guarded(|| unsafe { give(of_cells(shared(diagram, "diagram")?, |cells| &cells.starts)?, buffer, room, count) })
 }
 
-/// The point to which each piece belongs, in rising order.
+/// The point to which each ring belongs, in rising order.
 ///
 /// # Safety
 /// As for `incircle_diagram_vertices`.
@@ -194,6 +241,26 @@ pub unsafe extern "C" fn incircle_diagram_piece_points(
 ) -> i32 {
     // SAFETY: the caller promises the pointers.
     guarded(|| unsafe { give(of_cells(shared(diagram, "diagram")?, |cells| &cells.points)?, buffer, room, count) })
+}
+
+/// Whether each ring bounds a hole of the last piece before it: 1, or 0 for the ring around a piece.
+///
+/// # Safety
+/// As for `incircle_diagram_vertices`.
+#[no_mangle]
+pub unsafe extern "C" fn incircle_diagram_ring_is_hole(
+    diagram: *const incircle_diagram,
+    buffer: *mut u8,
+    room: usize,
+    count: *mut usize,
+) -> i32 {
+    guarded(|| {
+        // SAFETY: the caller promises the pointers.
+        let flags = of_cells(unsafe { shared(diagram, "diagram") }?, |cells| &cells.is_hole)?;
+        let flags: Vec<u8> = flags.iter().map(|&is_hole| is_hole.into()).collect();
+        // SAFETY: the same.
+        unsafe { give(&flags, buffer, room, count) }
+    })
 }
 
 /// The area of the cell of each point inside the clip; 0 for a duplicate.

@@ -12,6 +12,7 @@ __all__ = [
     "neighbors",
     "spread",
     "triangulate",
+    "triangulate_constrained",
     "verify",
     "verify_plan",
     "voronoi",
@@ -47,13 +48,16 @@ def constrained(
     asked: Any,
 ) -> dict[str, Any]: ...
 def verify_plan(points: NDArray[Any], triangles: NDArray[np.uint32], asked: Any) -> None: ...
-def voronoi(points: NDArray[Any], corners: NDArray[Any], is_clipped: bool, quantize: bool) -> dict[str, Any]: ...
+def voronoi(
+    points: NDArray[Any], border: tuple[NDArray[Any], list[int]], is_clipped: bool, quantize: bool
+) -> dict[str, Any]: ...
 def spread(
     points: NDArray[Any],
-    corners: NDArray[Any],
+    border: tuple[NDArray[Any], list[int]],
     stop: tuple[int, bool],
     threads: int | None,
     quantize: bool,
+    density: NDArray[np.uint16] | None,
 ) -> tuple[NDArray[np.float64], int, int, str, float | None]: ...
 
 @final
