@@ -178,7 +178,8 @@ impl GridSet {
             return Err(GridSetError::RingCounts { have, corners: self.corners.len() });
         }
         let mut rest = &self.corners[..];
-        let rings: Vec<Vec<Point>> = counts.iter().filter_map(|&count| rest.split_off(..count)).map(<[_]>::to_vec).collect();
+        let rings: Vec<Vec<Point>> =
+            counts.iter().filter_map(|&count| rest.split_off(..count)).map(<[_]>::to_vec).collect();
         match &rings[..] {
             [outer, holes @ ..] => Ok(Clip::with_holes(outer, holes)?),
             [] => self.clip(),

@@ -234,7 +234,8 @@ impl Choices<'_> {
         if self.progress.is_some() {
             options = options.progress(&listener);
         }
-        job(&mut device.session()?, &options)
+        let mut session = device.session()?;
+        job(&mut session, &options)
     }
 
     fn tell(&self, Progress { stage, done, total }: Progress) -> ControlFlow<()> {

@@ -95,13 +95,7 @@ fn marks_of<S>(plan: &Plan<'_, u32>, site: impl Fn(usize) -> Option<S>) -> Optio
     Some([sites(plan.holes)?, sites(plan.regions)?])
 }
 
-fn of_grid(
-    all: &[Point],
-    points: usize,
-    asked: Asked<'_>,
-    threads: usize,
-    watch: Watch<'_>,
-) -> Result<Outcome, Error> {
+fn of_grid(all: &[Point], points: usize, asked: Asked<'_>, threads: usize, watch: Watch<'_>) -> Result<Outcome, Error> {
     let Sites { sites, ids, duplicates, bits } = sites::sort(&all[..points], threads);
     // Sites count from the lower left corner of the points.
     let corner = sites.first().zip(ids.first()).map(|(site, &id)| {
