@@ -44,6 +44,14 @@ pub enum GridSetError {
         /// Bits that are possible.
         most: u32,
     },
+    /// The rings of a clip have another number of corners than were given.
+    #[error("the rings of the clip have {have} corners, but the clip has {corners}: give the number of each ring")]
+    RingCounts {
+        /// The corners of all rings together.
+        have: usize,
+        /// The corners of the clip.
+        corners: usize,
+    },
     /// The rectangle around the points has no area, and no clip was given.
     #[error("the rectangle around the points has no area: give a clip")]
     NoRectangle,
@@ -90,7 +98,7 @@ enum Origin {
 
 impl GridSet {
     /// Lays points and the corners of a clip onto one grid of 31 bits: two opposite corners of a rectangle, a ring of
-    /// three or more, or none. O(n).
+    /// three or more, several rings one behind the other, or none. O(n).
     ///
     /// At least `spare` bits are left for places between the points, as a relaxation needs them: 0 for cells, and 8 or
     /// more for a relaxation. All bits that the lattice leaves are taken if `spare` is not 0. With `how`, the points
@@ -137,7 +145,7 @@ impl GridSet {
         &self.points
     }
 
-    /// The clip that the corners make, or the smallest rectangle around the points if there are no corners.
+    /// The clip without holes that the corners make, or the smallest rectangle around the points if there are no corners.
     ///
     /// # Errors
     /// The clip has no area, or crosses or touches itself.
@@ -146,6 +154,35 @@ impl GridSet {
             [] => self.around().ok_or(GridSetError::NoRectangle),
             [one, other] => Ok(Clip::rectangle(one, other)?),
             _ => Ok(Clip::polygon(&self.corners)?),
+        }
+    }
+
+    /// The polygon with holes that the corners make. `counts` says how many of the corners each ring has: that around the
+    /// polygon, then those of the holes.
+    ///
+    /// ```
+    /// use incircle::GridSet;
+    ///
+    /// let (outer, hole) = ([[0, 0], [9, 0], [9, 9], [0, 9]], [[1, 1], [3, 1], [1, 3]]);
+    /// let set = GridSet::of(&[[5, 5]], &[&outer[..], &hole].concat(), 0, None)?;
+    /// assert_eq!(set.clip_with_holes(&[4, 3])?.twice_area(), 2 * 81 - 4);
+    /// # Ok::<(), incircle::GridSetError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`clip`](Self::clip); the counts do not add up to the number of corners; a hole lies outside the outer
+    /// ring or inside another hole.
+    pub fn clip_with_holes(&self, counts: &[usize]) -> Result<Clip, GridSetError> {
+        let have = counts.iter().fold(0, |sum: usize, &count| sum.saturating_add(count));
+        if have != self.corners.len() || counts.is_empty() {
+            return Err(GridSetError::RingCounts { have, corners: self.corners.len() });
+        }
+        let mut rest = &self.corners[..];
+        let rings: Vec<Vec<Point>> =
+            counts.iter().filter_map(|&count| rest.split_off(..count)).map(<[_]>::to_vec).collect();
+        match &rings[..] {
+            [outer, holes @ ..] => Ok(Clip::with_holes(outer, holes)?),
+            [] => self.clip(),
         }
     }
 

@@ -1,6 +1,6 @@
 //! The Voronoi diagram of a set as flat lists, as callers in other languages take it.
 
-use incircle_geometry::voronoi::{Cells, Clip, Side, Voronoi};
+use incircle_geometry::voronoi::{Cells, Clip, Corner, Side, Voronoi};
 use incircle_geometry::EMPTY;
 
 use crate::grid_set::{GridSet, GridSetError};
@@ -36,16 +36,19 @@ pub struct VoronoiLists {
     pub cells: Option<CellLists>,
 }
 
-/// The cells of a set inside a clip, as flat lists. A cell has no piece, one, or several if the clip is not convex.
+/// The cells of a set inside a clip, as flat lists of rings. A cell has no piece, one, or several if the clip is not
+/// convex. Each piece is one ring around it, and a ring for each hole of the clip that lies inside it.
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct CellLists {
-    /// The corners of all pieces, counter-clockwise, one piece behind the other.
+    /// The corners of all rings, one ring behind the other: counter-clockwise around a piece, clockwise around a hole.
     pub corners: Vec<[f64; 2]>,
-    /// The corners of piece `k` are those from `starts[k]` to `starts[k + 1]`.
+    /// The corners of ring `k` are those from `starts[k]` to `starts[k + 1]`.
     pub starts: Vec<u64>,
-    /// The point to which each piece belongs, in rising order.
+    /// The point to which each ring belongs, in rising order.
     pub points: Vec<u32>,
+    /// Whether each ring bounds a hole of the last piece before it.
+    pub is_hole: Vec<bool>,
     /// The area of the cell of each point; 0 for a duplicate.
     pub areas: Vec<f64>,
     /// The points whose cells share an edge inside the clip, one cell behind the other, each in rising order.
@@ -87,14 +90,12 @@ impl CellLists {
             let cell = cells.cell(point);
             let begin = lists.neighbors.len();
             for piece in cell.pieces() {
-                for (corner, side) in piece.corners() {
-                    lists.corners.push(set.coordinates(corner));
-                    if let Side::Neighbor(neighbor) = side {
-                        lists.neighbors.push(neighbor);
-                    }
+                lists.add_ring(piece.corners(), point, set);
+                lists.is_hole.push(false);
+                for hole in piece.holes() {
+                    lists.add_ring(hole.corners(), point, set);
+                    lists.is_hole.push(true);
                 }
-                lists.starts.push(lists.corners.len() as u64);
-                lists.points.push(point);
             }
             lists.neighbors[begin..].sort_unstable();
             drop_repeated(&mut lists.neighbors, begin);
@@ -102,6 +103,17 @@ impl CellLists {
             lists.areas.push(cell.area() * length * length);
         }
         lists
+    }
+
+    fn add_ring(&mut self, corners: impl Iterator<Item = (Corner, Side)>, point: u32, set: &GridSet) {
+        for (corner, side) in corners {
+            self.corners.push(set.coordinates(corner));
+            if let Side::Neighbor(neighbor) = side {
+                self.neighbors.push(neighbor);
+            }
+        }
+        self.starts.push(self.corners.len() as u64);
+        self.points.push(point);
     }
 }
 
@@ -132,6 +144,31 @@ mod tests {
         assert_eq!((cells.neighbors, cells.neighbor_starts), (vec![1, 0], vec![0, 1, 2, 2]));
         assert_eq!((lists.duplicates, lists.starts), (vec![[2, 0]], vec![0, 1, 2, 2]));
         assert_eq!(lists.corners, [EMPTY, EMPTY]);
+    }
+
+    #[test]
+    fn holes_follow_the_piece_around_them() {
+        // One hole inside the left cell, and one that the border between both cells meets.
+        let rings = [
+            [[0, 0], [20, 0], [20, 10], [0, 10]],
+            [[2, 2], [4, 2], [4, 4], [2, 4]],
+            [[8, 5], [12, 5], [12, 7], [8, 7]],
+        ];
+        let set = GridSet::of(&[[5, 5], [15, 5]], rings.as_flattened(), 0, None).expect("a lattice");
+        let lists = VoronoiLists::of(&set, Some(&set.clip_with_holes(&[4, 4, 4]).expect("rings"))).expect("cells");
+        let cells = lists.cells.expect("a clip");
+        assert_eq!((cells.points, cells.is_hole), (vec![0, 0, 1], vec![false, true, false]));
+        assert_eq!(cells.starts[2] - cells.starts[1], 4);
+        let mut hole = cells.corners[cells.starts[1] as usize..cells.starts[2] as usize].to_vec();
+        let lowest = hole.iter().position(|corner| *corner == [2.0, 2.0]).expect("a corner of the hole");
+        hole.rotate_left(lowest);
+        assert_eq!(hole, [[2.0, 2.0], [2.0, 4.0], [4.0, 4.0], [4.0, 2.0]]);
+        assert_eq!((cells.areas, cells.neighbors), (vec![92.0, 96.0], vec![1, 0]));
+        let message = |counts: &[usize]| set.clip_with_holes(counts).map_err(|error| error.to_string()).unwrap_err();
+        assert!(message(&[4, 4]).contains("have 8 corners, but the clip has 12"));
+        assert!(message(&[usize::MAX, 13]).contains("but the clip has 12"));
+        assert!(message(&[10, 2]).contains("clip"));
+        assert!(set.clip_with_holes(&[]).is_err_and(|error| error.to_string().contains("have 0 corners")));
     }
 
     #[test]

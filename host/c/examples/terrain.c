@@ -15,19 +15,17 @@ int main(void) {
     const double points[][2] = {{0, 0}, {9, 0}, {9, 9}, {0, 9}, {3, 3}, {6, 3}, {6, 6}, {3, 6}};
     const double heights[] = {5, 5, 7, 7, 1, 1, 1, 1};
     const uint32_t shores[][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}};
-    const double clip[][2] = {{0, 0}, {9, 9}}, place[1][2] = {{4.5, 1.5}};
+    const double place[1][2] = {{4.5, 1.5}};
+    const size_t rings[] = {4, 4};
     size_t count;
 
-    incircle_mesh *mesh;
     incircle_constrained *land;
     incircle_plan plan = {.size = sizeof plan, .constraints = shores, .constraint_count = 8};
     plan.domain = INCIRCLE_EVEN_ODD;
-    check(incircle_triangulate(points, 8, INCIRCLE_F64, NULL, &mesh));
-    check(incircle_constrain(mesh, &plan, &land));
+    check(incircle_triangulate_constrained(points, 8, INCIRCLE_F64, NULL, &plan, &land));
     check(incircle_constrained_triangles(land, NULL, 0, &count));
     printf("the land has %zu triangles\n", count);
     incircle_constrained_free(land);
-    incircle_mesh_free(mesh);
 
     incircle_surface *surface;
     incircle_contours *contours;
@@ -42,9 +40,10 @@ int main(void) {
 
     incircle_diagram *diagram;
     double areas[8];
-    check(incircle_diagram_new(points, 8, clip, 2, INCIRCLE_F64, INCIRCLE_EXACT, &diagram));
+    /* The points are the corners of the land and of the lake, into which no cell reaches. */
+    check(incircle_diagram_new_with_holes(points, 8, points, rings, 2, INCIRCLE_F64, INCIRCLE_EXACT, &diagram));
     check(incircle_diagram_areas(diagram, areas, 8, &count));
-    printf("the cell of the first point has the area %.3f\n", areas[0]);
+    printf("the cell of the first point has the area %.3f on land\n", areas[0]);
     incircle_diagram_free(diagram);
     return 0;
 }

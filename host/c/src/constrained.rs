@@ -8,7 +8,7 @@ use incircle::verify::verify_constrained;
 use incircle::{Mesh, PlanePoint};
 
 use crate::border::{copied, exclusive, give, look_for_memory, shared};
-use crate::mesh::incircle_mesh;
+use crate::mesh::{incircle_mesh, AnyMesh};
 use crate::status::{guarded, Failure, Outcome};
 use crate::status::{INCIRCLE_ARGUMENT, INCIRCLE_CHOICE, INCIRCLE_INPUT, INCIRCLE_WRONG_MESH};
 
@@ -54,13 +54,28 @@ pub struct incircle_plan {
 #[allow(non_camel_case_types)]
 pub struct incircle_constrained {
     made: Constrained,
+    /// Points, hull and duplicates of a mesh without triangles, if points and constraints were one job.
+    pub(crate) own: Option<Box<dyn AnyMesh + Send + Sync>>,
     /// The constraints of piece `k` are those from `starts[k]` to `starts[k + 1]`.
     starts: Vec<usize>,
     constraints: Vec<u32>,
 }
 
+impl incircle_constrained {
+    /// A constrained mesh on its way to the caller.
+    pub(crate) fn boxed(made: Constrained, own: Option<Box<dyn AnyMesh + Send + Sync>>) -> *mut Self {
+        let mut starts = vec![0];
+        let mut constraints = Vec::new();
+        for (_, some) in made.pieces.iter() {
+            constraints.extend_from_slice(some);
+            starts.push(constraints.len());
+        }
+        Box::into_raw(Box::new(Self { made, own, starts, constraints }))
+    }
+}
+
 /// A plan with its lists in our memory.
-struct Copied<P> {
+pub(crate) struct Copied<P> {
     constraints: Vec<[u32; 2]>,
     lines: usize,
     domain: Domain,
@@ -71,7 +86,7 @@ struct Copied<P> {
 impl<P: Copy> Copied<P> {
     /// # Safety
     /// The pointers of the plan are as described there.
-    unsafe fn of(plan: &incircle_plan) -> Outcome<Self> {
+    pub(crate) unsafe fn of(plan: &incircle_plan) -> Outcome<Self> {
         let known = size_of::<incircle_plan>();
         if plan.size != known {
             let text = format!(
@@ -102,7 +117,12 @@ impl<P: Copy> Copied<P> {
         }
     }
 
-    fn plan(&self) -> Plan<'_, P> {
+    /// Looks whether there is memory for a constrained mesh of so many points.
+    pub(crate) fn look_for_memory(&self, points: usize) -> Outcome {
+        look_for_memory((points + self.constraints.len()) * BYTES_OF_A_PLAN)
+    }
+
+    pub(crate) fn plan(&self) -> Plan<'_, P> {
         let Self { constraints, lines, domain, holes, regions } = self;
         Plan { constraints, lines: *lines, domain: *domain, holes, regions }
     }
@@ -115,7 +135,7 @@ impl<P: Copy> Copied<P> {
 pub(crate) unsafe fn forced<P: PlanePoint>(mesh: &Mesh<P>, plan: &incircle_plan) -> Outcome<Constrained> {
     // SAFETY: the caller promises the plan.
     let copied = unsafe { Copied::of(plan) }?;
-    look_for_memory((mesh.points.len() + copied.constraints.len()) * BYTES_OF_A_PLAN)?;
+    copied.look_for_memory(mesh.points.len())?;
     constrain(mesh, &copied.plan()).map_err(|error| Failure::new(INCIRCLE_INPUT, error.to_string()))
 }
 
@@ -126,7 +146,7 @@ pub(crate) unsafe fn forced<P: PlanePoint>(mesh: &Mesh<P>, plan: &incircle_plan)
 pub(crate) unsafe fn proved<P: PlanePoint>(points: &[P], triangles: &[[u32; 3]], plan: &incircle_plan) -> Outcome {
     // SAFETY: the caller promises the plan.
     let copied = unsafe { Copied::of(plan) }?;
-    look_for_memory((points.len() + copied.constraints.len()) * BYTES_OF_A_PLAN)?;
+    copied.look_for_memory(points.len())?;
     let verified = verify_constrained(points, triangles, &copied.plan());
     verified.map(|_| ()).map_err(|error| Failure::new(INCIRCLE_WRONG_MESH, error.to_string()))
 }
@@ -152,13 +172,7 @@ pub unsafe extern "C" fn incircle_constrain(
         *out = std::ptr::null_mut();
         // SAFETY: the same.
         let made = unsafe { shared(mesh, "mesh")?.0.constrain(shared(plan, "plan")?) }?;
-        let mut starts = vec![0];
-        let mut constraints = Vec::new();
-        for (_, some) in made.pieces.iter() {
-            constraints.extend_from_slice(some);
-            starts.push(constraints.len());
-        }
-        *out = Box::into_raw(Box::new(incircle_constrained { made, starts, constraints }));
+        *out = incircle_constrained::boxed(made, None);
         Ok(())
     })
 }
@@ -256,7 +270,8 @@ pub unsafe extern "C" fn incircle_constrained_piece_constraints(
 }
 
 /// Proves with the independent validator that these are the triangles of the plan's domain in the canonical mesh of the
-/// points of `mesh`. The status is `INCIRCLE_WRONG_MESH` if they are not.
+/// points of `mesh`. The status is `INCIRCLE_WRONG_MESH` if they are not. `mesh` may be null if `constrained` came from
+/// `incircle_triangulate_constrained`, which keeps the points.
 ///
 /// # Safety
 /// The pointers are as for `incircle_constrain`, and `constrained` is one that is not freed.
@@ -268,9 +283,14 @@ pub unsafe extern "C" fn incircle_constrained_verify(
 ) -> i32 {
     guarded(|| {
         // SAFETY: the caller promises the pointers.
-        let (constrained, mesh) = unsafe { (shared(constrained, "constrained")?, shared(mesh, "mesh")?) };
+        let constrained = unsafe { shared(constrained, "constrained") }?;
+        let mesh = match &constrained.own {
+            Some(own) if mesh.is_null() => own,
+            // SAFETY: the same.
+            _ => &unsafe { shared(mesh, "mesh") }?.0,
+        };
         // SAFETY: the same.
-        unsafe { mesh.0.verify_plan(&constrained.made.triangles, shared(plan, "plan")?) }
+        unsafe { mesh.verify_plan(&constrained.made.triangles, shared(plan, "plan")?) }
     })
 }
 
@@ -281,7 +301,7 @@ pub unsafe extern "C" fn incircle_constrained_verify(
 #[no_mangle]
 pub unsafe extern "C" fn incircle_constrained_free(constrained: *mut incircle_constrained) {
     if !constrained.is_null() {
-        // SAFETY: it came from `incircle_constrain`, and nobody uses it any more.
+        // SAFETY: it came from `boxed`, and nobody uses it any more.
         drop(unsafe { Box::from_raw(constrained) });
     }
 }

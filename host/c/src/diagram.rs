@@ -3,17 +3,17 @@
 
 use std::ffi::c_void;
 
-use incircle::{CellLists, VoronoiLists};
+use incircle::VoronoiLists;
 
 use crate::border::{exclusive, give, shared};
-use crate::grid::laid;
+use crate::grid::{laid, Border};
 use crate::mesh::of_type;
-use crate::status::{guarded, Failure, Outcome, INCIRCLE_CHOICE};
+use crate::status::{guarded, Failure, Outcome, INCIRCLE_INPUT};
 
 /// The Voronoi diagram of a set of points. Several threads may read one at a time.
 #[allow(non_camel_case_types)]
 pub struct incircle_diagram {
-    lists: VoronoiLists,
+    pub(crate) lists: VoronoiLists,
     largest_error: f64,
 }
 
@@ -39,26 +39,65 @@ pub unsafe extern "C" fn incircle_diagram_new(
     quantize: u32,
     diagram: *mut *mut incircle_diagram,
 ) -> i32 {
+    let border = Border::of_corners(clip, corner_count);
+    // SAFETY: the caller promises the pointers.
+    guarded(|| unsafe { make((points, count), &border, number, quantize, diagram) })
+}
+
+/// As `incircle_diagram_new`, with a clip that may have holes. `clip` has the corners of all rings, one ring behind the
+/// other: that around the polygon, then those of the holes, which lie side by side inside it. `ring_counts` says how
+/// many corners each of the `ring_count` rings has, three or more. Rings may turn either way, and do not touch.
+///
+/// The status is also `INCIRCLE_INPUT` for a hole that lies outside the polygon or inside another hole, and for rings
+/// that meet.
+///
+/// # Safety
+/// `ring_counts` points to `ring_count` numbers, `clip` to as many pairs of numbers as they add up to; the rest is as for
+/// `incircle_diagram_new`.
+#[no_mangle]
+#[allow(clippy::too_many_arguments)] // each list in C is a pointer and a count
+pub unsafe extern "C" fn incircle_diagram_new_with_holes(
+    points: *const c_void,
+    count: usize,
+    clip: *const c_void,
+    ring_counts: *const usize,
+    ring_count: usize,
+    number: u32,
+    quantize: u32,
+    diagram: *mut *mut incircle_diagram,
+) -> i32 {
     guarded(|| {
         // SAFETY: the caller promises the pointers.
-        let out = unsafe { exclusive(diagram, "diagram") }?;
-        *out = std::ptr::null_mut();
+        *unsafe { exclusive(diagram, "diagram") }? = std::ptr::null_mut();
+        if ring_count == 0 {
+            return Err(Failure::new(INCIRCLE_INPUT, "the clip has 0 rings: give one around the polygon, or more"));
+        }
         // SAFETY: the same.
-        let set = of_type!(number, P => unsafe { laid::<P>((points, count), (clip, corner_count), 0, quantize) })?;
-        let clip = (corner_count > 0).then(|| set.clip()).transpose()?;
-        let lists = VoronoiLists::of(&set, clip.as_ref())?;
-        let largest_error = set.quantization().map_or(0.0, |quantization| quantization.largest_error);
-        *out = Box::into_raw(Box::new(incircle_diagram { lists, largest_error }));
-        Ok(())
+        unsafe { make((points, count), &Border::of_rings(clip, ring_counts, ring_count)?, number, quantize, diagram) }
     })
 }
 
-/// A list of the cells inside the clip.
-fn of_cells<T>(diagram: &incircle_diagram, list: impl Fn(&CellLists) -> &[T]) -> Outcome<&[T]> {
-    match &diagram.lists.cells {
-        Some(cells) => Ok(list(cells)),
-        None => Err(Failure::new(INCIRCLE_CHOICE, "the diagram has no clip: give incircle_diagram_new one")),
-    }
+/// Makes a diagram for the caller.
+///
+/// # Safety
+/// The pointers are as for `incircle_diagram_new`.
+unsafe fn make(
+    points: (*const c_void, usize),
+    border: &Border,
+    number: u32,
+    quantize: u32,
+    diagram: *mut *mut incircle_diagram,
+) -> Outcome {
+    // SAFETY: the caller promises the pointers.
+    let out = unsafe { exclusive(diagram, "diagram") }?;
+    *out = std::ptr::null_mut();
+    // SAFETY: the same.
+    let set = of_type!(number, P => unsafe { laid::<P>(points, border, 0, quantize) })?;
+    let clip = (border.corner_count > 0).then(|| border.clip(&set)).transpose()?;
+    let lists = VoronoiLists::of(&set, clip.as_ref())?;
+    let largest_error = set.quantization().map_or(0.0, |quantization| quantization.largest_error);
+    *out = Box::into_raw(Box::new(incircle_diagram { lists, largest_error }));
+    Ok(())
 }
 
 /// The Voronoi vertices, all at different places: each coordinate is the double nearest to the exact one.
@@ -147,100 +186,6 @@ pub unsafe extern "C" fn incircle_diagram_largest_error(diagram: *const incircle
         // SAFETY: the caller promises the pointers.
         *unsafe { exclusive(error, "error") }? = unsafe { shared(diagram, "diagram") }?.largest_error;
         Ok(())
-    })
-}
-
-/// The corners of the pieces of all cells inside the clip, counter-clockwise, one piece behind the other. A cell has no
-/// piece, one, or several if the clip is not convex. The status is `INCIRCLE_CHOICE` if the diagram has no clip.
-///
-/// # Safety
-/// As for `incircle_diagram_vertices`.
-#[no_mangle]
-pub unsafe extern "C" fn incircle_diagram_cell_corners(
-    diagram: *const incircle_diagram,
-    buffer: *mut [f64; 2],
-    room: usize,
-    count: *mut usize,
-) -> i32 {
-    // SAFETY: the caller promises the pointers.
-    guarded(|| unsafe { give(of_cells(shared(diagram, "diagram")?, |cells| &cells.corners)?, buffer, room, count) })
-}
-
-/// Where each piece begins in `incircle_diagram_cell_corners`. There is one item more than pieces: the end of the last.
-///
-/// # Safety
-/// As for `incircle_diagram_vertices`.
-#[no_mangle]
-pub unsafe extern "C" fn incircle_diagram_piece_starts(
-    diagram: *const incircle_diagram,
-    buffer: *mut u64,
-    room: usize,
-    count: *mut usize,
-) -> i32 {
-    // SAFETY: the caller promises the pointers.
-    guarded(|| unsafe { give(of_cells(shared(diagram, "diagram")?, |cells| &cells.starts)?, buffer, room, count) })
-}
-
-/// The point to which each piece belongs, in rising order.
-///
-/// # Safety
-/// As for `incircle_diagram_vertices`.
-#[no_mangle]
-pub unsafe extern "C" fn incircle_diagram_piece_points(
-    diagram: *const incircle_diagram,
-    buffer: *mut u32,
-    room: usize,
-    count: *mut usize,
-) -> i32 {
-    // SAFETY: the caller promises the pointers.
-    guarded(|| unsafe { give(of_cells(shared(diagram, "diagram")?, |cells| &cells.points)?, buffer, room, count) })
-}
-
-/// The area of the cell of each point inside the clip; 0 for a duplicate.
-///
-/// # Safety
-/// As for `incircle_diagram_vertices`.
-#[no_mangle]
-pub unsafe extern "C" fn incircle_diagram_areas(
-    diagram: *const incircle_diagram,
-    buffer: *mut f64,
-    room: usize,
-    count: *mut usize,
-) -> i32 {
-    // SAFETY: the caller promises the pointers.
-    guarded(|| unsafe { give(of_cells(shared(diagram, "diagram")?, |cells| &cells.areas)?, buffer, room, count) })
-}
-
-/// The points whose cells share an edge inside the clip, one cell behind the other, each in rising order.
-///
-/// # Safety
-/// As for `incircle_diagram_vertices`.
-#[no_mangle]
-pub unsafe extern "C" fn incircle_diagram_inside(
-    diagram: *const incircle_diagram,
-    buffer: *mut u32,
-    room: usize,
-    count: *mut usize,
-) -> i32 {
-    // SAFETY: the caller promises the pointers.
-    guarded(|| unsafe { give(of_cells(shared(diagram, "diagram")?, |cells| &cells.neighbors)?, buffer, room, count) })
-}
-
-/// Where the items of each point begin in `incircle_diagram_inside`. There is one item more than points: the end of the
-/// last.
-///
-/// # Safety
-/// As for `incircle_diagram_vertices`.
-#[no_mangle]
-pub unsafe extern "C" fn incircle_diagram_inside_starts(
-    diagram: *const incircle_diagram,
-    buffer: *mut u64,
-    room: usize,
-    count: *mut usize,
-) -> i32 {
-    // SAFETY: the caller promises the pointers.
-    guarded(|| unsafe {
-        give(of_cells(shared(diagram, "diagram")?, |cells| &cells.neighbor_starts)?, buffer, room, count)
     })
 }
 

@@ -4,13 +4,15 @@
 use std::ffi::c_void;
 use std::num::NonZeroUsize;
 
-use incircle::lloyd::{relax, End, Relaxed, Stop};
-use incircle::GridSetError;
+use incircle::lloyd::{relax, relax_weighted, Density, End, Relaxed, Stop};
+use incircle::voronoi::Clip;
+use incircle::{GridSetError, MAX_POINTS};
 
-use crate::border::{exclusive, give, shared};
-use crate::grid::laid;
+use crate::border::{copied, exclusive, give, look_for_memory, shared};
+use crate::grid::{laid, Border};
 use crate::mesh::of_type;
-use crate::status::{guarded, Failure, Outcome, INCIRCLE_ARGUMENT, INCIRCLE_BUFFER, INCIRCLE_CHOICE};
+use crate::status::{guarded, Failure, Outcome, INCIRCLE_ARGUMENT, INCIRCLE_BUFFER};
+use crate::status::{INCIRCLE_CAPACITY, INCIRCLE_CHOICE, INCIRCLE_INPUT};
 
 /// All steps of a relaxation were done.
 pub const INCIRCLE_ITERATIONS: u32 = 0;
@@ -21,6 +23,8 @@ pub const INCIRCLE_CYCLE: u32 = 2;
 
 /// Bits below the lattice that a relaxation needs for places between the points.
 const SPARE_BITS: u32 = 8;
+/// The bytes that a pixel of a density takes, with the copy that it is made of.
+const BYTES_OF_A_PIXEL: usize = 20;
 
 /// The choices for a relaxation. Set all to 0 and `size` to `sizeof(incircle_relaxation)` first.
 #[allow(non_camel_case_types)]
@@ -42,6 +46,19 @@ pub struct incircle_relaxation {
     pub clip: *const c_void,
     /// The number of these corners.
     pub corner_count: usize,
+    /// How many of the corners each ring has, if the clip is a polygon with holes: that around the polygon, then those of
+    /// the holes, as for `incircle_diagram_new_with_holes`. Null stands for a clip without holes.
+    pub ring_counts: *const usize,
+    /// The number of rings, or 0.
+    pub ring_count: usize,
+    /// How densely points are to lie: `rows` rows of `columns` weights, stretched over the smallest rectangle around the
+    /// clip, with the first row at the largest y as in images. A point moves to the centre of mass of its cell. Null
+    /// stands for the same weight everywhere.
+    pub density: *const u16,
+    /// Weights in a row.
+    pub columns: usize,
+    /// Rows of weights.
+    pub rows: usize,
 }
 
 /// The outcome of a relaxation.
@@ -65,8 +82,9 @@ pub struct incircle_relaxed {
 /// threads. `relaxed` says what was done, and may be null.
 ///
 /// Points and clip must lie on a lattice of up to 23 bits, or are rounded onto one by `INCIRCLE_QUANTIZE`. The status
-/// is `INCIRCLE_INPUT` for points and clips that `incircle_diagram_new` refuses, and for a rectangle around the points
-/// that has no area. `places` has room for `room` points; with less room than points the status is `INCIRCLE_BUFFER`.
+/// is `INCIRCLE_INPUT` for points and clips that `incircle_diagram_new` refuses, for a rectangle around the points that
+/// has no area, for rings whose corners are not `corner_count`, and for a density without weights or whose weights are
+/// all 0. `places` has room for `room` points; with less room than points the status is `INCIRCLE_BUFFER`.
 ///
 /// # Safety
 /// The pointers of the choices are as described there, and the others point to what is said above.
@@ -88,13 +106,22 @@ pub unsafe extern "C" fn incircle_lloyd(
             let text = format!("the buffer has room for {room} items, but there are {count}: give a larger one");
             return Err(Failure::new(INCIRCLE_BUFFER, text));
         }
-        let (corners, quantize) = ((choices.clip, choices.corner_count), choices.quantize);
         // SAFETY: the same.
-        let set = of_type!(number, P => unsafe { laid::<P>((points, count), corners, SPARE_BITS, quantize) })?;
+        let border = unsafe { border_of(choices) }?;
+        let quantize = choices.quantize;
+        // SAFETY: the same.
+        let set = of_type!(number, P => unsafe { laid::<P>((points, count), &border, SPARE_BITS, quantize) })?;
+        let clip = border.clip(&set)?;
+        // SAFETY: the same.
+        let density = unsafe { density_of(choices, &clip) }?;
         let (threads, most) = (NonZeroUsize::new(choices.threads as usize), std::thread::available_parallelism().ok());
         let threads = threads.or(most).unwrap_or(NonZeroUsize::MIN);
-        let Relaxed { points, iterations, moved, end } =
-            relax(set.points().to_vec(), &set.clip()?, stop, threads).map_err(GridSetError::from)?;
+        let start = set.points().to_vec();
+        let relaxed_points = match density {
+            None => relax(start, &clip, stop, threads),
+            Some(density) => relax_weighted(start, &clip, &density, stop, threads),
+        };
+        let Relaxed { points, iterations, moved, end } = relaxed_points.map_err(GridSetError::from)?;
         let found: Vec<[f64; 2]> = points.iter().map(|&point| set.restore(point)).collect();
         if count > 0 {
             // SAFETY: the same.
@@ -110,6 +137,44 @@ pub unsafe extern "C" fn incircle_lloyd(
         }
         Ok(())
     })
+}
+
+/// The corners of the region to fill.
+///
+/// # Safety
+/// The pointers of the choices are as described there.
+unsafe fn border_of(choices: &incircle_relaxation) -> Outcome<Border> {
+    let &incircle_relaxation { clip, corner_count, ring_counts, ring_count, .. } = choices;
+    if ring_counts.is_null() && ring_count == 0 {
+        return Ok(Border::of_corners(clip, corner_count));
+    }
+    // SAFETY: the caller promises the counts.
+    let border = unsafe { Border::of_rings(clip, ring_counts, ring_count) }?;
+    if border.corner_count != corner_count || ring_count == 0 {
+        return Err(GridSetError::RingCounts { have: border.corner_count, corners: corner_count }.into());
+    }
+    Ok(border)
+}
+
+/// The density over a clip; `None` if there are no weights.
+///
+/// # Safety
+/// The pointers of the choices are as described there.
+unsafe fn density_of(choices: &incircle_relaxation, clip: &Clip) -> Outcome<Option<Density>> {
+    let &incircle_relaxation { density, columns, rows, .. } = choices;
+    if density.is_null() && columns == 0 && rows == 0 {
+        return Ok(None);
+    }
+    let pixels = columns.checked_mul(rows).filter(|&pixels| pixels <= MAX_POINTS);
+    let pixels = pixels.ok_or_else(|| {
+        let text = format!("{rows} rows of {columns} weights are too many: give at most {MAX_POINTS} weights");
+        Failure::new(INCIRCLE_CAPACITY, text)
+    })?;
+    look_for_memory(pixels * BYTES_OF_A_PIXEL)?;
+    // SAFETY: the caller promises the weights.
+    let weights: Vec<u16> = unsafe { copied(density.cast(), pixels, "density") }?;
+    let density = Density::over(clip, columns, &weights);
+    density.map(Some).map_err(|error| Failure::new(INCIRCLE_INPUT, error.to_string()))
 }
 
 fn number_of(end: End) -> u32 {

@@ -6,7 +6,7 @@ use std::num::NonZeroU32;
 use std::ops::ControlFlow;
 
 use incircle::constraints::Constrained;
-use incircle::{Device, Mesh, Options, PlanePoint, Progress};
+use incircle::{Device, Mesh, Options, PlanePoint, Progress, Session};
 
 use crate::border::{copied, exclusive, give, look_for_memory, shared, text};
 use crate::constrained::{forced, incircle_plan, proved};
@@ -180,7 +180,7 @@ pub(crate) fn boxed<P: PlanePoint + Send + Sync + 'static>(mesh: Mesh<P>) -> *mu
 }
 
 /// The choices of the caller, checked.
-struct Choices<'a> {
+pub(crate) struct Choices<'a> {
     backend: Option<&'a str>,
     threads: Option<NonZeroU32>,
     progress: incircle_progress,
@@ -190,7 +190,7 @@ struct Choices<'a> {
 impl Choices<'_> {
     /// # Safety
     /// The pointer is null, or points to options whose pointers are as described there.
-    unsafe fn of(options: *const incircle_options) -> Outcome<Self> {
+    pub(crate) unsafe fn of(options: *const incircle_options) -> Outcome<Self> {
         if options.is_null() {
             return Ok(Self { backend: None, threads: None, progress: None, user: std::ptr::null_mut() });
         }
@@ -220,6 +220,11 @@ impl Choices<'_> {
 
     fn solve<P: PlanePoint>(&self, points: Vec<P>) -> Outcome<Mesh<P>> {
         look_for_memory(points.len() * BYTES_OF_A_JOB)?;
+        self.run(|session, options| Ok(session.triangulate_owned(points, options)?.mesh))
+    }
+
+    /// Does a job with the back end of the choices, which tells the progress.
+    pub(crate) fn run<T>(&self, job: impl FnOnce(&mut Session<'_>, &Options<'_>) -> Outcome<T>) -> Outcome<T> {
         let mut device = match self.backend {
             None | Some("cpu") => Device::cpu(self.threads),
             Some(address) => Device::open(address)?,
@@ -229,7 +234,8 @@ impl Choices<'_> {
         if self.progress.is_some() {
             options = options.progress(&listener);
         }
-        Ok(device.session()?.triangulate_owned(points, &options)?.mesh)
+        let mut session = device.session()?;
+        job(&mut session, &options)
     }
 
     fn tell(&self, Progress { stage, done, total }: Progress) -> ControlFlow<()> {

@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use std::ffi::c_char;
 use std::panic::{catch_unwind, AssertUnwindSafe};
 
-use incircle::{living, Error, ErrorKind};
+use incircle::{living, ConstrainedError, Error, ErrorKind};
 
 use crate::border::fill;
 
@@ -70,6 +70,15 @@ impl From<Error> for Failure {
             _ => INCIRCLE_DEVICE,
         };
         Self::new(status, error.to_string())
+    }
+}
+
+impl From<ConstrainedError> for Failure {
+    fn from(error: ConstrainedError) -> Self {
+        match error {
+            ConstrainedError::Job(error) => error.into(),
+            error => Self::new(INCIRCLE_INPUT, error.to_string()),
+        }
     }
 }
 

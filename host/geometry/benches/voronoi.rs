@@ -25,6 +25,29 @@ fn now(since: Instant) -> f64 {
     nanoseconds.map_or_else(|| since.elapsed().as_secs_f64(), |nanoseconds| nanoseconds / 1e9)
 }
 
+/// The processor time of all threads of this process so far, in steps of a hundredth of a second. 0 where the system does
+/// not tell.
+fn of_all_threads() -> f64 {
+    let text = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    // The name of the program, in brackets, may have spaces.
+    let behind = text.rsplit(')').next().unwrap_or_default();
+    let ticks = behind.split_whitespace().skip(11).take(2).filter_map(|number| number.parse::<f64>().ok());
+    ticks.sum::<f64>() / 100.0
+}
+
+/// The least seconds by the wall and of processor time of two kinds of work that take turns.
+fn in_turns(mut works: [&mut dyn FnMut(); 2]) -> [[f64; 2]; 2] {
+    let mut least = [[f64::INFINITY; 2]; 2];
+    for turn in 0..4 * RUNS {
+        let (since, begin) = (Instant::now(), of_all_threads());
+        works[turn % 2]();
+        let [wall, processor] = &mut least[turn % 2];
+        *wall = wall.min(since.elapsed().as_secs_f64());
+        *processor = processor.min(of_all_threads() - begin);
+    }
+    least
+}
+
 fn best(mut run: impl FnMut()) -> f64 {
     let time = |_| {
         let since = Instant::now();
@@ -67,5 +90,18 @@ fn main() {
     let near: Vec<Point> = order.iter().map(|&index| points[index as usize]).collect();
     let step_time = best(|| drop(black_box(lloyd::step(&near, &clip, NonZeroUsize::MIN))));
     println!("a step of Lloyd's relaxation {step_time:.3} s");
+    let two = NonZeroUsize::MIN.saturating_add(1);
+    let mesh = || drop(black_box(cpu::triangulate(near.clone(), two, &mut |_| ControlFlow::Continue(()))));
+    let step = || drop(black_box(lloyd::step(&near, &clip, two)));
+    let [mesh, step] = in_turns([&mut { mesh }, &mut { step }]);
+    println!(
+        "two threads, in turns: mesh {:.3} s, step {:.3} s, {:.2} times; processor time {:.2} s, {:.2} s, {:.2} times",
+        mesh[0],
+        step[0],
+        step[0] / mesh[0],
+        mesh[1],
+        step[1],
+        step[1] / mesh[1]
+    );
     println!("in all {whole:.3} s; cells in a square with their areas {clipped_time:.3} s more");
 }

@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native, _shapely
-from ._errors import ChoiceError, InputError, UnknownPointError
-from ._input import as_points, as_type, check_finite, refuse_mask
+from ._clip import border
+from ._errors import ChoiceError, UnknownPointError
+from ._input import as_points, as_weights, check_finite
 from ._triangulate import MAX_THREADS
 
 MOST_STEPS = 100_000
@@ -20,18 +21,21 @@ MOST_STEPS = 100_000
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Cells:
-    """The cells of a set of points inside a clip, as flat arrays.
+    """The cells of a set of points inside a clip, as flat arrays of rings.
 
-    A cell may have no piece, one, or several if the clip is not convex.
+    A cell may have no piece, one, or several if the clip is not convex. Each piece is one ring around it, and a ring for
+    each hole of the clip that lies inside it.
     """
 
     corners: NDArray[np.float64]
-    """The corners of all pieces, counter-clockwise, one piece behind the other. Each coordinate is exact up to one
-    rounding."""
+    """The corners of all rings, one ring behind the other: counter-clockwise around a piece, clockwise around a hole.
+    Each coordinate is exact up to one rounding."""
     starts: NDArray[np.uint64]
-    """The corners of piece `k` are `corners[starts[k]:starts[k + 1]]`."""
+    """The corners of ring `k` are `corners[starts[k]:starts[k + 1]]`."""
     points: NDArray[np.uint32]
-    """The point to which each piece belongs, in rising order."""
+    """The point to which each ring belongs, in rising order."""
+    is_hole: NDArray[np.bool_]
+    """Whether each ring bounds a hole of the last piece before it."""
     areas: NDArray[np.float64]
     """The area of the cell of each point inside the clip; 0 for a duplicate."""
     neighbors: NDArray[np.uint32]
@@ -40,7 +44,28 @@ class Cells:
     """The neighbours of point `i` are `neighbors[neighbor_starts[i]:neighbor_starts[i + 1]]`."""
 
     def pieces(self, point: int) -> list[NDArray[np.float64]]:
-        """The pieces of the cell of a point: their corners, counter-clockwise.
+        """The pieces of the cell of a point: the corners of the ring around each, counter-clockwise.
+
+        Raises
+        ------
+        UnknownPointError
+            There is no point of the index.
+        """
+        return [rings[0] for rings in self.rings(point)]
+
+    def rings(self, point: int) -> list[list[NDArray[np.float64]]]:
+        """The pieces of the cell of a point with their holes, in the form of the coordinates of GeoJSON.
+
+        Each piece is a list of rings: that around it, counter-clockwise, and those of its holes, clockwise. The first
+        corner of a ring is not repeated at its end.
+
+        >>> import incircle
+        >>> clip, hole = [(0, 0), (9, 0), (9, 9), (0, 9)], [(1, 1), (3, 1), (1, 3)]
+        >>> cells = incircle.voronoi([(5, 5)], clip, holes=[hole]).cells
+        >>> [ring.tolist() for ring in cells.rings(0)[0]]
+        [[[0.0, 0.0], [9.0, 0.0], [9.0, 9.0], [0.0, 9.0]], [[1.0, 3.0], [3.0, 1.0], [1.0, 1.0]]]
+        >>> cells.areas.tolist()
+        [79.0]
 
         Raises
         ------
@@ -49,10 +74,18 @@ class Cells:
         """
         number = _index(point, len(self.areas))
         first, end = np.searchsorted(self.points, [number, number + 1])
-        return [self.corners[self.starts[piece] : self.starts[piece + 1]] for piece in range(first, end)]
+        pieces: list[list[NDArray[np.float64]]] = []
+        for ring in range(first, end):
+            corners = self.corners[self.starts[ring] : self.starts[ring + 1]]
+            if self.is_hole[ring]:
+                pieces[-1].append(corners)
+            else:
+                pieces.append([corners])
+        return pieces
 
     def __repr__(self) -> str:
-        return f"Cells({len(self.areas)} points, {len(self.points)} pieces)"
+        pieces = len(self.points) - np.count_nonzero(self.is_hole)
+        return f"Cells({len(self.areas)} points, {pieces} pieces)"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -111,7 +144,7 @@ class Voronoi:
         """
         if self.cells is None:
             raise ChoiceError("cells without an end are no polygons: give voronoi a clip")
-        return _shapely.cells([self.cells.pieces(point) for point in range(len(self.points))])
+        return _shapely.cells([self.cells.rings(point) for point in range(len(self.points))])
 
     def __repr__(self) -> str:
         return (
@@ -135,7 +168,7 @@ class Relaxed:
     """The farthest that `quantize` moved a point along an axis at the beginning; `None` if nothing was rounded."""
 
 
-def voronoi(points: Any, clip: Any = None, *, quantize: str | None = None) -> Voronoi:
+def voronoi(points: Any, clip: Any = None, *, holes: Any = None, quantize: str | None = None) -> Voronoi:
     """Makes the Voronoi diagram of a set of points, and clips its cells exactly.
 
     O(n log n). The answer depends on the points alone: where four or more points lie on one empty circle, its centre is
@@ -147,21 +180,28 @@ def voronoi(points: Any, clip: Any = None, *, quantize: str | None = None) -> Vo
         Points as for `triangulate`. Together with the clip they must lie on a lattice of up to 31 bits, as whole
         numbers, float32 of similar size, and decimals times a power of ten do. Most doubles do not: see `quantize`.
     clip
-        `None` for the diagram alone; x0, y0, x1 and y1 of a rectangle; `"box"` for the rectangle around the points; or
-        an array of the corners of a simple polygon. Its numbers must fit the type of the points.
+        `None` for the diagram alone; x0, y0, x1 and y1 of a rectangle; `"box"` for the rectangle around the points; an
+        array of the corners of a simple polygon; or a polygon of shapely, which may have holes. Its numbers must fit
+        the type of the points.
+    holes
+        Holes of the clip, into which no cell reaches: a list with an array of three or more corners for each. They lie
+        side by side inside the clip, and touch neither it nor one another.
     quantize
         `"fit"` rounds points and clip onto a grid of 31 bits, and `largest_error` says by how much.
 
     Raises
     ------
     InputError
-        Points as for `triangulate`, points on no lattice of 31 bits, or a clip without area or that crosses itself.
+        Points as for `triangulate`, points on no lattice of 31 bits, a clip without area or that crosses itself, or a
+        hole that meets another ring or lies outside the clip.
     ChoiceError
-        Another value of `quantize`.
+        Another value of `quantize`, or holes without a clip.
     """
     array = as_points(points)
-    corners = _corners(clip, array.dtype)
-    made = _native.voronoi(check_finite(array), corners, clip is not None, _is_fitted(quantize))
+    if clip is None and holes is not None:
+        raise ChoiceError("there are holes, but no clip: give a clip around them, or leave them out")
+    edge = border(clip, holes, check_finite(array))
+    made = _native.voronoi(array, edge, clip is not None, _is_fitted(quantize))
     clipped = made.pop("clipped")
     return Voronoi(points=array, cells=None if clipped is None else Cells(**clipped), **made)
 
@@ -172,6 +212,8 @@ def lloyd(
     *,
     until_still: bool = False,
     clip: Any = None,
+    holes: Any = None,
+    density: Any = None,
     threads: int | None = None,
     quantize: str | None = None,
 ) -> Relaxed:
@@ -184,6 +226,12 @@ def lloyd(
     >>> relaxed.end, relaxed.points.round(3).tolist()
     ('still', [[3.173, 2.316], [3.173, 7.684], [8.038, 5.0]])
 
+    With a `density`, every point moves to the centre of mass of its cell, so points gather where the density is high.
+    Here the left half of a rectangle weighs three times as much as the right one:
+
+    >>> incircle.lloyd([(7, 7)], 1, clip=(0, 0, 400, 100), density=[[3, 1]]).points.tolist()
+    [[150.0, 50.0]]
+
     Parameters
     ----------
     points
@@ -194,6 +242,12 @@ def lloyd(
         Ends also when no point moves, or when a state comes again.
     clip
         The region to fill, as for `voronoi`; `None` stands for the rectangle around the points.
+    holes
+        Holes of the region, as for `voronoi`.
+    density
+        How much each place weighs: an array of two dimensions with whole numbers from 0 to 65,535, such as the grey
+        values of an image. It is stretched over the smallest rectangle around the clip, with row 0 at the largest y as
+        in images. For an image in which points are to gather where it is dark, give `255 - image`.
     threads
         The most threads, 1 to 256. `None` allows one for each processor.
     quantize
@@ -202,7 +256,9 @@ def lloyd(
     Raises
     ------
     InputError
-        As for `voronoi`.
+        As for `voronoi`; a density of another shape, with a weight that is not possible, or without any weight.
+    NumberTypeError
+        A density of other numbers than whole ones.
     ChoiceError
         Neither `iterations` nor `until_still`, an impossible number, or another value of `quantize`.
     """
@@ -212,9 +268,10 @@ def lloyd(
     if not 1 <= steps < 2**32:
         raise ChoiceError(f"{steps} iterations are not possible: choose 1 to {2**32 - 1}")
     array = as_points(points)
-    corners = _corners("box" if clip is None else clip, array.dtype)
+    edge = border("box" if clip is None else clip, holes, check_finite(array))
+    weights = None if density is None else as_weights(density)
     stop = (steps, bool(until_still))
-    return Relaxed(*_native.spread(check_finite(array), corners, stop, check_threads(threads), _is_fitted(quantize)))
+    return Relaxed(*_native.spread(array, edge, stop, check_threads(threads), _is_fitted(quantize), weights))
 
 
 def _index(point: int, count: int) -> int:
@@ -239,23 +296,3 @@ def _is_fitted(quantize: str | None) -> bool:
     if quantize not in (None, "fit"):
         raise ChoiceError(f"quantize is {quantize!r}: give 'fit', or leave it out")
     return quantize is not None
-
-
-def _corners(clip: Any, dtype: np.dtype[Any]) -> NDArray[Any]:
-    """The corners of a clip in the type of the points: two of a rectangle, three or more of a ring, or none."""
-    if clip is None or (isinstance(clip, str) and clip == "box"):
-        return np.empty((0, 2), dtype)
-    if isinstance(clip, np.ma.MaskedArray):
-        refuse_mask("corners of the clip", clip, "coordinates")
-    try:
-        array = np.asarray(clip)
-    except ValueError as error:
-        raise InputError(f"the clip is no array of two columns, because numpy says: {error}") from error
-    if array.shape == (4,):
-        array = array.reshape(2, 2)
-    elif array.ndim != 2 or array.shape[1] != 2 or len(array) < 3:
-        raise InputError(
-            f"the clip has the shape {array.shape}: give x0, y0, x1 and y1, 'box', or three or more corners of a "
-            "polygon"
-        )
-    return check_finite(as_type(array, dtype, "corner"), "corner")

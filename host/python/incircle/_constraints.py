@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from . import _native
 from ._errors import ChoiceError, InputError
 from ._input import as_type, check_finite, refuse_mask
-from ._mesh import Mesh
+from ._mesh import Mesh, Report
 
 DOMAINS = ("all", "holes", "even-odd", "non-zero")
 
@@ -115,6 +115,13 @@ def constrained(mesh: Mesh, asked: Asked) -> ConstrainedMesh:
     return ConstrainedMesh(
         mesh.points, triangles, mesh.hull, mesh.duplicates, mesh.report, mesh._crs, _asked=asked, **made
     )
+
+
+def constrained_of(parts: Any, asked: Asked, crs: Any) -> ConstrainedMesh:
+    """The mesh of what the compiled half made of points and constraints in one job."""
+    points, hull, duplicates, report, made = parts
+    triangles = made.pop("triangles")
+    return ConstrainedMesh(points, triangles, hull, duplicates, Report.of(report), crs, _asked=asked, **made)
 
 
 def _pairs(constraints: Any) -> NDArray[np.uint32]:

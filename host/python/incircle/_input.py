@@ -66,6 +66,30 @@ def as_values(values: Any, count: int) -> NDArray[np.float64]:
     return heights
 
 
+def as_weights(density: Any) -> NDArray[np.uint16]:
+    """The weights of a density: rows of whole numbers of 16 bits."""
+    if isinstance(density, np.ma.MaskedArray):
+        raise InputError("the density is a masked array: give a plain array, in which hidden places weigh 0")
+    try:
+        array = np.asarray(density)
+    except ValueError as error:
+        raise InputError(f"the density is no array, because numpy says: {error}") from error
+    if array.ndim != 2 or array.size == 0:
+        raise InputError(f"the density has the shape {array.shape}: give an array of two dimensions, row by row")
+    if array.dtype.kind not in "biu":
+        raise NumberTypeError(
+            f"the density has the type {array.dtype}: give whole numbers from 0 to 65535, such as "
+            "numpy.rint(density * (65535 / density.max())).astype(numpy.uint16)"
+        )
+    wrong = np.argwhere((array < 0) | (array > np.iinfo(np.uint16).max))
+    if len(wrong):
+        row, column = (int(place) for place in wrong[0])
+        raise InputError(
+            f"the weight in row {row} and column {column} of the density is {array[row, column]}: give 0 to 65535"
+        )
+    return np.ascontiguousarray(array, dtype=np.uint16)
+
+
 def _array(points: Any, item: str) -> NDArray[Any]:
     try:
         return np.asarray(points)

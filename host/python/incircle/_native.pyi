@@ -12,6 +12,7 @@ __all__ = [
     "neighbors",
     "spread",
     "triangulate",
+    "triangulate_constrained",
     "verify",
     "verify_plan",
     "voronoi",
@@ -23,6 +24,13 @@ def triangulate(
     threads: int | None,
     progress: Callable[[str, int, int], Any] | None,
 ) -> tuple[NDArray[Any], NDArray[np.uint32], NDArray[np.uint32], NDArray[np.uint32], dict[str, Any]]: ...
+def triangulate_constrained(
+    points: NDArray[Any],
+    backends: list[str],
+    threads: int | None,
+    progress: Callable[[str, int, int], Any] | None,
+    asked: Any,
+) -> tuple[NDArray[Any], NDArray[np.uint32], NDArray[np.uint32], dict[str, Any], dict[str, Any]]: ...
 def library(points: NDArray[Any], threads: int | None) -> tuple[float, NDArray[np.uint32]]: ...
 def halfedges(triangles: NDArray[np.uint32]) -> NDArray[Any]: ...
 def neighbors(triangles: NDArray[np.uint32]) -> NDArray[np.int32]: ...
@@ -40,13 +48,16 @@ def constrained(
     asked: Any,
 ) -> dict[str, Any]: ...
 def verify_plan(points: NDArray[Any], triangles: NDArray[np.uint32], asked: Any) -> None: ...
-def voronoi(points: NDArray[Any], corners: NDArray[Any], is_clipped: bool, quantize: bool) -> dict[str, Any]: ...
+def voronoi(
+    points: NDArray[Any], border: tuple[NDArray[Any], list[int]], is_clipped: bool, quantize: bool
+) -> dict[str, Any]: ...
 def spread(
     points: NDArray[Any],
-    corners: NDArray[Any],
+    border: tuple[NDArray[Any], list[int]],
     stop: tuple[int, bool],
     threads: int | None,
     quantize: bool,
+    density: NDArray[np.uint16] | None,
 ) -> tuple[NDArray[np.float64], int, int, str, float | None]: ...
 
 @final

@@ -47,6 +47,17 @@ def _geometries(points: Any, shapely: Any) -> NDArray[Any] | None:
     return array
 
 
+def rings(clip: Any) -> list[NDArray[np.float64]] | None:
+    """The rings of a polygon of shapely, first the one around it; `None` for anything that is no geometry."""
+    shapely = sys.modules.get("shapely")
+    if shapely is None or not isinstance(clip, shapely.Geometry):
+        return None
+    if clip.geom_type != "Polygon" or clip.is_empty:
+        kind = "an empty polygon" if clip.geom_type == "Polygon" else f"a {clip.geom_type}"
+        raise InputError(f"the clip is {kind}: give a polygon with area")
+    return [shapely.get_coordinates(ring) for ring in (clip.exterior, *clip.interiors)]
+
+
 def crs_of(points: Any) -> Any:
     """The coordinate reference system of a table or series of geopandas."""
     return getattr(points, "crs", None) if type(points).__module__.startswith("geopandas") else None
@@ -69,11 +80,14 @@ def frame(points: NDArray[Any], triangles: NDArray[Any], crs: Any) -> Any:
     return geopandas.GeoDataFrame(columns, geometry=polygons(points, triangles), crs=crs)
 
 
-def cells(pieces: list[list[NDArray[Any]]]) -> NDArray[Any]:
-    """Cells as an array of shapely: a polygon, a multipolygon of several pieces, or an empty polygon for none."""
+def cells(pieces: list[list[list[NDArray[Any]]]]) -> NDArray[Any]:
+    """Cells as an array of shapely: a polygon, a multipolygon of several pieces, or an empty polygon for none.
+
+    A cell is a list of pieces, and a piece a list of rings.
+    """
     import shapely
 
-    shapes = [[shapely.Polygon(piece) for piece in cell] for cell in pieces]
+    shapes = [[shapely.Polygon(rings[0], rings[1:]) for rings in cell] for cell in pieces]
     return np.array(
         [one[0] if len(one) == 1 else shapely.MultiPolygon(one) if one else shapely.Polygon() for one in shapes],
         dtype=object,

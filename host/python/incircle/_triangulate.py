@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from . import _native
-from ._constraints import asked, constrained
+from ._constraints import asked, constrained, constrained_of
 from ._errors import ChoiceError
 from ._input import as_points
 from ._mesh import Mesh, Report
@@ -98,6 +98,9 @@ def triangulate(
     array = as_points(points)
     is_plain = all(choice is None for choice in (constraints, domain, holes, regions)) and lines == 0
     plan = None if is_plain else asked(constraints, domain, lines, holes, regions, array.dtype)
+    if plan is not None and len(addresses) < 2:
+        parts = _native.triangulate_constrained(array, addresses, threads, listener(progress), plan)
+        return constrained_of(parts, plan, crs_of(points))
     found, triangles, hull, duplicates, report = _native.triangulate(array, addresses, threads, listener(progress))
     mesh = Mesh(found, triangles, hull, duplicates, Report.of(report), crs_of(points))
     return mesh if plan is None else constrained(mesh, plan)

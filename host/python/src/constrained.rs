@@ -1,6 +1,6 @@
-//! Constraints forced into a finished mesh, and the proof of a constrained mesh.
+//! Constraints as they come from Python, forced into a finished mesh, and the proof of a constrained mesh.
 
-use incircle::constraints::{constrain, Domain, Plan};
+use incircle::constraints::{constrain, Constrained, Domain, Plan};
 use incircle::verify::verify_constrained;
 use incircle::{Duplicate, Mesh, PlanePoint};
 use numpy::{Element, PyArray1};
@@ -24,8 +24,8 @@ pub struct Asked<'py> {
 }
 
 /// The same in Rust.
-struct Wanted<P> {
-    constraints: Vec<[u32; 2]>,
+pub struct Wanted<P> {
+    pub constraints: Vec<[u32; 2]>,
     lines: usize,
     domain: Domain,
     holes: Vec<P>,
@@ -33,7 +33,7 @@ struct Wanted<P> {
 }
 
 impl<T: Element + Copy> Wanted<[T; 2]> {
-    fn of(asked: &Asked<'_>) -> PyResult<Self> {
+    pub fn of(asked: &Asked<'_>) -> PyResult<Self> {
         let wrong = || PyTypeError::new_err("constraints are pairs of uint32, and holes and regions like the points");
         let domain = asked.domain.parse::<Domain>();
         Ok(Self {
@@ -47,7 +47,7 @@ impl<T: Element + Copy> Wanted<[T; 2]> {
 }
 
 impl<P> Wanted<P> {
-    fn plan(&self) -> Plan<'_, P> {
+    pub fn plan(&self) -> Plan<'_, P> {
         let Self { constraints, lines, domain, holes, regions } = self;
         Plan { constraints, lines: *lines, domain: *domain, holes, regions }
     }
@@ -76,7 +76,11 @@ where
 {
     look_for_memory(py, mesh.points.len() + wanted.constraints.len(), BYTES_OF_A_CONSTRAINT)?;
     let made = py.detach(|| constrain(&mesh, &wanted.plan()));
-    let made = made.map_err(|error| bad_input(py, &error.to_string()))?;
+    described_plan(py, made.map_err(|error| bad_input(py, &error.to_string()))?)
+}
+
+/// What constraints made of a mesh, as a dictionary with the names of the library.
+pub fn described_plan(py: Python<'_>, made: Constrained) -> PyResult<Bound<'_, PyDict>> {
     let mut starts = vec![0u32];
     let mut constraints = Vec::new();
     for (_, some) in made.pieces.iter() {

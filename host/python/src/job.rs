@@ -3,14 +3,14 @@
 use std::num::NonZeroU32;
 use std::time::Instant;
 
-use incircle::{Device, Duplicate, Error, Fleet, Mesh, Options, PlanePoint, Report, Solution, EMPTY};
+use incircle::{ConstrainedError, Device, Duplicate, Error, Fleet, Mesh, Options, PlanePoint, Report, Solution, EMPTY};
 use numpy::{Element, PyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::constrained::triangle_list;
-use crate::error::{exception, of_job};
-use crate::memory::{look_for_memory, BYTES_OF_A_JOB, BYTES_OF_A_TRIANGLE};
+use crate::constrained::{described_plan, triangle_list, Asked, Wanted};
+use crate::error::{bad_input, exception, of_job};
+use crate::memory::{look_for_memory, BYTES_OF_A_CONSTRAINT, BYTES_OF_A_JOB, BYTES_OF_A_TRIANGLE};
 use crate::points::{array, of_any_type, Points};
 use crate::watch::Watch;
 
@@ -36,7 +36,7 @@ pub fn library<'py>(points: &Bound<'py, PyAny>, threads: Option<NonZeroU32>) -> 
 
 /// Why there is no mesh.
 enum Failure {
-    Library(Error),
+    Library(ConstrainedError),
     /// An exception of a signal or of the listener.
     Raised(PyErr),
 }
@@ -58,43 +58,81 @@ pub fn triangulate<'py>(
     let (py, choice) = (points.py(), Choice { addresses: backends, threads });
     of_any_type!(Points, Points::read(points)?, points => {
         look_for_memory(py, points.len(), BYTES_OF_A_JOB)?;
-        let solution = py.detach(|| watched(points, &choice, progress));
+        let solution = py.detach(|| watched(progress, |options| Ok(solve(points, &choice, options)?)));
         solution.map_err(|failure| failure.into_exception(py)).and_then(|solution| lists(py, solution))
+    })
+}
+
+/// Points, hull, duplicates and report of a constrained mesh, and a dictionary with what constraints made of it.
+type ConstrainedLists<'py> =
+    (Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyDict>, Bound<'py, PyDict>);
+
+/// Triangulates an array of points with constraints as one job of at most one back end. The interpreter is free for
+/// other threads meanwhile.
+#[pyfunction]
+pub fn triangulate_constrained<'py>(
+    points: &Bound<'py, PyAny>,
+    backends: Vec<String>,
+    threads: Option<NonZeroU32>,
+    progress: Option<Py<PyAny>>,
+    asked: Asked<'py>,
+) -> PyResult<ConstrainedLists<'py>> {
+    let (py, choice) = (points.py(), Choice { addresses: backends, threads });
+    of_any_type!(Points, Points::read(points)?, points => {
+        let wanted = Wanted::of(&asked)?;
+        look_for_memory(py, points.len(), BYTES_OF_A_JOB)?;
+        look_for_memory(py, points.len() + wanted.constraints.len(), BYTES_OF_A_CONSTRAINT)?;
+        let found = py.detach(|| watched(progress, |options| {
+            choice.open()?.session()?.triangulate_constrained(&points, &wanted.plan(), options)
+        }));
+        let (found, report) = found.map_err(|failure| failure.into_exception(py))?;
+        let report = described(py, &report)?;
+        let made = described_plan(py, found.made)?;
+        let mesh = Mesh::new(points, Vec::new(), found.hull, found.duplicates);
+        let [points, _, hull, duplicates] = mesh_lists(py, mesh)?;
+        Ok((points, hull, duplicates, report, made))
     })
 }
 
 impl Failure {
     fn into_exception(self, py: Python<'_>) -> PyErr {
         match self {
-            Self::Library(error) => of_job(py, &error),
+            Self::Library(ConstrainedError::Job(error)) => of_job(py, &error),
+            Self::Library(error) => bad_input(py, &error.to_string()),
             Self::Raised(error) => error,
         }
     }
 }
 
 /// Does the job, and ends it if a signal or the listener asks for that.
-fn watched<P: PlanePoint>(
-    points: Vec<P>,
-    choice: &Choice,
+fn watched<T>(
     progress: Option<Py<PyAny>>,
-) -> Result<Solution<P>, Failure> {
+    job: impl FnOnce(&Options<'_>) -> Result<T, ConstrainedError>,
+) -> Result<T, Failure> {
     let watch = Watch::new(progress);
     let listener = |progress| watch.hear(progress);
-    let solution = solve(points, choice, &Options::default().progress(&listener).insert_chunk(CHUNK));
-    match (solution, watch.into_raised()) {
+    let found = job(&Options::default().progress(&listener).insert_chunk(CHUNK));
+    match (found, watch.into_raised()) {
         (_, Some(error)) => Err(Failure::Raised(error)),
-        (solution, None) => solution.map_err(Failure::Library),
+        (found, None) => found.map_err(Failure::Library),
+    }
+}
+
+impl Choice {
+    /// Opens the only back end, or the first of several.
+    fn open(&self) -> Result<Device, Error> {
+        match self.addresses.first() {
+            Some(address) if address != "cpu" => Device::open(address),
+            _ => Ok(Device::cpu(self.threads)),
+        }
     }
 }
 
 fn solve<P: PlanePoint>(points: Vec<P>, choice: &Choice, options: &Options<'_>) -> Result<Solution<P>, Error> {
-    let mut device = match choice.addresses.as_slice() {
-        [] => Device::cpu(choice.threads),
-        [address] if address == "cpu" => Device::cpu(choice.threads),
-        [address] => Device::open(address)?,
-        several => return Fleet::open(several)?.triangulate(&points, options),
-    };
-    device.session()?.triangulate_owned(points, options)
+    if choice.addresses.len() > 1 {
+        return Fleet::open(&choice.addresses)?.triangulate(&points, options);
+    }
+    choice.open()?.session()?.triangulate_owned(points, options)
 }
 
 fn lists<'py, T: Element + Copy>(py: Python<'py>, solution: Solution<[T; 2]>) -> PyResult<Lists<'py>>

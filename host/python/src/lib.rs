@@ -24,7 +24,7 @@ mod _native {
     #[pymodule_export]
     use super::constrained::{constrained, verify_plan};
     #[pymodule_export]
-    use super::job::{halfedges, library, neighbors, triangulate, verify};
+    use super::job::{halfedges, library, neighbors, triangulate, triangulate_constrained, verify};
     #[pymodule_export]
     use super::living::Living;
     #[pymodule_export]

@@ -21,6 +21,8 @@ pub const BYTES_OF_A_FOUND_PLACE: usize = 200;
 pub const BYTES_OF_A_CONSTRAINT: usize = 600;
 /// The most bytes a point that cells, a relaxation or a surface need.
 pub const BYTES_OF_A_CELL: usize = 700;
+/// The bytes that a pixel of a density takes, with the copy that it is made of.
+pub const BYTES_OF_A_PIXEL: usize = 20;
 /// The most bytes a place that an answer needs.
 pub const BYTES_OF_A_PLACE: usize = 60;
 

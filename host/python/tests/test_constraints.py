@@ -80,6 +80,50 @@ def test_random_constraints_are_edges_of_a_mesh_that_the_validator_proves():
         np.testing.assert_array_equal(same.triangles, mesh.triangles)
 
 
+@pytest.mark.parametrize("dtype", ["float64", "float32", "int64", "int32", "uint32"])
+def test_one_job_gives_the_bytes_of_both_steps(dtype):
+    # Two addresses share the triangulation, and the constraints are forced afterwards.
+    both = ["cpu?threads=1", "cpu?threads=1"]
+    random = np.random.default_rng(28)
+    rings = {"constraints": RINGS, "regions": [(1, 1)]}
+    plans = [{"domain": "even-odd"}, {"holes": [(4, 4)]}, {"domain": "all"}]
+    sets = [(FRAME, {**rings, **plan}) for plan in plans]
+    sets += [(random.integers(0, 50, (400, 2)), {"constraints": [pair]}) for pair in random.integers(0, 400, (6, 2))]
+    for points, plan in sets:
+        alone = incircle.triangulate(points.astype(dtype), **plan)
+        shared = incircle.triangulate(points.astype(dtype), **plan, backend=both)
+        names = ["points", "triangles", "hull", "duplicates", "pieces", "piece_starts", "piece_constraints", "regions"]
+        for name in [*names, "marked"]:
+            one, other = getattr(alone, name), getattr(shared, name)
+            assert (one.dtype, one.tobytes()) == (other.dtype, other.tobytes()), name
+        for name in ("points", "distinct", "duplicates", "triangles", "hull", "collinear", "step", "bits"):
+            assert getattr(alone.report, name) == getattr(shared.report, name), name
+    crossing, unknown = {"constraints": [(0, 2), (1, 3)]}, {"constraints": [(0, 99)]}
+    for wrong in (crossing, unknown, {"constraints": RINGS, "holes": [(20, 20)]}):
+        sentences = set()
+        for backend in (None, both):
+            with pytest.raises(incircle.InputError) as raised:
+                incircle.triangulate(FRAME.astype(dtype), **wrong, backend=backend)
+            sentences.add(str(raised.value))
+        assert len(sentences) == 1, sentences
+
+
+def test_progress_and_exceptions_are_those_without_constraints():
+    points = np.random.default_rng(1).integers(0, 65536, (30_000, 2))
+    heard = []
+    incircle.triangulate(points, constraints=[(0, 1)], progress=lambda stage, done, total: heard.append(stage))
+    assert list(dict.fromkeys(heard)) == ["order", "insert", "assemble"]
+
+    def refuse(stage, done, total):
+        if stage == "assemble":
+            raise KeyError(stage)
+
+    with pytest.raises(KeyError, match="assemble"):
+        incircle.triangulate(points, constraints=[(0, 1)], progress=refuse)
+    with pytest.raises(incircle.Cancelled):
+        incircle.triangulate(points, constraints=[(0, 1)], progress=lambda *_: False)
+
+
 def test_no_constraints_give_the_mesh_without_them():
     plain = incircle.triangulate(FRAME)
     for none in ([], np.empty((0, 2), dtype=int), np.empty((0, 2))):

@@ -4,8 +4,8 @@
 //! has all orders that were tried: twelve [curves](order::Curve), alone and in rounds of three sizes, rounds with
 //! [guides](order::brio_dc()). All are measured on the software model, and in cycles of the largest core.
 //!
-//! The package also compares the mesh that lives and constrained meshes with those of other libraries, and ways to fill
-//! the hole of a vertex that is deleted. It counts the cycles of questions and changes on the core's living engine.
+//! The package also compares the mesh that lives, constrained meshes and values between points with those of other
+//! libraries, and ways to fill the hole of a vertex that is deleted. It counts the cycles of questions and changes on the core's living engine.
 //!
 //! Nothing here ships with the product. `cargo run --release -p incircle-research -- figures` makes
 //! all published figures again.
@@ -24,6 +24,7 @@ mod picture;
 mod plans;
 pub mod prepare;
 mod runs;
+mod values;
 
 pub use figures::{figures, FiguresArguments};
 pub use guided::{GuidedMesh, RING_CAPACITY};
@@ -33,3 +34,4 @@ pub use orders::{orders, Failure, OrdersArguments};
 pub use picture::{picture, PictureArguments};
 pub use plans::{plans, PlansArguments};
 pub use runs::{runs, RunsArguments};
+pub use values::{values, ValuesArguments};

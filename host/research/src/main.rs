@@ -3,9 +3,9 @@
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use incircle_research::{figures, holes, living, orders, picture, plans, runs};
+use incircle_research::{figures, holes, living, orders, picture, plans, runs, values};
 use incircle_research::{FiguresArguments, HolesArguments, LivingArguments};
-use incircle_research::{OrdersArguments, PictureArguments, PlansArguments, RunsArguments};
+use incircle_research::{OrdersArguments, PictureArguments, PlansArguments, RunsArguments, ValuesArguments};
 
 /// Measure and draw the orders of insertion of the literature
 #[derive(Debug, Parser)]
@@ -35,12 +35,15 @@ enum Command {
     /// Count the tests of four ways to fill the hole of a deleted vertex, by its number of neighbours
     #[command(after_help = "Example:\n  incircle-research holes -n 20000")]
     Holes(HolesArguments),
-    /// Compare constrained triangulation with spade and, where it is installed, CGAL
+    /// Compare constrained triangulation with spade and, where they are installed, CGAL and CDT
     #[command(after_help = "Example:\n  incircle-research plans -n 100000")]
     Plans(PlansArguments),
     /// Count the cycles of questions and changes of a standing mesh on the model of the core, clock by clock
     #[command(after_help = "Example:\n  incircle-research runs uniform --random")]
     Runs(RunsArguments),
+    /// Count the values between points a second, beside those of CGAL where it is installed
+    #[command(after_help = "Example:\n  incircle-research values -n 1000000 --threads 2")]
+    Values(ValuesArguments),
 }
 
 fn main() -> ExitCode {
@@ -52,6 +55,7 @@ fn main() -> ExitCode {
         Command::Holes(arguments) => holes(arguments),
         Command::Plans(arguments) => plans(arguments),
         Command::Runs(arguments) => runs(arguments),
+        Command::Values(arguments) => values(arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

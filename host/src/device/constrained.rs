@@ -18,8 +18,8 @@ impl Session<'_> {
     /// device, and the report has no time for that.
     ///
     /// The report counts the triangles of the whole hull, whatever the domain is. [`Options::timeout`] is for the
-    /// triangulation alone. Where constraints or domain have no mesh, the CPU triangulator begins anew, so that the
-    /// listener hears of its stages twice, before the error is known.
+    /// triangulation, and on the CPU for the forcing of constraints, too. The listener hears of [`Stage::Assemble`](crate::Stage::Assemble) again from time to time
+    /// while the CPU triangulator forces constraints, so that it can end the job.
     ///
     /// Cost: that of `triangulate_with`, then for each constraint the edges that it crosses, and the flips around them.
     ///

@@ -174,10 +174,7 @@ impl<'a> Listener<'a> {
 
     fn hear(&mut self, progress: cpu::Progress) -> ControlFlow<()> {
         let stage = stage_of(progress.stage);
-        if stage == Stage::Order && self.at != stage {
-            // The work begins anew, to find out what is wrong with constraints. That is a job with a time of its own.
-            (self.watch, self.limit) = (Stopwatch::start(), Limit::of(self.limit.timeout()));
-        } else if stage != self.at {
+        if stage != self.at {
             self.watch.ended(self.at);
         }
         self.at = stage;

@@ -2,6 +2,7 @@
 
 mod common;
 
+mod constrained;
 mod cpu;
 mod fleet;
 mod hostile;

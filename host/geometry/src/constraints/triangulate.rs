@@ -8,7 +8,7 @@ use super::constrain::{in_numbers, Restored};
 use super::constrained::Constrained;
 use super::error::Error;
 use super::pieces::Pieces;
-use crate::cpu::{self, connect, connect_fixed, Asked, Connectivity, Forced, Watch};
+use crate::cpu::{self, connect, connect_fixed, Asked, Connectivity, Forced, Outcome, Watch};
 use crate::lattice::{Lattice, Numbers};
 use crate::plan::Plan;
 use crate::plane_point::PlanePoint;
@@ -56,8 +56,8 @@ impl Restored for TriangulateError {
 /// together in memory. Use `constrain` if there is a mesh already, for example that of a device.
 ///
 /// `threads` and `watch` are those of `cpu::triangulate`; one thread forces the constraints. O(n) on even sets, then for
-/// each constraint the edges that it crosses, and the flips around them. Where the answer is an error, the work begins
-/// anew by the slower way, which finds out what is wrong; so the stages that `watch` hears of come twice.
+/// each constraint the edges that it crosses, and the flips around them. Where the answer is an error, the constraints
+/// are taken out of the mesh, and `constrain` finds out what is wrong; `watch` does not hear of that.
 ///
 /// ```
 /// use core::num::NonZeroUsize;
@@ -102,19 +102,24 @@ pub fn triangulate_numbers(
 ) -> Result<Triangulated, TriangulateError> {
     let places = plan.holes.iter().chain(plan.regions);
     let places_exist = points <= numbers.len() && places.copied().all(|place| (place as usize) < numbers.len());
-    if places_exist && are_in_range(plan.constraints, points) {
-        if let Some(forced) = connect_fixed(numbers, points, Asked { plan, most: MOST_PARTS, threads }, watch)? {
-            let Forced { triangles, regions, region_count, marked, .. } = forced;
-            let pieces = Pieces::of(forced.parts);
-            let twice_area = area_inside(numbers, &forced.border);
-            let made = Constrained { triangles, regions, region_count, marked, pieces, twice_area };
-            return Ok(Triangulated { made, hull: forced.hull, duplicates: forced.duplicates });
+    let mesh = if places_exist && are_in_range(plan.constraints, points) {
+        match connect_fixed(numbers, points, Asked { plan, most: MOST_PARTS, threads }, watch)? {
+            Outcome::Forced(forced) => return Ok(triangulated(numbers, forced)),
+            Outcome::Plain(mesh) => mesh,
         }
-    }
+    } else {
+        connect(&numbers.first(points), threads, watch)?
+    };
     // There are no triangles, or the answer is an error: the steps one by one say which.
-    let own = numbers.first(points);
-    let Connectivity { triangles, hull, duplicates } = connect(&own, threads, watch)?;
+    let Connectivity { triangles, hull, duplicates } = mesh;
     let lists = MeshLists { triangles: &triangles, hull: &hull, duplicates: &duplicates };
     let made = of_numbers(numbers, points, lists, plan)?;
     Ok(Triangulated { made, hull, duplicates })
+}
+
+fn triangulated(numbers: &Numbers<'_>, forced: Forced) -> Triangulated {
+    let Forced { triangles, regions, region_count, marked, hull, duplicates, parts, border } = forced;
+    let (pieces, twice_area) = (Pieces::of(parts), area_inside(numbers, &border));
+    let made = Constrained { triangles, regions, region_count, marked, pieces, twice_area };
+    Triangulated { made, hull, duplicates }
 }

@@ -61,7 +61,7 @@ mod tests;
 mod triangulator;
 pub(crate) mod view;
 
-pub(crate) use fixed::{connect_fixed, Asked, Forced};
+pub(crate) use fixed::{connect_fixed, Asked, Forced, Outcome};
 pub(crate) use parallel::in_parallel;
 pub use parts::{Parts, SolvedPart, Unsound};
 pub use small::Triangulator;

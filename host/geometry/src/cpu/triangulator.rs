@@ -49,7 +49,8 @@ pub struct Progress {
     /// Points done in this stage, 0 when the stage begins.
     ///
     /// [`Stage::Insert`] counts distinct points and is reported at its beginning, from time to time, and at its end.
-    /// The other stages are reported only when they begin.
+    /// The other stages are reported when they begin; with constraints, [`Stage::Assemble`] is reported in the same way
+    /// again from time to time while they are forced.
     pub done: usize,
     /// Points to do in this stage.
     pub total: usize,

@@ -4,7 +4,7 @@
 //! form, and all triangles are compared with ours. The contestants take turns in random order, so that other work on
 //! the machine touches all. Ratios are medians over the rounds, of times taken next to each other.
 
-mod cgal;
+mod program;
 mod run;
 mod sets;
 mod spade;
@@ -19,6 +19,7 @@ use incircle_geometry::{cpu, Mesh, Point};
 use incircle_testkit::SplitMix64;
 
 use crate::orders::{print, Failure};
+use program::Program;
 use run::Run;
 use sets::{Kind, Set};
 
@@ -44,54 +45,73 @@ pub struct PlansArguments {
 /// # Errors
 /// Meshes differ, or a library fails.
 pub fn plans(arguments: &PlansArguments) -> Result<(), Failure> {
-    let program = if arguments.without_cgal { Err("left out".to_owned()) } else { cgal::Program::new() };
-    if let Err(reason) = &program {
-        print(&format!("cgal: {reason}\n"))?;
+    let cgal = if arguments.without_cgal { Err("left out".to_owned()) } else { Program::cgal() };
+    let mut programs = Vec::new();
+    for (name, program) in [("cgal", cgal), ("cdt", Program::cdt())] {
+        match program {
+            Ok(program) => programs.push(program),
+            Err(reason) => print(&format!("{name}: {reason}\n"))?,
+        }
     }
     print(&format!("{} points on a grid of {} bits; ns a point, medians\n", arguments.n, sets::BITS))?;
     for kind in Kind::ALL {
         let set = Set::new(kind, arguments.n as usize, arguments.seed);
-        print(&race(&set, kind, program.as_ref().ok(), arguments)?)?;
+        print(&race(&set, kind, &programs, arguments)?)?;
     }
-    print("all meshes are equal; in brackets: ours by theirs\n")?;
+    print("all meshes are equal, but for what is said about the hull; in brackets: ours by theirs\n")?;
     Ok(())
 }
 
 /// Our time without constraints, our time with them, and those of the others, for each round.
-fn race(set: &Set, kind: Kind, program: Option<&cgal::Program>, arguments: &PlansArguments) -> Result<String, Failure> {
+fn race(set: &Set, kind: Kind, programs: &[Program], arguments: &PlansArguments) -> Result<String, Failure> {
     let mut random = SplitMix64::new(arguments.seed);
     let points: Vec<Point> = set.points.iter().map(|&[x, y]| Point::new(x as u32, y as u32)).collect();
-    let count = if program.is_some() { 4 } else { 3 };
+    let count = 3 + programs.len();
+    let mut missing = vec![0; count];
     let mut seconds: Vec<Vec<f64>> = vec![Vec::new(); count];
     for _ in 0..arguments.rounds {
         let mut turns: Vec<usize> = (0..count).collect();
         random.shuffle(&mut turns);
         let mut meshes: Vec<Vec<[u32; 3]>> = vec![Vec::new(); count];
         for place in turns {
-            let run = match (place, program) {
-                (0, _) => free(&points)?,
-                (1, _) => ours(&points, &set.constraints)?,
-                (2, _) => spade::run(set)?,
-                (_, Some(program)) => program.run(set)?,
-                (_, None) => continue,
+            let run = match place {
+                0 => free(&points)?,
+                1 => ours(&points, &set.constraints)?,
+                2 => spade::run(set)?,
+                _ => programs[place - 3].run(set)?,
             };
             seconds[place].push(run.seconds);
             meshes[place] = run.triangles;
         }
-        if meshes[2..].iter().any(|mesh| *mesh != meshes[1]) {
-            return Err(format!("a library has another mesh of {}", kind.name()).into());
+        for place in 2..count {
+            let may_lose = place > 2 && programs[place - 3].may_lose_hull;
+            let found = lost(&meshes[1], &meshes[place]).filter(|&lost| lost == 0 || may_lose);
+            missing[place] = found.ok_or_else(|| format!("a library has another mesh of {}", kind.name()))?;
         }
     }
-    Ok(row(kind, &seconds, arguments.n))
+    let names: Vec<&str> = programs.iter().map(|program| program.name).collect();
+    let mut text = row(kind, &seconds, &names, arguments.n);
+    for (name, lost) in names.iter().zip(&missing[3..]).filter(|(_, lost)| **lost > 0) {
+        text += &format!("          {name} leaves out {lost} triangles at the hull\n");
+    }
+    Ok(text)
 }
 
-fn row(kind: Kind, seconds: &[Vec<f64>], n: u32) -> String {
+/// How many triangles of a mesh another one lacks; both are sorted. `None` if the other one has triangles of its own.
+fn lost(mesh: &[[u32; 3]], other: &[[u32; 3]]) -> Option<usize> {
+    let mut rest = mesh.iter();
+    let has_all = other.iter().all(|triangle| rest.any(|own| own == triangle));
+    has_all.then(|| mesh.len() - other.len())
+}
+
+fn row(kind: Kind, seconds: &[Vec<f64>], programs: &[&str], n: u32) -> String {
     let median = |mut values: Vec<f64>| {
         values.sort_by(f64::total_cmp);
         values[values.len() / 2]
     };
     let mut text = format!("{:8}", kind.name());
-    for (place, name) in ["ours, no constraints", "ours", "spade", "cgal"].into_iter().enumerate().take(seconds.len()) {
+    let names = ["ours, no constraints", "ours", "spade"].iter().chain(programs);
+    for (place, name) in names.enumerate() {
         let time = 1e9 * median(seconds[place].clone()) / f64::from(n);
         let ratio = median(seconds[1].iter().zip(&seconds[place]).map(|(ours, theirs)| ours / theirs).collect());
         text += &format!("  {name} {time:.0}");

@@ -8,7 +8,7 @@ use incircle_testkit::SplitMix64;
 use super::brute::Graph;
 use crate::constraints::constrain::in_numbers;
 use crate::constraints::{self, constrain, Constrained, Error, Place, Plan, TriangulateError};
-use crate::cpu::{connect_fixed, triangulate, Asked};
+use crate::cpu::{connect_fixed, triangulate, Asked, Outcome};
 use crate::mesh::Mesh;
 use crate::plane_point::PlanePoint;
 use crate::point::Point;
@@ -21,15 +21,28 @@ pub fn mesh_of<P: PlanePoint>(points: &[P]) -> Mesh<P> {
 pub fn in_both_ways<P: PlanePoint>(points: &[P], plan: &Plan<'_, P>) -> Result<Constrained, Error> {
     let mesh = mesh_of(points);
     let made = constrain(&mesh, plan);
+    // Places at vertices are left to the slow way, and so are points on one line and plans without an answer. What is
+    // left then is the mesh without the constraints.
+    let is_fast = in_numbers(points, plan, |numbers, plan| -> Result<bool, Error> {
+        if plan.constraints.as_flattened().iter().any(|&end| end as usize >= points.len()) {
+            return Ok(false);
+        }
+        let asked = Asked { plan, most: usize::MAX, threads: NonZeroUsize::MIN };
+        let found = connect_fixed(numbers, points.len(), asked, &mut |_| ControlFlow::Continue(()));
+        match found.expect("finite points") {
+            Outcome::Forced(_) => Ok(true),
+            Outcome::Plain(plain) => {
+                assert_eq!(
+                    (&plain.triangles, &plain.hull, &plain.duplicates),
+                    (&mesh.triangles, &mesh.hull, &mesh.duplicates)
+                );
+                Ok(false)
+            }
+        }
+    });
     match constraints::triangulate(points, plan, NonZeroUsize::MIN, &mut |_| ControlFlow::Continue(())) {
         Ok(again) => {
             assert_eq!(made.as_ref(), Ok(&again.made));
-            // Places at vertices are left to the slow way, and so are points on one line.
-            let is_fast = in_numbers(points, plan, |numbers, plan| -> Result<bool, Error> {
-                let asked = Asked { plan, most: usize::MAX, threads: NonZeroUsize::MIN };
-                let forced = connect_fixed(numbers, points.len(), asked, &mut |_| ControlFlow::Continue(()));
-                Ok(forced.expect("finite points").is_some())
-            });
             let has_marks = !plan.holes.is_empty() || !plan.regions.is_empty();
             assert!(is_fast == Ok(true) || has_marks || mesh.triangles.is_empty());
             assert_eq!((again.hull, again.duplicates), (mesh.hull, mesh.duplicates));

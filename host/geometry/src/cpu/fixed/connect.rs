@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 use core::num::NonZeroUsize;
 
 use super::domain::Chosen;
+use super::force::Stop;
 use super::mesh::{Fixed, Part};
 use super::parts::Boundary;
 use crate::cpu::collect;
@@ -12,7 +13,7 @@ use crate::cpu::filtered::Filtered;
 use crate::cpu::filtered_sites::{self, FilteredSites};
 use crate::cpu::kernel::Kernel;
 use crate::cpu::sites::{self, Sites};
-use crate::cpu::triangulator::{check, insert, is_collinear, tell, threads_for, Error, Stage, Watch};
+use crate::cpu::triangulator::{check, insert, is_collinear, tell, threads_for, Connectivity, Error, Stage, Watch};
 use crate::cpu::view::{Integers, Narrow, Wide, Widest, NARROW_BITS, WIDE_BITS};
 use crate::double::Coordinate;
 use crate::lattice::Numbers;
@@ -34,6 +35,13 @@ pub(crate) struct Forced {
     pub marked: Vec<u32>,
     /// The edges around the triangles, which lie to the left of them: those of the hull if all are wanted.
     pub border: Vec<[u32; 2]>,
+}
+
+/// What became of points and constraints.
+pub(crate) enum Outcome {
+    Forced(Forced),
+    /// The canonical mesh without the constraints: there are no triangles, or the plan has no answer.
+    Plain(Connectivity),
 }
 
 /// What a mesh with constraints is made of.
@@ -58,9 +66,10 @@ struct Curve<'a, K: Kernel> {
     marks: Option<[Vec<K::Site>; 2]>,
 }
 
-/// The mesh of the first `points` places with constraints, in the numbers in which the set is given. `None` if there
-/// are no triangles, or the constraints cross or have too many parts: [`constrain`](crate::constraints::constrain) says
-/// which.
+/// The mesh of the first `points` places with constraints, in the numbers in which the set is given. If there are no
+/// triangles, or constraints and domain have no mesh, it is the one without constraints, and
+/// [`constrain`](crate::constraints::constrain) finds out what is wrong. `watch` hears of [`Stage::Assemble`] again from
+/// time to time while constraints are forced, so that it can end the work.
 ///
 /// # Errors
 /// As those of [`connect`](crate::cpu::connect).
@@ -69,7 +78,7 @@ pub(crate) fn connect_fixed(
     points: usize,
     asked: Asked<'_>,
     watch: Watch<'_>,
-) -> Result<Option<Forced>, Error> {
+) -> Result<Outcome, Error> {
     check(points)?;
     tell(watch, Stage::Order, 0, points)?;
     let threads = threads_for(points, asked.threads).get();
@@ -86,13 +95,7 @@ fn marks_of<S>(plan: &Plan<'_, u32>, site: impl Fn(usize) -> Option<S>) -> Optio
     Some([sites(plan.holes)?, sites(plan.regions)?])
 }
 
-fn of_grid(
-    all: &[Point],
-    points: usize,
-    asked: Asked<'_>,
-    threads: usize,
-    watch: Watch<'_>,
-) -> Result<Option<Forced>, Error> {
+fn of_grid(all: &[Point], points: usize, asked: Asked<'_>, threads: usize, watch: Watch<'_>) -> Result<Outcome, Error> {
     let Sites { sites, ids, duplicates, bits } = sites::sort(&all[..points], threads);
     // Sites count from the lower left corner of the points.
     let corner = sites.first().zip(ids.first()).map(|(site, &id)| {
@@ -120,7 +123,7 @@ fn of_filtered<C: Coordinate>(
     asked: Asked<'_>,
     threads: usize,
     watch: Watch<'_>,
-) -> Result<Option<Forced>, Error> {
+) -> Result<Outcome, Error> {
     if let Some(index) = all[..points].iter().position(|point| !point.iter().all(|value| value.half().is_finite())) {
         return Err(Error::NotFinite { index });
     }
@@ -134,26 +137,39 @@ fn of_filtered<C: Coordinate>(
 }
 
 impl<K: Kernel> Curve<'_, K> {
-    fn force(mut self, asked: Asked<'_>, threads: usize, watch: Watch<'_>) -> Result<Option<Forced>, Error> {
-        if is_collinear::<K>(self.sites) {
-            return Ok(None);
-        }
+    fn force(mut self, asked: Asked<'_>, threads: usize, watch: Watch<'_>) -> Result<Outcome, Error> {
         self.duplicates.sort_unstable();
-        let (mut halves, Some(whole)) = insert::<K>(self.sites, self.places, threads, watch)? else { return Ok(None) };
-        tell(watch, Stage::Assemble, 0, self.points)?;
-        let hull = collect::hull_of(&mut halves, &self.ids, whole.leftmost());
+        if is_collinear::<K>(self.sites) {
+            return Ok(Outcome::Plain(self.on_line()));
+        }
+        let (mut halves, whole) = insert::<K>(self.sites, self.places, threads, watch)?;
+        let mut go_on = || tell(watch, Stage::Assemble, 0, self.points);
+        go_on()?;
+        let hull = whole.map_or_else(Vec::new, |whole| collect::hull_of(&mut halves, &self.ids, whole.leftmost()));
         let ends = self.ends(asked.plan.constraints);
         let mut mesh = Fixed::<K>::new(self.sites, &mut halves);
-        let Ok(parts) = mesh.force_all(&ends, asked.most) else { return Ok(None) };
+        let parts = match mesh.force_all(&ends, asked.most, &mut go_on) {
+            Ok(parts) => parts,
+            Err(Stop::Ended(error)) => return Err(error),
+            Err(Stop::Crossing | Stop::TooManyParts) => {
+                mesh.release();
+                return Ok(Outcome::Plain(self.plain(halves, hull, threads)));
+            }
+        };
+        go_on()?;
         let of_edge = self.renumbered(&mesh, &parts);
         let chosen = if asked.plan.takes_all() {
             mesh.unmark();
             self.whole(halves, &hull, threads)
         } else {
-            let Some([holes, regions]) = &self.marks else { return Ok(None) };
             let (count, domain) = (asked.plan.boundary(), asked.plan.domain);
             let boundary = Boundary { parts: &parts, ends: &ends, count, domain };
-            let Some(chosen) = mesh.take(&self.ids, &boundary, holes, regions) else { return Ok(None) };
+            let marks = self.marks.as_ref();
+            let chosen = marks.and_then(|[holes, regions]| mesh.take(&self.ids, &boundary, holes, regions));
+            let Some(chosen) = chosen else {
+                mesh.release();
+                return Ok(Outcome::Plain(self.plain(halves, hull, threads)));
+            };
             chosen
         };
         let Chosen { triangles, regions, marked, region_count, mut border } = chosen;
@@ -161,7 +177,22 @@ impl<K: Kernel> Curve<'_, K> {
             border = hull.iter().copied().zip(hull.iter().copied().cycle().skip(1)).map(|(a, b)| [a, b]).collect();
         }
         let duplicates = self.duplicates;
-        Ok(Some(Forced { triangles, hull, duplicates, parts: of_edge, regions, region_count, marked, border }))
+        let forced = Forced { triangles, hull, duplicates, parts: of_edge, regions, region_count, marked, border };
+        Ok(Outcome::Forced(forced))
+    }
+
+    /// The mesh of points on one line, which has no triangles.
+    fn on_line(self) -> Connectivity {
+        let mut order: Vec<(K::Site, u32)> = self.sites.iter().copied().zip(self.ids).collect();
+        order.sort_unstable();
+        let hull = order.into_iter().map(|(_, id)| id).collect();
+        Connectivity { triangles: Vec::new(), hull, duplicates: self.duplicates }
+    }
+
+    /// The mesh without constraints, from half-edges none of which is fixed.
+    fn plain(self, halves: Vec<Half>, hull: Vec<u32>, threads: usize) -> Connectivity {
+        let Chosen { triangles, .. } = self.whole(halves, &hull, threads);
+        Connectivity { triangles, hull, duplicates: self.duplicates }
     }
 
     /// All triangles, as one region.

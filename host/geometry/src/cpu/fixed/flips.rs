@@ -1,6 +1,6 @@
 //! Flips of free edges, until the mesh is canonical again.
 
-use super::mesh::Fixed;
+use super::mesh::{Fixed, FIXED};
 use crate::cpu::kernel::{Ends, Kernel};
 
 /// The four vertices around an edge from `a` to `b`: its ends, the apex `c` to its left and the apex `d` to its right.
@@ -24,6 +24,17 @@ impl<K: Kernel> Fixed<'_, K> {
                 self.flip(edge, &around);
             }
         }
+    }
+
+    /// Frees all fixed edges, and flips edges until the mesh is the canonical one without constraints. Every other edge
+    /// is locally Delaunay, so only the freed ones and those around them may have to be flipped.
+    pub(super) fn release(mut self) {
+        for pair in core::mem::take(&mut self.fixed) {
+            self.halves[pair as usize].end &= !FIXED;
+            self.halves[pair as usize ^ 1].end &= !FIXED;
+            self.stack.push(pair);
+        }
+        self.repair();
     }
 
     #[inline(always)]

@@ -15,6 +15,7 @@ use core::cmp::Ordering;
 use super::mesh::{Fixed, Part, FIXED};
 use super::turn::{is_between, Way};
 use crate::cpu::kernel::Kernel;
+use crate::cpu::triangulator::Error;
 use crate::sort::{sort_by_key, Keyed};
 
 /// The reason why not all constraints were forced in.
@@ -24,7 +25,19 @@ pub(super) enum Stop {
     Crossing,
     /// There is no room for the list of all parts.
     TooManyParts,
+    /// The watch ended the work.
+    Ended(Error),
 }
+
+impl From<Error> for Stop {
+    fn from(error: Error) -> Self {
+        Self::Ended(error)
+    }
+}
+
+/// Pieces between two looks whether the work goes on. A long constraint takes a tenth of a millisecond, so a look comes
+/// after some milliseconds at most on usual sets, and costs nothing beside the pieces.
+const PIECES_PER_LOOK: usize = 64;
 
 /// A constraint, by the place on the curve at which it is forced.
 #[derive(Clone, Copy, bytemuck::Zeroable)]
@@ -42,10 +55,17 @@ impl Keyed for Turned {
 
 impl<K: Kernel> Fixed<'_, K> {
     /// Forces all constraints in, given by the vertices at their ends, as far as there is room for `most` parts.
+    /// `go_on` is called from time to time.
     ///
     /// # Errors
-    /// Two constraints cross at a place that is not a vertex, or there are too many parts.
-    pub(super) fn force_all(&mut self, ends: &[[u32; 2]], most: usize) -> Result<Vec<Part>, Stop> {
+    /// Two constraints cross at a place that is not a vertex, there are too many parts, or `go_on` ends the work. The
+    /// mesh has some of the constraints then.
+    pub(super) fn force_all(
+        &mut self,
+        ends: &[[u32; 2]],
+        most: usize,
+        go_on: &mut dyn FnMut() -> Result<(), Error>,
+    ) -> Result<Vec<Part>, Stop> {
         let turned = |(constraint, [a, b]): (u32, &[u32; 2])| Turned { first: *a.min(b), constraint };
         let mut order: Vec<Turned> = (0..).zip(ends).map(turned).collect();
         sort_by_key(&mut order);
@@ -58,6 +78,9 @@ impl<K: Kernel> Fixed<'_, K> {
                     return Err(Stop::TooManyParts);
                 }
                 parts.push(Part { edge, constraint });
+                if parts.len().is_multiple_of(PIECES_PER_LOOK) {
+                    go_on()?;
+                }
                 rest = left;
             }
         }

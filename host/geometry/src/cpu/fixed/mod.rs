@@ -16,4 +16,4 @@ mod mesh;
 mod parts;
 mod turn;
 
-pub(crate) use connect::{connect_fixed, Asked, Forced};
+pub(crate) use connect::{connect_fixed, Asked, Forced, Outcome};

@@ -1,4 +1,4 @@
-//! CGAL as a contestant: a program of its own, because its licence does not allow to link it into ours.
+//! C++ libraries as contestants: each is a program of its own. The licence of CGAL does not allow to link it into ours.
 
 use std::io::{Read, Write};
 use std::process::{Command, Stdio};
@@ -9,20 +9,30 @@ use super::run::{canonical, Run};
 use super::sets::Set;
 use crate::orders::Failure;
 
-const SOURCE: &str = include_str!("cgal.cpp");
-
-/// The compiled program.
-pub(super) struct Program(Compiled);
+/// A library, and the compiled program that calls it.
+pub(super) struct Program {
+    pub(super) name: &'static str,
+    /// Whether the library may leave out triangles at the hull.
+    pub(super) may_lose_hull: bool,
+    compiled: Compiled,
+}
 
 impl Program {
-    /// Compiles the program if CGAL is installed.
-    pub(super) fn new() -> Result<Self, String> {
-        Compiled::new(SOURCE, &["-lmpfr", "-lgmp"]).map(Self)
+    /// Compiles the program of CGAL if that is installed.
+    pub(super) fn cgal() -> Result<Self, String> {
+        let compiled = Compiled::new(include_str!("cgal.cpp"), &["-lmpfr", "-lgmp"])?;
+        Ok(Self { name: "cgal", may_lose_hull: false, compiled })
+    }
+
+    /// Compiles the program of CDT if its headers are where the compiler looks. It triangulates inside a triangle around
+    /// all points, which it takes away in the end, and the points on the hull may have been joined to that triangle.
+    pub(super) fn cdt() -> Result<Self, String> {
+        Ok(Self { name: "cdt", may_lose_hull: true, compiled: Compiled::new(include_str!("cdt.cpp"), &[])? })
     }
 
     /// Makes the mesh of a set in a process of its own, which takes the time of the mesh alone.
     pub(super) fn run(&self, set: &Set) -> Result<Run, Failure> {
-        let mut child = Command::new(self.0.program()).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn()?;
+        let mut child = Command::new(self.compiled.program()).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn()?;
         let mut input = child.stdin.take().ok_or("the program has no input")?;
         let counts = [set.points.len() as u64, set.constraints.len() as u64];
         input.write_all(&counts.map(u64::to_le_bytes).concat())?;
