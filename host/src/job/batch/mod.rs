@@ -168,14 +168,16 @@ fn next_load(
         tell(carrier.options, Stage::Insert, done.passed, carrier.points())?;
         done.passed += group.jobs.iter().map(|ordered| carrier.jobs[ordered.job].len()).sum::<usize>();
         if group.is_shared {
-            return Ok(Some(Load::at_once(group, None)));
+            let form = carrier.read_form(&group);
+            return Ok(Some(Load::at_once(group, form, None)));
         }
         let own = group.only_job().filter(|_| !carrier.shares_limit);
         let time = own.map(|job| exclusive_time(carrier, job));
         let jobs = std::mem::take(&mut group.jobs);
         group.jobs = jobs.into_iter().filter_map(|ordered| carrier.answer_here(ordered, 1, done)).collect();
         if !group.jobs.is_empty() {
-            return Ok(Some(Load::at_once(group, time)));
+            let form = carrier.read_form(&group);
+            return Ok(Some(Load::at_once(group, form, time)));
         }
     }
     Ok(None)

@@ -323,7 +323,9 @@ impl Exchange {
                 return Err(SerialFault::Command("the points of this command are laid out for another device"));
             }
             // Parts of an answer are asked for again, and a part of packed triangles may end within a word.
-            Command::Triangles(_) => return Err(SerialFault::Command("the serial link only reads whole records")),
+            Command::Triangles(_) | Command::ShortTriangles(..) => {
+                return Err(SerialFault::Command("the serial link only reads whole records"))
+            }
             // A question is sent again if its answer is lost, and would change the mesh twice.
             Command::Run { .. } => return Err(SerialFault::Command("the serial link takes no runs")),
             // Inserting no points brings the report of the points before them once more.

@@ -111,7 +111,7 @@ impl Unit {
                 }
                 // A question is sent again if its answer is lost, and would change the mesh twice.
                 Command::Run { .. } => return Err(UdpFault::Command("the UDP link takes no runs")),
-                &Command::Read(range) | &Command::Triangles(range) => {
+                &Command::Read(range) | &Command::Triangles(range) | &Command::ShortTriangles(range, _) => {
                     questions_of(index, command, range, layout, &mut self.questions)?;
                 }
                 _ => self.questions.push(Question {
@@ -149,6 +149,7 @@ impl Unit {
         Some(match (command, question.range) {
             (Command::Read(_), Some(range)) => Command::Read(range),
             (Command::Triangles(_), Some(range)) => Command::Triangles(range),
+            (&Command::ShortTriangles(_, ids), Some(range)) => Command::ShortTriangles(range, ids),
             // Inserting no points brings the report of the points before them once more.
             (Command::Insert { .. }, _) if was_asked => Command::Insert { count: 0, points: &[] },
             _ => command.borrowed(),
@@ -212,7 +213,7 @@ impl Unit {
 }
 
 /// Cuts a range of records so that each answer fits a datagram. A cut within packed triangles falls between two words,
-/// because all ranges but the last have an even number of records.
+/// because all ranges but the last have an even number of records, or with short ids a multiple of eight.
 fn questions_of(
     index: usize,
     command: &Command<Vec<u32>>,
@@ -223,10 +224,12 @@ fn questions_of(
     first.checked_add(count).ok_or(UdpFault::Command("the range goes beyond the last record number"))?;
     let part = |first, count| match command {
         Command::Triangles(_) => Command::<()>::Triangles(RecordRange { first, count }),
+        Command::ShortTriangles(_, ids) => Command::ShortTriangles(RecordRange { first, count }, *ids),
         _ => Command::Read(RecordRange { first, count }),
     };
-    let two = part(0, 2).payload_words(layout).max(1);
-    let most = u32::try_from(MOST_PAYLOAD / two * 2).unwrap_or(2).max(2);
+    let step = if matches!(command, Command::ShortTriangles(..)) { 8 } else { 2 };
+    let words = part(0, step).payload_words(layout).max(1);
+    let most = u32::try_from(MOST_PAYLOAD / words).unwrap_or(1).max(1).saturating_mul(step);
     let (mut done, mut place) = (0, 0);
     loop {
         let now = (count - done).min(most);
