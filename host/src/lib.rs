@@ -198,12 +198,14 @@
 //! | small sets one after the other, such as points that move | [`Triangulator`], which keeps its memory |
 //! | points that come, go or move, or questions about places | [`Triangulation`], which changes with them |
 //! | the same with the mesh on a device | [`Session::living`], with the trait [`LivingMesh`] |
-//! | edges that must be in the mesh, or triangles inside polygons | [`constraints::constrain`] |
+//! | edges that must be in the mesh, or triangles inside polygons | [`Session::triangulate_constrained`] |
+//! | the same for a mesh that there is already | [`constraints::constrain`] |
 //! | the region nearest to each point, clipped to a polygon | [`voronoi`], with the mesh of grid points |
 //! | grid points and a clip from points of any numbers | [`GridSet`] |
 //! | cells as flat lists, for another language or a graphics card | [`VoronoiLists`] |
 //! | points spread evenly over a region | [`lloyd::relax`], with grid points and a [`voronoi::Clip`] |
 //! | values between points, such as heights | [`interpolate::Surface`], with the mesh of the points |
+//! | the same on a device that answers where places lie | [`linear_values`] |
 //! | many small sets at once | [`Session::triangulate_batch`]: a device works on them side by side |
 //! | several devices for one set | [`Fleet`], which leaves out a device that dies |
 //! | a `Vec` of points that you can hand over | [`Session::triangulate_owned`], which does not copy it |
@@ -233,12 +235,13 @@ mod error;
 mod grid_set;
 mod job;
 mod limit;
+mod linear;
 pub mod quantize;
 pub mod transports;
 mod voronoi_lists;
 
 pub use device::{Device, DeviceAddress, Fleet, LivingMesh, LivingSession, Session};
-pub use error::{DeviceFault, Error, ErrorKind, Shown, TransportError};
+pub use error::{ConstrainedError, DeviceFault, Error, ErrorKind, Shown, TransportError};
 pub use grid_set::{GridSet, GridSetError};
 pub use incircle_geometry::constraints;
 pub use incircle_geometry::cpu::{Error as TriangulatorError, Triangulator};
@@ -250,6 +253,7 @@ pub use incircle_geometry::{Duplicate, Mesh, Order, PlanePoint, Point};
 pub use incircle_geometry::{UnknownOrder, EMPTY, MAX_POINTS};
 pub use incircle_protocol::{Config, Identity};
 pub use job::{Counters, Latencies, Options, Progress, ProgressListener, Report, Share, Solution, Stage};
+pub use linear::linear_values;
 pub use quantize::{quantize, Quantization, Quantize};
 pub use transports::{pcie, serial, udp, Transport};
 pub use voronoi_lists::{CellLists, VoronoiLists};

@@ -57,7 +57,8 @@ class Board:
         dut.reset.value = 1
         self.phy_clock = Clock(dut.rx_clock, 8, "ns")
         self.phy_clock.start()
-        Clock(dut.core_clock, PERIOD_PS, "ps").start()
+        self.core_clock = Clock(dut.core_clock, PERIOD_PS, "ps")
+        self.core_clock.start()
         self.session, self.number = 0, 0
 
     async def reset(self) -> "Board":
@@ -72,6 +73,31 @@ class Board:
         self.dut.reset.value = 0
         await ClockCycles(self.dut.core_clock, 100)
         return self
+
+    async def restart(self, period: int = PERIOD_PS) -> None:
+        """Resets a board that runs, with this period of the core's clock from now on, in picoseconds."""
+        self.core_clock.stop()
+        self.core_clock = Clock(self.dut.core_clock, 2 * (period // 2), "ps")
+        self.core_clock.start()
+        self.dut.reset.value = 1
+        await self.clocks(20)
+        self.dut.reset.value = 0
+        await self.clocks(100)
+        # What the reset has cut short counts for nothing.
+        self.phy.tx.clear()
+
+    async def clocks(self, count: int) -> None:
+        """Waits for this many clocks of the core."""
+        await ClockCycles(self.dut.core_clock, count)
+
+    def stop_phy(self) -> None:
+        """Stops the clock that the PHY gives. The PHY sends and hears nothing until `start_phy`."""
+        self.phy._clock_cr.cancel()
+        self.phy._clock_cr = None
+
+    def start_phy(self) -> None:
+        """Lets the clock of the PHY run again."""
+        self.phy.set_speed(1000e6)
 
     async def send(self, kind: int, payload: bytes, target: bytes = BOARD_MAC, damage: int | None = None) -> None:
         """Sends a frame of Ethernet with this type, padded, with its check sum; `damage` is a bit to turn."""

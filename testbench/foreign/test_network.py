@@ -1,5 +1,7 @@
 """Tests of a core behind its UDP link, with a PHY of others at its pins: no frame hangs the device."""
 
+import struct
+import zlib
 from collections.abc import Awaitable, Callable
 from typing import Any
 
@@ -7,6 +9,7 @@ import cocotb
 from network import (
     BOARD_IP,
     BOARD_MAC,
+    DATA,
     HELLO,
     HELLO_ANSWER,
     HOST_IP,
@@ -103,6 +106,97 @@ async def noise(dut: Any) -> None:
         # No `Open`: that of noise would be a session that has to die in silence.
         await board.send_datagram(payload if payload[:1] != bytes([OPEN]) else b"")
     assert await board.is_silent(10)
+    await board.open()
+    points = board.points(min(POINTS, 8))
+    assert await board.job(points) == delaunay(points)
+
+
+@test
+async def commands_while_busy(dut: Any) -> None:
+    """Commands that come while the core is busy wait, and all are answered in order."""
+    board = await Board(dut).reset()
+    await board.open()
+    jobs = [board.points(min(POINTS, 8)) for _ in range(3)]
+    for tag, points in enumerate(jobs):
+        insert = [3 << 24, len(points), *(x | y << 16 for x, y in points)]
+        await board.say(DATA, [2 << 24 | tag << 16, *insert, 7 << 24, 0, 2 * len(points) - 2, 1 << 24])
+    for tag, _ in enumerate(jobs):
+        heads = [(await board.answer())[0] for _ in range(4)]
+        assert heads == [opcode << 24 | tag for opcode in (2, 3, 7, 1)]
+
+
+@test
+async def part_of_a_word(dut: Any) -> None:
+    """`Data` that does not end with a whole word is dropped, whatever its check sum, and the session goes on."""
+    board = await Board(dut).reset()
+    await board.open()
+    for some in (1, 2, 3):
+        body = struct.pack("<IIQ", DATA, 0, board.session) + bytes([0, 0, 0, 1, 0, 0, 0, 1][: 4 + some])
+        await board.send_datagram(body + zlib.crc32(body).to_bytes(4, "little"))
+        assert await board.is_silent(5)
+    points = board.points(min(POINTS, 8))
+    assert await board.job(points) == delaunay(points)
+
+
+@test
+async def odd_clocks(dut: Any) -> None:
+    """The board works at several ratios of the core's clock to that of the PHY, whose period is 8,000 ps."""
+    board = await Board(dut).reset()
+    for period in (3300, 7998, 26000):
+        await board.restart(period)
+        await board.open()
+        points = board.points(min(POINTS, 7))
+        assert await board.job(points) == delaunay(points), period
+
+
+@test
+async def reset_in_the_middle(dut: Any) -> None:
+    """A reset at two moments of a job ends the session, says so to the host, and loses nothing else."""
+    board = await Board(dut).reset()
+    for wait in (200, 500):
+        await board.open()
+        job = cocotb.start_soon(board.job(board.points(min(POINTS, 8))))
+        await board.clocks(wait)
+        job.cancel()
+        await board.restart()
+        await board.say(POLL)
+        await board.heard(NO_SESSION)
+        await board.open()
+        points = board.points(min(POINTS, 6))
+        assert await board.job(points) == delaunay(points), wait
+        await board.close()
+
+
+@test
+async def phy_clock_that_stops(dut: Any) -> None:
+    """A PHY whose clock stands in mid-job, as one without a cable, delays the job and loses nothing."""
+    board = await Board(dut).reset()
+    await board.open()
+    for wait in (50, 400):
+        points = board.points(min(POINTS, 8))
+        job = cocotb.start_soon(board.job(points))
+        await board.clocks(wait)
+        board.stop_phy()
+        await board.clocks(300)
+        board.start_phy()
+        assert await job == delaunay(points), wait
+
+
+@test
+async def reset_of_one_side(dut: Any) -> None:
+    """While the clock of the PHY stands, a reset is held, as boards do; when the clock runs it ends, and all works."""
+    board = await Board(dut).reset()
+    await board.open()
+    board.stop_phy()
+    dut.reset.value = 1
+    await board.clocks(200)
+    board.start_phy()
+    await board.clocks(20)
+    dut.reset.value = 0
+    await board.clocks(100)
+    board.phy.tx.clear()
+    await board.say(POLL)
+    await board.heard(NO_SESSION)
     await board.open()
     points = board.points(min(POINTS, 8))
     assert await board.job(points) == delaunay(points)

@@ -495,6 +495,67 @@ int32_t incircle_triangulation_mesh(const incircle_triangulation *triangulation,
 // `triangulation` is null, or one that is not freed, and is not used again.
 void incircle_triangulation_free(incircle_triangulation *triangulation);
 
+// The indices of the `number` places nearest to `place`, the nearest first; of places at the same distance, the one
+// with the smaller x, then y, comes first. Fewer if there are not so many; none if a coordinate is NaN or infinite. A
+// call costs O(k log k) for `k` places, beside the search for the first.
+//
+// # Safety
+// `triangulation` is one that is not freed, and `place` points to two coordinates of its type; the rest is as for
+// `incircle_mesh_triangles`.
+int32_t incircle_triangulation_k_nearest(const incircle_triangulation *triangulation,
+                                         const void *place,
+                                         size_t number,
+                                         uint32_t *buffer,
+                                         size_t room,
+                                         size_t *count);
+
+// The indices of the places at most `radius` from `center`, in rising order. No distance is rounded. None if the
+// radius is negative or NaN, or if a coordinate is NaN or infinite.
+//
+// # Safety
+// As for `incircle_triangulation_k_nearest`.
+int32_t incircle_triangulation_within_circle(const incircle_triangulation *triangulation,
+                                             const void *center,
+                                             double radius,
+                                             uint32_t *buffer,
+                                             size_t room,
+                                             size_t *count);
+
+// The indices of the places in a rectangle or on its border, in rising order. Any two opposite corners name the
+// rectangle. None if a coordinate is NaN or infinite.
+//
+// # Safety
+// As for `incircle_triangulation_k_nearest`; each corner is two coordinates.
+int32_t incircle_triangulation_within_rectangle(const incircle_triangulation *triangulation,
+                                                const void *corner,
+                                                const void *opposite,
+                                                uint32_t *buffer,
+                                                size_t room,
+                                                size_t *count);
+
+// The triangles whose inside the straight line between two places crosses, in that order; three indices each,
+// counter-clockwise, the smallest first. A line along an edge crosses neither triangle beside it. None if a coordinate
+// is NaN or infinite.
+//
+// # Safety
+// As for `incircle_triangulation_k_nearest`; both ends are two coordinates.
+int32_t incircle_triangulation_segment(const incircle_triangulation *triangulation,
+                                       const void *from,
+                                       const void *to,
+                                       uint32_t (*buffer)[3],
+                                       size_t room,
+                                       size_t *count);
+
+// The triangles around the place of a point, counter-clockwise, each with the lowest index of that place first.
+//
+// # Safety
+// `triangulation` is one that is not freed; the rest is as for `incircle_mesh_triangles`.
+int32_t incircle_triangulation_star(const incircle_triangulation *triangulation,
+                                    uint32_t index,
+                                    uint32_t (*buffer)[3],
+                                    size_t room,
+                                    size_t *count);
+
 // Makes the Voronoi diagram of `count` points, and the cells inside a clip of `corner_count` corners: none, two
 // opposite ones of a rectangle, or three or more of a simple polygon. `points` and `clip` have x and y of each, in the
 // type of numbers `number`, such as `INCIRCLE_F64`. `diagram` becomes a diagram that must be freed, or null if the

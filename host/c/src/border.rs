@@ -60,6 +60,15 @@ pub unsafe fn copied<T: Copy>(pointer: *const c_void, count: usize, name: &str) 
     Ok(list)
 }
 
+/// One place of the caller: two coordinates.
+///
+/// # Safety
+/// A pointer that is not null points to two coordinates.
+pub unsafe fn place<P: Copy>(pointer: *const c_void) -> Outcome<P> {
+    // SAFETY: the caller promises two coordinates.
+    unsafe { copied::<P>(pointer, 1, "place") }?.pop().ok_or_else(|| bad("place"))
+}
+
 /// The text at a pointer; `None` if it is null.
 ///
 /// # Safety

@@ -6,9 +6,10 @@ use std::ffi::c_void;
 use incircle::living::{Location, Triangulation};
 use incircle::PlanePoint;
 
-use crate::border::{copied, exclusive, give, look_for_memory, shared};
+use crate::answers::Questions;
+use crate::border::{copied, exclusive, give, look_for_memory, place, shared};
 use crate::mesh::{boxed, incircle_mesh, of_type};
-use crate::status::{guarded, Failure, Outcome, INCIRCLE_ARGUMENT};
+use crate::status::{guarded, Failure, Outcome};
 
 /// The place is none: there are no triangles and it lies on no edge, or a coordinate is NaN or infinite.
 pub const INCIRCLE_NONE: u32 = 0;
@@ -42,7 +43,7 @@ pub struct incircle_location {
 }
 
 /// A triangulation in any type of numbers. Each place of the caller is a pointer to two coordinates.
-trait Living {
+pub(crate) trait Living: Questions {
     /// # Safety
     /// The pointer is null, or points to two coordinates; so in all functions.
     unsafe fn insert(&mut self, place: *const c_void) -> Outcome<u32>;
@@ -57,16 +58,11 @@ trait Living {
     fn mesh(&self) -> *mut incircle_mesh;
 }
 
-/// One place of the caller.
-unsafe fn place<P: Copy>(pointer: *const c_void) -> Outcome<P> {
-    // SAFETY: the caller promises two coordinates.
-    unsafe { copied::<P>(pointer, 1, "place") }?.pop().ok_or_else(|| Failure::new(INCIRCLE_ARGUMENT, "no place"))
-}
-
 impl<P: PlanePoint + Send + Sync + 'static> Living for Triangulation<P> {
     unsafe fn insert(&mut self, at: *const c_void) -> Outcome<u32> {
         if self.next_index().is_multiple_of(LOOK) {
-            look_for_memory(self.bytes() + LOOK as usize * BYTES_OF_A_POINT)?;
+            // A list that doubles needs twice its bytes while it is copied, and all lists may double in turn.
+            look_for_memory(2 * self.bytes() + LOOK as usize * BYTES_OF_A_POINT)?;
         }
         // SAFETY: as above.
         Ok(Triangulation::insert(self, unsafe { place(at) }?)?)
@@ -123,7 +119,7 @@ impl<P: PlanePoint + Send + Sync + 'static> Living for Triangulation<P> {
 
 /// A triangulation that can be asked and changed. While one thread changes it, no other may use it; several may ask.
 #[allow(non_camel_case_types)]
-pub struct incircle_triangulation(Box<dyn Living + Send + Sync>);
+pub struct incircle_triangulation(pub(crate) Box<dyn Living + Send + Sync>);
 
 /// Makes the triangulation of `count` points, whose indices are their positions. `points` may be null if `count` is 0.
 /// All coordinates that the triangulation takes have the type `number`, such as `INCIRCLE_F64`. `made` becomes a

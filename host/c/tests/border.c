@@ -164,6 +164,56 @@ static void a_mesh_lives(void) {
     TRUE(living == NULL);
 }
 
+static void questions_have_lists_as_answers(void) {
+    incircle_triangulation *living;
+    uint32_t list[8], triangles[8][3];
+    size_t count;
+    int32_t grid[25][2];
+    for (int32_t k = 0; k < 25; ++k) {
+        grid[k][0] = k % 5;
+        grid[k][1] = k / 5;
+    }
+    const int32_t middle[2] = {2, 2}, corner[2] = {3, 3}, left[2] = {-9, 2}, right[2] = {9, 2};
+    IS(incircle_triangulation_new(grid, 25, INCIRCLE_I32, &living), INCIRCLE_OK);
+    IS(incircle_triangulation_k_nearest(living, middle, 5, list, 8, &count), INCIRCLE_OK);
+    TRUE(count == 5 && list[0] == 12 && list[1] == 11 && list[2] == 7 && list[3] == 17 && list[4] == 13);
+    IS(incircle_triangulation_k_nearest(living, middle, SIZE_MAX, NULL, 0, &count), INCIRCLE_OK);
+    TRUE(count == 25);
+    IS(incircle_triangulation_k_nearest(living, middle, SIZE_MAX, list, 8, &count), INCIRCLE_BUFFER);
+    IS(incircle_triangulation_k_nearest(living, middle, 0, list, 8, &count), INCIRCLE_OK);
+    TRUE(count == 0);
+    IS(incircle_triangulation_within_circle(living, middle, 1, list, 8, &count), INCIRCLE_OK);
+    TRUE(count == 5 && list[0] == 7 && list[4] == 17);
+    IS(incircle_triangulation_within_circle(living, middle, -1, list, 8, &count), INCIRCLE_OK);
+    TRUE(count == 0);
+    IS(incircle_triangulation_within_circle(living, middle, NAN, list, 8, &count), INCIRCLE_OK);
+    TRUE(count == 0);
+    IS(incircle_triangulation_within_rectangle(living, corner, middle, list, 8, &count), INCIRCLE_OK);
+    TRUE(count == 4 && list[0] == 12 && list[3] == 18);
+    IS(incircle_triangulation_star(living, 0, triangles, 8, &count), INCIRCLE_OK);
+    TRUE(count == 2 && triangles[0][0] == 0 && triangles[1][0] == 0);
+    IS(incircle_triangulation_star(living, 25, triangles, 8, &count), INCIRCLE_INDEX);
+    const int32_t low[2] = {0, 1}, high[2] = {4, 2};
+    IS(incircle_triangulation_segment(living, low, high, triangles, 8, &count), INCIRCLE_OK);
+    TRUE(count >= 4);
+    IS(incircle_triangulation_segment(living, left, right, triangles, 8, &count), INCIRCLE_OK);
+    TRUE(count == 0); /* The line runs along edges. */
+    IS(incircle_triangulation_k_nearest(NULL, middle, 1, list, 8, &count), INCIRCLE_ARGUMENT);
+    IS(incircle_triangulation_k_nearest(living, NULL, 1, list, 8, &count), INCIRCLE_ARGUMENT);
+    IS(incircle_triangulation_within_circle(living, NULL, 1, list, 8, &count), INCIRCLE_ARGUMENT);
+    IS(incircle_triangulation_within_rectangle(living, middle, NULL, list, 8, &count), INCIRCLE_ARGUMENT);
+    IS(incircle_triangulation_segment(living, NULL, middle, triangles, 8, &count), INCIRCLE_ARGUMENT);
+    IS(incircle_triangulation_star(living, 0, triangles, 8, NULL), INCIRCLE_ARGUMENT);
+    incircle_triangulation_free(living);
+    const double place[2] = {NAN, 1}, inside[2] = {2, 1};
+    IS(incircle_triangulation_new(SQUARE, 4, INCIRCLE_F64, &living), INCIRCLE_OK);
+    IS(incircle_triangulation_k_nearest(living, place, 4, list, 8, &count), INCIRCLE_OK);
+    TRUE(count == 0);
+    IS(incircle_triangulation_segment(living, place, inside, triangles, 8, &count), INCIRCLE_OK);
+    TRUE(count == 0);
+    incircle_triangulation_free(living);
+}
+
 /* Points on a spiral: all different, in no order. */
 static double (*spiral(size_t count))[2] {
     double(*points)[2] = malloc(count * sizeof *points);
@@ -211,6 +261,7 @@ int main(int count, char **arguments) {
     options_are_taken_or_refused();
     bad_arguments_are_refused();
     a_mesh_lives();
+    questions_have_lists_as_answers();
     /* Leaks would show in the sanitiser. */
     double(*points)[2] = spiral(50000);
     for (int round = 0; round < 5; ++round) {

@@ -18,7 +18,7 @@ fn the_header_is_that_of_the_sources() {
     config.usize_is_size_t = true;
     config.export.include =
         ["options", "plan", "relaxation", "relaxed"].map(|name| format!("incircle_{name}")).to_vec();
-    let files = ["status", "mesh", "constrained", "living", "grid", "diagram", "lloyd", "surface"];
+    let files = ["status", "mesh", "constrained", "living", "questions", "grid", "diagram", "lloyd", "surface"];
     let files = files.map(|file| root.join("src").join(file).with_extension("rs"));
     let builder =
         files.iter().fold(cbindgen::Builder::new().with_config(config), |builder, file| builder.with_src(file));

@@ -2,7 +2,8 @@
 
 use std::io::{self, Write};
 
-use incircle::Mesh;
+use incircle::constraints::Triangulated;
+use incircle::{Duplicate, Mesh};
 
 use crate::formats::{MeshFormat, MeshView};
 use crate::planned::Planned;
@@ -24,8 +25,13 @@ pub struct Connections {
 impl Connections {
     /// A mesh without its points.
     pub fn of_mesh<P>(mesh: Mesh<P>) -> Self {
-        let duplicates = mesh.duplicates.iter().map(|duplicate| [duplicate.index, duplicate.of]).collect();
-        Self { triangles: mesh.triangles, hull: mesh.hull, duplicates, planned: None }
+        Self { triangles: mesh.triangles, hull: mesh.hull, duplicates: pairs(&mesh.duplicates), planned: None }
+    }
+
+    /// The triangles of a domain. What constraints made of the mesh is not there yet.
+    pub fn of_domain(found: &Triangulated) -> Self {
+        let (triangles, hull) = (found.made.triangles.clone(), found.hull.clone());
+        Self { triangles, hull, duplicates: pairs(&found.duplicates), planned: None }
     }
 
     /// The mesh with other indices: `names` has the new one of each.
@@ -44,4 +50,9 @@ impl Connections {
         let Self { triangles, hull, duplicates, planned } = self;
         format.write(&MeshView { points, triangles, hull, duplicates, planned: planned.as_ref() }, out)
     }
+}
+
+/// Duplicates as pairs.
+fn pairs(duplicates: &[Duplicate]) -> Vec<[u32; 2]> {
+    duplicates.iter().map(|duplicate| [duplicate.index, duplicate.of]).collect()
 }

@@ -5,8 +5,9 @@ use crate::memory::Memory;
 use crate::number::{self, Decimal, Number};
 use crate::points::PointTable;
 
-/// Bytes that a node takes: its coordinates in the file's numbers, on the lattice and as doubles, and its value.
-const NODE_BYTES: u64 = 80;
+/// Bytes that a node takes: its coordinates in the file's numbers, on the lattice and as doubles, its value, and that
+/// value again in a file that is made in memory.
+const NODE_BYTES: u64 = 88;
 
 /// A grid of nodes, row by row from the lowest y, and in a row from the lowest x.
 pub struct Grid {
@@ -67,7 +68,16 @@ impl Grid {
 
     /// The lowest node, and the step, as doubles.
     pub fn origin(&self) -> ([f64; 2], f64) {
-        let value = |steps: i64| number::nearest(i128::from(steps) * i128::from(self.step.steps), self.step.digits);
-        (self.low.map(value), Number::Decimal(self.step).nearest().value)
+        (self.low.map(|place| self.value(place)), Number::Decimal(self.step).nearest().value)
+    }
+
+    /// The highest y of a node, as a double.
+    pub fn top(&self) -> f64 {
+        self.value(self.low[1] + (self.counts[1].max(1) - 1) as i64)
+    }
+
+    /// A number of steps as the nearest double.
+    fn value(&self, steps: i64) -> f64 {
+        number::nearest(i128::from(steps) * i128::from(self.step.steps), self.step.digits)
     }
 }

@@ -56,6 +56,7 @@ pub const VERIFY_LONG: &str = "\
 Examples:
   incircle verify points.csv mesh.obj
   incircle verify points.csv mesh.ele --json
+  incircle verify big.npy mesh.npy --memory 1G
   incircle verify tracks.txt mesh.obj --script";
 
 /// End of `incircle generate -h`.

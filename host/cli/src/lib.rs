@@ -15,8 +15,10 @@ mod failure;
 mod fit;
 mod fleet;
 pub mod formats;
+mod geotiff;
 mod grid;
 mod help;
+mod image;
 mod input;
 mod interrupt;
 mod lattice;
@@ -31,6 +33,7 @@ mod planned;
 mod player;
 mod points;
 mod progress;
+mod proof;
 mod report;
 mod script;
 #[cfg(feature = "sim")]

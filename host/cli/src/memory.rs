@@ -86,7 +86,8 @@ impl Memory {
         let mebibytes = self.bytes >> 20;
         Err(Failure::input(format!(
             "the mesh has more than {most} triangles, which is what {mebibytes} MiB of free memory hold at \
-             {TRIANGLE_BYTES} bytes a triangle: use a machine with more memory"
+             {TRIANGLE_BYTES} bytes a triangle: give --memory, which keeps the rest in files, or use a machine with more \
+             memory"
         )))
     }
 

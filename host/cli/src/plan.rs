@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use incircle::constraints::{constrain, Constrained, Domain, Error, Place, Plan, Snapped};
+use incircle::constraints::{constrain, Constrained, Domain, Error, Place, Plan, Snapped, SNAP_BITS};
 use incircle::{Duplicate, Lattice, Mesh, PlanePoint, Step};
 
 use crate::arguments::{PlanArguments, ReadArguments};
@@ -30,6 +30,8 @@ pub struct Request {
     attributes: Vec<String>,
     /// The constraint of the files that each constraint is a part of; `None` if each is one of these.
     parts: Option<Vec<u32>>,
+    /// Whether crossings were to be snapped, but the points lie on no lattice.
+    lacks_grid: bool,
 }
 
 /// A set of points, and what is asked of its mesh.
@@ -46,6 +48,12 @@ impl PlannedSet {
     /// Whether places of holes or regions stand behind the points.
     pub fn has_marks(&self) -> bool {
         self.table.len() > self.points
+    }
+
+    /// The set, of which it is known that its points lie on no lattice, so that crossings cannot be snapped.
+    pub fn without_grid(mut self) -> Self {
+        self.request.iter_mut().for_each(|request| request.lacks_grid = true);
+        self
     }
 }
 
@@ -84,7 +92,15 @@ pub fn read_set(
     constraints.extend(lines);
     let is_asked = is_poly || arguments.is_given() || !constraints.is_empty();
     let domain = arguments.domain.unwrap_or(default);
-    let request = is_asked.then_some(Request { constraints, lines: free, domain, holes, attributes, parts: None });
+    let request = is_asked.then_some(Request {
+        constraints,
+        lines: free,
+        domain,
+        holes,
+        attributes,
+        parts: None,
+        lacks_grid: false,
+    });
     Ok(PlannedSet { table, points, request })
 }
 
@@ -98,7 +114,8 @@ fn read_beside(path: &Path, quiet: bool) -> Result<(PointTable, u32), Failure> {
 impl Request {
     /// Asks for all triangles of the hull with these constraints.
     pub fn of_constraints(constraints: Vec<[u32; 2]>) -> Self {
-        Self { constraints, lines: 0, domain: Domain::All, holes: 0, attributes: Vec::new(), parts: None }
+        let attributes = Vec::new();
+        Self { constraints, lines: 0, domain: Domain::All, holes: 0, attributes, parts: None, lacks_grid: false }
     }
 
     /// The same for a set whose crossings were snapped.
@@ -111,6 +128,7 @@ impl Request {
             holes: self.holes,
             attributes: self.attributes.clone(),
             parts: Some(snapped.of.clone()),
+            lacks_grid: false,
         }
     }
 
@@ -155,8 +173,12 @@ impl Request {
 
     /// Forces the constraints into a mesh. The places of holes and regions stand behind the points in `laid`.
     pub fn force(&self, mesh: &mut Connections, set: &PlannedSet, laid: &Laid<'_>) -> Result<Planned, Failure> {
-        let mut made =
-            self.force_numbers(&laid.numbers, set.points, mesh).map_err(|error| refuse(error, &set.table, laid))?;
+        let made = self.force_numbers(&laid.numbers, set.points, mesh);
+        made.map(|made| self.planned(made)).map_err(|error| self.refuse(error, &set.table, laid))
+    }
+
+    /// What constraints made of the mesh, with the names and numbers of the file.
+    pub fn planned(&self, mut made: Constrained) -> Planned {
         let mut constraints = self.constraints.len();
         if let Some(parts) = &self.parts {
             made.pieces = made.pieces.renamed(parts);
@@ -171,7 +193,7 @@ impl Request {
                 attributes[region as usize].clone_from(attribute);
             }
         }
-        Ok(Planned { made, attributes, domain: self.domain, constraints, snapping: None })
+        Planned { made, attributes, domain: self.domain, constraints, snapping: None }
     }
 
     /// The plan in these numbers.
@@ -195,16 +217,24 @@ impl Request {
         mesh.triangles.clone_from(&made.triangles);
         Ok(made)
     }
-}
 
-/// The failure of constraints that have no mesh. The place of a crossing is told in the numbers of the file.
-fn refuse(error: Error, table: &PointTable, laid: &Laid<'_>) -> Failure {
-    match error {
-        Error::Crossing { constraints, ends, place } if !matches!(laid.kind, Kind::Quantized(_)) => {
-            let place = place_in(table, ends).unwrap_or(place);
-            Failure::input(Error::Crossing { constraints, ends, place }.to_string())
+    /// The failure of constraints that have no mesh. The place of a crossing is told in the numbers of the file.
+    pub fn refuse(&self, error: Error, table: &PointTable, laid: &Laid<'_>) -> Failure {
+        let Error::Crossing { constraints, ends, mut place } = error else {
+            return Failure::input(error.to_string());
+        };
+        if !matches!(laid.kind, Kind::Quantized(_)) {
+            place = place_in(table, ends).unwrap_or(place);
         }
-        other => Failure::input(other.to_string()),
+        let told = Error::Crossing { constraints, ends, place };
+        if self.lacks_grid {
+            return Failure::input(format!(
+                "{told}, or round the points to a grid of at most {} bits first, such as by --quantize fit --coord-bits \
+                 {0}: these points lie on no grid that --crossings snap could make finer",
+                u32::BITS - SNAP_BITS
+            ));
+        }
+        Failure::input(format!("{told}, or let --crossings snap make points of crossings"))
     }
 }
 

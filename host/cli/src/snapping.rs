@@ -28,10 +28,11 @@ struct Fine {
 
 /// Snaps the crossings of a set. `how` quantises it before: the coordinates are then those of the grid.
 ///
-/// A set without crossings stays as it is, and so does one without a lattice, whose crossings are refused later.
+/// A set without crossings stays as it is. So does one without a lattice: its crossings are refused when its constraints
+/// are forced, with a sentence that says so.
 pub fn snap_set(set: PlannedSet, how: Option<(Quantize, u32)>) -> Result<(PlannedSet, Option<Snapping>), Failure> {
     let Some(request) = &set.request else { return Ok((set, None)) };
-    let Some(fine) = fine(&set.table, how)? else { return Ok((set, None)) };
+    let Some(fine) = fine(&set.table, how)? else { return Ok((set.without_grid(), None)) };
     let snapped = snap(&fine.grid[..set.points], request.constraints()).map_err(|error| refuse(&error))?;
     if snapped.finer_bits == 0 {
         return Ok((set, None));

@@ -1,6 +1,7 @@
 //! One job on an opened back end.
 
-use incircle::{Options, PlanePoint, Report, Session, Solution};
+use incircle::constraints::{Error, Triangulated};
+use incircle::{ConstrainedError, Options, PlanePoint, Report, Session, Solution};
 
 use crate::arguments::JobArguments;
 use crate::backend::Backend;
@@ -8,6 +9,7 @@ use crate::connections::Connections;
 use crate::failure::{failure_of, Failure};
 use crate::interrupt;
 use crate::lattice::Numbers;
+use crate::plan::Request;
 use crate::progress::Meter;
 
 /// Triangulates points on a back end. `check_bits` refuses points whose coordinates need more bits than the device has.
@@ -36,6 +38,44 @@ pub fn triangulate(
     // The check comes first, because an interrupt may surface as any error.
     interrupt::check()?;
     solution
+}
+
+/// Triangulates the first `points` places on the CPU triangulator, with what is asked of their mesh. `refuse` makes a
+/// failure of constraints that have no mesh.
+pub fn constrain(
+    backend: &mut Backend,
+    (request, numbers, points): (&Request, &Numbers<'_>, usize),
+    refuse: impl Fn(Error) -> Failure,
+    job: &JobArguments,
+    quiet: bool,
+) -> Result<(Triangulated, Report), Failure> {
+    let meter = Meter::new(quiet);
+    let listener = |progress| meter.hear(progress);
+    let options = job.options(&listener);
+    let found = interrupt::working(|| {
+        let mut session = backend.device.session()?;
+        match numbers {
+            Numbers::Grid(places) => connect_with(&mut session, (request, &places[..], points), &options),
+            Numbers::Whole(places) => connect_with(&mut session, (request, &places[..], points), &options),
+            Numbers::Doubles(places) => connect_with(&mut session, (request, &places[..], points), &options),
+        }
+    });
+    // The check comes first, because an interrupt may surface as any error.
+    interrupt::check()?;
+    found.map_err(|error| match error {
+        ConstrainedError::Plan(error) => refuse(error),
+        ConstrainedError::Job(error) => failure_of(&error),
+        other => Failure::input(other.to_string()),
+    })
+}
+
+/// Triangulates the first `points` places, whose coordinates are numbers of one type, with what is asked of their mesh.
+fn connect_with<P: PlanePoint>(
+    session: &mut Session<'_>,
+    (request, places, points): (&Request, &[P], usize),
+    options: &Options<'_>,
+) -> Result<(Triangulated, Report), ConstrainedError> {
+    session.triangulate_constrained(&places[..points], &request.plan(places, points), options)
 }
 
 /// Triangulates points whose coordinates are numbers of one type.

@@ -167,9 +167,18 @@ fn trailing_exponent(value: f64) -> Option<i32> {
     }
 }
 
+/// The exponent of the leading bit of a finite double; that of the smallest double for zero.
+pub(crate) fn exponent(value: f64) -> i32 {
+    let bits = value.abs().to_bits();
+    match (bits >> 52) as i32 {
+        0 => (bits | 1).ilog2() as i32 - 1074,
+        biased => biased - 1023,
+    }
+}
+
 /// `value * 2^exponent`, exact if a double holds that: a power beyond the range of doubles is the product of two within
 /// it.
-fn scaled(value: f64, exponent: i32) -> f64 {
+pub(crate) fn scaled(value: f64, exponent: i32) -> f64 {
     // Beyond these, a product with a number of up to 64 bits is 0 or infinity in any case.
     let exponent = exponent.clamp(-2044, 2046);
     let half = exponent / 2;
@@ -207,6 +216,15 @@ impl<'a> Numbers<'a> {
         match found {
             Some((lattice, grid)) => (Self::Grid(Cow::Owned(grid)), Some(lattice)),
             None => (self, None),
+        }
+    }
+
+    /// The first points, at most as many as there are.
+    pub(crate) fn first(&self, points: usize) -> Numbers<'_> {
+        match self {
+            Self::Grid(all) => Numbers::Grid(Cow::Borrowed(&all[..points.min(all.len())])),
+            Self::Whole(all) => Numbers::Whole(Cow::Borrowed(&all[..points.min(all.len())])),
+            Self::Doubles(all) => Numbers::Doubles(Cow::Borrowed(&all[..points.min(all.len())])),
         }
     }
 

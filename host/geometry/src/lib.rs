@@ -11,7 +11,7 @@
 //! | the same of many small sets | [`cpu::Triangulator`] | about 0.11 µs a point, without any allocation |
 //! | the mesh of a set that is too large for one memory | [`tiles`] | about 0.2 µs a point on one thread |
 //! | a mesh that can be asked and changed | [`Triangulation`] | 0.1 to 0.3 µs near the last place, some µs elsewhere |
-//! | a mesh with edges that must be there | [`constraints::constrain`] | O(n) beside the triangulation |
+//! | a mesh with edges that must be there | [`constraints::triangulate`] | O(n) beside the triangulation |
 //! | the triangles beside a triangle | [`Mesh::neighbors`], [`Mesh::halfedges`] | O(n) for the whole mesh |
 //! | the Voronoi cells of a set, whole or clipped | [`voronoi`] | O(n), less than 2 µs a point |
 //! | points spread evenly over a region | [`lloyd::relax`] | about 1 µs a point and step |

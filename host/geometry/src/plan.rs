@@ -83,6 +83,11 @@ impl<'a, M> Plan<'a, M> {
         Self { constraints, lines: 0, domain: Domain::All, holes: &[], regions: &[] }
     }
 
+    /// Whether all triangles are wanted, and no region is named.
+    pub(crate) fn takes_all(&self) -> bool {
+        self.domain == Domain::All && self.regions.is_empty()
+    }
+
     /// The number of constraints that bound the domain, which come before all lines.
     pub(crate) fn boundary(&self) -> usize {
         self.constraints.len().saturating_sub(self.lines)

@@ -33,6 +33,7 @@ from ._errors import (
     InputError,
     LinkError,
     NumberTypeError,
+    OutOfMemoryError,
     UnknownPointError,
     VerifyError,
 )
@@ -64,6 +65,7 @@ __all__ = [
     "Location",
     "Mesh",
     "NumberTypeError",
+    "OutOfMemoryError",
     "Relaxed",
     "Report",
     "Share",

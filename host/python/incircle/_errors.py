@@ -39,6 +39,10 @@ class CapacityError(Error, ValueError):
     """There are more points than indices allow."""
 
 
+class OutOfMemoryError(Error, MemoryError):
+    """There is not enough memory for the most that the job may need. This is found before the job begins."""
+
+
 class Cancelled(Error):
     """The function that hears of the progress ended the job."""
 

@@ -84,7 +84,7 @@ def triangulate(
         domain than `"holes"`, or more lines than constraints.
     Error
         `DeviceNotFoundError`, `LinkError`, `DeviceError` and `DeviceTimeoutError` of a device, `CapacityError` beyond
-        536,870,911 points, and `Cancelled`.
+        536,870,911 points, `OutOfMemoryError`, and `Cancelled`.
     KeyboardInterrupt
         Ctrl-C ends the job.
     """

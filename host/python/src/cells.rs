@@ -10,6 +10,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::error::{bad_input, of_job};
+use crate::memory::{look_for_memory, BYTES_OF_A_CELL};
 use crate::points::{array, list, of_any_type, Points};
 
 /// Bits below the lattice that a relaxation needs for places between the points.
@@ -65,6 +66,7 @@ where
 {
     let wrong = || PyTypeError::new_err("the corners of the clip have another type of numbers than the points");
     let corners: Vec<[T; 2]> = list(corners)?.ok_or_else(wrong)?;
+    look_for_memory(py, points.len() + corners.len(), BYTES_OF_A_CELL)?;
     let how = quantize.then_some(Quantize::Fit);
     py.detach(|| GridSet::of(&points, &corners, spare, how)).map_err(|error| of_grid_set(py, &error))
 }

@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::error::{bad_input, exception};
+use crate::memory::{look_for_memory, BYTES_OF_A_CONSTRAINT};
 use crate::points::{array, list, of_any_type, Points};
 
 /// Constraints and domain as they come from Python: pairs of indices, how many of them bound nothing, the name of the
@@ -73,6 +74,7 @@ fn forced<'py, P>(py: Python<'py>, mesh: Mesh<P>, wanted: &Wanted<P>) -> PyResul
 where
     P: PlanePoint + Send + Sync,
 {
+    look_for_memory(py, mesh.points.len() + wanted.constraints.len(), BYTES_OF_A_CONSTRAINT)?;
     let made = py.detach(|| constrain(&mesh, &wanted.plan()));
     let made = made.map_err(|error| bad_input(py, &error.to_string()))?;
     let mut starts = vec![0u32];
@@ -97,6 +99,7 @@ pub fn verify_plan<'py>(points: &Bound<'py, PyAny>, triangles: &Bound<'py, PyAny
     let (py, triangles) = (points.py(), triangle_list(triangles)?);
     let verified = of_any_type!(Points, Points::read(points)?, points => {
         let wanted = Wanted::of(&asked)?;
+        look_for_memory(py, points.len() + wanted.constraints.len(), BYTES_OF_A_CONSTRAINT)?;
         py.detach(|| verify_constrained(&points, &triangles, &wanted.plan()))
     });
     verified.map(|_| ()).map_err(|error| exception(py, "VerifyError", &error.to_string()))

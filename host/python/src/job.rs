@@ -10,6 +10,7 @@ use pyo3::types::PyDict;
 
 use crate::constrained::triangle_list;
 use crate::error::{exception, of_job};
+use crate::memory::{look_for_memory, BYTES_OF_A_JOB, BYTES_OF_A_TRIANGLE};
 use crate::points::{array, of_any_type, Points};
 use crate::watch::Watch;
 
@@ -56,6 +57,7 @@ pub fn triangulate<'py>(
 ) -> PyResult<Lists<'py>> {
     let (py, choice) = (points.py(), Choice { addresses: backends, threads });
     of_any_type!(Points, Points::read(points)?, points => {
+        look_for_memory(py, points.len(), BYTES_OF_A_JOB)?;
         let solution = py.detach(|| watched(points, &choice, progress));
         solution.map_err(|failure| failure.into_exception(py)).and_then(|solution| lists(py, solution))
     })
@@ -146,6 +148,7 @@ fn described<'py>(py: Python<'py>, report: &Report) -> PyResult<Bound<'py, PyDic
 #[pyfunction]
 pub fn halfedges<'py>(py: Python<'py>, triangles: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let triangles = triangle_list(triangles)?;
+    look_for_memory(py, triangles.len(), BYTES_OF_A_TRIANGLE)?;
     let halfedges = py.detach(|| connected(triangles).halfedges());
     if i32::try_from(halfedges.len()).is_ok() {
         // `EMPTY`, all bits set, is -1 as a signed number.
@@ -159,6 +162,7 @@ pub fn halfedges<'py>(py: Python<'py>, triangles: &Bound<'py, PyAny>) -> PyResul
 #[pyfunction]
 pub fn neighbors<'py>(py: Python<'py>, triangles: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let triangles = triangle_list(triangles)?;
+    look_for_memory(py, triangles.len(), BYTES_OF_A_TRIANGLE)?;
     let neighbors: Vec<[i32; 3]> = py.detach(|| {
         let halfedges = connected(triangles).halfedges();
         // Half-edge `3 t` is opposite vertex 2. A mesh has fewer than 2^31 triangles.
@@ -178,6 +182,7 @@ pub fn verify(
 ) -> PyResult<()> {
     let (py, triangles) = (points.py(), triangle_list(triangles)?);
     let duplicates = duplicates.into_iter().map(|[index, of]| Duplicate { index, of }).collect();
+    look_for_memory(py, triangles.len(), BYTES_OF_A_TRIANGLE)?;
     let verified = of_any_type!(Points, Points::read(points)?, points => {
         py.detach(|| Mesh::new(points, triangles, hull, duplicates).verify())
     });

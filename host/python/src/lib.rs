@@ -10,6 +10,7 @@ mod coordinate;
 mod error;
 mod job;
 mod living;
+mod memory;
 mod points;
 mod surface;
 mod watch;

@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 use crate::coordinate::{coordinate, Coordinate};
 use crate::error::of_living;
 use crate::job::mesh_lists;
+use crate::memory::{look_for_memory, BYTES_OF_A_LIVING_POINT, BYTES_OF_A_PLACE};
 use crate::points::{array, of_any_type, Points};
 
 type Any<'py> = PyResult<Bound<'py, PyAny>>;
@@ -17,6 +18,8 @@ type Place<'a, 'py> = (&'a Bound<'py, PyAny>, &'a Bound<'py, PyAny>);
 
 /// Changes between two looks for signals.
 const LOOK: usize = 65_536;
+/// After so many single insertions the memory for the growth of all lists is looked for again.
+const LOOK_FOR_MEMORY: u32 = 1024;
 
 /// The triangulation that can be changed, in one of the types of numbers.
 enum Mesh {
@@ -77,7 +80,14 @@ fn each<I: Sync, T: Send>(
 }
 
 fn fresh<P: PlanePoint + Send>(py: Python<'_>, points: Vec<P>) -> PyResult<Triangulation<P>> {
+    look_for_memory(py, points.len(), BYTES_OF_A_LIVING_POINT)?;
     py.detach(|| Triangulation::from(points)).map_err(|error| of_living(py, error))
+}
+
+/// Looks for the memory for so many insertions. A list that doubles needs twice its bytes while it is copied, and all
+/// lists may double in turn.
+fn look_for_growth<P: PlanePoint>(py: Python<'_>, mesh: &Triangulation<P>, insertions: usize) -> PyResult<()> {
+    look_for_memory(py, 2 * mesh.bytes() + insertions.saturating_mul(BYTES_OF_A_LIVING_POINT), 1)
 }
 
 #[pymethods]
@@ -95,18 +105,22 @@ impl Living {
         }))
     }
 
-    fn copy(&self) -> Self {
-        Self(match &self.0 {
+    fn copy(&self, py: Python<'_>) -> PyResult<Self> {
+        look_for_memory(py, self.bytes(), 1)?;
+        Ok(Self(match &self.0 {
             Mesh::F64(mesh) => Mesh::F64(mesh.clone()),
             Mesh::F32(mesh) => Mesh::F32(mesh.clone()),
             Mesh::I32(mesh) => Mesh::I32(mesh.clone()),
             Mesh::I64(mesh) => Mesh::I64(mesh.clone()),
             Mesh::U32(mesh) => Mesh::U32(mesh.clone()),
-        })
+        }))
     }
 
     fn insert(&mut self, x: &Bound<'_, PyAny>, y: &Bound<'_, PyAny>) -> PyResult<u32> {
         of_any_type!(Mesh, &mut self.0, mesh => {
+            if mesh.next_index().is_multiple_of(LOOK_FOR_MEMORY) {
+                look_for_growth(x.py(), mesh, LOOK_FOR_MEMORY as usize)?;
+            }
             mesh.insert(place((x, y))?).map_err(|error| of_living(x.py(), error))
         })
     }
@@ -114,6 +128,7 @@ impl Living {
     fn insert_all<'py>(&mut self, points: &Bound<'py, PyAny>) -> Any<'py> {
         let py = points.py();
         of_same_type!(&mut self.0, points, |mesh, list| {
+            look_for_growth(py, mesh, list.len())?;
             Ok(PyArray1::from_vec(py, each(py, &list, |&point| mesh.insert(point))?).into_any())
         })
     }
@@ -137,6 +152,7 @@ impl Living {
     fn move_all(&mut self, places: &Bound<'_, PyAny>) -> PyResult<()> {
         let py = places.py();
         of_same_type!(&mut self.0, places, |mesh, list| {
+            look_for_memory(py, mesh.len(), BYTES_OF_A_LIVING_POINT)?;
             py.detach(|| mesh.move_all(&list)).map_err(|error| of_living(py, error))
         })
     }
@@ -152,6 +168,7 @@ impl Living {
     fn locate_all<'py>(&self, places: &Bound<'py, PyAny>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         let py = places.py();
         let (kinds, vertices) = of_same_type!(&self.0, places, |mesh, list| {
+            look_for_memory(py, list.len(), BYTES_OF_A_PLACE)?;
             Ok::<(Vec<u8>, Vec<_>), PyErr>(py.detach(|| list.iter().map(|&at| numbered(mesh.locate(at))).unzip()))
         })?;
         Ok((PyArray1::from_vec(py, kinds).into_any(), array(py, vertices)?))
@@ -164,6 +181,7 @@ impl Living {
     fn nearest_all<'py>(&self, places: &Bound<'py, PyAny>) -> Any<'py> {
         let py = places.py();
         of_same_type!(&self.0, places, |mesh, list| {
+            look_for_memory(py, list.len(), BYTES_OF_A_PLACE)?;
             let nearest = |&at: &_| mesh.nearest(at).map_or(-1, i64::from);
             let indices: Vec<i64> = py.detach(|| list.iter().map(nearest).collect());
             Ok(PyArray1::from_vec(py, indices).into_any())
@@ -232,7 +250,10 @@ impl Living {
 
     /// Points, triangles, hull and duplicates of the mesh of the living points.
     fn mesh<'py>(&self, py: Python<'py>) -> PyResult<[Bound<'py, PyAny>; 4]> {
-        of_any_type!(Mesh, &self.0, mesh => mesh_lists(py, py.detach(|| mesh.mesh())))
+        of_any_type!(Mesh, &self.0, mesh => {
+            look_for_memory(py, mesh.len(), BYTES_OF_A_LIVING_POINT)?;
+            mesh_lists(py, py.detach(|| mesh.mesh()))
+        })
     }
 
     /// The coordinates of the living points, in the order of their indices.

@@ -5,6 +5,8 @@ use numpy::{Element, PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
+use crate::memory::look_for_memory;
+
 /// Points in one of the five types of numbers that the library takes from Python.
 pub enum Points {
     F64(Vec<[f64; 2]>),
@@ -60,6 +62,7 @@ pub fn list<T: Element + Copy, const N: usize>(array: &Bound<'_, PyAny>) -> PyRe
         return Ok(None);
     }
     let array = array.try_readonly()?;
+    look_for_memory(array.py(), array.shape()[0], size_of::<[T; N]>())?;
     let mut list = pages::with_room(array.shape()[0]);
     match array.as_slice() {
         // A slice may also have the columns one after the other.

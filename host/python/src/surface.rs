@@ -8,6 +8,7 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
 use crate::error::{bad_input, of_job};
+use crate::memory::{look_for_memory, BYTES_OF_A_CELL, BYTES_OF_A_PLACE};
 use crate::points::{array, list};
 
 type Any<'py> = PyResult<Bound<'py, PyAny>>;
@@ -24,6 +25,7 @@ impl Surface {
     #[new]
     fn new(points: &Bound<'_, PyAny>, values: PyReadonlyArray1<'_, f64>) -> PyResult<Self> {
         let (py, points, values) = (points.py(), places(points)?, values.to_vec()?);
+        look_for_memory(py, points.len(), BYTES_OF_A_CELL)?;
         let mesh = py.detach(|| incircle::triangulate(&points)).map_err(|error| of_job(py, &error))?;
         let surface = py.detach(|| interpolate::Surface::new(&points, &mesh.triangles, &values));
         let surface = surface.map_err(|error| bad_input(py, &error.to_string()))?;
@@ -38,6 +40,7 @@ impl Surface {
         threads: Option<NonZeroUsize>,
     ) -> Any<'py> {
         let (py, at) = (at.py(), places(at)?);
+        look_for_memory(py, at.len(), BYTES_OF_A_PLACE)?;
         let method = match method {
             "linear" => Method::Linear,
             "laplace" => Method::Laplace,
@@ -56,6 +59,7 @@ impl Surface {
 
     /// The places along each contour line of a level, and whether the line is closed.
     fn contours<'py>(&self, py: Python<'py>, level: f64) -> PyResult<Vec<(Bound<'py, PyAny>, bool)>> {
+        look_for_memory(py, self.points.len(), BYTES_OF_A_CELL)?;
         let lines = py.detach(|| self.surface.contours(level));
         let place = |line: &interpolate::Contour| {
             let places = line.crossings.iter().map(|crossing| crossing.place(&self.points)).collect();

@@ -5,7 +5,7 @@
 //! [guides](order::brio_dc()). All are measured on the software model, and in cycles of the largest core.
 //!
 //! The package also compares the mesh that lives and constrained meshes with those of other libraries, and ways to fill
-//! the hole of a vertex that is deleted.
+//! the hole of a vertex that is deleted. It counts the cycles of questions and changes on the core's living engine.
 //!
 //! Nothing here ships with the product. `cargo run --release -p incircle-research -- figures` makes
 //! all published figures again.
@@ -23,6 +23,7 @@ mod orders;
 mod picture;
 mod plans;
 pub mod prepare;
+mod runs;
 
 pub use figures::{figures, FiguresArguments};
 pub use guided::{GuidedMesh, RING_CAPACITY};
@@ -31,3 +32,4 @@ pub use living::{living, LivingArguments};
 pub use orders::{orders, Failure, OrdersArguments};
 pub use picture::{picture, PictureArguments};
 pub use plans::{plans, PlansArguments};
+pub use runs::{runs, RunsArguments};

@@ -3,9 +3,9 @@
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use incircle_research::{figures, holes, living, orders, picture, plans};
+use incircle_research::{figures, holes, living, orders, picture, plans, runs};
 use incircle_research::{FiguresArguments, HolesArguments, LivingArguments};
-use incircle_research::{OrdersArguments, PictureArguments, PlansArguments};
+use incircle_research::{OrdersArguments, PictureArguments, PlansArguments, RunsArguments};
 
 /// Measure and draw the orders of insertion of the literature
 #[derive(Debug, Parser)]
@@ -38,6 +38,9 @@ enum Command {
     /// Compare constrained triangulation with spade and, where it is installed, CGAL
     #[command(after_help = "Example:\n  incircle-research plans -n 100000")]
     Plans(PlansArguments),
+    /// Count the cycles of questions and changes of a standing mesh on the model of the core, clock by clock
+    #[command(after_help = "Example:\n  incircle-research runs uniform --random")]
+    Runs(RunsArguments),
 }
 
 fn main() -> ExitCode {
@@ -48,6 +51,7 @@ fn main() -> ExitCode {
         Command::Living(arguments) => living(arguments),
         Command::Holes(arguments) => holes(arguments),
         Command::Plans(arguments) => plans(arguments),
+        Command::Runs(arguments) => runs(arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

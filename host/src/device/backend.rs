@@ -34,6 +34,11 @@ pub(crate) trait Backend {
         false
     }
 
+    /// Whether this is the CPU triangulator, which can force constraints into a mesh that is not sorted yet.
+    fn is_cpu(&self) -> bool {
+        false
+    }
+
     /// Does one job on points in any numbers, if [`takes_all_numbers`](Self::takes_all_numbers).
     fn triangulate_numbers(&mut self, _numbers: &Numbers<'_>, terms: Terms<'_>) -> Result<Answer, Error> {
         Err(Error::NoLattice { coord_bits: terms.identity.coord_bits, device: self.name() })

@@ -5,13 +5,14 @@ use std::ops::ControlFlow;
 use std::sync::{Mutex, PoisonError};
 use std::thread::Builder;
 
+use incircle_geometry::constraints::{self, Plan, TriangulateError, Triangulated};
 use incircle_geometry::cpu::{self, threads_for, Connectivity};
 use incircle_geometry::lattice::Numbers;
-use incircle_geometry::{Point, MAX_POINTS};
+use incircle_geometry::{PlanePoint, Point, MAX_POINTS};
 use incircle_protocol::{Identity, MAGIC, PROTOCOL_VERSION};
 
 use super::backend::{Backend, JobLeft, Terms, Together};
-use crate::error::Error;
+use crate::error::{ConstrainedError, Error};
 use crate::job::batch::{JOBS_PER_LOOK, MAX_JOB_POINTS};
 use crate::job::watch::{tell, Stopwatch};
 use crate::job::{Answer, Options, Report, Solution, Stage};
@@ -44,6 +45,10 @@ impl Backend for CpuBackend {
     }
 
     fn takes_all_numbers(&self) -> bool {
+        true
+    }
+
+    fn is_cpu(&self) -> bool {
         true
     }
 
@@ -106,37 +111,104 @@ fn solve(points: Vec<Point>, threads: u32, options: &Options<'_>, limit: Limit) 
 
 /// Triangulates points in their numbers with at most `threads` threads.
 fn connect(numbers: &Numbers<'_>, threads: u32, options: &Options<'_>, limit: Limit) -> Result<Answer, Error> {
-    let allowed = NonZeroUsize::new(threads as usize).unwrap_or(NonZeroUsize::MIN);
-    let threads = threads_for(numbers.len(), allowed);
-    let (mut watch, mut at, mut failure) = (Stopwatch::start(), Stage::Order, None);
-    let found = cpu::connect(numbers, threads, &mut |progress| {
-        let stage = stage_of(progress.stage);
-        if stage != at {
-            watch.ended(at);
-            at = stage;
+    let threads = threads_of(numbers.len(), threads);
+    let mut listener = Listener::new(options, limit);
+    let found = cpu::connect(numbers, threads, &mut |progress| listener.hear(progress));
+    match found {
+        Ok(Connectivity { triangles, hull, duplicates }) => {
+            Ok(Answer { triangles, hull, duplicates, report: listener.into_report(threads) })
         }
-        let heard = tell(options, stage, progress.done, progress.total);
-        match heard.and_then(|()| limit.check(CPU_NAME, DURING)) {
+        Err(error) => Err(listener.into_error(error)),
+    }
+}
+
+/// Triangulates points with constraints, which are forced in before the triangles are sorted.
+pub(super) fn constrain<P: PlanePoint>(
+    points: &[P],
+    plan: &Plan<'_, P>,
+    terms: Terms<'_>,
+) -> Result<(Triangulated, Report), ConstrainedError> {
+    let threads = threads_of(points.len(), terms.contexts);
+    let mut listener = Listener::new(terms.options, terms.limit);
+    let found = constraints::triangulate(points, plan, threads, &mut |progress| listener.hear(progress));
+    let found = match found {
+        Ok(found) => found,
+        Err(TriangulateError::Plan(error)) => return Err(error.into()),
+        Err(TriangulateError::Points(error)) => return Err(listener.into_error(error).into()),
+        Err(_) => return Err(cancelled().into()),
+    };
+    let (distinct, hull) = (points.len() - found.duplicates.len(), found.hull.len());
+    // An empty domain is an error, so without triangles there are none in the hull.
+    let collinear = found.made.triangles.is_empty();
+    let report = Report {
+        points: points.len(),
+        distinct,
+        duplicates: found.duplicates.len(),
+        // By Euler's formula.
+        triangles: if collinear { 0 } else { 2 * distinct - 2 - hull },
+        hull,
+        collinear,
+        ..listener.into_report(threads)
+    };
+    Ok((found, report))
+}
+
+/// The threads for a job of `points` points, of which at most `allowed` may work.
+fn threads_of(points: usize, allowed: u32) -> NonZeroUsize {
+    threads_for(points, NonZeroUsize::new(allowed as usize).unwrap_or(NonZeroUsize::MIN))
+}
+
+/// Hears of the progress of the CPU triangulator: times the stages, tells the listener of the job, and keeps the limit.
+struct Listener<'a> {
+    options: &'a Options<'a>,
+    limit: Limit,
+    watch: Stopwatch,
+    at: Stage,
+    failure: Option<Error>,
+}
+
+impl<'a> Listener<'a> {
+    fn new(options: &'a Options<'a>, limit: Limit) -> Self {
+        Self { options, limit, watch: Stopwatch::start(), at: Stage::Order, failure: None }
+    }
+
+    fn hear(&mut self, progress: cpu::Progress) -> ControlFlow<()> {
+        let stage = stage_of(progress.stage);
+        if stage == Stage::Order && self.at != stage {
+            // The work begins anew, to find out what is wrong with constraints. That is a job with a time of its own.
+            (self.watch, self.limit) = (Stopwatch::start(), Limit::of(self.limit.timeout()));
+        } else if stage != self.at {
+            self.watch.ended(self.at);
+        }
+        self.at = stage;
+        let heard = tell(self.options, stage, progress.done, progress.total);
+        match heard.and_then(|()| self.limit.check(CPU_NAME, DURING)) {
             Ok(()) => ControlFlow::Continue(()),
             Err(error) => {
-                failure = Some(error);
+                self.failure = Some(error);
                 ControlFlow::Break(())
             }
         }
-    });
-    let Connectivity { triangles, hull, duplicates } =
-        found.map_err(|error| failure.unwrap_or_else(|| error_of(error)))?;
-    watch.ended(at);
-    let report = Report {
-        backend: CPU_NAME.to_owned(),
-        order: ORDER,
-        stages: watch.stages,
-        coord_bits: u32::BITS,
-        capacity: MAX_POINTS as u32,
-        contexts: threads.get() as u32,
-        ..Report::default()
-    };
-    Ok(Answer { triangles, hull, duplicates, report })
+    }
+
+    /// The error of the job.
+    fn into_error(self, error: cpu::Error) -> Error {
+        self.failure.unwrap_or_else(|| error_of(error))
+    }
+
+    /// The report of the job, which has ended. The counts of the mesh are missing.
+    fn into_report(mut self, threads: NonZeroUsize) -> Report {
+        self.watch.ended(self.at);
+        Report {
+            backend: CPU_NAME.to_owned(),
+            order: ORDER,
+            stages: self.watch.stages,
+            coord_bits: u32::BITS,
+            capacity: MAX_POINTS as u32,
+            contexts: threads.get() as u32,
+            ..Report::default()
+        }
+    }
 }
 
 /// The identity of the CPU triangulator: its threads stand in the place of contexts.
@@ -174,6 +246,11 @@ pub(super) fn error_of(error: cpu::Error) -> Error {
         }
         // No other error arises here: the session has refused values that are not finite, and the CPU triangulator
         // takes all 32 bits of a grid point. A variant added to the enum later is reported as a cancelled job.
-        _ => Error::Cancelled { stage: Stage::Order.name(), done: 0, total: 0 },
+        _ => cancelled(),
     }
+}
+
+/// A job that was cancelled before it began.
+fn cancelled() -> Error {
+    Error::Cancelled { stage: Stage::Order.name(), done: 0, total: 0 }
 }

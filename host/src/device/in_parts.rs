@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 
-use incircle_geometry::cpu::{Connectivity, Parts, Unsound};
+use incircle_geometry::cpu::{threads_for, Connectivity, Parts, Unsound};
 use incircle_geometry::Point;
 
 use super::backend::Terms;
@@ -27,7 +27,7 @@ impl Session<'_> {
         let mut watch = Stopwatch::start();
         tell(terms.options, Stage::Order, 0, points.len())?;
         let most = part_size(&self.identity, terms.contexts, points.len());
-        let parts = Parts::divide(&points, most, host_threads()).map_err(error_of)?;
+        let parts = Parts::divide(&points, most, host_threads(points.len())).map_err(error_of)?;
         // Duplicates take no room on the device, so the set may fit after all.
         if parts.distinct() <= self.identity.capacity as usize {
             drop(parts);
@@ -81,7 +81,7 @@ impl Session<'_> {
         stuck_engines.sort_unstable();
         stuck_engines.dedup();
         let meshes = solutions.into_iter().map(|solution| (solution.mesh.triangles, solution.mesh.hull)).collect();
-        let joined = parts.join_meshes(meshes, host_threads()).map_err(|Unsound| Error::Device {
+        let joined = parts.join_meshes(meshes, host_threads(distinct)).map_err(|Unsound| Error::Device {
             device: self.backend.name(),
             during: DURING,
             fault: DeviceFault::Unsound,
@@ -135,7 +135,11 @@ impl Session<'_> {
     }
 }
 
-/// The processors of the host.
-pub(super) fn host_threads() -> NonZeroUsize {
+/// The threads of the host that work on a set of so many points. The system is asked for its processors only if there is
+/// work for several, because the answer may take longer than a small set: it is read from files.
+pub(super) fn host_threads(points: usize) -> NonZeroUsize {
+    if threads_for(points, NonZeroUsize::MAX) == NonZeroUsize::MIN {
+        return NonZeroUsize::MIN;
+    }
     std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
 }

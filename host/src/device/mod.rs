@@ -15,6 +15,7 @@
 
 mod address;
 mod backend;
+mod constrained;
 mod cpu_backend;
 mod device_backend;
 mod fleet;

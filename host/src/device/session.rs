@@ -23,6 +23,7 @@ use incircle_geometry::{PlanePoint, Point, MAX_POINTS};
 /// - [`triangulate_with`](Self::triangulate_with) for a time limit, progress, cancellation, an
 ///   order, or fewer contexts;
 /// - [`triangulate_owned`](Self::triangulate_owned) for points that the caller can part with;
+/// - [`triangulate_constrained`](Self::triangulate_constrained) for edges that must be in the mesh;
 /// - [`triangulate_batch`](Self::triangulate_batch) for many jobs, which a device works on side by side.
 ///
 /// ```
@@ -225,8 +226,8 @@ impl<'d> Session<'d> {
         Ok(solutions.into_iter().flatten().collect())
     }
 
-    /// Whether the device can keep a mesh that lives. Of the devices of this library only the back end `model` can; on
-    /// the processor use [`Triangulation`](crate::Triangulation).
+    /// Whether the device can keep a mesh that lives. Of the devices of this library the back ends `model`, and
+    /// `clock` with one engine, can; on the processor use [`Triangulation`](crate::Triangulation).
     pub fn keeps_living_meshes(&self) -> bool {
         self.identity.features & FEATURE_RUNS != 0
     }
@@ -288,7 +289,7 @@ impl<'d> Session<'d> {
     }
 
     /// Checks the number of points and of contexts, then lays the points onto their lattice.
-    fn on_lattice<'p, P: PlanePoint>(
+    pub(super) fn on_lattice<'p, P: PlanePoint>(
         &self,
         points: &'p [P],
         terms: Terms<'_>,

@@ -1,6 +1,7 @@
 //! Everything that can go wrong, as typed errors. Each says in one sentence what happened, with the numbers, and what
 //! to do about it.
 
+mod constrained_error;
 mod device_fault;
 mod kind;
 mod shown;
@@ -9,6 +10,7 @@ mod transport_error;
 use std::error::Error as StdError;
 use std::time::Duration;
 
+pub use constrained_error::ConstrainedError;
 pub use device_fault::DeviceFault;
 pub(crate) use device_fault::{MAX_DEVICE_CONTEXTS, MAX_DEVICE_ENGINES};
 pub use kind::ErrorKind;
@@ -166,7 +168,7 @@ pub enum Error {
     },
     /// The device cannot change a mesh that stands.
     #[error(
-        "{device} cannot keep a mesh that lives: use the back end model, or a Triangulation, which is on the processor"
+        "{device} cannot keep a mesh that lives: use the back end model or clock, or a Triangulation, which is on the processor"
     )]
     NoRuns {
         /// Name of the device.

@@ -32,13 +32,14 @@ pub struct ClockTransport {
 }
 
 impl ClockTransport {
-    /// Makes a core of this configuration, as after its reset.
+    /// Makes a core of this configuration, as after its reset. A core of one engine has the commands for a mesh that
+    /// stands.
     ///
     /// # Errors
     /// [`Error::Model`] for a configuration that no core can be built with.
     pub fn new(config: Config) -> Result<Self, Error> {
         let model = ChipModel::new(config).map_err(|refusal| Error::Model(refusal.to_string()))?;
-        Ok(Self::around(model, config))
+        Ok(Self::around(model.with_runs(), config))
     }
 
     /// A transport to a model of this configuration that may differ from a sound one, such as a model with a defect.

@@ -3,6 +3,7 @@
 
 use incircle::living::{Error as Refusal, Location, Triangulation};
 use incircle::{Device, Error, ErrorKind, LivingMesh, LivingSession, Point};
+use incircle_protocol::Config;
 use incircle_testkit::SplitMix64;
 
 /// The places of a script: small lattices, lines, points of a circle.
@@ -79,6 +80,53 @@ impl Script<'_> {
         }
     }
 
+    /// Several changes of a kind in one call, which the device does in runs. The memory has room for all.
+    fn step_in_runs(&mut self, random: &mut SplitMix64) {
+        let count = 1 + random.below(12) as usize;
+        if self.count() + count > self.capacity {
+            return;
+        }
+        let places: Vec<Point> = (0..count).map(|_| random.pick(&self.places)).collect();
+        let next = self.host.next_index();
+        // Seldom an index that no point has, or has any more.
+        let indices: Vec<u32> = (0..count).map(|_| random.below_u32(next + 1)).collect();
+        let living: Vec<u32> = indices.iter().copied().filter(|&index| self.host.point(index).is_some()).collect();
+        let (device, host): (&mut dyn LivingMesh<Point>, &mut dyn LivingMesh<Point>) =
+            (&mut self.device, &mut self.host);
+        let results = match random.below(4) {
+            0 => {
+                self.log.push(format!("insert {places:?}"));
+                let one_by_one = places.iter().try_for_each(|&place| host.insert(place).map(|_| ()));
+                [device.insert_all(&places), one_by_one]
+            }
+            1 => {
+                let indices = if random.once_in(4) { indices } else { living };
+                self.log.push(format!("delete {indices:?}"));
+                [device.delete_all(&indices), host.delete_all(&indices)]
+            }
+            _ => {
+                let indices = if random.once_in(8) { indices } else { living };
+                let moves: Vec<(u32, Point)> = indices.into_iter().zip(places).collect();
+                self.log.push(format!("move {moves:?}"));
+                [device.move_all(&moves), host.move_all(&moves)]
+            }
+        };
+        let [device, host] = results.map(|result| result.map_err(|error| error.to_string()));
+        assert_eq!(device, host, "{:?}", self.log);
+    }
+
+    /// Questions about several places in one call.
+    fn ask_in_runs(&mut self, random: &mut SplitMix64) {
+        let places: Vec<Point> =
+            (0..random.below(20)).map(|_| Point::new(random.below_u32(9), random.below_u32(9))).collect();
+        let located = self.device.locate_all(&places).expect("answers");
+        let expected: Vec<Location> = places.iter().map(|&place| self.host.locate(place)).collect();
+        assert_eq!(located, expected, "{:?}", self.log);
+        let nearest = self.device.nearest_all(&places).expect("answers");
+        let expected: Vec<Option<u32>> = places.iter().map(|&place| self.host.nearest(place)).collect();
+        assert_eq!(nearest, expected, "{:?}", self.log);
+    }
+
     fn refuse(&mut self, error: &Error, is_full: bool) {
         assert!(matches!(error, Error::MemoryFull { .. }) && is_full, "{error}: {:?}", self.log);
         assert_eq!(error.kind(), ErrorKind::Capacity);
@@ -122,18 +170,32 @@ impl Script<'_> {
     }
 }
 
-/// Runs scripts, and returns how often the memory was full.
-fn run(seed: u64, scripts: usize) -> u32 {
+/// The model by commands for the script of this number, with its capacity.
+fn model(number: usize) -> (Device, u32) {
+    let capacity = [1 << 20, 6, 16][number % 3];
+    // Points of 20 bits take two words, and wide records six.
+    let bits = [4, 16, 20][number / 3 % 3];
+    (Device::model(bits, capacity).expect("a model"), capacity)
+}
+
+/// The model clock by clock for the script of this number, with its capacity.
+fn core(number: usize) -> (Device, u32) {
+    let (points, contexts) = ([64, 16, 8, 256][number % 4], [16, 4, 1, 16, 7][number % 5]);
+    // With a short list, insertions go solo, and the host makes the mesh anew.
+    let ring = [32, 6, 12][number % 3];
+    let config = Config { name: "test", points, ring, contexts, engines: 1 };
+    (Device::clock_model(config).expect("a core"), points)
+}
+
+/// Runs scripts on devices, and returns how often the memory was full.
+fn run(device_of: fn(usize) -> (Device, u32), seed: u64, scripts: usize) -> u32 {
     let mut random = SplitMix64::new(seed);
     let mut refused = 0;
     for number in 0..scripts {
-        let capacity = [1 << 20, 6, 16][number % 3];
-        // Points of 20 bits take two words, and wide records six.
-        let bits = [4, 16, 20][number / 3 % 3];
-        let mut device = Device::model(bits, capacity).expect("a model");
+        let (mut device, capacity) = device_of(number);
         let mut session = device.session().expect("a session");
         let mut script = Script {
-            device: session.living().expect("the model takes runs"),
+            device: session.living().expect("the device takes runs"),
             host: Triangulation::new(),
             places: places(&mut random),
             capacity: capacity as usize,
@@ -145,7 +207,12 @@ fn run(seed: u64, scripts: usize) -> u32 {
             script.load(&mut random);
         }
         for _ in 0..5 + random.below(25) {
-            script.step(&mut random, growth);
+            if random.once_in(3) {
+                script.step_in_runs(&mut random);
+                script.ask_in_runs(&mut random);
+            } else {
+                script.step(&mut random, growth);
+            }
             script.check(&mut random);
         }
         refused += script.refused;
@@ -155,7 +222,7 @@ fn run(seed: u64, scripts: usize) -> u32 {
 
 #[test]
 fn ten_thousand_scripts_on_the_model_agree_with_the_host() {
-    let refused = run(251, 10_000);
+    let refused = run(model, 251, 10_000);
     assert!(refused > 100, "the memory was full {refused} times");
 }
 
@@ -164,7 +231,21 @@ fn ten_thousand_scripts_on_the_model_agree_with_the_host() {
 #[ignore = "takes as long as the variable INCIRCLE_SCRIPTS says"]
 fn many_scripts_on_the_model_agree_with_the_host() {
     let scripts = std::env::var("INCIRCLE_SCRIPTS").ok().and_then(|text| text.parse().ok());
-    run(252, scripts.unwrap_or(100_000));
+    run(model, 252, scripts.unwrap_or(100_000));
+}
+
+#[test]
+fn hundreds_of_scripts_on_the_core_agree_with_the_host() {
+    let refused = run(core, 253, 300);
+    assert!(refused > 10, "the memory was full {refused} times");
+}
+
+/// `INCIRCLE_SCRIPTS` says how many scripts run.
+#[test]
+#[ignore = "takes as long as the variable INCIRCLE_SCRIPTS says"]
+fn many_scripts_on_the_core_agree_with_the_host() {
+    let scripts = std::env::var("INCIRCLE_SCRIPTS").ok().and_then(|text| text.parse().ok());
+    run(core, 254, scripts.unwrap_or(10_000));
 }
 
 /// The hub of a wheel has more neighbours than the list of the device. The caller does not see that.
@@ -218,12 +299,22 @@ fn what_a_device_cannot_take_leaves_its_mesh_as_it_was() {
 
 #[test]
 fn devices_without_runs_say_so() {
-    for address in ["cpu", "clock?config=tiny"] {
+    for address in ["cpu", "clock?config=dual"] {
         let mut device = Device::open(address).expect("a device");
         let mut session = device.session().expect("a session");
         let error = session.living().err().expect("no runs");
         assert!(matches!(error, Error::NoRuns { .. }) && error.kind() == ErrorKind::BadChoice, "{error}");
     }
+}
+
+#[test]
+fn points_before_a_refused_one_are_in_the_mesh_of_the_processor() {
+    let mut mesh = Triangulation::new();
+    let points = [[0.0, 0.0], [1.0, 0.0], [f64::NAN, 0.0], [0.0, 1.0]];
+    let refused = mesh.insert_all(&points);
+    assert!(matches!(refused, Err(Error::Living(_))), "{refused:?}");
+    assert_eq!(mesh.next_index(), 2);
+    assert_eq!(mesh.insert(points[3]), Ok(2));
 }
 
 #[test]

@@ -1,9 +1,13 @@
 // Opening a module of WebAssembly: numbers, lists and messages out of it.
 
-/** Opens a module, given as base64. */
-export function open(encoded) {
-    const bytes = Uint8Array.from(atob(encoded), (letter) => letter.charCodeAt(0));
-    const engine = new WebAssembly.Instance(new WebAssembly.Module(bytes)).exports;
+/** Compiles a module, given as base64. */
+export function compile(encoded) {
+    return new WebAssembly.Module(Uint8Array.from(atob(encoded), (letter) => letter.charCodeAt(0)));
+}
+
+/** Opens a module, with memory of its own. */
+export function open(module) {
+    const engine = new WebAssembly.Instance(module).exports;
 
     /** The message of the call that failed. */
     function message() {

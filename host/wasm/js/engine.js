@@ -1,10 +1,10 @@
 // The border to the module of WebAssembly: buffers in, lists and messages out.
 // `module.js` is made by `build`: it holds the bytes of the module as base64, so that nothing is fetched at run time.
-import {open} from './border.js';
+import {compile, open} from './border.js';
 import encoded from './module.js';
 
 /** The functions of the module, the check of what they return, and the copies of their lists. */
-export const {engine, checked, lists} = open(encoded);
+export const {engine, checked, lists} = open(compile(encoded));
 
 /** The most points that fit into the indices of half-edges. */
 export const MAX_POINTS = Math.floor((2 ** 31 - 1) / 6);
@@ -25,14 +25,14 @@ export function index(value) {
 }
 
 /** Whether a value is a typed array of numbers, or a list. */
-function isList(value) {
+export function isList(value) {
     if (Array.isArray(value)) return true;
     return ArrayBuffer.isView(value) && !(value instanceof DataView) && typeof value[0] !== 'bigint' &&
         !(value instanceof BigInt64Array) && !(value instanceof BigUint64Array);
 }
 
 /** Checks a list of coordinates, x and y of each point in turn, and returns the number of points. */
-function countOf(coords) {
+export function countOf(coords) {
     if (!isList(coords)) throw new TypeError('coordinates must be an Array or a typed array of numbers, and not of bigint');
     if (coords.length % 2 !== 0) throw new RangeError(`${coords.length} coordinates are an odd number: give x and y of each point`);
     const count = coords.length / 2;

@@ -109,10 +109,9 @@ export class Triangulation {
     /**
      * Inserts a point and returns its index, which is never used again.
      *
-     * The mesh takes about 83 bytes a point, and its lists double when they are full. If the browser does not give the
-     * module the memory for that, the module stops with a `WebAssembly.RuntimeError`, and no call of the package works
-     * afterwards. A module has at most 4 GiB: about 20 million points. To be refused with a `RangeError` instead, make
-     * the mesh of all its points at once; that is checked before the work.
+     * The mesh takes about 83 bytes a point, and its lists double when they are full. Every 1,024 insertions the mesh
+     * checks that there is memory for that, and throws a `RangeError` if not. A module has at most 4 GiB: about 8
+     * million points.
      */
     insert(x: number, y: number): number;
     delete(point: number): void;

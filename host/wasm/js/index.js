@@ -1,4 +1,4 @@
-import {checked, coordinate, engine, givePairs, givePlaces, givePoints, index, lists} from './engine.js';
+import {checked, coordinate, countOf, engine, givePairs, givePlaces, givePoints, index, isList, lists} from './engine.js';
 import {Voronoi} from './voronoi.js';
 
 const first = (point) => point[0];
@@ -6,6 +6,14 @@ const second = (point) => point[1];
 
 /** The coordinates of points, x and y in turn. */
 function coordinates(points, getX = first, getY = second) {
+    if (!Number.isInteger(points?.length) || points.length < 0) {
+        throw new TypeError('points must be a list, such as an array of arrays [x, y]: it has no length');
+    }
+    if (getX === first || getY === second) {
+        for (let k = 0; k < points.length; k++) {
+            if (points[k] === null || points[k] === undefined) throw new TypeError(`point ${k} is ${points[k]}: give [x, y]`);
+        }
+    }
     const coords = new Float64Array(2 * points.length);
     for (let k = 0; k < points.length; k++) {
         coords[2 * k] = coordinate(`x of point ${k}`, getX(points[k]));
@@ -71,6 +79,7 @@ const DOMAINS = ['all', 'holes', 'even-odd', 'non-zero'];
 export function constrain(coords, pairs, domain = 'all', holes = []) {
     const number = DOMAINS.indexOf(domain);
     if (number < 0) throw new RangeError(`${String(domain)} is no domain: give ${DOMAINS.join(', ')}`);
+    if (!isList(holes)) throw new TypeError('holes must be an Array or a typed array, x and y of each place in turn');
     if (holes.length > 0 && domain !== 'holes') {
         throw new RangeError(`the domain ${domain} takes no holes, and ${holes.length / 2} are given: give the domain 'holes'`);
     }
@@ -88,7 +97,8 @@ export function constrain(coords, pairs, domain = 'all', holes = []) {
 
 /** The triangles of a polygon with holes, in the shape of earcut: `holes` has the first vertex of each hole. */
 export function earcut(vertices, holes = []) {
-    const count = vertices.length / 2;
+    const count = countOf(vertices);
+    if (!isList(holes)) throw new TypeError('holes must be an Array or a typed array of indices of vertices');
     const starts = [0, ...holes, count].map(index);
     const pairs = [];
     for (let ring = 0; ring + 1 < starts.length; ring++) {

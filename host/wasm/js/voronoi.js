@@ -54,6 +54,9 @@ export class Voronoi {
     #cells;
 
     constructor(delaunay, bounds = BOUNDS) {
+        if (typeof delaunay?.update !== 'function' || !delaunay.halfedges) {
+            throw new TypeError('cells need a triangulation: give an Incircle');
+        }
         const [xmin, ymin, xmax, ymax] = Array.from(bounds, (value, k) => coordinate(`side ${k} of the bounds`, value));
         if (!(xmax >= xmin && ymax >= ymin)) {
             throw new RangeError(`the bounds from (${xmin}, ${ymin}) to (${xmax}, ${ymax}) are no rectangle: give the least sides first`);

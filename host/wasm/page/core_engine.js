@@ -1,8 +1,7 @@
 // The model of the core in WebAssembly: start a job, run clocks, look at the state.
-import {open} from '../js/border.js';
-import encoded from './module.js';
+import {openEngine} from './engine.js';
 
-const {engine, checked, lists} = open(encoded);
+const {engine, checked, lists} = openEngine();
 
 /** Names of the activities, by their numbers. */
 export const ACTIVITIES = ['idle', 'walk', 'root', 'cavity', 'drain', 'rest', 'solo'];

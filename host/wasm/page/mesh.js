@@ -1,5 +1,6 @@
 // The points of the page and their mesh, which follows every change.
-import {Triangulation, ties, triangulate} from '../js/index.js';
+import {ties} from '../js/index.js';
+import {PlaneEngine} from './plane_engine.js';
 import {onGrid, make} from './sets.js';
 
 /** Most points whose ties are looked for after every change; those of larger sets are looked for when they rest. */
@@ -7,9 +8,10 @@ export const PROMPT_TIES = 5000;
 
 /** A set of points with its mesh. Points are named by their places in the list of coordinates. */
 export class PlaneMesh {
-    /** The mesh that lives, made at the first change to a single point. */
-    #living = null;
+    #engine = new PlaneEngine();
     #speeds = null;
+    /** The list of triangles, if it was asked for since the last change. */
+    #listed = null;
 
     constructor(set, count, seed) {
         this.coords = make(set, count, seed);
@@ -25,33 +27,26 @@ export class PlaneMesh {
         return [this.coords[2 * point], this.coords[2 * point + 1]];
     }
 
+    /** The triangles by the names of their points, in no order. */
+    get triangles() {
+        return this.#listed ??= this.#engine.triangles();
+    }
+
     /** Triangulates all points anew. */
     #triangulate() {
-        this.#living?.free();
-        this.#living = null;
-        const start = performance.now();
-        const {triangles, hull, duplicates} = triangulate(this.coords);
-        this.time = performance.now() - start;
-        this.duplicates = duplicates.length / 2;
-        this.triangles = triangles;
-        this.hull = hull;
-        this.#lookForTies();
+        this.#change(() => {
+            const {triangles, duplicates} = this.#engine.triangulate(this.coords);
+            this.duplicates = duplicates;
+            return triangles;
+        });
     }
 
-    /** Changes the mesh that lives and the list of coordinates, and takes the triangles. */
-    #change(inMesh, inList) {
-        this.#living ??= new Triangulation(this.coords);
+    /** Changes the mesh, notes the time that it takes, and looks for ties. */
+    #change(change) {
         const start = performance.now();
-        inMesh(this.#living);
+        this.triangleCount = change();
         this.time = performance.now() - start;
-        inList();
-        this.triangles = this.#living.triangles();
-        // The mesh that lives would have to be sorted to tell its hull.
-        this.hull = null;
-        this.#lookForTies();
-    }
-
-    #lookForTies() {
+        this.#listed = null;
         this.ties = this.count <= PROMPT_TIES ? ties(this.coords) : null;
     }
 
@@ -60,10 +55,16 @@ export class PlaneMesh {
         this.ties ??= ties(this.coords);
     }
 
+    /** The pixels of a picture of the mesh; see `PlaneEngine.draw`. */
+    draw(...picture) {
+        return this.#engine.draw(...picture);
+    }
+
     /** Moves a point to the nearest place on the grid. */
     move(point, x, y) {
         const place = [onGrid(x), onGrid(y)];
-        this.#change((living) => living.move(point, ...place), () => this.coords.set(place, 2 * point));
+        this.coords.set(place, 2 * point);
+        this.#change(() => this.#engine.move(point, ...place));
     }
 
     /** Inserts a point and returns its name. */
@@ -73,7 +74,8 @@ export class PlaneMesh {
         const grown = new Float64Array(this.coords.length + 2);
         grown.set(this.coords);
         grown.set(place, this.coords.length);
-        this.#change((living) => living.insert(...place), () => { this.coords = grown; });
+        this.coords = grown;
+        this.#change(() => this.#engine.insert(...place));
         return point;
     }
 
@@ -113,8 +115,9 @@ export class PlaneMesh {
 
     /** The circles of the ties at a point: middle and radius of each. */
     circlesAt(point) {
+        if (!this.ties?.length) return [];
         const tied = new Set();
-        for (let k = 0; k < (this.ties?.length ?? 0); k += 2) tied.add(`${this.ties[k]} ${this.ties[k + 1]}`);
+        for (let k = 0; k < this.ties.length; k += 2) tied.add(`${this.ties[k]} ${this.ties[k + 1]}`);
         const circles = new Map();
         const list = this.triangles;
         for (let t = 0; t < list.length; t += 3) {

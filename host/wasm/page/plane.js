@@ -29,8 +29,10 @@ export function openPlane() {
     let seed = 1;
     let mesh;
     let chosen = -1;
-    let [drags, drifts, isNew, isMarked] = [false, false, true, true];
-    let [changed, frames, since] = [0, 0, 0];
+    let [drags, drifts, isNew, isMarked, hadMarks] = [false, false, true, true, false];
+    let [changed, last, wasNew] = [0, 0, false];
+    /** Frames that were drawn anew since the rate was told, and the milliseconds that they took. */
+    let [frames, spent] = [0, 0];
 
     function renew() {
         mesh = new PlaneMesh(setChoice.value, Number(countChoice.value), seed);
@@ -65,8 +67,7 @@ export function openPlane() {
     function setDrift(on) {
         drifts = on;
         driftButton.setAttribute('aria-pressed', on);
-        [frames, since] = [0, performance.now()];
-        find('rate').textContent = '–';
+        if (on) say('');
     }
 
     function insertAt(x, y) {
@@ -135,6 +136,10 @@ export function openPlane() {
 
     /** Draws what lies above the mesh: ties, the circles of the ties at the chosen point, and that point. */
     function mark(stage) {
+        const hasMarks = chosen >= 0 || mesh.ties?.length > 0;
+        // While points drift there is mostly nothing to mark, and an empty canvas costs the browser nothing.
+        if (!hasMarks && !hadMarks) return;
+        hadMarks = hasMarks;
         const pen = cleared(marks, stage.ratio);
         const at = (point) => stage.toCanvas(...mesh.at(point));
         pen.strokeStyle = TIE;
@@ -161,25 +166,30 @@ export function openPlane() {
 
     function tell() {
         find('points').textContent = mesh.count.toLocaleString('en');
-        find('triangles').textContent = (mesh.triangles.length / 3).toLocaleString('en');
+        find('triangles').textContent = mesh.triangleCount.toLocaleString('en');
         find('ties').textContent = mesh.ties ? (mesh.ties.length / 2).toLocaleString('en') : '…';
         find('time').textContent = `${mesh.time.toFixed(mesh.time < 10 ? 2 : 0)} ms`;
     }
 
-    /** Counts the frames of a drift, and tells their rate twice a second. */
+    /** Counts the frames that are drawn anew, and tells their rate twice a second; after a second of rest there is none. */
     function count(time) {
-        frames++;
-        if (time - since < 500) return;
-        find('rate').textContent = (1000 * frames / (time - since)).toFixed(0);
-        [frames, since] = [0, time];
+        if (wasNew) [frames, spent] = [frames + 1, spent + time - last];
+        if (spent >= 500) {
+            find('rate').textContent = (1000 * frames / spent).toFixed(0);
+            [frames, spent] = [0, 0];
+        } else if (time - changed > 1000) {
+            find('rate').textContent = '–';
+            [frames, spent] = [0, 0];
+        }
+        last = time;
     }
 
     let size = '';
     const frame = loop((time) => {
+        count(time);
         if (drifts) {
             mesh.drift(SIDE);
             hasChanged();
-            count(time);
         } else if (!mesh.ties && time - changed > REST) {
             mesh.settle();
             isMarked = isNew = true;
@@ -192,6 +202,7 @@ export function openPlane() {
             tell();
         }
         if (isMarked) mark(fit(marks));
+        wasNew = isNew;
         isNew = isMarked = false;
     });
     renew();

@@ -1,18 +1,23 @@
 //! Triangulating a set of points.
 #![allow(unsafe_code)] // names of functions that JavaScript calls
 
+use std::borrow::Cow;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 
-use incircle_geometry::{cpu, Duplicate, Mesh};
+use incircle_geometry::lattice::Numbers;
+use incircle_geometry::{cpu, Duplicate, Mesh, PlanePoint};
 
 use crate::border::{give, has_memory, points, told, Points};
 
 /// The most bytes a point that a job needs beyond its points, with the half-edges.
 const BYTES_OF_A_JOB: usize = 400;
+/// Coordinates of more bits take products of 128 bits. WebAssembly has none, so doubles, of which most need no exact
+/// product, are up to twice as quick. The mesh is the same.
+const MOST_BITS_OF_INTEGERS: u32 = 16;
 
-/// The canonical mesh of points.
-pub fn mesh_of(points: Points) -> Result<Mesh<[f64; 2]>, String> {
+/// Checks that there is memory for the mesh of so many points.
+pub fn check_room(points: &Points) -> Result<(), String> {
     let bytes = points.len().saturating_mul(BYTES_OF_A_JOB);
     if !has_memory(bytes) {
         return Err(format!(
@@ -20,7 +25,21 @@ pub fn mesh_of(points: Points) -> Result<Mesh<[f64; 2]>, String> {
             points.len()
         ));
     }
-    cpu::triangulate(points, NonZeroUsize::MIN, &mut |_| ControlFlow::Continue(())).map_err(|error| error.to_string())
+    Ok(())
+}
+
+/// The canonical mesh of points.
+pub fn mesh_of(points: Points) -> Result<Mesh<[f64; 2]>, String> {
+    check_room(&points)?;
+    let found = {
+        let numbers = match PlanePoint::numbers(&points).on_lattice() {
+            (_, Some(lattice)) if lattice.bits > MOST_BITS_OF_INTEGERS => Numbers::Doubles(Cow::Borrowed(&points)),
+            (numbers, _) => numbers,
+        };
+        cpu::connect(&numbers, NonZeroUsize::MIN, &mut |_| ControlFlow::Continue(()))
+    };
+    let found = found.map_err(|error| error.to_string())?;
+    Ok(Mesh::new(points, found.triangles, found.hull, found.duplicates))
 }
 
 /// All triangles, one index after the other.

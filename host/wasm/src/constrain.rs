@@ -1,9 +1,12 @@
 //! Forcing edges into a mesh, and triangulating the inside of polygons.
 #![allow(unsafe_code)] // names of functions that JavaScript calls
 
-use incircle_geometry::constraints::{constrain, Domain, Plan};
+use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
 
-use crate::batch::{flat, mesh_of};
+use incircle_geometry::constraints::{triangulate, Domain, Plan};
+
+use crate::batch::{check_room, flat};
 use crate::border::{give, indices, places, points, told};
 
 /// Triangulates the points in the buffer with the pairs of the buffer of indices as edges, and lists the triangles and
@@ -13,12 +16,15 @@ use crate::border::{give, indices, places, points, told};
 pub extern "C" fn constrained(domain: usize) -> f64 {
     let constraints = indices();
     let holes = places();
-    let made = mesh_of(points()).and_then(|mesh| {
+    let points = points();
+    let made = check_room(&points).and_then(|()| {
         let domain = Domain::ALL.get(domain).copied().ok_or("there is no such domain")?;
         let plan = Plan { domain, holes: &holes, ..Plan::new(constraints.as_chunks().0) };
-        constrain(&mesh, &plan).map_err(|error| error.to_string())
+        triangulate(&points, &plan, NonZeroUsize::MIN, &mut |_| ControlFlow::Continue(()))
+            .map_err(|error| error.to_string())
     });
-    told(made.map(|made| {
+    told(made.map(|mesh| {
+        let made = mesh.made;
         give(vec![flat(made.triangles), made.regions]);
         0.0
     }))

@@ -8,8 +8,9 @@ use incircle_geometry::Point;
 use incircle_model::{Activity, ClockModel, ContextView, Inputs};
 use incircle_protocol::{clear_word, command_word, Config, Opcode, FULL};
 
-use crate::border::{give, points, told};
+use crate::border::{give, told};
 use crate::deal::deal;
+use crate::grid::grid_points;
 
 /// Stands for a vertex or a context that there is not.
 const NONE: u32 = u32::MAX;
@@ -39,18 +40,6 @@ struct Job {
 
 thread_local! {
     static JOB: RefCell<Option<Job>> = const { RefCell::new(None) };
-}
-
-/// The grid points in the buffer.
-fn grid_points() -> Result<Vec<Point>, String> {
-    let whole = |value: f64| (value.fract() == 0.0 && (0.0..65_536.0).contains(&value)).then_some(value as u32);
-    points()
-        .into_iter()
-        .map(|[x, y]| match (whole(x), whole(y)) {
-            (Some(x), Some(y)) => Ok(Point::new(x, y)),
-            _ => Err(format!("the core takes whole coordinates from 0 to 65535, but a point is ({x}, {y})")),
-        })
-        .collect()
 }
 
 impl Job {

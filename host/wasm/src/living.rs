@@ -13,18 +13,40 @@ type Mesh = Triangulation<[f64; 2]>;
 
 /// The most bytes a point that a mesh needs while it is made.
 const BYTES_OF_A_POINT: usize = 500;
+/// After so many insertions the memory for the growth of all lists is looked for again.
+const LOOK: u32 = 1024;
 
 thread_local! {
     /// The meshes of the program, by their handles; `None` where one was freed.
     static MESHES: RefCell<Vec<Option<Mesh>>> = const { RefCell::new(Vec::new()) };
 }
 
+/// Why a call failed, as a sentence.
+struct Failure(String);
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Self(error.to_string())
+    }
+}
+
 /// Calls `ask` with the mesh of a handle.
-fn with<T>(handle: usize, ask: impl FnOnce(&mut Mesh) -> Result<T, Error>) -> Result<T, String> {
+fn with(handle: usize, ask: impl FnOnce(&mut Mesh) -> Result<f64, Failure>) -> Result<f64, String> {
     MESHES.with_borrow_mut(|meshes| match meshes.get_mut(handle) {
-        Some(Some(mesh)) => ask(mesh).map_err(|error| error.to_string()),
+        Some(Some(mesh)) => ask(mesh).map_err(|Failure(text)| text),
         _ => Err("the triangulation was freed: make another one".to_owned()),
     })
+}
+
+/// Looks whether there are so many bytes of memory. What needs them takes memory without a way to refuse.
+fn look_for_memory(bytes: usize) -> Result<(), Failure> {
+    let text = || Failure(format!("this may need {bytes} bytes more, and the module cannot get them"));
+    has_memory(bytes).then_some(()).ok_or_else(text)
+}
+
+/// Looks whether there is the memory for a job on all points of a mesh.
+fn look_for_a_job(mesh: &Mesh) -> Result<(), Failure> {
+    look_for_memory(mesh.len().saturating_mul(BYTES_OF_A_POINT))
 }
 
 fn number(index: Option<u32>) -> f64 {
@@ -35,9 +57,7 @@ fn number(index: Option<u32>) -> f64 {
 #[no_mangle]
 pub extern "C" fn living_new() -> f64 {
     let points = points();
-    let bytes = points.len().saturating_mul(BYTES_OF_A_POINT);
-    if !has_memory(bytes) {
-        let text = format!("{} points need up to {bytes} bytes, and the module cannot get them", points.len());
+    if let Err(Failure(text)) = look_for_memory(points.len().saturating_mul(BYTES_OF_A_POINT)) {
         return told(Err(text));
     }
     told(Mesh::from(points).map(|mesh| {
@@ -68,25 +88,35 @@ pub extern "C" fn living_free(handle: usize) {
 /// Inserts a point and returns its index.
 #[no_mangle]
 pub extern "C" fn living_insert(handle: usize, x: f64, y: f64) -> f64 {
-    told(with(handle, |mesh| mesh.insert([x, y])).map(f64::from))
+    told(with(handle, |mesh| {
+        if mesh.next_index().is_multiple_of(LOOK) {
+            // A list that doubles needs twice its bytes while it is copied, and all lists may double in turn.
+            look_for_memory(mesh.bytes().saturating_mul(2).saturating_add(LOOK as usize * BYTES_OF_A_POINT))?;
+        }
+        Ok(mesh.insert([x, y])?.into())
+    }))
 }
 
 /// Deletes the point of an index.
 #[no_mangle]
 pub extern "C" fn living_delete(handle: usize, index: u32) -> f64 {
-    told(with(handle, |mesh| mesh.delete(index)).map(|()| 0.0))
+    told(with(handle, |mesh| Ok(mesh.delete(index).map(|()| 0.0)?)))
 }
 
 /// Moves the point of an index.
 #[no_mangle]
 pub extern "C" fn living_move(handle: usize, index: u32, x: f64, y: f64) -> f64 {
-    told(with(handle, |mesh| mesh.move_to(index, [x, y])).map(|()| 0.0))
+    told(with(handle, |mesh| Ok(mesh.move_to(index, [x, y]).map(|()| 0.0)?)))
 }
 
 /// Moves all points to the places in the buffer, in the order of their indices.
 #[no_mangle]
 pub extern "C" fn living_move_all(handle: usize) -> f64 {
-    told(with(handle, |mesh| mesh.move_all(&points())).map(|()| 0.0))
+    let places = points();
+    told(with(handle, |mesh| {
+        look_for_a_job(mesh)?;
+        Ok(mesh.move_all(&places).map(|()| 0.0)?)
+    }))
 }
 
 /// Says what a place is: nothing (0), a vertex, an edge, a triangle, or outside (4) beyond an edge. The list has the
@@ -133,6 +163,7 @@ pub extern "C" fn living_size(handle: usize) -> f64 {
 #[no_mangle]
 pub extern "C" fn living_mesh(handle: usize) -> f64 {
     told(with(handle, |mesh| {
+        look_for_a_job(mesh)?;
         let answer = mesh.mesh();
         let duplicates = pairs(&answer.duplicates);
         give(vec![flat(answer.triangles), answer.hull, duplicates, mesh.indices()]);
@@ -144,6 +175,7 @@ pub extern "C" fn living_mesh(handle: usize) -> f64 {
 #[no_mangle]
 pub extern "C" fn living_triangles(handle: usize) -> f64 {
     told(with(handle, |mesh| {
+        look_for_a_job(mesh)?;
         give(vec![flat(mesh.triangles().collect())]);
         Ok(0.0)
     }))

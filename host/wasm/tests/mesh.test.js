@@ -6,7 +6,7 @@ import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import test from 'node:test';
 import earcutOfMapbox from 'earcut';
-import Incircle, {Triangulation, constrain, earcut, ties, triangulate, usedBytes, verify} from '../js/index.js';
+import Incircle, {Voronoi, Triangulation, constrain, earcut, ties, triangulate, usedBytes, verify} from '../js/index.js';
 import {random} from './random.js';
 
 test('the triangles are those of the command, byte for byte', () => {
@@ -122,6 +122,10 @@ test('bad input is refused with its numbers, and nothing leaks', () => {
         [() => new Incircle(new BigInt64Array(4)), TypeError],
         [() => new Incircle({length: 4}), TypeError],
         [() => Incircle.from([[1, 2], [3]]), /y of point 1/],
+        [() => Incircle.from(5), /points must be a list/],
+        [() => Incircle.from(null), /points must be a list/],
+        [() => Triangulation.from({length: -1}), /points must be a list/],
+        [() => Incircle.from([[1, 2], null]), /point 1 is null/],
         [() => new Incircle(Object.defineProperty(new Float64Array(0), 'length', {value: 2 ** 40})), /points are more/],
         [() => living.insert(NaN, 0), /x is NaN/],
         [() => living.insert('1', 0), TypeError],
@@ -134,7 +138,12 @@ test('bad input is refused with its numbers, and nothing leaks', () => {
         [() => constrain([0, 0, 1, 1], [0]), /1 indices/],
         [() => constrain([0, 0, 1], [0, 1]), /3 coordinates/],
         [() => constrain([0, 0, 1, 1], [0, 1], 'inside'), /no domain/],
+        [() => constrain([0, 0, 1, 1], [0, 1], 'holes', null), /holes must be/],
         [() => earcut([0, 0, 1, 0, 1, 1], [7]), /ring 0|behind/],
+        [() => earcut(null), /coordinates must be/],
+        [() => earcut([0, 0, 1]), /3 coordinates are an odd number/],
+        [() => earcut([0, 0, 1, 0, 1, 1], 'x'), /holes must be/],
+        [() => new Voronoi(null), /give an Incircle/],
     ];
     const before = usedBytes();
     for (let round = 0; round < 20; round++) {

@@ -58,6 +58,16 @@ impl ChipModel {
         self.owed.iter().any(|&owed| owed > 0) || !self.router.is_ready()
     }
 
+    /// The same chip with the commands for a mesh that stands, the runs, if it is a single engine. A chip of several has
+    /// none: it has no one mesh that stands.
+    #[must_use]
+    pub fn with_runs(mut self) -> Self {
+        if let [only] = &mut self.engines[..] {
+            *only = only.clone().with_runs();
+        }
+        self
+    }
+
     /// The outputs in the current state, with the write port of engine 0.
     pub fn outputs(&self) -> Outputs {
         if let [only] = &self.engines[..] {

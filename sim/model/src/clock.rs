@@ -17,6 +17,7 @@ mod commit_job;
 mod contexts;
 mod counters;
 mod defect;
+mod living;
 mod memory;
 mod pipeline;
 mod ports;
@@ -24,6 +25,7 @@ mod record_reads;
 mod release;
 mod responder;
 mod ring;
+mod runs;
 mod seeder;
 mod solo;
 mod starter;
@@ -34,6 +36,7 @@ mod wires;
 use attempts::Tables;
 use counters::Latencies;
 use incircle_protocol::{Config, ConfigError};
+use living::LivingEngine;
 use memory::Memory;
 use pipeline::Pipeline;
 use release::Release;
@@ -41,6 +44,7 @@ use ring::RingReader;
 use wires::Registers;
 
 pub use defect::Defect;
+pub use living::{LivingDefect, RunCounts};
 pub use memory::Write;
 pub use ports::{Inputs, Outputs};
 pub use view::{Activity, ContextView, VisitView};
@@ -59,6 +63,8 @@ pub struct ClockModel {
     memory: Memory,
     latencies: Latencies,
     defect: Option<Defect>,
+    /// The living engine, in a core that has runs.
+    living: Option<LivingEngine>,
 }
 
 impl ClockModel {
@@ -89,6 +95,7 @@ impl ClockModel {
             memory: Memory::new(config),
             latencies: Latencies::new(),
             defect: None,
+            living: None,
         })
     }
 
@@ -101,14 +108,14 @@ impl ClockModel {
     /// The outputs in the current state.
     pub fn outputs(&self) -> Outputs {
         let now = &self.registers;
-        Outputs {
+        self.with_living_outputs(Outputs {
             command_ready: now.command.is_ready(now, self.sweeps()),
             response_valid: now.responder.valid,
             response_data: u64::from(now.responder.offered.low) | u64::from(now.responder.offered.high) << 32,
             response_both: now.responder.offered.both,
             response_last: now.responder.offered.last,
             write: now.write,
-        }
+        })
     }
 
     /// Whether memories are being cleared.
@@ -146,13 +153,18 @@ impl ClockModel {
     /// A memory is read and written in a way that is undefined in silicon, which would be a fault of the design.
     pub fn clock(&mut self, inputs: Inputs) {
         if inputs.reset {
-            self.registers = Registers::after_reset(self.config, self.engine);
+            let has_runs = self.living.is_some();
+            self.registers = Registers { has_runs, ..Registers::after_reset(self.config, self.engine) };
+            if let Some(living) = &mut self.living {
+                living.reset();
+            }
             self.release.reset();
             self.pipeline.reset();
             self.ring.reset();
             self.latencies.reset();
             return;
         }
+        let (inputs, living_write) = self.clock_living(inputs);
         let was = self.registers;
         let wires = self.wires(inputs);
         let now = &mut self.registers;
@@ -178,5 +190,8 @@ impl ClockModel {
         self.memory.clock(&was, &wires);
         self.release.clock(&wires, &mut self.memory, self.config, self.defect);
         now.write.clock(&was);
+        if let Some(write) = living_write {
+            now.write = write;
+        }
     }
 }

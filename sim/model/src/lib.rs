@@ -21,6 +21,8 @@ pub mod stream;
 pub mod udp;
 
 pub use chip::ChipModel;
-pub use clock::{Activity, ClockModel, ContextView, Defect, Inputs, Outputs, VisitView, Write};
+pub use clock::{
+    Activity, ClockModel, ContextView, Defect, Inputs, LivingDefect, Outputs, RunCounts, VisitView, Write,
+};
 pub use command::{CommandModel, ModelError};
 pub use mesh::{Approach, Changed, Counts, Insertion, Mesh, Record};

@@ -26,7 +26,7 @@ fn cross(a: (i64, i64), b: (i64, i64)) -> i64 {
 
 /// The inner product of `a` and `b`, with the bound of [`cross`].
 #[inline]
-fn dot(a: (i64, i64), b: (i64, i64)) -> i64 {
+fn inner(a: (i64, i64), b: (i64, i64)) -> i64 {
     a.0 * b.0 + a.1 * b.1
 }
 
@@ -34,6 +34,12 @@ fn dot(a: (i64, i64), b: (i64, i64)) -> i64 {
 #[inline]
 pub fn orient2d(a: Point, b: Point, c: Point) -> i64 {
     cross(difference(a, c), difference(b, c))
+}
+
+/// The inner product of the vectors from `v` to `a` and to `b`: negative if they make an angle of more than 90 degrees.
+#[inline]
+pub fn dot(v: Point, a: Point, b: Point) -> i64 {
+    inner(difference(a, v), difference(b, v))
 }
 
 /// The incircle polynomial of the counter-clockwise triangle `r` and of `p`: positive if `p` lies inside the
@@ -46,7 +52,7 @@ pub fn orient2d(a: Point, b: Point, c: Point) -> i64 {
 pub fn incircle(r: [Point; 3], p: Point) -> i128 {
     let (a, b) = (difference(r[1], r[0]), difference(r[2], r[0]));
     let (u, v) = (difference(r[1], p), difference(r[2], p));
-    i128::from(cross(u, v)) * i128::from(dot(a, b)) - i128::from(cross(a, b)) * i128::from(dot(u, v))
+    i128::from(cross(u, v)) * i128::from(inner(a, b)) - i128::from(cross(a, b)) * i128::from(inner(u, v))
 }
 
 /// Whether `p`, which is no vertex of the finite triangle `r`, conflicts with it.

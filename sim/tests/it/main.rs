@@ -1,6 +1,7 @@
 //! The tests of the program `incircle-sim`, in one test program whose modules mirror the sources.
 
 mod own_test;
+mod painter;
 mod serve {
     mod network;
     mod pcie;

@@ -5,8 +5,10 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use incircle::interpolate::{Method, Outside};
+use incircle::DeviceAddress;
 
 use super::points::ReadArguments;
+use crate::values::backend_parser;
 
 /// A format of values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -17,6 +19,8 @@ pub enum ValueFormat {
     Npy,
     /// An ASCII grid of Esri, for --grid
     Asc,
+    /// A GeoTIFF of doubles, for --grid
+    Tif,
     /// Lines, for --contours
     Geojson,
 }
@@ -28,6 +32,7 @@ impl ValueFormat {
             "csv" => Self::Csv,
             "npy" => Self::Npy,
             "asc" => Self::Asc,
+            "tif" | "tiff" => Self::Tif,
             "geojson" => Self::Geojson,
             _ => return None,
         })
@@ -93,7 +98,7 @@ pub struct InterpolateArguments {
     /// Lines of equal value instead of values: one for each multiple of this step
     #[arg(long, value_name = "STEP", allow_hyphen_values = true, conflicts_with_all = ["method", "outside"])]
     pub contours: Option<String>,
-    /// File for the values: .csv, .npy, .asc or .geojson; '-' is standard output and needs --format
+    /// File for the values: .csv, .npy, .asc, .tif or .geojson; '-' is standard output and needs --format
     #[arg(short, long, value_name = "VALUES")]
     pub output: PathBuf,
     /// Format of the values
@@ -107,6 +112,12 @@ pub struct InterpolateArguments {
     /// The value outside the hull of the points
     #[arg(long, value_enum, default_value = "nan")]
     pub outside: OutsideName,
+    /// Back end that says in which triangle each place lies: 'cpu' (default) or 'model'
+    ///
+    /// The values have the same bytes. A device serves --method linear alone, with points and places on
+    /// a lattice that it takes.
+    #[arg(long, value_parser = backend_parser(), verbatim_doc_comment)]
+    pub backend: Option<DeviceAddress>,
     /// Threads (default: all processors); the values do not depend on them
     #[arg(long, value_name = "N")]
     pub threads: Option<NonZeroU32>,

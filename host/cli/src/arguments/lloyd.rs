@@ -44,9 +44,14 @@ pub struct LloydArguments {
     pub clip: Option<Rectangle>,
     /// Clip the cells to the polygon in this file
     ///
-    /// The file is GeoJSON with one polygon without holes, or has the corners as points, in order.
+    /// The file is GeoJSON with one polygon, perhaps with holes, or has the corners as points, in order.
     #[arg(long, value_name = "POLYGON", verbatim_doc_comment)]
     pub clip_to: Option<PathBuf>,
+    /// Let points gather where this image is dark: a PNG, JPEG or PGM file
+    ///
+    /// The image is stretched over the smallest rectangle around the clip, its uppermost row at the largest y.
+    #[arg(long, value_name = "IMAGE")]
+    pub density: Option<PathBuf>,
     /// Threads (default: all processors); the places do not depend on them
     #[arg(long, value_name = "N")]
     pub threads: Option<NonZeroU32>,

@@ -27,7 +27,7 @@ use crate::values::{
 
 pub use backend::{BackendArguments, ConfigName};
 pub use generate::GenerateArguments;
-pub use interpolate::{InterpolateArguments, ValueFormat};
+pub use interpolate::{InterpolateArguments, MethodName, OutsideName, ValueFormat};
 pub use job::JobArguments;
 pub use lloyd::LloydArguments;
 pub use plan::{Crossings, PlanArguments};
@@ -249,6 +249,23 @@ pub struct VerifyArguments {
     pub format: Option<MeshFormat>,
     #[command(flatten)]
     pub grid: GridArguments,
+    /// Memory that the check may take, from 32M on, such as 300M or 2G: the rest lies in files
+    ///
+    /// The first defect is the same. The points must lie on a lattice of up to 32 bits, and the mesh
+    /// must be a file of npy, csv or ele. Constraints and scripts are checked in memory only.
+    #[arg(
+        long,
+        value_name = "BYTES",
+        value_parser = bytes_from,
+        conflicts_with_all = ["script", "quantize", "coord_bits"],
+        verbatim_doc_comment
+    )]
+    pub memory: Option<u64>,
+    /// Folder for the files of a check with --memory (default: the folder of the mesh)
+    ///
+    /// They take about 44 bytes for each point of an even set, and have no names on Unix.
+    #[arg(long, value_name = "DIR", requires = "memory")]
+    pub scratch: Option<PathBuf>,
     /// Print the result as one JSON object on standard output
     #[arg(long)]
     pub json: bool,

@@ -49,7 +49,7 @@ pub struct VoronoiArguments {
     pub clip: Option<Rectangle>,
     /// Clip the cells to the polygon in this file
     ///
-    /// The file is GeoJSON with one polygon without holes, or has the corners as points, in order.
+    /// The file is GeoJSON with one polygon, perhaps with holes, or has the corners as points, in order.
     #[arg(long, value_name = "POLYGON", verbatim_doc_comment)]
     pub clip_to: Option<PathBuf>,
     #[command(flatten)]

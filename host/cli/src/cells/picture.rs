@@ -9,7 +9,8 @@ use crate::formats::svg::{colour, draw_dots, write_head, Canvas, Classes, CLASSE
 
 /// A piece of a cell on the canvas.
 struct Drawn {
-    corners: Vec<[i64; 2]>,
+    /// The border, then the holes, which turn the other way and so stay empty.
+    rings: Vec<Vec<[i64; 2]>>,
     /// The side of a square as large as the piece.
     side: f64,
 }
@@ -25,7 +26,7 @@ pub fn write_picture(view: CellView<'_>, points: &[[f64; 2]], out: &mut dyn Writ
     let classes = Classes::of(drawn.iter().map(|piece| piece.side).collect());
     let mut members = vec![Vec::new(); CLASSES];
     for piece in &drawn {
-        members[classes.class(piece.side)].push(&piece.corners);
+        members[classes.class(piece.side)].extend(&piece.rings);
     }
     writeln!(out, "<g stroke=\"#fdfcf9\" stroke-linejoin=\"round\">")?;
     for (class, pieces) in members.iter().enumerate().filter(|(_, pieces)| !pieces.is_empty()).rev() {
@@ -48,19 +49,25 @@ fn draw(view: CellView<'_>, canvas: &Canvas<'_>) -> io::Result<Vec<Drawn>> {
     let mut drawn = Vec::new();
     each_clipped(view, |_, clipped| {
         for piece in clipped.pieces() {
-            let corners: Vec<[i64; 2]> =
-                piece.corners().map(|(corner, _)| canvas.place(view.frame.coordinates(corner))).collect();
-            let twice: i64 = (0..corners.len())
-                .map(|k| {
-                    let ([x, y], [u, v]) = (corners[k], corners[(k + 1) % corners.len()]);
-                    x * v - y * u
-                })
-                .sum();
-            drawn.push(Drawn { corners, side: (twice.abs() as f64 / 2.0).sqrt().max(1.0) });
+            let place = |(corner, _)| canvas.place(view.frame.coordinates(corner));
+            let holes = piece.holes().map(|hole| hole.corners().map(place).collect());
+            let rings: Vec<Vec<[i64; 2]>> =
+                std::iter::once(piece.corners().map(place).collect()).chain(holes).collect();
+            let twice: i64 = rings.iter().map(|ring| twice_area(ring)).sum();
+            drawn.push(Drawn { rings, side: (twice.abs() as f64 / 2.0).sqrt().max(1.0) });
         }
         Ok(())
     })?;
     Ok(drawn)
+}
+
+/// Twice the area of a ring on the canvas; its sign tells how the ring turns.
+fn twice_area(ring: &[[i64; 2]]) -> i64 {
+    let term = |k: usize| {
+        let ([x, y], [u, v]) = (ring[k], ring[(k + 1) % ring.len()]);
+        x * v - y * u
+    };
+    (0..ring.len()).map(term).sum()
 }
 
 /// Writes a closed path, relative to its first corner.

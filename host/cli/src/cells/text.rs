@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use incircle::voronoi::{Cell, Cells, ClippedCell, Piece, Voronoi};
+use incircle::voronoi::{Cell, Cells, ClippedCell, Corner, Piece, Side, Voronoi};
 
 use super::frame::Frame;
 use super::view::CellView;
@@ -20,10 +20,17 @@ fn list(items: impl Iterator<Item = u32>) -> String {
 }
 
 /// A ring as GeoJSON wants it: the first corner comes once more at the end.
-fn ring(piece: &Piece<'_>, frame: &Frame) -> String {
-    let mut corners: Vec<String> = piece.corners().map(|(corner, _)| position(frame.coordinates(corner))).collect();
+fn ring(corners: impl Iterator<Item = (Corner, Side)>, frame: &Frame) -> String {
+    let mut corners: Vec<String> = corners.map(|(corner, _)| position(frame.coordinates(corner))).collect();
     corners.extend(corners.first().cloned());
     format!("[{}]", corners.join(","))
+}
+
+/// The rings of a piece: its border, then its holes.
+fn rings(piece: &Piece<'_>, frame: &Frame) -> String {
+    let holes = piece.holes().map(|hole| ring(hole.corners(), frame));
+    let all: Vec<String> = std::iter::once(ring(piece.corners(), frame)).chain(holes).collect();
+    all.join(",")
 }
 
 /// The properties of a clipped cell: area, all neighbours, and those inside the clip.
@@ -46,7 +53,7 @@ pub fn write_geojson(view: CellView<'_>, out: &mut dyn Write) -> io::Result<()> 
     write!(out, "{{\"type\":\"FeatureCollection\",\"features\":[")?;
     let mut comma = "";
     each_clipped(view, |cell, clipped| {
-        let rings: Vec<String> = clipped.pieces().map(|piece| format!("[{}]", ring(&piece, view.frame))).collect();
+        let rings: Vec<String> = clipped.pieces().map(|piece| format!("[{}]", rings(&piece, view.frame))).collect();
         let (kind, coordinates) = match &rings[..] {
             [] => return Ok(()),
             [only] => ("Polygon", only.clone()),
@@ -87,7 +94,7 @@ pub fn write_json(view: CellView<'_>, out: &mut dyn Write) -> io::Result<()> {
     write!(out, "{{\"cells\":[")?;
     let mut comma = "";
     each_clipped(view, |cell, clipped| {
-        let rings: Vec<String> = clipped.pieces().map(|piece| ring(&piece, view.frame)).collect();
+        let rings: Vec<String> = clipped.pieces().map(|piece| rings(&piece, view.frame)).collect();
         write!(out, "{comma}\n{{{},\"rings\":[{}]}}", properties(cell, clipped, view.frame), rings.join(","))?;
         comma = ",";
         Ok(())

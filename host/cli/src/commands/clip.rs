@@ -7,7 +7,8 @@ use incircle::Point;
 
 use crate::arguments::{ReadArguments, Rectangle};
 use crate::failure::Failure;
-use crate::formats::{geojson_ring, PointFormat};
+use crate::formats::geojson_ring::{self, Rings};
+use crate::formats::PointFormat;
 use crate::input::Input;
 use crate::path::{extension, name};
 use crate::points::PointTable;
@@ -15,9 +16,10 @@ use crate::source;
 
 /// The corners of a clip, in the numbers in which they are written.
 pub struct Border {
-    /// The corners of the ring, or two opposite corners of a rectangle.
+    /// The corners of all rings, or two opposite corners of a rectangle.
     pub corners: PointTable,
-    is_rectangle: bool,
+    /// How many corners each ring has: the outer one, then the holes. A rectangle has none.
+    counts: Vec<usize>,
     /// Where the clip comes from, for messages.
     from: String,
 }
@@ -30,25 +32,35 @@ impl Border {
             for [x, y] in [[&numbers[0], &numbers[1]], [&numbers[2], &numbers[3]]] {
                 corners.push([x.as_bytes(), y.as_bytes()], 0)?;
             }
-            return Ok(Some(Self { corners: corners.complete()?, is_rectangle: true, from: "--clip".to_owned() }));
+            return Ok(Some(Self { corners: corners.complete()?, counts: Vec::new(), from: "--clip".to_owned() }));
         }
         let Some(file) = file else { return Ok(None) };
-        let corners = read_ring(file, quiet)?;
-        Ok(Some(Self { corners, is_rectangle: false, from: name(file) }))
+        let Rings { corners, counts } = read_rings(file, quiet)?;
+        Ok(Some(Self { corners, counts, from: name(file) }))
     }
 
     /// The clip whose corners fell onto these grid points.
     pub fn clip(&self, grid: &[Point]) -> Result<Clip, Failure> {
-        let clip = match (self.is_rectangle, grid) {
-            (true, &[one, other]) => Clip::rectangle(one, other),
-            _ => Clip::polygon(grid),
+        let clip = match (&self.counts[..], grid) {
+            ([], &[one, other]) => Clip::rectangle(one, other),
+            ([] | [_], _) => Clip::polygon(grid),
+            (&[outer, ref holes @ ..], _) => {
+                let (outer, mut rest) = grid.split_at(outer.min(grid.len()));
+                let hole = |&count: &usize| {
+                    let (hole, others) = rest.split_at(count.min(rest.len()));
+                    rest = others;
+                    hole.to_vec()
+                };
+                Clip::with_holes(outer, &holes.iter().map(hole).collect::<Vec<_>>())
+            }
         };
         clip.map_err(|error| Failure::input(error.to_string()).in_file(&self.from))
     }
 }
 
-/// Reads the corners of a polygon: those of a GeoJSON polygon, or the points of any other file in their order.
-fn read_ring(file: &Path, quiet: bool) -> Result<PointTable, Failure> {
+/// Reads the rings of a polygon: those of a GeoJSON polygon, or the points of any other file, in their order, as the
+/// only one.
+fn read_rings(file: &Path, quiet: bool) -> Result<Rings, Failure> {
     let format = PointFormat::of_extension(extension(file));
     if matches!(format, Some(PointFormat::Geojson | PointFormat::Json)) {
         let read = || {
@@ -58,7 +70,9 @@ fn read_ring(file: &Path, quiet: bool) -> Result<PointTable, Failure> {
         };
         return read().map_err(|failure| failure.in_file(name(file)));
     }
-    source::read_points(file, &ReadArguments::of_whole_file(), quiet)
+    let corners = source::read_points(file, &ReadArguments::of_whole_file(), quiet)?;
+    let counts = vec![corners.len()];
+    Ok(Rings { corners, counts })
 }
 
 /// The smallest rectangle around grid points; `None` if it has no area.

@@ -8,6 +8,7 @@ use incircle::interpolate::Surface;
 use serde_json::json;
 
 use crate::arguments::{InterpolateArguments, ReadArguments, ValueFormat};
+use crate::commands::interpolate_device;
 use crate::failure::{counted, failure_of, Failure};
 use crate::grid::Grid;
 use crate::lattice::{self, Laid, Numbers};
@@ -17,11 +18,12 @@ use crate::output::{self, Output};
 use crate::path;
 use crate::points::PointTable;
 use crate::watch::{seconds_json, total, Watch};
-use crate::{interrupt, source, value_writer};
+use crate::{geotiff, interrupt, source, value_writer};
 
 /// Reads points and places, works out the values, writes them, and prints the report.
 pub fn run(arguments: &InterpolateArguments) -> Result<(), Failure> {
     let (format, output) = prepare(arguments)?;
+    let device = interpolate_device::choose(arguments)?;
     let mut watch = Watch::start();
     let name = path::name(&arguments.points);
     let in_file = |failure: Failure| failure.in_file(&name);
@@ -30,13 +32,22 @@ pub fn run(arguments: &InterpolateArguments) -> Result<(), Failure> {
     let values = table.heights().to_vec();
     check_values(&table, &values).map_err(in_file)?;
     let (places, grid) = places(arguments, &table)?;
+    if let (ValueFormat::Tif, Some(grid)) = (format, &grid) {
+        geotiff::check(grid)?;
+    }
     watch.ended("load");
     interrupt::check()?;
     let all = table.into_items().append(places.clone())?;
     let laid = lattice::lay(&all, None).map_err(in_file)?;
+    watch.ended("quantise");
+    let wanted = Wanted { places: &places, grid: grid.as_ref(), points: values.len() };
+    if let Some(choice) = device {
+        let found = interpolate_device::values(&choice, &laid, &values).map_err(in_file)?;
+        watch.ended("interpolate");
+        return wanted.write(arguments, &found, format, output, &laid, &mut watch);
+    }
     let coordinates = coordinates(&laid, &all);
     let (points, at) = coordinates.split_at(values.len());
-    watch.ended("quantise");
     let mesh = interrupt::working(|| incircle::triangulate(points));
     interrupt::check()?;
     let mesh = mesh.map_err(|error| failure_of(&error))?;
@@ -48,41 +59,40 @@ pub fn run(arguments: &InterpolateArguments) -> Result<(), Failure> {
         let lines = Lines { surface: &surface, points: &doubles[..values.len()], values: &values };
         return write_lines(arguments, &lines, step, output, &laid, &mut watch);
     }
-    let wanted = Wanted { surface: &surface, places: &places, at, grid: grid.as_ref(), points: points.len() };
-    wanted.write(arguments, format, output, &laid, &mut watch)
+    let threads = arguments.threads.and_then(|threads| usize::try_from(threads.get()).ok());
+    let threads = threads.and_then(NonZeroUsize::new).or(std::thread::available_parallelism().ok());
+    let (method, outside) = (arguments.method.method(), arguments.outside.outside());
+    let found = surface.values(method, outside, at, threads.unwrap_or(NonZeroUsize::MIN));
+    watch.ended("interpolate");
+    wanted.write(arguments, &found, format, output, &laid, &mut watch)
 }
 
 /// The places at which values are wanted.
 struct Wanted<'a> {
-    surface: &'a Surface,
-    /// The places in the numbers of the file, and in those of the surface.
+    /// The places in the numbers of the file.
     places: &'a PointTable,
-    at: &'a [[f64; 2]],
     grid: Option<&'a Grid>,
-    /// The number of points of the surface.
+    /// The number of points with values.
     points: usize,
 }
 
 impl Wanted<'_> {
-    /// Works out the values, writes them, and prints the report.
+    /// Writes the values and prints the report.
     fn write(
         &self,
         arguments: &InterpolateArguments,
+        found: &[f64],
         format: ValueFormat,
         output: Output,
         laid: &Laid<'_>,
         watch: &mut Watch,
     ) -> Result<(), Failure> {
-        let threads = arguments.threads.and_then(|threads| usize::try_from(threads.get()).ok());
-        let threads = threads.and_then(NonZeroUsize::new).or(std::thread::available_parallelism().ok());
-        let (method, outside) = (arguments.method.method(), arguments.outside.outside());
-        let found = self.surface.values(method, outside, self.at, threads.unwrap_or(NonZeroUsize::MIN));
-        watch.ended("interpolate");
         let written = output.write(|out| match (format, self.grid) {
-            (ValueFormat::Csv, _) => value_writer::write_csv(self.places, &found, out),
-            (ValueFormat::Npy, grid) => value_writer::write_npy(&found, grid, out),
-            (ValueFormat::Asc, Some(grid)) => value_writer::write_asc(&found, grid, out),
-            (ValueFormat::Asc | ValueFormat::Geojson, _) => Ok(()),
+            (ValueFormat::Csv, _) => value_writer::write_csv(self.places, found, out),
+            (ValueFormat::Npy, grid) => value_writer::write_npy(found, grid, out),
+            (ValueFormat::Asc, Some(grid)) => value_writer::write_asc(found, grid, out),
+            (ValueFormat::Tif, Some(grid)) => geotiff::write(found, grid, out),
+            (ValueFormat::Asc | ValueFormat::Tif | ValueFormat::Geojson, _) => Ok(()),
         })?;
         watch.ended("write");
         let name = arguments.method.to_possible_value();
@@ -146,8 +156,13 @@ fn prepare(arguments: &InterpolateArguments) -> Result<(ValueFormat, Output), Fa
         let shown = if path::is_standard(file) { "standard output".to_owned() } else { path::name(file) };
         Failure::usage(format!("{shown}: the name tells no format of values: add --format {}", names.join(" or ")))
     })?;
-    if format == ValueFormat::Asc && arguments.grid.is_none() {
-        return Err(Failure::usage("an ASCII grid has the values of a grid: give --grid, or write .csv or .npy"));
+    let name = match format {
+        ValueFormat::Asc => Some("an ASCII grid"),
+        ValueFormat::Tif => Some("a GeoTIFF"),
+        _ => None,
+    };
+    if let (Some(name), None) = (name, &arguments.grid) {
+        return Err(Failure::usage(format!("{name} has the values of a grid: give --grid, or write .csv or .npy")));
     }
     if (format == ValueFormat::Geojson) != arguments.contours.is_some() {
         return Err(Failure::usage("contours are written as GeoJSON, and nothing else is: give -o a name in .geojson"));

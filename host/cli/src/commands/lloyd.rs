@@ -2,7 +2,7 @@
 
 use std::num::NonZeroUsize;
 
-use incircle::lloyd::{relax, End, Relaxed, Stop};
+use incircle::lloyd::{relax, relax_weighted, Density, End, Relaxed, Stop};
 use incircle::voronoi::{Clip, Corner};
 use incircle::Point;
 use serde_json::json;
@@ -12,6 +12,7 @@ use crate::cells::Frame;
 use crate::commands::clip::{around, Border};
 use crate::failure::{counted, Failure};
 use crate::formats::SetFormat;
+use crate::image::{self, Image};
 use crate::lattice::{self, Kind, Laid, Numbers};
 use crate::numbers::Double;
 use crate::output::{self, Output};
@@ -31,6 +32,7 @@ pub fn run(arguments: &LloydArguments) -> Result<(), Failure> {
     let mut watch = Watch::start();
     let table = source::read_set(&arguments.points, &arguments.read, arguments.quiet)?;
     let border = Border::read(arguments.clip.as_ref(), arguments.clip_to.as_ref(), arguments.quiet)?;
+    let image = arguments.density.as_ref().map(|file| image::read(file, arguments.quiet)).transpose()?;
     watch.ended("load");
     interrupt::check()?;
     let in_file = |failure: Failure| failure.in_file(source::set_name(&arguments.points));
@@ -49,16 +51,34 @@ pub fn run(arguments: &LloydArguments) -> Result<(), Failure> {
     let clip = border.map(|border| border.clip(corners)).transpose()?;
     let clip = clip.map_or_else(|| around_points(points).map_err(in_file), Ok)?;
     watch.ended("quantise");
-    let stop = Stop { iterations: arguments.iterations.unwrap_or(MOST_STEPS), when_still: arguments.until_still };
-    let threads = arguments.threads.and_then(|threads| usize::try_from(threads.get()).ok());
-    let threads = threads.and_then(NonZeroUsize::new).or(std::thread::available_parallelism().ok());
-    let relaxed = relax(points.to_vec(), &clip, stop, threads.unwrap_or(NonZeroUsize::MIN));
-    let relaxed = relaxed.map_err(|error| Failure::input(error.to_string()))?;
+    let relaxed = relaxed(arguments, points.to_vec(), &clip, image.as_ref())?;
     watch.ended("relax");
     let places: Vec<[f64; 2]> = relaxed.points.iter().map(|&point| place(&frame, point, spare)).collect();
     let written = output.write(|out| format.write_points(places.iter().map(|place| place.map(Double)), out))?;
     watch.ended("write");
-    output::finish([written], || tell(arguments, &laid, &relaxed, &watch))
+    output::finish([written], || tell(arguments, &laid, &relaxed, image.as_ref(), &watch))
+}
+
+/// Relaxes the points, by the weights of the image if there is one.
+fn relaxed(
+    arguments: &LloydArguments,
+    points: Vec<Point>,
+    clip: &Clip,
+    image: Option<&Image>,
+) -> Result<Relaxed, Failure> {
+    let stop = Stop { iterations: arguments.iterations.unwrap_or(MOST_STEPS), when_still: arguments.until_still };
+    let threads = arguments.threads.and_then(|threads| usize::try_from(threads.get()).ok());
+    let threads = threads.and_then(NonZeroUsize::new).or(std::thread::available_parallelism().ok());
+    let threads = threads.unwrap_or(NonZeroUsize::MIN);
+    let relaxed = match image {
+        None => relax(points, clip, stop, threads),
+        Some(image) => {
+            let density = Density::over(clip, image.columns, &image.weights);
+            let density = density.map_err(|error| Failure::input(error.to_string()))?;
+            relax_weighted(points, clip, &density, stop, threads)
+        }
+    };
+    relaxed.map_err(|error| Failure::input(error.to_string()))
 }
 
 /// The format of the points and the output, checked before the work.
@@ -68,7 +88,7 @@ fn prepare(arguments: &LloydArguments) -> Result<(SetFormat, Output), Failure> {
         let shown = if path::is_standard(file) { "standard output".to_owned() } else { path::name(file) };
         Failure::usage(format!("{shown}: the name tells no format of points: add --format csv, xyz, node or npy"))
     })?;
-    let inputs: Vec<_> = arguments.points.iter().chain(&arguments.clip_to).cloned().collect();
+    let inputs: Vec<_> = arguments.points.iter().chain(&arguments.clip_to).chain(&arguments.density).cloned().collect();
     let output = Output::prepare(file, &inputs)?;
     if arguments.json && output.is_standard() {
         return Err(Failure::usage(
@@ -110,7 +130,13 @@ fn place(frame: &Frame, point: Point, spare: u32) -> [f64; 2] {
 }
 
 /// Prints the report.
-fn tell(arguments: &LloydArguments, laid: &Laid<'_>, relaxed: &Relaxed, watch: &Watch) -> Result<(), Failure> {
+fn tell(
+    arguments: &LloydArguments,
+    laid: &Laid<'_>,
+    relaxed: &Relaxed,
+    image: Option<&Image>,
+    watch: &Watch,
+) -> Result<(), Failure> {
     let Relaxed { points, iterations, moved, end } = relaxed;
     let end = match end {
         End::Still => "still",
@@ -123,6 +149,7 @@ fn tell(arguments: &LloydArguments, laid: &Laid<'_>, relaxed: &Relaxed, watch: &
             "iterations": iterations,
             "moved": moved,
             "end": end,
+            "density": image.map(|image| json!({ "columns": image.columns, "rows": image.rows() })),
             "lattice": laid.to_json(),
             "quantisation": laid.quantization().map(crate::report::quantization_json),
             "seconds": seconds_json(&watch.stages),
@@ -133,6 +160,9 @@ fn tell(arguments: &LloydArguments, laid: &Laid<'_>, relaxed: &Relaxed, watch: &
         let (points, steps) = (counted(points.len(), "point"), counted(*iterations as usize, "step"));
         let seconds = total(&watch.stages).as_secs_f64();
         output::note(&laid.line());
+        if let Some(image) = image {
+            output::note(&format!("density: an image of {} by {} pixels", image.columns, image.rows()));
+        }
         output::note(&format!("{points}, {steps}, {moved} moved in the last; ended by: {end}; {seconds:.3} s"));
     }
     Ok(())

@@ -104,9 +104,9 @@ fn open(
     most_living: usize,
     arguments: &ReplayArguments,
 ) -> Result<Option<Backend>, Failure> {
-    // A model keeps the mesh throughout.
-    let is_model = matches!(choice.address, DeviceAddress::Model { .. });
-    let room = if is_model { most_living } else { choice.room_for(living) };
+    // The model and the core of the back end clock keep the mesh throughout.
+    let keeps_mesh = matches!(choice.address, DeviceAddress::Model { .. } | DeviceAddress::Clock { .. });
+    let room = if keeps_mesh { most_living } else { choice.room_for(living) };
     let backend = backend::open_with_room(choice, Some(room), None, arguments.job.timeout)?;
     backend.check_job(&arguments.job)?;
     Ok(Some(backend).filter(|backend| !backend.takes_all_numbers()))

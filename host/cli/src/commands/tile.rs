@@ -159,15 +159,15 @@ fn join(arguments: &JoinArguments) -> Result<(), Failure> {
             "the mesh and the report of --json cannot both go to standard output: give -o a file",
         ));
     }
-    if arguments.unordered && !tiles::is_streamed(format) {
+    if arguments.unordered && !format.is_streamed() {
         return Err(Failure::usage("--unordered is for npy, csv and ele only: leave it out, or choose one of them"));
     }
     let order = if arguments.unordered { Order::Unordered } else { Order::Canonical };
-    let (folder, keeps_lists) = (&arguments.folder, !tiles::is_streamed(format));
+    let (folder, keeps_lists) = (&arguments.folder, !format.is_streamed());
     let memory = JoinMemory { sort: arguments.memory, bound: None };
     let joined = tiles::join(folder, &manifest, memory, keeps_lists, arguments.quiet)?;
     let counts = [manifest.points(), joined.duplicates, joined.triangles, joined.hull_points];
-    let written = if tiles::is_streamed(format) {
+    let written = if format.is_streamed() {
         tiles::write_triangles(joined, (folder, &manifest), (order, arguments.memory), format, output, arguments.quiet)?
     } else {
         write_whole(joined, &manifest, format, output, arguments)?

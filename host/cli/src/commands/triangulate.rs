@@ -64,7 +64,7 @@ fn run_in_memory(arguments: &TriangulateArguments) -> Result<(), Failure> {
     let trace = trace.map(Output::reserve).transpose()?;
     let trace_part = trace.as_ref().and_then(Written::part);
     let wanted = trace_part.map(|path| Trace { path, job: arguments.trace_job });
-    let (mut mesh, about, backend) = solve(chosen, laid, wanted, arguments, &mut watch)?;
+    let (mut mesh, about, backend) = solve(chosen, (&set, &places, laid), wanted, arguments, &mut watch)?;
     watch.stages.extend(&about.stages);
     let mut report = report_of(&about, backend.as_ref(), laid);
     report.left_out = table.left_out();
@@ -96,9 +96,9 @@ fn snap(
     }
 }
 
-/// Forces the constraints of a set into its mesh, if the set has any.
+/// Forces the constraints of a set into its mesh, if the set has any that are not in it.
 fn force_plan(set: &PlannedSet, places: &Laid<'_>, mesh: &mut Connections, watch: &mut Watch) -> Result<(), Failure> {
-    if let Some(request) = &set.request {
+    if let Some(request) = set.request.as_ref().filter(|_| mesh.planned.is_none()) {
         mesh.planned = Some(request.force(mesh, set, places)?);
         watch.ended("constrain");
     }
@@ -156,10 +156,11 @@ impl Lists {
     }
 }
 
-/// Opens the back ends and lets them triangulate the points. A single back end stays open.
+/// Opens the back ends and lets them triangulate the points `laid` of a set, whose holes and regions are among its
+/// `places`. A single back end stays open. The CPU triangulator alone forces constraints at once.
 fn solve(
     chosen: Chosen,
-    laid: &Laid<'_>,
+    (set, places, laid): (&PlannedSet, &Laid<'_>, &Laid<'_>),
     trace: Option<Trace<'_>>,
     arguments: &TriangulateArguments,
     watch: &mut Watch,
@@ -172,6 +173,14 @@ fn solve(
             backend.check_job(&arguments.job)?;
             tell_if_long(&backend, laid.numbers.len(), arguments);
             watch.ended("open");
+            if let Some(request) = set.request.as_ref().filter(|_| backend.takes_all_numbers()) {
+                let asked = (request, &places.numbers, set.points);
+                let refuse = |error| request.refuse(error, &set.table, places);
+                let solved = solve::constrain(&mut backend, asked, refuse, &arguments.job, arguments.quiet);
+                let (found, about) = solved.map_err(in_file)?;
+                let mesh = Connections::of_domain(&found);
+                return Ok((Connections { planned: Some(request.planned(found.made)), ..mesh }, about, Some(backend)));
+            }
             let check_bits = |bits| laid.check_bits(bits, choice.address.name());
             let solved = solve::triangulate(&mut backend, &laid.numbers, check_bits, &arguments.job, arguments.quiet);
             let (mesh, about) = solved.map_err(in_file)?;

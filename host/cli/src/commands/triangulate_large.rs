@@ -36,7 +36,7 @@ pub fn memory_of(arguments: &TriangulateArguments) -> Option<u64> {
     let format = source::mesh_format(&arguments.output, arguments.format).ok()?;
     let has_choices = arguments.grid.quantize.is_some() || arguments.trace.is_some() || arguments.backend.is_several();
     let has_choices = has_choices || arguments.asks_for_plan();
-    if has_choices || !tiles::is_streamed(format) {
+    if has_choices || !format.is_streamed() {
         return None;
     }
     let points = too_many(arguments, free).filter(|_| Budget::is_enough(usual))?;
@@ -148,7 +148,7 @@ fn remedy(scratch: &Scratch) -> String {
 
 /// Refuses choices that need all points in memory.
 fn check_choices(arguments: &TriangulateArguments, format: MeshFormat) -> Result<(), Failure> {
-    let refused = if !tiles::is_streamed(format) {
+    let refused = if !format.is_streamed() {
         Some("a mesh with its points needs all of them in memory: write npy, csv or ele")
     } else if arguments.grid.quantize.is_some() || arguments.grid.coord_bits.is_some() {
         Some("--quantize needs all points in memory: leave it out, or round the points with another program")

@@ -8,15 +8,20 @@ use serde_json::{json, Value};
 
 use crate::arguments::{Crossings, GridArguments, VerifyArguments};
 use crate::backend::MODEL_COORD_BITS;
-use crate::failure::{counted, Exit, Failure};
+use crate::commands::verdict::{Kind, Seen, Verdict};
+use crate::commands::verify_large;
+use crate::failure::Failure;
 use crate::lattice::{Laid, Numbers};
 use crate::plan::{self, Request};
 use crate::report::quantization_json;
-use crate::{lattice, output, path, snapping, source};
+use crate::{lattice, path, snapping, source};
 
 /// Runs the subcommand. A wrong mesh leads to exit code 1.
 pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
     let (points, mesh) = arguments.files()?;
+    if let Some(memory) = arguments.memory {
+        return verify_large::run(arguments, memory);
+    }
     if points.iter().any(|path| path::is_standard(path)) && path::is_standard(mesh) {
         return Err(Failure::usage(
             "points and mesh cannot both come from standard input: name a file for one of them",
@@ -44,14 +49,15 @@ pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
     let names = [&*path::name(mesh), &*points_name];
     let request = set.request.as_ref();
     let kind = if request.is_some() { Kind::Constrained } else { Kind::Canonical };
+    let verdict = Verdict { kind, names, json: arguments.json, quiet: arguments.quiet };
     let checked = read_triangles(arguments, mesh).and_then(|triangles| {
         let checked = match request {
             Some(request) => check_planned(&laid.numbers, set.points, request, &triangles),
             None => check(&laid.numbers, &triangles),
         };
-        checked.map_err(|error| rejected(&error.to_string(), kind, names))
+        checked.map_err(|error| verdict.rejected(&error.to_string()))
     });
-    tell(checked, &laid, kind, names, arguments)
+    verdict.tell(checked.map(|summary| seen(&summary, &laid)))
 }
 
 /// Reads the triangles of the mesh.
@@ -74,10 +80,11 @@ fn run_script(arguments: &VerifyArguments, path: &Path, mesh: &Path) -> Result<(
     let names = [&*path::name(mesh), &*name];
     let request = Request::of_constraints(script.last_constraints(&living));
     let kind = if request.has_constraints() { Kind::Constrained } else { Kind::Canonical };
+    let verdict = Verdict { kind, names, json: arguments.json, quiet: arguments.quiet };
     let checked = read_triangles(arguments, mesh).and_then(|triangles| {
-        check_living(&numbers, &living, &request, &triangles).map_err(|reason| rejected(&reason, kind, names))
+        check_living(&numbers, &living, &request, &triangles).map_err(|reason| verdict.rejected(&reason))
     });
-    tell(checked, &laid, kind, names, arguments)
+    verdict.tell(checked.map(|summary| seen(&summary, &laid)))
 }
 
 /// Verifies triangles that name points by the numbers of their insertions. `living` has the numbers of the points.
@@ -102,65 +109,6 @@ fn check_living(
     check(numbers, &triangles).map_err(|error| format!("{error} ({words})"))
 }
 
-/// The kind of mesh that is checked, as messages call it.
-#[derive(Clone, Copy)]
-enum Kind {
-    Canonical,
-    Constrained,
-}
-
-impl Kind {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Canonical => "canonical",
-            Self::Constrained => "canonical constrained",
-        }
-    }
-}
-
-/// The failure of a mesh that is not the one of these points.
-fn rejected(reason: &str, kind: Kind, [mesh_name, points_name]: [&str; 2]) -> Failure {
-    let kind = kind.name();
-    Failure::new(
-        Exit::Rejected,
-        format!("the triangles of {mesh_name} are not the {kind} Delaunay triangulation of {points_name}: {reason}"),
-    )
-}
-
-/// Prints the result. A wrong mesh is a failure.
-fn tell(
-    checked: Result<VerifySummary, Failure>,
-    laid: &Laid<'_>,
-    kind: Kind,
-    [mesh_name, points_name]: [&str; 2],
-    arguments: &VerifyArguments,
-) -> Result<(), Failure> {
-    let summary = match checked {
-        Ok(summary) => summary,
-        Err(failure) => {
-            if arguments.json && failure.exit == Exit::Rejected {
-                output::print(&format!("{}\n", json!({ "valid": false, "reason": failure.message })))?;
-            }
-            return Err(failure);
-        }
-    };
-    if arguments.json {
-        output::print(&format!("{}\n", to_json(&summary, laid)))
-    } else if arguments.quiet {
-        Ok(())
-    } else {
-        output::print(&format!(
-            "the triangles of {mesh_name} are the {} Delaunay triangulation of {points_name}: {}, {}, {} on the hull, \
-             {}\n",
-            kind.name(),
-            counted(summary.points, "point"),
-            counted(summary.triangles, "triangle"),
-            counted(summary.hull.len(), "point"),
-            counted(summary.ties, "tie")
-        ))
-    }
-}
-
 /// Verifies triangles in the numbers of their points.
 fn check(numbers: &Numbers<'_>, triangles: &[[u32; 3]]) -> Result<VerifySummary, VerifyError> {
     match numbers {
@@ -182,6 +130,12 @@ fn check_planned(
         Numbers::Whole(all) => verify_constrained(&all[..points], triangles, &request.plan(all, points)),
         Numbers::Doubles(all) => verify_constrained(&all[..points], triangles, &request.plan(all, points)),
     }
+}
+
+/// What was seen in a mesh that is right.
+fn seen(summary: &VerifySummary, laid: &Laid<'_>) -> Seen {
+    let [points, triangles, hull, ties] = [summary.points, summary.triangles, summary.hull.len(), summary.ties];
+    Seen { counts: [points, triangles, hull, ties], report: to_json(summary, laid) }
 }
 
 fn to_json(summary: &VerifySummary, laid: &Laid<'_>) -> Value {

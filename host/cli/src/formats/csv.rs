@@ -13,7 +13,7 @@ use crate::failure::{counted, quoted, Failure};
 use crate::formats::blocks::{Blocks, RowEnd};
 use crate::formats::csv_rows::{separator_of, CsvRows, Values};
 use crate::formats::mesh_view::MeshView;
-use crate::formats::pieces::{no_byte, Take};
+use crate::formats::pieces::{no_byte, Take, TakeTriangle};
 use crate::input::Input;
 use crate::memory::Memory;
 use crate::points::{Place, PointTable};
@@ -130,27 +130,50 @@ impl<'v> PointReader<'v> {
 pub fn read_mesh(bytes: &[u8], memory: Memory) -> Result<Vec<[u32; 3]>, Failure> {
     let mut rows = CsvRows::new(text::without_mark(bytes)?);
     let mut triangles = Vec::new();
-    let mut first = true;
+    let mut is_first = true;
     while let Some((row, values)) = rows.next()? {
-        let header = first && !values.iter().any(text::looks_like_number);
-        first = false;
-        if header {
-            continue;
+        if let Some(triangle) = triangle_of(&values, row, std::mem::take(&mut is_first))? {
+            memory.push(&mut triangles, triangle)?;
         }
-        if values.len() != 3 {
-            return Err(Failure::input(format!(
-                "row {row} has {}: a triangle is a row of three point indices",
-                counted(values.len(), "column")
-            )));
-        }
-        let mut triangle = [0; 3];
-        for (column, corner) in triangle.iter_mut().enumerate() {
-            let place = Place::Cell { row, column: column + 1 };
-            *corner = text::whole(values.get(column), "a point index", place)?;
-        }
-        memory.push(&mut triangles, triangle)?;
     }
     Ok(triangles)
+}
+
+/// Calls `take` with the triangles of a mesh, which is read in pieces of about 256 KiB.
+///
+/// # Errors
+/// The file cannot be read or has a wrong row, or `take` fails.
+pub fn each_triangle(input: Input, take: TakeTriangle<'_>) -> Result<(), Failure> {
+    let mut blocks = Blocks::new(input.without_end(), RowEnd::Any);
+    let (mut passed, mut separator, mut is_first) = (0, None, true);
+    while let Some(block) = blocks.next()? {
+        let block = if separator.is_none() { text::without_mark(block)? } else { block };
+        let mut rows = CsvRows::after(passed, block, *separator.get_or_insert_with(|| separator_of(block)));
+        while let Some((row, values)) = rows.next()? {
+            if let Some(triangle) = triangle_of(&values, row, std::mem::take(&mut is_first))? {
+                take(triangle)?;
+            }
+        }
+        passed = rows.row();
+    }
+    Ok(())
+}
+
+/// The triangle of a row; `None` for a first row that is a header.
+fn triangle_of(values: &Values<'_>, row: usize, is_first: bool) -> Result<Option<[u32; 3]>, Failure> {
+    if is_first && !values.iter().any(text::looks_like_number) {
+        return Ok(None);
+    }
+    if values.len() != 3 {
+        let columns = counted(values.len(), "column");
+        return Err(Failure::input(format!("row {row} has {columns}: a triangle is a row of three point indices")));
+    }
+    let mut triangle = [0; 3];
+    for (column, corner) in triangle.iter_mut().enumerate() {
+        let place = Place::Cell { row, column: column + 1 };
+        *corner = text::whole(values.get(column), "a point index", place)?;
+    }
+    Ok(Some(triangle))
 }
 
 /// Reads pairs of indices of points, of which there are `points`.

@@ -8,8 +8,11 @@
 use std::io::{self, Write};
 
 use crate::failure::{counted, Exit, Failure};
+use crate::formats::blocks::{Blocks, RowEnd};
 use crate::formats::mesh_view::MeshView;
+use crate::formats::pieces::TakeTriangle;
 use crate::formats::triangle;
+use crate::input::Input;
 use crate::memory::Memory;
 use crate::points::Place;
 use crate::text;
@@ -30,15 +33,61 @@ pub fn read_mesh(bytes: &[u8], memory: Memory) -> Result<Vec<[u32; 3]>, Failure>
         }
         memory.push(&mut triangles, [a, b, c])?;
     }
-    if triangles.len() as u64 != u64::from(promised) {
-        let (found, promised) = (triangles.len(), counted(promised as usize, "triangle"));
-        let message = format!("the first row promises {promised}, but the file holds {found}");
-        return Err(Failure::new(Exit::Rejected, message));
-    }
+    check_promise(promised, triangles.len() as u64)?;
     if first_id == 1 && triangles.iter().flatten().all(|&vertex| vertex > 0) {
         triangles.iter_mut().flatten().for_each(|vertex| *vertex -= 1);
     }
     Ok(triangles)
+}
+
+/// The number from which the vertices of a mesh are counted, 0 or 1. The mesh is read in pieces of about 256 KiB.
+///
+/// # Errors
+/// As for [`read_mesh`].
+pub fn base(input: Input) -> Result<u32, Failure> {
+    let (mut first_id, mut least) = (None, u32::MAX);
+    each_row(input, &mut |[id, corners @ ..]| {
+        first_id.get_or_insert(id);
+        least = corners.into_iter().fold(least, u32::min);
+        Ok(())
+    })?;
+    Ok(u32::from(first_id == Some(1) && least > 0))
+}
+
+/// Calls `take` with the triangles of a mesh, which is read in pieces of about 256 KiB. `base` is the one of [`base`].
+///
+/// # Errors
+/// As for [`read_mesh`], or `take` fails.
+pub fn each_triangle(input: Input, base: u32, take: TakeTriangle<'_>) -> Result<(), Failure> {
+    each_row(input, &mut |[_, a, b, c]| take([a, b, c].map(|vertex| vertex.wrapping_sub(base))))
+}
+
+/// Calls `take` with the values of all rows behind the first one.
+fn each_row(input: Input, take: &mut dyn FnMut([u32; 4]) -> Result<(), Failure>) -> Result<(), Failure> {
+    let mut blocks = Blocks::new(input.without_end(), RowEnd::Feed);
+    let (mut promised, mut found, mut passed) = (None, 0, 0);
+    while let Some(block) = blocks.next()? {
+        let block = if passed == 0 { text::without_mark(block)? } else { block };
+        for (row, content) in triangle::contents(block) {
+            if promised.is_some() {
+                take(read_row(content, passed + row)?)?;
+                found += 1;
+            } else {
+                promised = Some(HEADER.promised(passed + row, content)?);
+            }
+        }
+        passed += text::rows(block).count();
+    }
+    check_promise(promised.ok_or_else(|| HEADER.missing())?, found)
+}
+
+/// Refuses a list that is longer or shorter than its first row promises.
+fn check_promise(promised: u32, found: u64) -> Result<(), Failure> {
+    if found == u64::from(promised) {
+        return Ok(());
+    }
+    let promised = counted(promised as usize, "triangle");
+    Err(Failure::new(Exit::Rejected, format!("the first row promises {promised}, but the file holds {found}")))
 }
 
 fn read_row(content: &[u8], row: usize) -> Result<[u32; 4], Failure> {

@@ -1,5 +1,5 @@
-//! The ring of a polygon in GeoJSON (RFC 7946): one polygon without holes, bare, in a feature, or in a collection of
-//! one feature.
+//! The rings of a polygon in GeoJSON (RFC 7946): one polygon, perhaps with holes, bare, in a feature, or in a collection
+//! of one feature.
 
 use crate::failure::{counted, quoted, Failure};
 use crate::formats::json_text;
@@ -7,17 +7,25 @@ use crate::memory::Memory;
 use crate::points::PointTable;
 use crate::text;
 
-/// Reads the corners of the only polygon of a file, in their order. The last corner repeats the first.
-pub fn read(bytes: &[u8], memory: Memory) -> Result<PointTable, Failure> {
+/// The corners of a polygon.
+pub struct Rings {
+    /// The corners of the outer ring, then those of each hole. The last corner of a ring repeats its first.
+    pub corners: PointTable,
+    /// How many corners each ring has.
+    pub counts: Vec<usize>,
+}
+
+/// Reads the only polygon of a file.
+pub fn read(bytes: &[u8], memory: Memory) -> Result<Rings, Failure> {
     read_object(text::utf8(bytes)?, memory, 0)
 }
 
 fn refuse(why: impl std::fmt::Display) -> Failure {
-    Failure::input(format!("{why}: give one GeoJSON polygon without holes"))
+    Failure::input(format!("{why}: give one GeoJSON polygon"))
 }
 
 /// Reads a geometry, or the geometry of a feature, at a depth below the file.
-fn read_object(object: &str, memory: Memory, depth: usize) -> Result<PointTable, Failure> {
+fn read_object(object: &str, memory: Memory, depth: usize) -> Result<Rings, Failure> {
     let fields = json_text::fields(object, ["type", "coordinates", "geometry", "features"]);
     let [kind, coordinates, geometry, features] = fields.map_err(|error| json_text::refuse(&error))?;
     let kind = kind.and_then(json_text::string).unwrap_or_default();
@@ -47,18 +55,30 @@ fn only(list: &str, what: &str) -> Result<String, Failure> {
     }
 }
 
-fn read_polygon(rings: &str, memory: Memory) -> Result<PointTable, Failure> {
+fn read_polygon(rings: &str, memory: Memory) -> Result<Rings, Failure> {
     if !json_text::is_list(rings) {
         return Err(refuse("the polygon has no list 'coordinates'"));
     }
-    let ring = only(rings, "ring")?;
-    let mut table = PointTable::of_items("corner").within(memory);
-    json_text::each(&ring, |index, position| match json_text::numbers(position) {
-        Some(([x, y, _], 2..)) => table.push([x.as_bytes(), y.as_bytes()], 0),
-        _ => {
-            let number = index + 1;
-            Err(Failure::input(format!("corner {number} is {}, not two numbers", quoted(position.as_bytes()))))
+    let mut corners = PointTable::of_items("corner").within(memory);
+    let mut counts = Vec::new();
+    json_text::each(rings, |_, ring| {
+        if !json_text::is_list(ring) {
+            return Err(refuse(format!("ring {} is {}, not a list", counts.len() + 1, quoted(ring.as_bytes()))));
         }
+        let before = corners.len();
+        json_text::each(ring, |index, position| match json_text::numbers(position) {
+            Some(([x, y, _], 2..)) => corners.push([x.as_bytes(), y.as_bytes()], 0),
+            _ => {
+                let (number, ring) = (index + 1, counts.len() + 1);
+                let shown = quoted(position.as_bytes());
+                Err(Failure::input(format!("corner {number} of ring {ring} is {shown}, not two numbers")))
+            }
+        })?;
+        counts.push(corners.len() - before);
+        Ok(())
     })?;
-    table.complete()
+    if counts.is_empty() {
+        return Err(refuse("the polygon has no ring"));
+    }
+    Ok(Rings { corners: corners.complete()?, counts })
 }

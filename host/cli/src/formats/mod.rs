@@ -40,7 +40,7 @@ use crate::input::Input;
 use crate::points::PointTable;
 
 pub use mesh_view::MeshView;
-pub use pieces::Take;
+pub use pieces::{Take, TakeTriangle};
 pub use plan::PlanTable;
 pub use selection::{Bounds, Selection};
 pub use set::SetFormat;
@@ -258,6 +258,29 @@ impl MeshFormat {
             Self::Csv => csv::write_mesh(mesh, out),
             Self::Npy => npy_writer::write_mesh(mesh, out),
             Self::Svg => svg::write_mesh(mesh, out),
+        }
+    }
+
+    /// Whether the triangles of a mesh can be written and read one after the other.
+    pub fn is_streamed(self) -> bool {
+        matches!(self, Self::Npy | Self::Csv | Self::Ele)
+    }
+
+    /// Calls `take` with the triangles of a mesh as they stand in the file, which is read in pieces. `open` opens the
+    /// file, twice for ELE. Only formats that [are streamed](Self::is_streamed) can be read so.
+    ///
+    /// # Errors
+    /// As for [`read`](Self::read), or `take` fails.
+    pub fn each_triangle(
+        self,
+        open: &dyn Fn() -> Result<Input, Failure>,
+        take: TakeTriangle<'_>,
+    ) -> Result<(), Failure> {
+        match self {
+            Self::Npy => npy::each_triangle(open()?, take),
+            Self::Csv => csv::each_triangle(open()?, take),
+            Self::Ele => ele::each_triangle(open()?, ele::base(open()?)?, take),
+            _ => Err(Failure::usage("a mesh of this format is read as a whole: write npy, csv or ele")),
         }
     }
 

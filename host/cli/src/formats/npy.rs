@@ -7,8 +7,8 @@
 use std::ops::Range;
 
 use crate::failure::Failure;
-use crate::formats::array::{Cells, Pieces, Source, Wanted};
-use crate::formats::pieces::Take;
+use crate::formats::array::{Cells, Layout, Pieces, Source, Wanted};
+use crate::formats::pieces::{Take, TakeTriangle};
 use crate::input::Input;
 use crate::memory::Memory;
 use crate::points::{Coordinates, Place, PointTable, Unit};
@@ -111,26 +111,49 @@ impl Rows {
 /// Reads the triangles of an array of integers.
 pub fn read_mesh(mut source: Source<'_>) -> Result<Vec<[u32; 3]>, Failure> {
     let layout = source.open(&TRIANGLES, Memory::check_triangles)?;
-    if !layout.columns().all(|column| column.item.is_integer()) {
-        return Err(Failure::input("the array holds floats, but triangles are integers: save array.astype('<u4')"));
-    }
+    check_integers(&layout)?;
     let mut triangles: Vec<[u32; 3]> = with_room(source.certain_rows(&layout))?;
-    source.read(&layout, |cells| {
-        let mut wrong = None;
-        let mut target = rows_of(&mut triangles, cells);
-        cells.integers(|integer| {
-            let Some((index, triangle)) = target.next() else { return };
-            match u32::try_from(integer) {
-                Ok(vertex) => triangle[cells.axis] = vertex,
-                Err(_) => wrong = wrong.or(Some((index, integer))),
-            }
-        });
-        wrong.map_or(Ok(()), |(index, integer)| {
-            let shown = cells.beyond(integer).map_or(integer.to_string(), |beyond| beyond.to_string());
-            Err(Failure::input(format!("triangle {}: {shown} is not a point index", index + 1)))
-        })
-    })?;
+    source.read(&layout, |cells| keep_corners(&mut triangles, cells))?;
     Ok(triangles)
+}
+
+/// Calls `take` with the triangles of an array of integers, which is read in pieces.
+///
+/// # Errors
+/// The file cannot be read or holds other numbers, or `take` fails.
+pub fn each_triangle(input: Input, take: TakeTriangle<'_>) -> Result<(), Failure> {
+    let mut pieces = Pieces::open(input, &TRIANGLES)?;
+    check_integers(pieces.layout())?;
+    let (end, mut triangles) = (pieces.layout().rows, Vec::new());
+    for first in (0..end).step_by(PIECE) {
+        triangles.clear();
+        pieces.read(first, PIECE.min(end - first), |cells| keep_corners(&mut triangles, cells))?;
+        triangles.iter().try_for_each(|&triangle| take(triangle))?;
+    }
+    Ok(())
+}
+
+fn check_integers(layout: &Layout) -> Result<(), Failure> {
+    if layout.columns().all(|column| column.item.is_integer()) {
+        return Ok(());
+    }
+    Err(Failure::input("the array holds floats, but triangles are integers: save array.astype('<u4')"))
+}
+
+fn keep_corners(triangles: &mut Vec<[u32; 3]>, cells: &Cells<'_>) -> Result<(), Failure> {
+    let mut wrong = None;
+    let mut target = rows_of(triangles, cells);
+    cells.integers(|integer| {
+        let Some((index, triangle)) = target.next() else { return };
+        match u32::try_from(integer) {
+            Ok(vertex) => triangle[cells.axis] = vertex,
+            Err(_) => wrong = wrong.or(Some((index, integer))),
+        }
+    });
+    wrong.map_or(Ok(()), |(index, integer)| {
+        let shown = cells.beyond(integer).map_or(integer.to_string(), |beyond| beyond.to_string());
+        Err(Failure::input(format!("triangle {}: {shown} is not a point index", index + 1)))
+    })
 }
 
 /// An empty list with room for `rows` rows.

@@ -195,8 +195,8 @@ impl Extent {
         let bits = u128::BITS - (spans[0] | spans[1]).leading_zeros();
         if bits > u32::BITS {
             return Err(Failure::input(format!(
-                "the points need {bits} bits in their common steps, and tiles take at most 32: round the points, or \
-                 triangulate them in one memory with 'incircle triangulate'"
+                "the points need {bits} bits in their common steps, and tiles and 'verify --memory' take at most 32: \
+                 round the points, or work in one memory"
             )));
         }
         Ok(Ground { length, offset: span.low, bits })
@@ -287,8 +287,8 @@ fn power_of_two(coarse: i32, fine: i32) -> Option<i128> {
 
 fn no_lattice() -> Failure {
     Failure::input(
-        "the points lie on no common lattice of at most 32 bits, which tiles need: round the points, or triangulate \
-         them in one memory with 'incircle triangulate'",
+        "the points lie on no common lattice of at most 32 bits, which tiles and 'verify --memory' need: round the points, \
+         or work in one memory",
     )
 }
 

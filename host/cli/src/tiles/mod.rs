@@ -36,13 +36,13 @@ mod write;
 mod written;
 
 pub use budget::Budget;
-pub use digest::scattered;
-pub use disk::{bytes_in, told, Needed};
-pub use ground::{Extent, Ground};
-pub use inputs::points_again;
+pub use digest::{scattered, Digest};
+pub use disk::{bytes_in, room_for, told, Needed};
+pub use ground::{Extent, Ground, Length};
+pub use inputs::{each_piece, points_again};
 pub use join::{euler, join, triangles_of, JoinMemory, Joined, Order};
 pub use local::{local, Outcome, TileAt};
 pub use manifest::{local_path, manifest_path, points_path, Manifest};
 pub use scratch::Scratch;
 pub use split::{split, Plan, Summary};
-pub use write::{is_streamed, write_triangles};
+pub use write::write_triangles;

@@ -11,13 +11,8 @@ use crate::formats::{npy_writer, MeshFormat};
 use crate::output::{Output, Written};
 use crate::progress::CountMeter;
 
-/// Whether a format needs nothing but the triangles, so that these can be written one after the other.
-pub fn is_streamed(format: MeshFormat) -> bool {
-    matches!(format, MeshFormat::Npy | MeshFormat::Csv | MeshFormat::Ele)
-}
-
 /// Writes the triangles of a set whose tiles are in `folder`, in this order. The lists of the tiles take about `memory`
-/// bytes. The format must be [streamed](is_streamed).
+/// bytes. The format must be [streamed](MeshFormat::is_streamed).
 ///
 /// # Errors
 /// A file of the tiles cannot be read, or the output cannot be written.

@@ -26,6 +26,7 @@ mod commands {
     mod snap;
     mod tile;
     mod triangulate_large;
+    mod verify_large;
     mod voronoi;
 }
 

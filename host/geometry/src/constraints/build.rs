@@ -59,6 +59,22 @@ fn twice_area(places: &[Point], triangles: &[[u32; 3]]) -> i128 {
     triangles.iter().map(area).sum()
 }
 
+/// Twice the area to the left of the edges around it, for points of the grid. It is the sum of the areas of the
+/// triangles there. Each cross product is below 2^65, and there are fewer than 2^31, so 128 bits hold the sum.
+pub(super) fn area_inside(numbers: &Numbers<'_>, border: &[[u32; 2]]) -> Option<i128> {
+    let Numbers::Grid(places) = numbers else { return None };
+    let cross = |ends: &[u32; 2]| {
+        let [a, b] = ends.map(|index| places[index as usize]);
+        i128::from(a.x) * i128::from(b.y) - i128::from(a.y) * i128::from(b.x)
+    };
+    Some(border.iter().map(cross).sum())
+}
+
+/// Whether there are few enough constraints, and all name points.
+pub(super) fn are_in_range(constraints: &[[u32; 2]], points: usize) -> bool {
+    constraints.len() <= MAX_POINTS && constraints.as_flattened().iter().all(|&end| (end as usize) < points)
+}
+
 /// The steps. `whole` gives the coordinates of a site if they are whole numbers.
 fn of_sites<S: Site>(
     places: &[S],
@@ -82,8 +98,7 @@ fn of_sites<S: Site>(
     })?;
     let boundary = Boundary { pieces: &pieces, ends: &ends, count: plan.boundary(), domain: plan.domain };
     boundary.check(points)?;
-    let is_whole = plan.domain == Domain::All && plan.regions.is_empty();
-    let parts = if is_whole { Parts::one(&network) } else { Parts::of(&network, &boundary) };
+    let parts = if plan.takes_all() { Parts::one(&network) } else { Parts::of(&network, &boundary) };
     let chosen = parts.chosen(&network, plan)?;
     let (mut made, regions) = numbered(&network, mesh.triangles.len(), &parts, &chosen);
     if made.triangles.is_empty() {
@@ -142,7 +157,7 @@ impl Ended {
 }
 
 /// Entries that the list of the constraints of all pieces may have. They take 3 GiB, so lists stay below 32 bits, too.
-const MOST_PARTS: usize = 1 << 28;
+pub(super) const MOST_PARTS: usize = 1 << 28;
 
 /// Checks that the list of parts may become longer.
 fn check_room(parts: usize) -> Result<(), Error> {
@@ -152,11 +167,37 @@ fn check_room(parts: usize) -> Result<(), Error> {
     }
 }
 
+/// How many constraints have an end at each vertex.
+struct Crowds(Vec<u32>);
+
+impl Crowds {
+    /// Constraints at a vertex that may all turn around it.
+    const FEW: u32 = 8;
+
+    fn of(ends: &[[u32; 2]], vertices: usize) -> Self {
+        let mut counts = pages::zeros(vertices);
+        ends.as_flattened().iter().for_each(|&end| counts[end as usize] += 1);
+        Self(counts)
+    }
+
+    /// The ends of a constraint, so that it does not begin where very many others do. Finding the way from a vertex
+    /// takes time in proportion to its neighbours, and a vertex with many constraints has as many neighbours.
+    fn turned(&self, [from, to]: [u32; 2]) -> [u32; 2] {
+        let [own, other] = [from, to].map(|end| self.0[end as usize]);
+        if own > Self::FEW && other < own {
+            [to, from]
+        } else {
+            [from, to]
+        }
+    }
+}
+
 /// Forces all constraints into the mesh, in their order.
 fn force_all<S: Site>(network: &mut Network<'_, S>, ends: &[[u32; 2]]) -> Result<Pieces, Ended> {
     let mut parts: Vec<([u32; 2], u32)> = Vec::with_capacity(ends.len());
-    for (constraint, &[from, to]) in (0..).zip(ends) {
-        let mut at = from;
+    let crowds = Crowds::of(ends, network.sites.len());
+    for (constraint, &ends) in (0..).zip(ends) {
+        let [mut at, to] = crowds.turned(ends);
         while at != to {
             let next = step(network, at, to).map_err(|stop| match stop {
                 Stop::Crossing(edge) => {

@@ -6,9 +6,9 @@ use super::build::{of_numbers, MeshLists};
 use super::constrained::Constrained;
 use super::error::Error;
 use crate::cpu::Connectivity;
-use crate::lattice::Numbers;
+use crate::lattice::{Lattice, Numbers};
 use crate::mesh::Mesh;
-use crate::plan::Plan;
+use crate::plan::{Mark, Plan};
 use crate::plane_point::PlanePoint;
 use crate::site::Site;
 
@@ -42,25 +42,58 @@ use crate::site::Site;
 /// Constraints cross or name points that do not exist, the boundary of the domain is not closed, the place of a hole or
 /// region is outside the hull or on a constraint, the domain is empty, or the mesh is not that of its points.
 pub fn constrain<P: PlanePoint>(mesh: &Mesh<P>, plan: &Plan<'_, P>) -> Result<Constrained, Error> {
-    let places: Vec<P> = [&mesh.points[..], plan.holes, plan.regions].concat();
+    let lists = MeshLists { triangles: &mesh.triangles, hull: &mesh.hull, duplicates: &mesh.duplicates };
+    in_numbers(&mesh.points, plan, |numbers, plan| of_numbers(numbers, mesh.points.len(), lists, plan))
+}
+
+/// Does the work in the numbers of the points. Places of holes and regions stand behind the points there, and the place
+/// of a crossing is brought back into the coordinates of the points.
+pub(super) fn in_numbers<P: PlanePoint, T, E: Restored>(
+    points: &[P],
+    plan: &Plan<'_, P>,
+    work: impl FnOnce(&Numbers<'_>, &Plan<'_, u32>) -> Result<T, E>,
+) -> Result<T, E> {
+    let joined;
+    let places = if plan.holes.is_empty() && plan.regions.is_empty() {
+        points
+    } else {
+        joined = [points, plan.holes, plan.regions].concat();
+        &joined[..]
+    };
     if let Some(index) = places.iter().position(|place| !place.site().is_finite()) {
-        return Err(Error::NotFinite { index });
+        let [first_hole, first_region] = [points.len(), points.len() + plan.holes.len()];
+        let error = match index {
+            index if index >= first_region => Error::MarkNotFinite { kind: Mark::Region, number: index - first_region },
+            index if index >= first_hole => Error::MarkNotFinite { kind: Mark::Hole, number: index - first_hole },
+            index => Error::NotFinite { index },
+        };
+        return Err(error.into());
     }
-    let count = mesh.points.len() as u32;
+    let count = points.len() as u32;
     let holes: Vec<u32> = (count..).take(plan.holes.len()).collect();
     let regions: Vec<u32> = (count + plan.holes.len() as u32..).take(plan.regions.len()).collect();
-    let (numbers, lattice) = P::numbers(&places).on_lattice();
+    let (numbers, lattice) = P::numbers(places).on_lattice();
     let Plan { constraints, lines, domain, .. } = *plan;
     let plan = Plan { constraints, lines, domain, holes: &holes, regions: &regions };
-    let lists = MeshLists { triangles: &mesh.triangles, hull: &mesh.hull, duplicates: &mesh.duplicates };
-    let restored = |error| match error {
-        Error::Crossing { constraints, ends, place } => {
-            let place = lattice.map_or(place, |lattice| place.restored(&lattice));
-            Error::Crossing { constraints, ends, place }
+    work(&numbers, &plan).map_err(|error| error.restored(lattice.as_ref()))
+}
+
+/// An error that may tell the place of a crossing.
+pub(super) trait Restored: From<Error> {
+    /// The error with that place in the coordinates of the points, given their lattice.
+    fn restored(self, lattice: Option<&Lattice>) -> Self;
+}
+
+impl Restored for Error {
+    fn restored(self, lattice: Option<&Lattice>) -> Self {
+        match self {
+            Self::Crossing { constraints, ends, place } => {
+                let place = lattice.map_or(place, |lattice| place.restored(lattice));
+                Self::Crossing { constraints, ends, place }
+            }
+            other => other,
         }
-        other => other,
-    };
-    of_numbers(&numbers, mesh.points.len(), lists, &plan).map_err(restored)
+    }
 }
 
 /// The same as [`constrain`] in the numbers in which a set was triangulated. The first `points` places of `numbers` are

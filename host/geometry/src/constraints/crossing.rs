@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use crate::lattice::{Lattice, Step};
+use crate::lattice::{exponent, scaled, Lattice, Step};
 
 /// A fraction in lowest terms. The denominator is positive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -142,13 +142,18 @@ fn exact([a, b, c, d]: [[i128; 2]; 4]) -> Option<[Fraction; 2]> {
     Some([coordinate(0)?, coordinate(1)?])
 }
 
-/// The same in doubles.
-fn about([[a, b], [c, d]]: [[[f64; 2]; 2]; 2]) -> [f64; 2] {
+/// The same in doubles. All numbers are brought near 1 first, so that products neither overflow nor vanish.
+fn about(ends: [[[f64; 2]; 2]; 2]) -> [f64; 2] {
+    let largest = ends.as_flattened().as_flattened().iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+    let exponent = exponent(largest);
+    let [[a, b], [c, d]] = ends.map(|pair| pair.map(|point| point.map(|value| scaled(value, -exponent))));
     let vector = |from: [f64; 2], to: [f64; 2]| [to[0] - from[0], to[1] - from[1]];
     let cross = |u: [f64; 2], v: [f64; 2]| u[0] * v[1] - u[1] * v[0];
     let (along, other) = (vector(a, b), vector(c, d));
     let share = cross(vector(a, c), other) / cross(along, other);
-    [0, 1].map(|axis| a[axis] + share * along[axis])
+    // The crossing lies between `a` and `b`. Lines that are nearly parallel lose all digits of the share.
+    let share = if share.is_nan() { 0.5 } else { share.clamp(0.0, 1.0) };
+    [0, 1].map(|axis| scaled(a[axis] + share * along[axis], exponent))
 }
 
 #[cfg(test)]
@@ -170,5 +175,18 @@ mod tests {
         let rounded = [a, b, c, d].map(|point| point.unwrap_or_default().map(|value| value as f64));
         let place = Place::of([[a, b], [c, d]], [[rounded[0], rounded[1]], [rounded[2], rounded[3]]]);
         assert!(matches!(place, Place::About([x, y]) if x.abs() < 1e4 && y.abs() < 1e4), "{place}");
+    }
+
+    #[test]
+    fn crossings_of_the_largest_and_the_smallest_doubles_are_near_the_place() {
+        for size in [f64::MAX, 1e200, 1.0, 1e-200, 8.0 * f64::from_bits(1)] {
+            let ends = [[[-size, -size], [size, size]], [[-size, size], [size, 0.0]]];
+            let [x, y] = about(ends);
+            assert!((x / size - 1.0 / 3.0).abs() < 0.1 && x == y, "{size:e}: {x:e} {y:e}");
+        }
+        // Rounding leaves nothing of the angle between these lines.
+        let flat = [[[0.0, 0.0], [1e16, 1.0]], [[0.0, 1e-320], [1e16, 0.0]]];
+        let [x, y] = about(flat);
+        assert!((0.0..=1e16).contains(&x) && (0.0..=1.0).contains(&y), "{x} {y}");
     }
 }

@@ -13,6 +13,14 @@ pub enum Error {
         /// Index of the point.
         index: usize,
     },
+    /// The place of a hole or region has a coordinate that is infinite or not a number.
+    #[error("{kind} {number} has a coordinate that is infinite or not a number")]
+    MarkNotFinite {
+        /// Whether the place is that of a hole or of a region.
+        kind: Mark,
+        /// Number of the hole or region.
+        number: usize,
+    },
     /// There are more constraints than numbers of 32 bits can count.
     #[error("the number of constraints is {count}, but at most {max} are possible")]
     TooManyConstraints {

@@ -41,7 +41,10 @@ pub enum SnapError {
         points: usize,
     },
     /// There would be too many crossings or points.
-    #[error("constraints cross more than {MOST_CROSSINGS} times, or lead to more than {MAX_POINTS} points")]
+    #[error(
+        "constraints cross more than {MOST_CROSSINGS} times, or lead to more than {MAX_POINTS} points: snap a smaller \
+         set of constraints"
+    )]
     TooManyCrossings,
 }
 
@@ -128,15 +131,10 @@ pub fn snap(points: &[Point], constraints: &[[u32; 2]]) -> Result<Snapped, SnapE
         };
         segments.push(Segment([end(ends[0])?, end(ends[1])?]));
     }
-    let mut pairs = crossing_pairs(&segments)?;
     let mut places: Vec<Point> = points.to_vec();
     places.sort_unstable();
     places.dedup();
-    let is_point = |&[one, other]: &[u32; 2]| {
-        let [one, other] = [one, other].map(|number| &segments[number as usize]);
-        one.crossing(other).is_some_and(|place| places.binary_search(&place).is_ok())
-    };
-    pairs.retain(|pair| !is_point(pair));
+    let pairs = crossing_pairs(&segments, &places)?;
     if pairs.is_empty() {
         let of = (0..constraints.len() as u32).collect();
         let (points, constraints) = (points.to_vec(), constraints.to_vec());
@@ -203,8 +201,11 @@ impl Snapped {
     }
 }
 
-/// The pairs of segments that cross inside both, by their numbers.
-fn crossing_pairs(segments: &[Segment]) -> Result<Vec<[u32; 2]>, SnapError> {
+/// The pairs of segments that cross inside both at a place that is none of these, which are sorted. The segments are
+/// given by their numbers.
+pub(super) fn crossing_pairs(segments: &[Segment], places: &[Point]) -> Result<Vec<[u32; 2]>, SnapError> {
+    let is_place =
+        |one: &Segment, other: &Segment| one.crossing(other).is_some_and(|place| places.binary_search(&place).is_ok());
     let mut order: Vec<u32> = (0..segments.len() as u32).collect();
     order.sort_unstable_by_key(|&number| segments[number as usize].low(|point| point.x));
     let mut open: Vec<u32> = Vec::new();
@@ -214,7 +215,9 @@ fn crossing_pairs(segments: &[Segment]) -> Result<Vec<[u32; 2]>, SnapError> {
         let left = own.low(|point| point.x);
         open.retain(|&other| segments[other as usize].high(|point| point.x) >= left);
         for &other in &open {
-            if own.crosses(&segments[other as usize]) {
+            let other_segment = &segments[other as usize];
+            // Many constraints may go through one point, so those that meet in points are not kept.
+            if own.crosses(other_segment) && !is_place(own, other_segment) {
                 if pairs.len() == MOST_CROSSINGS {
                     return Err(SnapError::TooManyCrossings);
                 }

@@ -16,6 +16,9 @@
 //!    which never round and contain the tie rule.
 //! 4. `collect` finds the triangles at the edges, in the order of the curve, and sorts them.
 //!
+//! `fixed` forces constraints into the half-edges between the steps 3 and 4, for
+//! [`constraints::triangulate`](crate::constraints::triangulate).
+//!
 //! [`Triangulator`] does the same for many small sets, in memory that it keeps (`small`).
 //!
 //! Before points and triangles are sorted, `buckets` distributes them to buckets that are small enough to be
@@ -35,6 +38,7 @@ mod conquer;
 mod edges;
 mod filtered;
 mod filtered_sites;
+mod fixed;
 #[cfg(test)]
 pub(crate) mod hostile;
 mod kernel;
@@ -57,6 +61,7 @@ mod tests;
 mod triangulator;
 pub(crate) mod view;
 
+pub(crate) use fixed::{connect_fixed, Asked, Forced};
 pub(crate) use parallel::in_parallel;
 pub use parts::{Parts, SolvedPart, Unsound};
 pub use small::Triangulator;

@@ -210,7 +210,7 @@ pub(super) fn check(points: usize) -> Result<(), Error> {
 }
 
 /// Reports progress to the watch, which may end the work.
-fn tell(watch: Watch<'_>, stage: Stage, done: usize, total: usize) -> Result<(), Error> {
+pub(super) fn tell(watch: Watch<'_>, stage: Stage, done: usize, total: usize) -> Result<(), Error> {
     let progress = Progress { stage, done, total };
     match watch(progress) {
         ControlFlow::Continue(()) => Ok(()),
@@ -231,7 +231,7 @@ pub struct Connectivity {
 
 /// The half-edges of the triangulation of sites that are not all on one line, and what leads into them. Returns `None`
 /// in place of the latter if there are no sites.
-fn insert<K: Kernel>(
+pub(super) fn insert<K: Kernel>(
     sites: &[K::Site],
     places: &[K::Place],
     threads: usize,

@@ -31,6 +31,7 @@
 mod buckets;
 mod contours;
 mod error;
+mod linear;
 mod locate;
 mod natural;
 mod nearest;
@@ -41,4 +42,5 @@ mod tests;
 
 pub use contours::{Contour, Crossing};
 pub use error::Error;
+pub use linear::{edge_value, plane_value};
 pub use surface::{Method, Outside, Surface};

@@ -6,6 +6,7 @@ use core::num::NonZeroUsize;
 use super::buckets::Buckets;
 use super::contours::{contours, Contour};
 use super::error::Error;
+use super::linear::{edge_value, plane_value};
 use super::locate::{locate, Place};
 use super::natural::Tour;
 use super::nearest::nearest_value;
@@ -160,21 +161,15 @@ impl Surface {
     }
 }
 
-/// The value on the line between the ends of an edge, from the end of the lower index on.
+/// The value on an edge of a triangle, from the end of the lower index on.
 fn on_edge(record: &Record, edge: usize, q: [f64; 2]) -> f64 {
     let other = after(edge);
     let (from, to) = if record.ids[edge] < record.ids[other] { (edge, other) } else { (other, edge) };
-    let (a, b) = (record.corners[from], record.corners[to]);
-    let axis = usize::from((b[1] - a[1]).abs() > (b[0] - a[0]).abs());
-    let share = (q[axis] - a[axis]) / (b[axis] - a[axis]);
-    record.values[from] + share * (record.values[to] - record.values[from])
+    edge_value([from, to].map(|end| (record.corners[end], record.values[end])), q)
 }
 
-/// The value of the plane through the corners of a triangle that contains the place.
+/// The value in a triangle that contains the place.
+#[inline]
 fn on_plane(record: &Record, q: [f64; 2]) -> f64 {
-    let [a, b, c] = record.corners.map(|corner| [corner[0] - q[0], corner[1] - q[1]]);
-    let cross = |one: [f64; 2], other: [f64; 2]| one[0] * other[1] - one[1] * other[0];
-    let (from_a, from_b, from_c) = (cross(b, c), cross(c, a), cross(a, b));
-    let [za, zb, zc] = record.values;
-    za + (from_b * (zb - za) + from_c * (zc - za)) / (from_a + from_b + from_c)
+    plane_value([0, 1, 2].map(|corner| (record.corners[corner], record.values[corner])), q)
 }

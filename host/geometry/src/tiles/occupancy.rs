@@ -56,19 +56,33 @@ pub struct OccupiedCells {
 }
 
 impl OccupiedCells {
-    /// Begins with a set of no points, whose coordinates have up to `bits` bits, at most 32. Takes up to 2 MiB.
+    /// Begins with a set of no points, whose coordinates should have up to `bits` bits, at most 32: the cells are as small
+    /// as that allows. Takes up to 2 MiB.
     pub fn new(bits: u32) -> Self {
         let levels = bits.min(MOST_LEVELS);
         Self { shift: bits.min(u32::BITS) - levels, bits: vec![0; (1usize << (2 * levels)).div_ceil(64)] }
     }
 
-    /// Adds a point. One with more bits than were announced is left out.
+    /// Adds a point. One with more bits than were announced makes all cells larger, until it has one.
     #[inline]
     pub fn add(&mut self, point: Point) {
-        let cell = position(point.x >> self.shift, point.y >> self.shift);
-        if let Some(word) = self.bits.get_mut((cell / 64) as usize) {
-            *word |= 1 << (cell % 64);
+        loop {
+            let cell = position(point.x >> self.shift, point.y >> self.shift);
+            if let Some(word) = self.bits.get_mut((cell / 64) as usize) {
+                *word |= 1 << (cell % 64);
+                return;
+            }
+            // A point that was left out would make triangles final whose discs it is in.
+            self.grow();
         }
+    }
+
+    /// Makes as many cells of twice the side.
+    #[cold]
+    fn grow(&mut self) {
+        let words = self.bits.len();
+        *self = self.larger();
+        self.bits.resize(words, 0);
     }
 
     /// The occupancy of all points that were added.

@@ -85,23 +85,4 @@ impl<P: ExactPoint> Buckets<P> {
             self.in_column(column, rows).iter().for_each(|&index| take(index));
         }
     }
-
-    /// Calls `take` with all points on a line between two points, and with others near it.
-    pub(super) fn along(&self, from: P, to: P, mut take: impl FnMut(u32)) {
-        let [mut a, mut b] = [self.place(&from), self.place(&to)];
-        if b[0] < a[0] {
-            (a, b) = (b, a);
-        }
-        // Roundings of the ends would tilt a line within a narrow strip, so all rows between the ends are taken there.
-        let slope = if b[0] - a[0] < 1e-5 { f64::INFINITY } else { (b[1] - a[1]) / (b[0] - a[0]) };
-        for column in self.cell(a[0])..=self.cell(b[0]) {
-            // The part of the line in this column. All numbers are below the number of columns and err by 1e-9 at most,
-            // so one more row on either side is enough.
-            let [left, right] = [column, column + 1].map(|x| (x as f64).clamp(a[0], b[0]));
-            let height = |x: f64| if slope.is_finite() { a[1] + slope * (x - a[0]) } else { a[1] };
-            let [one, other] = if slope.is_finite() { [height(left), height(right)] } else { [a[1], b[1]] };
-            let rows = [self.cell(one.min(other) - 1.0), self.cell(one.max(other) + 1.0)];
-            self.in_column(column, rows).iter().for_each(|&index| take(index));
-        }
-    }
 }

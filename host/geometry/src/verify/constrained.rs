@@ -12,7 +12,7 @@ use super::sites::Sites;
 use super::summary::VerifySummary;
 use super::{check_all_used, check_finite, check_sizes, check_triangles};
 use crate::lattice::Numbers;
-use crate::plan::{Domain, Plan};
+use crate::plan::{Domain, Mark, Plan};
 use crate::plane_point::PlanePoint;
 
 /// Proves that `triangles` are those of the domain of a plan in the canonical constrained mesh of `points`, and counts
@@ -26,8 +26,8 @@ use crate::plane_point::PlanePoint;
 /// - no point lies in a triangle without being a corner.
 ///
 /// So the triangles have the boundary of the domain, each side counted as it runs, and two sets of triangles of the
-/// same boundary cover each place equally often: once in the domain, and never elsewhere. O(n log n), and the number of
-/// pieces for each group of pieces that touches no other.
+/// same boundary cover each place equally often: once in the domain, and never elsewhere. O(n log n), however many
+/// constraints overlap or meet at one point.
 ///
 /// ```
 /// use incircle_geometry::constraints::{Domain, Plan};
@@ -52,7 +52,11 @@ pub fn verify_constrained<P: PlanePoint>(
     let all = [points, holes].concat();
     let numbers = P::numbers(&all);
     if let Numbers::Doubles(all) = &numbers {
-        check_finite(all)?;
+        let (points, holes) = all.split_at(points.len());
+        check_finite(points)?;
+        if let Some(number) = holes.iter().position(|hole| !hole.iter().all(|value| value.is_finite())) {
+            return Err(VerifyError::MarkNotFinite { kind: Mark::Hole, number });
+        }
     }
     match &numbers {
         Numbers::Grid(all) => check(all.split_at(points.len()), triangles, plan),
@@ -69,9 +73,9 @@ fn check<P: ExactPoint, M>(
     let sites = Sites::of(points);
     let domain = plan.domain;
     let boundary = plan.constraints.len().saturating_sub(plan.lines);
-    let pieces = pieces(&sites, plan.constraints, boundary)?;
+    let pieces = pieces(&sites, plan.constraints, boundary, holes)?;
     if matches!(domain, Domain::EvenOdd | Domain::NonZero) {
-        check_closed(&pieces, points.len(), domain == Domain::NonZero)?;
+        check_closed(&pieces.list, points.len(), domain == Domain::NonZero)?;
     }
     let mut summary = VerifySummary {
         points: points.len(),
@@ -94,8 +98,8 @@ fn check<P: ExactPoint, M>(
     } else {
         check_unused(&sites, triangles)?;
     }
-    let chosen = Faces::of(&sites, &pieces).chosen(&sites, &pieces, domain, holes)?;
-    check_edges(&sites, triangles, &Expected { pieces: &pieces, chosen: &chosen, domain }, &mut summary)?;
+    let chosen = Faces::of(&sites, &pieces).chosen(&pieces, domain)?;
+    check_edges(&sites, triangles, &Expected { pieces: &pieces.list, chosen: &chosen, domain }, &mut summary)?;
     Ok(summary)
 }
 

@@ -2,10 +2,10 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
-use core::cmp::Ordering;
 
 use super::error::VerifyError;
 use super::exact::ExactPoint;
+use super::local::{check_circle, check_directions, check_only_side};
 use super::sites::Sites;
 use super::summary::VerifySummary;
 
@@ -61,16 +61,12 @@ pub(super) fn ends(triangles: &[[u32; 3]], halfedge: u32) -> [u32; 2] {
     [corners[k], corners[(k + 1) % 3]]
 }
 
-/// Refuses two half-edges of one edge that run the same way. Among three or more half-edges there are always two such.
+/// Refuses two half-edges of one edge that run the same way.
 pub(super) fn check_sides(triangles: &[[u32; 3]], sides: &[Side]) -> Result<(), VerifyError> {
-    for (place, &(_, later)) in sides.iter().enumerate() {
-        let edge = ends(triangles, later);
-        let mut earlier = sides[..place].iter();
-        if let Some(&(_, twin)) = earlier.find(|twin| ends(triangles, twin.1) == edge) {
-            return Err(VerifyError::SameSide { one: (twin / 3) as usize, other: (later / 3) as usize, edge });
-        }
-    }
-    Ok(())
+    check_directions(sides.len(), |place| {
+        let (_, halfedge) = sides[place];
+        ((halfedge / 3) as usize, ends(triangles, halfedge))
+    })
 }
 
 /// The hull edges, each of which must be met exactly once.
@@ -90,9 +86,7 @@ impl HullEdges {
 
     pub(super) fn take(&mut self, halfedge: u32, edge: [u32; 2]) -> Result<(), VerifyError> {
         let following = &mut self.following[edge[0] as usize];
-        if *following != Some(edge[1]) {
-            return Err(VerifyError::OpenEdge { triangle: (halfedge / 3) as usize, edge });
-        }
+        check_only_side((halfedge / 3) as usize, edge, following.map(|to| [edge[0], to]))?;
         *following = None;
         Ok(())
     }
@@ -116,18 +110,5 @@ pub(super) fn check_inner_edge<P: ExactPoint>(
 ) -> Result<bool, VerifyError> {
     let corner = |halfedge: u32, step: u32| triangles[(halfedge / 3) as usize][((halfedge % 3 + step) % 3) as usize];
     let (a, b, c, d) = (corner(one, 0), corner(one, 1), corner(one, 2), corner(other, 2));
-    match P::incircle(sites.at(a), sites.at(b), sites.at(c), sites.at(d)) {
-        Ordering::Less => Ok(false),
-        Ordering::Greater => Err(VerifyError::NotDelaunay { triangle: (one / 3) as usize, point: d, edge: [a, b] }),
-        Ordering::Equal => {
-            let corners = [a, d, b, c];
-            let smallest = corners.into_iter().min_by(|&one, &other| sites.at(one).compare(&sites.at(other)));
-            match smallest {
-                Some(smallest) if smallest != a && smallest != b => {
-                    Err(VerifyError::WrongTie { corners, edge: [a, b], smallest })
-                }
-                _ => Ok(true),
-            }
-        }
-    }
+    check_circle((one / 3) as usize, [a, b, c, d], [a, b, c, d].map(|corner| sites.at(corner)))
 }

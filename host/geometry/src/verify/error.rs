@@ -196,6 +196,14 @@ pub enum VerifyError {
         /// The ends of the piece of the constraint.
         edge: [u32; 2],
     },
+    /// The place of a hole has a coordinate that is infinite or not a number.
+    #[error("{kind} {number} has a coordinate that is infinite or not a number")]
+    MarkNotFinite {
+        /// What the place stands for.
+        kind: Mark,
+        /// Number of the hole in the list.
+        number: usize,
+    },
     /// A piece of a constraint is no edge of the mesh.
     #[error("the piece of a constraint from point {} to point {} is no edge of a triangle", edge[0], edge[1])]
     MissingPiece {

@@ -8,7 +8,7 @@ use alloc::vec::Vec;
 
 use super::error::VerifyError;
 use super::exact::ExactPoint;
-use super::fixed::{below, Piece};
+use super::fixed::{Piece, Pieces, Under};
 use super::sites::Sites;
 use crate::plan::{Domain, Mark};
 
@@ -52,8 +52,8 @@ fn ends(pieces: &[Piece], side: usize) -> [u32; 2] {
 pub(super) struct Faces(Vec<usize>);
 
 impl Faces {
-    /// Joins the sides of all faces. O(p log p), and O(p) for each group of pieces.
-    pub(super) fn of<P: ExactPoint>(sites: &Sites<'_, P>, pieces: &[Piece]) -> Self {
+    /// Joins the sides of all faces. O(p log p).
+    pub(super) fn of<P: ExactPoint>(sites: &Sites<'_, P>, Pieces { list: pieces, under, .. }: &Pieces) -> Self {
         let from = |side: usize| ends(pieces, side)[0];
         // The sides that leave each point, counter-clockwise from the one that points down. Those to the right are
         // first.
@@ -79,20 +79,22 @@ impl Faces {
             let lowest = leaving.get(first).filter(|&&side| from(side) == point);
             let Some(&lowest) = lowest.filter(|_| !is_known[group]) else { continue };
             is_known[group] = true;
-            let is_own = |piece: &Piece| groups[piece.from as usize] == group;
-            let face = below(sites, pieces, sites.at(point), is_own).ok().flatten();
-            faces.join(lowest ^ 1, face.map_or(2 * pieces.len(), |piece| 2 * piece));
+            // No piece runs to the left from the leftmost point of a group.
+            let face = match under[point as usize] {
+                Under::Piece(piece) => 2 * piece,
+                Under::On(_) | Under::Nothing => 2 * pieces.len(),
+            };
+            faces.join(lowest ^ 1, face);
         }
         Self(faces.leaders())
     }
 
-    /// Whether the faces at the left and at the right of each piece belong to the domain.
-    pub(super) fn chosen<P: ExactPoint>(
+    /// Whether the faces at the left and at the right of each piece belong to the domain. The marks of the pieces are
+    /// holes.
+    pub(super) fn chosen(
         &self,
-        sites: &Sites<'_, P>,
-        pieces: &[Piece],
+        Pieces { list: pieces, marks, .. }: &Pieces,
         domain: Domain,
-        holes: &[P],
     ) -> Result<Vec<[bool; 2]>, VerifyError> {
         let unbounded = self.0[2 * pieces.len()];
         let mut is_in: Vec<bool> = match domain {
@@ -104,11 +106,16 @@ impl Faces {
             }
         };
         if domain == Domain::Holes {
-            for (number, &hole) in holes.iter().enumerate() {
-                let kind = Mark::Hole;
-                let below = below(sites, pieces, hole, |_| false);
-                let below = below.map_err(|edge| VerifyError::MarkOnConstraint { kind, number, edge })?;
-                is_in[self.0[below.map_or(2 * pieces.len(), |piece| 2 * piece)]] = false;
+            for (number, &under) in marks.iter().enumerate() {
+                let face = match under {
+                    Under::Piece(piece) => 2 * piece,
+                    Under::Nothing => 2 * pieces.len(),
+                    Under::On(piece) => {
+                        let Piece { from, to, .. } = pieces[piece];
+                        return Err(VerifyError::MarkOnConstraint { kind: Mark::Hole, number, edge: [from, to] });
+                    }
+                };
+                is_in[self.0[face]] = false;
             }
         }
         Ok((0..pieces.len()).map(|piece| [2 * piece, 2 * piece + 1].map(|side| is_in[self.0[side]])).collect())

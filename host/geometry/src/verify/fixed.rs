@@ -1,13 +1,21 @@
 //! The validator's pieces of constraints: each constraint is cut at all points on it.
+//!
+//! A sweep goes over the points from left to right, in lexicographic order, and keeps the constraints that it has met
+//! and not left, from the lowest to the highest. Constraints that overlap are one strand. At each point the strands
+//! through it end a piece there, and those that go on begin the next. O(n log n) for points and constraints, however
+//! many of them overlap or meet at one point.
+//!
+//! Where constraints cross, the strands lose their order. That is no harm: pieces then are missing or pass through
+//! points, so either the end of a constraint is not found, or some piece is no edge of any mesh.
 
 use alloc::vec;
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 
-use super::buckets::Buckets;
 use super::error::VerifyError;
 use super::exact::ExactPoint;
 use super::sites::Sites;
+use super::strands::{Gap, Strand, Strands};
 
 /// An edge that constraints fix. `from` is the lexicographically smaller end.
 #[derive(Clone, Copy, Debug)]
@@ -20,79 +28,229 @@ pub(super) struct Piece {
     pub turns: i64,
 }
 
-/// Cuts constraints into pieces, of which each is there once, sorted by its ends. The first `boundary` constraints
-/// bound the domain.
+/// What lies under a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Under {
+    /// The place is on this piece.
+    On(usize),
+    /// This piece is the next below.
+    Piece(usize),
+    /// There is no piece below.
+    Nothing,
+}
+
+/// The pieces of all constraints, and where they lie.
+pub(super) struct Pieces {
+    /// Each piece once.
+    pub list: Vec<Piece>,
+    /// What lies under each point from which pieces run to the right and none to the left.
+    pub under: Vec<Under>,
+    /// What lies under each mark.
+    pub marks: Vec<Under>,
+}
+
+/// Constraints with the same ends, by the ranks of these points in lexicographic order.
+#[derive(Clone, Copy)]
+struct Line {
+    ranks: [u32; 2],
+    count: i64,
+    turns: i64,
+    /// The number of one of these constraints.
+    constraint: usize,
+}
+
+/// A constraint, or a strand, that leaves a point to the right.
+#[derive(Clone, Copy)]
+struct Leaving {
+    strand: Strand,
+    /// Whether the strand comes from the left.
+    goes_on: bool,
+}
+
+struct Sweep<'a, P> {
+    sites: &'a Sites<'a, P>,
+    strands: Strands,
+    /// The lines, by their first ends and by their last ones, of which the first have been met.
+    starts: &'a [Line],
+    ends: &'a [Line],
+    pieces: Pieces,
+}
+
+/// Cuts constraints into pieces. The first `boundary` constraints bound the domain. `marks` are places of which it is
+/// asked what lies under them.
 pub(super) fn pieces<P: ExactPoint>(
     sites: &Sites<'_, P>,
     constraints: &[[u32; 2]],
     boundary: usize,
-) -> Result<Vec<Piece>, VerifyError> {
-    let buckets = Buckets::of(sites.points, &sites.distinct);
-    let mut pieces = Collected::default();
-    let mut on = Vec::new();
-    for (constraint, ends) in constraints.iter().enumerate() {
-        let mut lowest = [0; 2];
-        for (end, &index) in lowest.iter_mut().zip(ends) {
-            let points = sites.points.len();
-            let found = sites.lowest.get(index as usize);
-            *end = *found.ok_or(VerifyError::ConstraintOutOfRange { constraint, index, points })?;
+    marks: &[P],
+) -> Result<Pieces, VerifyError> {
+    let starts = lines(sites, constraints, boundary)?;
+    let mut ends = starts.clone();
+    ends.sort_unstable_by_key(|line| line.ranks[1]);
+    let mut order: Vec<usize> = (0..marks.len()).collect();
+    order.sort_unstable_by(|&one, &other| marks[one].compare(&marks[other]));
+    let mut order = order.into_iter().peekable();
+    let pieces = Pieces {
+        list: Vec::new(),
+        under: vec![Under::Nothing; sites.points.len()],
+        marks: vec![Under::Nothing; marks.len()],
+    };
+    let mut sweep = Sweep { sites, strands: Strands::default(), starts: &starts, ends: &ends, pieces };
+    for (rank, &point) in (0u32..).zip(&sites.distinct) {
+        let at = sites.at(point);
+        while let Some(mark) = order.next_if(|&mark| marks[mark].compare(&at).is_lt()) {
+            sweep.pieces.marks[mark] = sweep.under(marks[mark]);
         }
-        let compare = |one: &u32, other: &u32| sites.at(*one).compare(&sites.at(*other));
-        let is_back = compare(&lowest[0], &lowest[1]).is_gt();
-        let [a, b] = if is_back { [lowest[1], lowest[0]] } else { lowest };
-        on.clear();
-        on.extend([a, b]);
-        buckets.along(sites.at(a), sites.at(b), |index| {
-            let is_between = compare(&a, &index).is_lt() && compare(&index, &b).is_lt();
-            if is_between && P::orient2d(sites.at(a), sites.at(b), sites.at(index)).is_eq() {
-                on.push(index);
-            }
-        });
-        on.sort_unstable_by(compare);
-        on.dedup();
+        let met = sweep.meet(rank, point)?;
+        while let Some(mark) = order.next_if(|&mark| marks[mark].compare(&at).is_eq()) {
+            sweep.pieces.marks[mark] = met.map_or_else(|| sweep.under(at), Under::On);
+        }
+    }
+    Ok(sweep.pieces)
+}
+
+/// The constraints from left to right, sorted by their first ends. Those between equal points are left out, and those
+/// with the same ends are one.
+fn lines<P: ExactPoint>(
+    sites: &Sites<'_, P>,
+    constraints: &[[u32; 2]],
+    boundary: usize,
+) -> Result<Vec<Line>, VerifyError> {
+    let mut ranks = vec![0; sites.points.len()];
+    (0..).zip(&sites.distinct).for_each(|(rank, &point)| ranks[point as usize] = rank);
+    let mut lines = Vec::with_capacity(constraints.len());
+    for (constraint, ends) in constraints.iter().enumerate() {
+        let mut own = [0; 2];
+        for (rank, &index) in own.iter_mut().zip(ends) {
+            let points = sites.points.len();
+            let lowest = sites.lowest.get(index as usize);
+            *rank = ranks[*lowest.ok_or(VerifyError::ConstraintOutOfRange { constraint, index, points })? as usize];
+        }
+        let [from, to] = own;
         let count = i64::from(constraint < boundary);
-        let turns = if is_back { -count } else { count };
-        pieces.extend(on.windows(2).map(|two| Piece { from: two[0], to: two[1], count, turns }));
+        let turns = if from > to { -count } else { count };
+        if from != to {
+            lines.push(Line { ranks: [from.min(to), from.max(to)], count, turns, constraint });
+        }
+    }
+    lines.sort_unstable_by_key(|line| line.ranks);
+    lines.dedup_by(|later, kept| {
+        let is_same = later.ranks == kept.ranks;
+        if is_same {
+            kept.count += later.count;
+            kept.turns += later.turns;
+        }
+        is_same
+    });
+    Ok(lines)
+}
+
+/// The lines at the front of a list whose end this is. They are taken off the list.
+fn split<'a>(lines: &mut &'a [Line], end: usize, rank: u32) -> &'a [Line] {
+    let (own, rest) = lines.split_at(lines.iter().take_while(|line| line.ranks[end] == rank).count());
+    *lines = rest;
+    own
+}
+
+impl<P: ExactPoint> Sweep<'_, P> {
+    /// The gap below all strands that are on a place or above it.
+    fn gap(&self, q: P) -> Gap {
+        self.strands.find(|strand| strand.side(self.sites, q).is_gt())
+    }
+
+    fn under(&self, q: P) -> Under {
+        let gap = self.gap(q);
+        match self.strands.above(gap).filter(|strand| strand.side(self.sites, q).is_eq()) {
+            Some(strand) => Under::On(strand.piece),
+            None => self.strands.below(gap).map_or(Under::Nothing, |strand| Under::Piece(strand.piece)),
+        }
+    }
+
+    /// Goes over a point. Returns one of the pieces at it.
+    fn meet(&mut self, rank: u32, point: u32) -> Result<Option<usize>, VerifyError> {
+        let q = self.sites.at(point);
+        let (new, ending) = (split(&mut self.starts, 0, rank), split(&mut self.ends, 1, rank));
+        let mut gap = self.gap(q);
+        let mut arriving: Vec<Strand> = Vec::new();
+        while let Some(&strand) = self.strands.above(gap).filter(|strand| strand.side(self.sites, q).is_eq()) {
+            self.pieces.list[strand.piece].to = point;
+            arriving.push(strand);
+            gap = self.strands.remove(gap);
+        }
+        if arriving.is_empty() {
+            let below = self.strands.below(gap);
+            self.pieces.under[point as usize] = below.map_or(Under::Nothing, |strand| Under::Piece(strand.piece));
+        }
+        for line in ending {
+            self.end(line, &mut arriving, q)?;
+        }
+        let any = arriving.first().map(|strand| strand.piece);
+        let leaving = self.leaving(point, &arriving, new);
         // Of edges that do not cross there are fewer than three for each point.
-        if pieces.merged > 3 * sites.points.len() {
+        if self.pieces.list.len() + leaving.len() > 3 * self.sites.distinct.len() {
+            let constraint = new.iter().chain(self.ends).next().map_or(0, |line| line.constraint);
             return Err(VerifyError::ConstraintsCross { constraint });
         }
-    }
-    pieces.merge();
-    Ok(pieces.list)
-}
-
-/// Pieces while they are collected. Those with the same ends are merged again and again, so that constraints that
-/// overlap take no more memory than their edges.
-#[derive(Debug, Default)]
-struct Collected {
-    list: Vec<Piece>,
-    /// The number of pieces after the last merge.
-    merged: usize,
-}
-
-impl Collected {
-    /// The least number of pieces that are merged.
-    const FEW: usize = 1 << 12;
-
-    fn extend(&mut self, pieces: impl Iterator<Item = Piece>) {
-        self.list.extend(pieces);
-        if self.list.len() > 2 * self.merged + Self::FEW {
-            self.merge();
+        let first = self.pieces.list.len();
+        let any = any.or((!leaving.is_empty()).then_some(first));
+        for mut strand in leaving {
+            strand.piece = self.pieces.list.len();
+            let Strand { count, turns, .. } = strand;
+            self.pieces.list.push(Piece { from: point, to: point, count, turns });
+            gap = self.strands.insert(gap, strand);
         }
+        Ok(any)
     }
 
-    fn merge(&mut self) {
-        self.list.sort_unstable_by_key(|piece| (piece.from, piece.to));
-        self.list.dedup_by(|later, kept| {
-            let is_same = (later.from, later.to) == (kept.from, kept.to);
+    /// Takes a line that ends at a point out of its strand, one of those that arrive there in rising order.
+    fn end(&self, line: &Line, arriving: &mut [Strand], q: P) -> Result<(), VerifyError> {
+        let start = self.sites.at(self.sites.distinct[line.ranks[0] as usize]);
+        let side = |strand: &Strand| P::orient2d(self.sites.at(strand.line[0]), q, start);
+        let place = arriving.partition_point(|strand| side(strand).is_gt());
+        let found = arriving.get_mut(place).filter(|strand| side(strand).is_eq() && strand.lines > 0);
+        let strand = found.ok_or(VerifyError::ConstraintsCross { constraint: line.constraint })?;
+        strand.lines -= 1;
+        strand.count -= line.count;
+        strand.turns -= line.turns;
+        Ok(())
+    }
+
+    /// The strands that leave a point, in rising order: those that go on, and those of new lines. Strands of one
+    /// direction are one.
+    fn leaving(&self, point: u32, arriving: &[Strand], new: &[Line]) -> Vec<Strand> {
+        let going = arriving.iter().filter(|strand| strand.lines > 0);
+        let going = going.map(|&strand| Leaving { strand, goes_on: true });
+        let new = new.iter().map(|line| {
+            let to = self.sites.distinct[line.ranks[1] as usize];
+            let strand =
+                Strand { line: [point, to], lines: 1, count: line.count, turns: line.turns, piece: usize::MAX };
+            Leaving { strand, goes_on: false }
+        });
+        let mut all: Vec<Leaving> = going.chain(new).collect();
+        all.sort_by(|one, other| self.compare(point, one, other));
+        all.dedup_by(|later, kept| {
+            let is_same = self.compare(point, later, kept).is_eq();
             if is_same {
-                kept.count += later.count;
-                kept.turns += later.turns;
+                kept.strand.lines += later.strand.lines;
+                kept.strand.count += later.strand.count;
+                kept.strand.turns += later.strand.turns;
             }
             is_same
         });
-        self.merged = self.list.len();
+        all.into_iter().map(|leaving| leaving.strand).collect()
+    }
+
+    /// Compares the directions in which two strands leave a point, from the lowest on.
+    fn compare(&self, point: u32, one: &Leaving, other: &Leaving) -> Ordering {
+        let turn = |a: u32, b: u32, c: u32| P::orient2d(self.sites.at(a), self.sites.at(b), self.sites.at(c));
+        let ([a, b], [c, d]) = (one.strand.line, other.strand.line);
+        match (one.goes_on, other.goes_on) {
+            // What comes from above goes on below.
+            (true, true) => turn(a, point, c),
+            (true, false) => turn(a, point, d).reverse(),
+            (false, true) => turn(c, point, b),
+            (false, false) => turn(point, b, d).reverse(),
+        }
     }
 }
 
@@ -112,70 +270,5 @@ pub(super) fn check_closed(pieces: &[Piece], points: usize, is_directed: bool) -
     match sums.iter().position(|sum| if is_directed { *sum != 0 } else { sum % 2 != 0 }) {
         Some(point) => Err(VerifyError::NotClosed { point }),
         None => Ok(()),
-    }
-}
-
-/// The piece directly below a place, if there is one; an error if the place is on a piece. "Below" is along a line
-/// that is inclined so little that the lexicographic order is the order from left to right.
-pub(super) fn below<P: ExactPoint>(
-    sites: &Sites<'_, P>,
-    pieces: &[Piece],
-    q: P,
-    is_own: impl Fn(&Piece) -> bool,
-) -> Result<Option<usize>, [u32; 2]> {
-    let mut nearest: Option<usize> = None;
-    for (number, piece) in pieces.iter().enumerate() {
-        let (a, b) = (sites.at(piece.from), sites.at(piece.to));
-        let (from, to) = (a.compare(&q), b.compare(&q));
-        if is_own(piece) || from.is_gt() || to.is_lt() {
-            continue;
-        }
-        match P::orient2d(a, b, q) {
-            Ordering::Equal => return Err([piece.from, piece.to]),
-            // An edge that ends here is above or below by its other end, which another edge tells as well.
-            Ordering::Greater if to.is_gt() => {
-                let is_higher = |best: usize| is_above(sites, piece, &pieces[best]);
-                if nearest.is_none_or(is_higher) {
-                    nearest = Some(number);
-                }
-            }
-            _ => {}
-        }
-    }
-    Ok(nearest)
-}
-
-/// Whether one of two pieces that do not cross, and that have places on one upright line, is above the other.
-fn is_above<P: ExactPoint>(sites: &Sites<'_, P>, one: &Piece, other: &Piece) -> bool {
-    let side = |piece: &Piece, end: u32| P::orient2d(sites.at(piece.from), sites.at(piece.to), sites.at(end));
-    let compare = |one: u32, other: u32| sites.at(one).compare(&sites.at(other));
-    let at_start = match compare(one.from, other.from) {
-        Ordering::Greater => side(other, one.from),
-        Ordering::Less => side(one, other.from).reverse(),
-        Ordering::Equal => Ordering::Equal,
-    };
-    at_start
-        .then_with(|| match compare(one.to, other.to) {
-            Ordering::Less => side(other, one.to),
-            _ => side(one, other.to).reverse(),
-        })
-        .is_gt()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn pieces_of_constraints_that_overlap_take_the_memory_of_their_edges() {
-        let mut collected = Collected::default();
-        let edge =
-            |from: u32| Piece { from, to: from + 1, count: 1, turns: if from.is_multiple_of(2) { 1 } else { -1 } };
-        for _ in 0..5000 {
-            collected.extend((0..100).map(edge));
-        }
-        collected.merge();
-        assert_eq!((collected.list.len(), collected.list[7].count, collected.list[7].turns), (100, 5000, -5000));
-        assert!(collected.list.capacity() < 4 * Collected::FEW, "{}", collected.list.capacity());
     }
 }

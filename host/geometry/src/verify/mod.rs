@@ -25,7 +25,9 @@ mod error;
 mod exact;
 mod faces;
 mod fixed;
+pub mod local;
 mod sites;
+mod strands;
 mod summary;
 
 use alloc::vec;
@@ -92,7 +94,7 @@ fn verify_exactly<P: ExactPoint>(points: &[P], triangles: &[[u32; 3]]) -> Result
         };
     }
     let covered = check_triangles(&sites, triangles)?;
-    check_count(&summary)?;
+    local::check_count(summary.triangles, summary.distinct, summary.hull.len())?;
     check_all_used(&sites, triangles)?;
     check_area(&sites, &summary.hull, covered)?;
     edges::check(&sites, triangles, &mut summary)?;
@@ -120,20 +122,10 @@ fn check_triangles<P: ExactPoint>(sites: &Sites<'_, P>, triangles: &[[u32; 3]]) 
     let mut covered = Some(0);
     for (triangle, &corners) in triangles.iter().enumerate() {
         check_corners(sites, triangle, corners)?;
-        let [a, b, c] = corners.map(|corner| sites.at(corner));
-        if P::orient2d(a, b, c).is_le() {
-            return Err(VerifyError::NotCounterClockwise { triangle, corners });
-        }
-        covered = covered.zip(P::orient2d_value(Some(a), b, c)).map(|(sum, area)| sum + area);
-        if corners[0] > corners[1] || corners[0] > corners[2] {
-            return Err(VerifyError::NotRotated { triangle, corners });
-        }
-        let before = triangle.checked_sub(1).and_then(|before| triangles.get(before));
-        match before.map(|before| before.cmp(&corners)) {
-            Some(core::cmp::Ordering::Equal) => return Err(VerifyError::DoubledTriangle { triangle, corners }),
-            Some(core::cmp::Ordering::Greater) => return Err(VerifyError::NotSorted { triangle, corners }),
-            _ => {}
-        }
+        let points = corners.map(|corner| sites.at(corner));
+        let before = triangle.checked_sub(1).and_then(|before| triangles.get(before)).copied();
+        let area = local::check_shape(triangle, corners, points, before)?;
+        covered = covered.zip(area).map(|(sum, area)| sum + area);
     }
     Ok(covered)
 }
@@ -148,20 +140,6 @@ fn check_corners<P: ExactPoint>(sites: &Sites<'_, P>, triangle: usize, corners: 
         }
     }
     Ok(())
-}
-
-/// Checks Euler's formula: a triangulation of n points with h of them on the hull has 2n - 2 - h triangles.
-fn check_count(summary: &VerifySummary) -> Result<(), VerifyError> {
-    let expected = 2 * summary.distinct - 2 - summary.hull.len();
-    if summary.triangles == expected {
-        return Ok(());
-    }
-    Err(VerifyError::TriangleCount {
-        found: summary.triangles,
-        expected,
-        distinct: summary.distinct,
-        hull: summary.hull.len(),
-    })
 }
 
 fn check_all_used<P: ExactPoint>(sites: &Sites<'_, P>, triangles: &[[u32; 3]]) -> Result<(), VerifyError> {
@@ -184,11 +162,7 @@ fn check_area<P: ExactPoint>(sites: &Sites<'_, P>, hull: &[u32], triangles: Opti
     let following = hull.iter().skip(1).chain(hull.first());
     let sectors = hull.iter().zip(following);
     let hull = sectors.filter_map(|(&from, &to)| P::orient2d_value(None, sites.at(from), sites.at(to))).sum();
-    if triangles == hull {
-        Ok(())
-    } else {
-        Err(VerifyError::Area { triangles, hull })
-    }
+    local::check_area(triangles, hull)
 }
 
 /// Checks that the hull of a mesh is the one of the summary.

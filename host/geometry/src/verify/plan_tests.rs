@@ -6,7 +6,7 @@ use core::num::NonZeroUsize;
 use core::ops::ControlFlow;
 
 use super::{verify_constrained, VerifyError};
-use crate::constraints::{constrain, Error};
+use crate::constraints::{self, constrain, Error};
 use crate::cpu::triangulate;
 use crate::mesh::Mesh;
 use crate::plan::{Domain, Mark, Plan};
@@ -158,4 +158,70 @@ fn check<P: PlanePoint + core::fmt::Debug>(points: &[P], constraints: &[[u32; 2]
     if let Ok(made) = constrain(&mesh_of(points), &plan) {
         verify_constrained(points, &made.triangles, &plan).unwrap_or_else(|error| panic!("{error}: {points:?}"));
     }
+}
+
+/// Checks a plan whose numbers are so large that a step for each pair of constraints or points would take minutes.
+fn check_large(points: &[Point], constraints: &[[u32; 2]], more: &[[u32; 2]], domain: Domain) {
+    let plan = Plan { domain, ..Plan::new(constraints) };
+    let made = constrain(&mesh_of(points), &plan).expect("no crossing");
+    let again = constraints::triangulate(points, &plan, NonZeroUsize::MIN, &mut |_| ControlFlow::Continue(()));
+    assert!(again.expect("no crossing").made == made);
+    // Constraints that overlap change nothing but the lists of the pieces, which would be too long here.
+    let all = [constraints, more].concat();
+    verify_constrained(points, &made.triangles, &Plan { lines: more.len(), ..Plan { domain, ..Plan::new(&all) } })
+        .expect("the right mesh");
+    let wrong = &made.triangles[1..];
+    assert!(verify_constrained(points, wrong, &Plan { domain, ..Plan::new(&all) }).is_err());
+}
+
+const LARGE: u32 = 60_000;
+
+#[test]
+fn a_line_with_many_constraints_on_one_another_is_checked_soon() {
+    // All points but one are on a line and in one square of any coarse grid.
+    let mut points: Vec<Point> = (0..LARGE).map(|k| Point::new(k, 2 * k)).collect();
+    points.push(Point::new(1 << 30, 0));
+    let pieces: Vec<[u32; 2]> = (1..LARGE).map(|k| [k, k - 1]).collect();
+    let nested: Vec<[u32; 2]> = (0..LARGE / 2).map(|k| [k, LARGE - 1 - k]).collect();
+    let chained: Vec<[u32; 2]> = (0..LARGE / 2).map(|k| [k, k + LARGE / 2]).collect();
+    check_large(&points, &pieces, &[nested, chained].concat(), Domain::All);
+}
+
+#[test]
+fn a_star_with_many_arms_is_checked_soon() {
+    // Points around a square, each joined to the middle; every second arm has a point halfway.
+    let (side, middle) = (LARGE / 4, 2 * LARGE);
+    let mut points = vec![Point::new(middle, middle)];
+    for k in 0..side {
+        points.extend(
+            [(8 * k, 0), (4 * middle, 8 * k), (4 * middle - 8 * k, 4 * middle), (0, 4 * middle - 8 * k)]
+                .map(|(x, y)| Point::new(x / 2, y / 2)),
+        );
+    }
+    let arms: Vec<[u32; 2]> = (1..points.len() as u32).map(|k| [0, k]).collect();
+    check_large(&points, &arms, &[], Domain::All);
+}
+
+#[test]
+fn many_islands_and_a_comb_are_checked_soon() {
+    let corners = |x: u32, y: u32| [(0, 0), (4, 0), (4, 4), (0, 4)].map(|(u, v)| Point::new(x + u, y + v));
+    let points: Vec<Point> = (0..LARGE / 4).flat_map(|k| corners(10 * (k % 100), 10 * (k / 100))).collect();
+    let rings: Vec<[u32; 2]> = (0..LARGE).map(|k| [k, if k % 4 == 3 { k - 3 } else { k + 1 }]).collect();
+    check_large(&points, &rings, &[], Domain::EvenOdd);
+    // The teeth of a comb are long and all lie above one another.
+    let teeth = LARGE / 4;
+    let points: Vec<Point> = (0..teeth)
+        .flat_map(|k| [(0, 4 * k), (1 << 28, 4 * k + 1), (0, 4 * k + 2), (3, 4 * k + 3)].map(Point::from))
+        .collect();
+    let comb: Vec<[u32; 2]> = (0..teeth).flat_map(|k| [[4 * k, 4 * k + 1], [4 * k + 2, 4 * k + 1]]).collect();
+    check_large(&points, &comb, &[], Domain::All);
+}
+
+#[test]
+fn a_hole_whose_place_is_no_number_is_named() {
+    let points = [[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]];
+    let holes = [[1.0, 1.0], [f64::NAN, 0.0]];
+    let plan = Plan { domain: Domain::Holes, holes: &holes, ..Plan::new(&[]) };
+    let found = verify_constrained(&points, &[], &plan);
+    assert_eq!(found, Err(VerifyError::MarkNotFinite { kind: Mark::Hole, number: 1 }));
 }

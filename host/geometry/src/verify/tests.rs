@@ -171,7 +171,7 @@ const TYPES: [&str; 7] = [
     "use crate::lattice::Numbers;",
     "use crate::plan::Mark;",
     "use crate::plan::{Domain, Mark};",
-    "use crate::plan::{Domain, Plan};",
+    "use crate::plan::{Domain, Mark, Plan};",
     "use crate::plane_point::PlanePoint;",
     "use crate::point::Duplicate;",
     "use crate::point::Point;",

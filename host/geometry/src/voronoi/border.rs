@@ -8,12 +8,7 @@ use crate::point::Point;
 /// The most slabs.
 const MOST_SLABS: u64 = 4096;
 
-/// The ends of an edge of a ring.
-pub(super) fn edge_of(ring: &[Point], edge: usize) -> [Point; 2] {
-    [ring[edge], ring[if edge + 1 == ring.len() { 0 } else { edge + 1 }]]
-}
-
-/// The edges of a ring in slabs of equal height.
+/// The edges of rings in slabs of equal height.
 #[derive(Clone, Debug)]
 pub(super) struct Border {
     low: u32,
@@ -26,23 +21,20 @@ pub(super) struct Border {
 }
 
 impl Border {
-    pub(super) fn of(ring: &[Point]) -> Self {
-        let boxes: Vec<_> = (0..ring.len())
-            .map(|edge| {
-                let [a, b] = edge_of(ring, edge);
-                [[a.x.min(b.x), a.x.max(b.x)], [a.y.min(b.y), a.y.max(b.y)]]
-            })
-            .collect();
-        let low = ring.iter().map(|corner| corner.y).min().unwrap_or(0);
-        let high = ring.iter().map(|corner| corner.y).max().unwrap_or(0);
+    /// The border of edges, each with its two ends; an edge begins at every corner.
+    pub(super) fn of(edges: &[[Point; 2]]) -> Self {
+        let boxes: Vec<_> =
+            edges.iter().map(|[a, b]| [[a.x.min(b.x), a.x.max(b.x)], [a.y.min(b.y), a.y.max(b.y)]]).collect();
+        let low = edges.iter().map(|[corner, _]| corner.y).min().unwrap_or(0);
+        let high = edges.iter().map(|[corner, _]| corner.y).max().unwrap_or(0);
         // An edge that is high counts in many slabs: with few slabs all of them together have 8 entries an edge.
         let span = u128::from(high - low) + 1;
         let heights: u128 = boxes.iter().map(|[_, [bottom, top]]| u128::from(top - bottom) + 1).sum();
-        let fitting = (8 * ring.len() as u128 * span / heights.max(1)).max(1);
-        let count = (ring.len() as u64).clamp(1, MOST_SLABS).min(u64::try_from(fitting).unwrap_or(MOST_SLABS));
+        let fitting = (8 * edges.len() as u128 * span / heights.max(1)).max(1);
+        let count = (edges.len() as u64).clamp(1, MOST_SLABS).min(u64::try_from(fitting).unwrap_or(MOST_SLABS));
         let height = (u64::from(high - low) + 1).div_ceil(count);
         let mut border = Self { low, high, height, slabs: vec![Vec::new(); count as usize], boxes };
-        for edge in 0..ring.len() {
+        for edge in 0..edges.len() {
             let [bottom, top] = border.boxes[edge][1];
             for slab in border.slab(bottom)..=border.slab(top) {
                 border.slabs[slab].push(edge as u32);

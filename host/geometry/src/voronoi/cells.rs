@@ -1,56 +1,23 @@
-//! Cells inside a clip.
-
-use alloc::vec::Vec;
-use core::mem;
+//! The cells of a diagram, one after the other, inside a clip.
 
 use super::clip::Clip;
-use super::corner::Corner;
-use super::cut::{Bend, Cutter, Side, View};
+use super::clipped::ClippedCell;
+use super::clipper::Clipper;
+use super::cut::{Bend, Side};
 use super::diagram::{Cell, Voronoi};
 use super::place::Place;
-
 use crate::point::Point;
 
 /// Clips the cells of a diagram, one after the other, in memory that is used again.
 pub struct Cells<'a> {
     voronoi: &'a Voronoi<'a>,
-    clip: &'a Clip,
-    cutter: Cutter,
-    /// The rings of the last cell, one behind the other, and how many corners each has.
-    bends: Vec<Bend>,
-    counts: Vec<usize>,
-    spare_bends: Vec<Bend>,
-    spare_counts: Vec<usize>,
-}
-
-/// A cell inside a clip: no piece, one, or several if the clip is not convex.
-#[derive(Clone, Copy)]
-pub struct ClippedCell<'a> {
-    p: Point,
-    point: u32,
-    bends: &'a [Bend],
-    counts: &'a [usize],
-}
-
-/// A piece of a clipped cell: a simple polygon, counter-clockwise.
-#[derive(Clone, Copy)]
-pub struct Piece<'a> {
-    p: Point,
-    bends: &'a [Bend],
+    clipper: Clipper<'a>,
 }
 
 impl<'a> Cells<'a> {
     /// Prepares to clip the cells of a diagram.
     pub fn new(voronoi: &'a Voronoi<'a>, clip: &'a Clip) -> Self {
-        Self {
-            voronoi,
-            clip,
-            cutter: Cutter::default(),
-            bends: Vec::new(),
-            counts: Vec::new(),
-            spare_bends: Vec::new(),
-            spare_counts: Vec::new(),
-        }
+        Self { voronoi, clipper: Clipper::new(voronoi.points, clip) }
     }
 
     /// Clips the cell of a point, exactly. A duplicate, or a point that does not exist, has no piece.
@@ -58,17 +25,19 @@ impl<'a> Cells<'a> {
     /// O(k) for a cell of `k` edges that the border of the clip does not come near, and O(k m) for other cells, with
     /// `m` corners of the clip. After the first cells nothing is allocated.
     pub fn cell(&mut self, point: u32) -> ClippedCell<'_> {
-        self.bends.clear();
-        self.counts.clear();
+        self.clipper.clear();
         let p = self.voronoi.points.get(point as usize).copied().unwrap_or_default();
         if let Some(cell) = self.voronoi.cell(point) {
             match self.is_clear(&cell, p) {
-                true if self.clip.contains(p) => self.take_whole(&cell),
+                true if self.clipper.clip().contains(p) => {
+                    let sides = cell.neighbors().iter().map(|&neighbor| Side::Neighbor(neighbor));
+                    self.clipper.take(places(self.voronoi, &cell).zip(sides).map(|(place, side)| Bend { place, side }));
+                }
                 true => {}
-                false => self.cut(&cell, p),
+                false => self.clipper.cut(p, cell.neighbors().iter().copied()),
             }
         }
-        ClippedCell { p, point, bends: &self.bends, counts: &self.counts }
+        self.clipper.cell(p, point)
     }
 
     /// Whether the border of the clip surely does not come near the cell.
@@ -87,39 +56,7 @@ impl<'a> Cells<'a> {
                 high[axis] = high[axis].max(value + margin);
             }
         }
-        !self.clip.border.may_touch(low, high)
-    }
-
-    /// Takes a bounded cell as it is.
-    fn take_whole(&mut self, cell: &Cell<'_>) {
-        let sides = cell.neighbors().iter().map(|&neighbor| Side::Neighbor(neighbor));
-        self.bends.extend(places(self.voronoi, cell).zip(sides).map(|(place, side)| Bend { place, side }));
-        self.counts.push(self.bends.len());
-    }
-
-    /// Cuts the clip by the border with each neighbour.
-    fn cut(&mut self, cell: &Cell<'_>, p: Point) {
-        let clip = self.clip.corners();
-        let view = View { p, points: self.voronoi.points, clip };
-        let bend =
-            |(edge, &corner): (usize, &Point)| Bend { place: Place::Corner(corner), side: Side::Clip(edge as u32) };
-        self.bends.extend(clip.iter().enumerate().map(bend));
-        self.counts.push(clip.len());
-        for &neighbor in cell.neighbors() {
-            self.spare_bends.clear();
-            self.spare_counts.clear();
-            let mut rest = &self.bends[..];
-            for &count in &self.counts {
-                let (ring, others) = rest.split_at(count);
-                self.cutter.cut(ring, view, neighbor, &mut self.spare_bends, &mut self.spare_counts);
-                rest = others;
-            }
-            mem::swap(&mut self.bends, &mut self.spare_bends);
-            mem::swap(&mut self.counts, &mut self.spare_counts);
-            if self.counts.is_empty() {
-                return;
-            }
-        }
+        !self.clipper.clip().may_touch(low, high)
     }
 }
 
@@ -131,59 +68,4 @@ fn places<'a>(voronoi: &'a Voronoi<'_>, cell: &Cell<'a>) -> impl Iterator<Item =
         // Consecutive edges of a bounded cell turn left, so the triangle is counter-clockwise.
         Place::Center([at(if edge == 0 { neighbors.len() - 1 } else { edge - 1 }), at(edge)])
     })
-}
-
-impl<'a> ClippedCell<'a> {
-    /// The index of the point to which the cell belongs.
-    pub fn point(&self) -> u32 {
-        self.point
-    }
-
-    /// The pieces of the cell, with positive areas and no common inner place. There is at most one in a convex clip.
-    pub fn pieces(&self) -> impl Iterator<Item = Piece<'a>> + 'a {
-        let (p, mut rest) = (self.p, self.bends);
-        self.counts.iter().map(move |&count| {
-            let (bends, others) = rest.split_at(count.min(rest.len()));
-            rest = others;
-            Piece { p, bends }
-        })
-    }
-
-    /// The points whose cells share an edge of positive length with the cell inside the clip: the edge does not merely
-    /// run along the border of the clip. In the order of the edges of the pieces; a neighbour comes once for each edge.
-    pub fn neighbors(&self) -> impl Iterator<Item = u32> + 'a {
-        self.bends.iter().filter_map(|bend| match bend.side {
-            Side::Neighbor(neighbor) => Some(neighbor),
-            Side::Clip(_) => None,
-        })
-    }
-
-    /// The area in squares of the grid.
-    ///
-    /// The sum is worked out in doubles, on coordinates seen from the point. It is off by at most `k (k + 8) 2^-53 r²`
-    /// for `k` corners, of which the farthest lies at the distance `r` from the point. The result is the same on every
-    /// machine.
-    pub fn area(&self) -> f64 {
-        self.pieces().map(|piece| piece.area()).sum()
-    }
-}
-
-impl<'a> Piece<'a> {
-    /// The corners with the edges that begin there, counter-clockwise.
-    pub fn corners(&self) -> impl Iterator<Item = (Corner, Side)> + 'a {
-        let p = self.p;
-        self.bends.iter().map(move |bend| (bend.place.corner(p), bend.side))
-    }
-
-    /// The area; see [`ClippedCell::area`].
-    pub fn area(&self) -> f64 {
-        let Some(last) = self.bends.last() else { return 0.0 };
-        let (mut twice, mut from) = (0.0, last.place.seen(self.p));
-        for bend in self.bends {
-            let to = bend.place.seen(self.p);
-            twice += from[0] * to[1] - from[1] * to[0];
-            from = to;
-        }
-        twice / 2.0
-    }
 }

@@ -2,18 +2,22 @@
 
 use alloc::vec::Vec;
 
-use super::border::{edge_of, Border};
+use super::border::Border;
 use super::corner::{cross, dot, vector};
 use super::error::Error;
 use crate::point::{Point, MAX_COORD_BITS};
 use crate::predicate::orient2d;
 
-/// A simple polygon to which cells are clipped: one ring without holes, of any shape.
+/// A simple polygon to which cells are clipped: an outer ring of any shape, perhaps with holes.
 #[derive(Clone, Debug)]
 pub struct Clip {
-    /// Counter-clockwise.
-    ring: Vec<Point>,
-    pub(super) border: Border,
+    /// The outer ring, counter-clockwise, then the holes, clockwise.
+    corners: Vec<Point>,
+    /// Where each ring ends in the list.
+    ends: Vec<usize>,
+    /// The corner behind each corner in its ring.
+    next: Vec<u32>,
+    border: Border,
 }
 
 impl Clip {
@@ -33,83 +37,176 @@ impl Clip {
     /// # Errors
     /// The ring has no area, edges that are not consecutive have a common place, or a coordinate has more than 31 bits.
     pub fn polygon(corners: &[Point]) -> Result<Self, Error> {
-        let is_wide = |point: &Point| (point.x | point.y) >> MAX_COORD_BITS != 0;
-        if let Some(index) = corners.iter().position(is_wide) {
-            return Err(Error::CoordinateOutOfRange { index, point: corners[index] });
+        Self::with_holes(corners, &[])
+    }
+
+    /// A polygon with holes: rings as for [`polygon`](Self::polygon), which have no common place.
+    ///
+    /// ```
+    /// use incircle_geometry::voronoi::Clip;
+    /// use incircle_geometry::Point;
+    ///
+    /// let square = |low: u32, high: u32| [(low, low), (high, low), (high, high), (low, high)].map(Point::from).to_vec();
+    /// let clip = Clip::with_holes(&square(0, 9), &[square(1, 3), square(5, 8)])?;
+    /// assert_eq!(clip.twice_area(), 2 * (81 - 4 - 9));
+    /// # Ok::<(), incircle_geometry::voronoi::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`polygon`](Self::polygon), for any of the rings; a hole outside the outer ring, or inside another hole.
+    pub fn with_holes(outer: &[Point], holes: &[Vec<Point>]) -> Result<Self, Error> {
+        let mut clip = Self { corners: Vec::new(), ends: Vec::new(), next: Vec::new(), border: Border::of(&[]) };
+        for ring in core::iter::once(outer).chain(holes.iter().map(Vec::as_slice)) {
+            clip.add_ring(ring)?;
         }
-        let mut ring = corners.to_vec();
+        clip.refuse_crossings()?;
+        clip.turn_rings()?;
+        let edges: Vec<[Point; 2]> = (0..clip.corners.len()).map(|edge| clip.edge(edge)).collect();
+        clip.border = Border::of(&edges);
+        match (1..clip.ends.len()).find(|&hole| clip.is_misplaced(hole)) {
+            Some(hole) => Err(Error::MisplacedHole { hole }),
+            None => Ok(clip),
+        }
+    }
+
+    fn add_ring(&mut self, ring: &[Point]) -> Result<(), Error> {
+        let is_wide = |point: &Point| (point.x | point.y) >> MAX_COORD_BITS != 0;
+        if let Some(index) = ring.iter().position(is_wide) {
+            return Err(Error::CoordinateOutOfRange { index, point: ring[index] });
+        }
+        let mut ring = ring.to_vec();
         ring.dedup();
         while ring.len() > 1 && ring.first() == ring.last() {
             ring.pop();
         }
-        let area: i128 = ring.windows(2).map(|pair| i128::from(orient2d(ring[0], pair[0], pair[1]))).sum();
         if ring.len() < 3 {
             return Err(Error::EmptyClip);
         }
-        refuse_crossings(&ring)?;
-        match area {
-            0 => return Err(Error::EmptyClip),
-            ..0 => ring.reverse(),
-            _ => {}
-        }
-        let border = Border::of(&ring);
-        Ok(Self { ring, border })
+        let begin = self.corners.len();
+        self.next.extend((1..ring.len()).map(|k| (begin + k) as u32).chain([begin as u32]));
+        self.corners.extend(ring);
+        self.ends.push(self.corners.len());
+        Ok(())
     }
 
-    /// The corners, counter-clockwise. Edge `k` leads from corner `k` to the next one.
+    /// Turns the outer ring counter-clockwise and the holes clockwise.
+    fn turn_rings(&mut self) -> Result<(), Error> {
+        let mut begin = 0;
+        for (number, &end) in self.ends.iter().enumerate() {
+            let ring = &mut self.corners[begin..end];
+            match twice_area(ring) {
+                0 => return Err(Error::EmptyClip),
+                area if (area > 0) != (number == 0) => ring.reverse(),
+                _ => {}
+            }
+            begin = end;
+        }
+        Ok(())
+    }
+
+    /// Whether a hole lies outside the outer ring or inside another hole. Rings have no common place, so any corner
+    /// tells.
+    fn is_misplaced(&self, hole: usize) -> bool {
+        let corner = self.corners[self.ends[hole - 1]];
+        let holds = |ring: usize| {
+            let begin = if ring == 0 { 0 } else { self.ends[ring - 1] };
+            is_inside((begin..self.ends[ring]).map(|edge| self.edge(edge)), corner)
+        };
+        !holds(0) || (1..self.ends.len()).any(|other| other != hole && holds(other))
+    }
+
+    /// The corners of all rings: those of the outer ring, counter-clockwise, then those of each hole, clockwise. Edge
+    /// `k` leads from corner `k` to the next one of its ring.
     pub fn corners(&self) -> &[Point] {
-        &self.ring
+        &self.corners
+    }
+
+    /// The rings, in the order of their [`corners`](Self::corners): the outer one, then the holes.
+    pub fn rings(&self) -> impl Iterator<Item = &[Point]> {
+        let mut begin = 0;
+        self.ends.iter().map(move |&end| &self.corners[core::mem::replace(&mut begin, end)..end])
+    }
+
+    /// The two ends of an edge.
+    pub(super) fn edge(&self, edge: usize) -> [Point; 2] {
+        [self.corners[edge], self.corners[self.next[edge] as usize]]
+    }
+
+    /// Whether an edge belongs to a hole.
+    pub(super) fn is_of_hole(&self, edge: u32) -> bool {
+        edge as usize >= self.ends[0]
     }
 
     /// Twice the area, exactly, in squares of the grid.
     pub fn twice_area(&self) -> i128 {
-        self.ring.windows(2).map(|pair| i128::from(orient2d(self.ring[0], pair[0], pair[1]))).sum()
+        self.rings().map(twice_area).sum()
+    }
+
+    /// The lower left and the upper right corner of the smallest rectangle around the polygon.
+    pub fn bounds(&self) -> [Point; 2] {
+        let (xs, ys) = (self.corners.iter().map(|corner| corner.x), self.corners.iter().map(|corner| corner.y));
+        let low = Point::new(xs.clone().min().unwrap_or(0), ys.clone().min().unwrap_or(0));
+        [low, Point::new(xs.max().unwrap_or(0), ys.max().unwrap_or(0))]
+    }
+
+    /// Whether the border may have a place in a box of doubles, which may be infinite.
+    pub(crate) fn may_touch(&self, low: [f64; 2], high: [f64; 2]) -> bool {
+        self.border.may_touch(low, high)
     }
 
     /// Whether the polygon contains a point that is not on its border.
-    pub(super) fn contains(&self, point: Point) -> bool {
-        let mut is_inside = false;
-        for edge in self.border.at_height(point.y) {
-            let [a, b] = edge_of(&self.ring, edge as usize);
-            // Half open, so that a corner on the ray counts once.
-            if (a.y > point.y) != (b.y > point.y) {
-                is_inside ^= (orient2d(a, b, point) > 0) == (b.y > a.y);
+    pub(crate) fn contains(&self, point: Point) -> bool {
+        is_inside(self.border.at_height(point.y).map(|edge| self.edge(edge as usize)), point)
+    }
+
+    /// Refuses rings in which edges that are not consecutive meet, or consecutive ones overlap.
+    fn refuse_crossings(&self) -> Result<(), Error> {
+        let low = |edge: usize| self.edge(edge).map(|end| end.x).into_iter().min().unwrap_or(0);
+        let mut order: Vec<usize> = (0..self.corners.len()).collect();
+        order.sort_unstable_by_key(|&edge| low(edge));
+        for (place, &one) in order.iter().enumerate() {
+            let [a, b] = self.edge(one);
+            for &other in order[place + 1..].iter().take_while(|&&other| low(other) <= a.x.max(b.x)) {
+                if self.meet(one, other) {
+                    return Err(Error::CrossedClip { one: one.min(other), other: one.max(other) });
+                }
             }
         }
-        is_inside
+        Ok(())
+    }
+
+    /// Whether two edges have a place in common that they should not have.
+    fn meet(&self, one: usize, other: usize) -> bool {
+        let ([a, b], [c, d]) = (self.edge(one), self.edge(other));
+        if b == c || a == d {
+            // Consecutive edges: they share more than the corner if they point back.
+            let (from, middle, to) = if b == c { (a, b, d) } else { (c, a, b) };
+            let (back, on) = (vector(middle, from), vector(middle, to));
+            let is_consecutive = self.next[one] as usize == other || self.next[other] as usize == one;
+            return !is_consecutive || (cross(back, on) == 0 && dot(back, on) > 0);
+        }
+        let apart = |[a, b]: [Point; 2], [c, d]: [Point; 2]| a.x.max(b.x) < c.x.min(d.x) || a.y.max(b.y) < c.y.min(d.y);
+        if apart([a, b], [c, d]) || apart([c, d], [a, b]) {
+            return false;
+        }
+        let sides = |a, b, c, d| orient2d(a, b, c).signum() * orient2d(a, b, d).signum() <= 0;
+        sides(a, b, c, d) && sides(c, d, a, b)
     }
 }
 
-/// Refuses a ring in which edges that are not consecutive meet, or consecutive ones overlap.
-fn refuse_crossings(ring: &[Point]) -> Result<(), Error> {
-    let low = |edge: usize| edge_of(ring, edge).map(|end| end.x).into_iter().min().unwrap_or(0);
-    let mut order: Vec<usize> = (0..ring.len()).collect();
-    order.sort_unstable_by_key(|&edge| low(edge));
-    for (place, &one) in order.iter().enumerate() {
-        let [a, b] = edge_of(ring, one);
-        for &other in order[place + 1..].iter().take_while(|&&other| low(other) <= a.x.max(b.x)) {
-            if meet(ring, one, other) {
-                return Err(Error::CrossedClip { one: one.min(other), other: one.max(other) });
-            }
-        }
-    }
-    Ok(())
+/// Twice the area of a ring, negative if it is clockwise.
+fn twice_area(ring: &[Point]) -> i128 {
+    ring.windows(2).map(|pair| i128::from(orient2d(ring[0], pair[0], pair[1]))).sum()
 }
 
-/// Whether two edges have a place in common that they should not have.
-fn meet(ring: &[Point], one: usize, other: usize) -> bool {
-    let ([a, b], [c, d]) = (edge_of(ring, one), edge_of(ring, other));
-    if b == c || a == d {
-        // Consecutive edges: they share more than the corner if they point back.
-        let (from, middle, to) = if b == c { (a, b, d) } else { (c, a, b) };
-        let (back, on) = (vector(middle, from), vector(middle, to));
-        let is_consecutive = (one + 1) % ring.len() == other || (other + 1) % ring.len() == one;
-        return !is_consecutive || (cross(back, on) == 0 && dot(back, on) > 0);
+/// Whether rings with these edges have a point inside that is not on an edge.
+fn is_inside(edges: impl Iterator<Item = [Point; 2]>, point: Point) -> bool {
+    let mut is_inside = false;
+    for [a, b] in edges {
+        // Half open, so that a corner on the ray counts once.
+        if (a.y > point.y) != (b.y > point.y) {
+            is_inside ^= (orient2d(a, b, point) > 0) == (b.y > a.y);
+        }
     }
-    let apart = |[a, b]: [Point; 2], [c, d]: [Point; 2]| a.x.max(b.x) < c.x.min(d.x) || a.y.max(b.y) < c.y.min(d.y);
-    if apart([a, b], [c, d]) || apart([c, d], [a, b]) {
-        return false;
-    }
-    let sides = |a, b, c, d| orient2d(a, b, c).signum() * orient2d(a, b, d).signum() <= 0;
-    sides(a, b, c, d) && sides(c, d, a, b)
+    is_inside
 }

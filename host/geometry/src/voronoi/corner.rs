@@ -49,7 +49,7 @@ pub(super) fn cross(one: [i64; 2], other: [i64; 2]) -> i64 {
 /// The circumcentre of a counter-clockwise triangle as seen from its first corner, which lies at `a`: the numerators,
 /// then the positive denominator. The numerators are below 2^96 in magnitude.
 #[inline]
-pub(super) fn center_seen([a, b, c]: [Point; 3]) -> ([i128; 2], u64) {
+pub(crate) fn center_seen([a, b, c]: [Point; 3]) -> ([i128; 2], u64) {
     let (b, c) = (vector(a, b), vector(a, c));
     let (bb, cc) = (i128::from(dot(b, b)), i128::from(dot(c, c)));
     let x = i128::from(c[1]) * bb - i128::from(b[1]) * cc;

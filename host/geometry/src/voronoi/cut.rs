@@ -1,16 +1,19 @@
-//! Cutting a ring by the border between two cells.
+//! Cutting rings by the border between two cells.
 //!
-//! A ring is a simple polygon, counter-clockwise, whose edges lie on edges of the clip or on borders. The part nearer
-//! to `p` is kept: chains of corners strictly on that side. Each chain begins and ends on the border. Just beside the
-//! border on the side of `p`, the inside of the ring begins where a chain ends, for the inside is on the left of a
-//! chain, and stops where a chain begins. So in the order of positions ends and beginnings alternate, and each end is
-//! joined with the beginning behind it. Where a chain ends and another begins at the same corner of the ring, the
-//! inside is between the two if the ring turns left there, and on both sides if it turns right: the ring then falls
-//! into two.
+//! The rings bound a region, which lies on their left: outer ones are counter-clockwise, and holes clockwise. Their
+//! edges lie on edges of the clip or on borders. The part nearer to `p` is kept: chains of corners strictly on that
+//! side. Each chain begins and ends on the border. Just beside the border on the side of `p`, the inside of the region
+//! begins where a chain ends, for the inside is on the left of a chain, and stops where a chain begins. So in the order
+//! of positions ends and beginnings alternate, and each end is joined with the beginning behind it. Where several chains
+//! end and begin at one place, the order just beside the border is that of their directions there.
+//!
+//! A ring that touches the border with one corner and is on the side of `p` elsewhere stays as it is. One that touches
+//! it with more corners may be a hole that cuts off a piece between them, so it is joined with the others.
 
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 
+use super::clip::Clip;
 use super::corner::{cross, vector};
 use super::place::Place;
 use crate::point::Point;
@@ -36,21 +39,15 @@ pub(super) struct Bend {
 pub(super) struct View<'a> {
     pub(super) p: Point,
     pub(super) points: &'a [Point],
-    /// The corners of the clip. Edge `k` leads from corner `k` to the next one.
-    pub(super) clip: &'a [Point],
+    pub(super) clip: &'a Clip,
 }
 
 impl View<'_> {
-    fn clip_edge(&self, edge: u32) -> [Point; 2] {
-        let next = edge as usize + 1;
-        [self.clip[edge as usize], self.clip[if next == self.clip.len() { 0 } else { next }]]
-    }
-
     /// The place where an edge of a ring meets the border with `q`.
     fn meet(&self, side: Side, q: Point) -> Place {
         match side {
             Side::Clip(edge) => {
-                let [a, b] = self.clip_edge(edge);
+                let [a, b] = self.clip.edge(edge as usize);
                 Place::Crossing([a, b, q])
             }
             Side::Neighbor(neighbor) => Place::center(self.p, [self.points[neighbor as usize], q]),
@@ -61,7 +58,7 @@ impl View<'_> {
     fn direction(&self, side: Side) -> [i64; 2] {
         match side {
             Side::Clip(edge) => {
-                let [a, b] = self.clip_edge(edge);
+                let [a, b] = self.clip.edge(edge as usize);
                 vector(a, b)
             }
             Side::Neighbor(neighbor) => {
@@ -69,11 +66,6 @@ impl View<'_> {
                 [-y, x]
             }
         }
-    }
-
-    /// Whether a ring turns left between two of its edges.
-    fn turns_left(&self, from: Side, to: Side) -> bool {
-        cross(self.direction(from), self.direction(to)) > 0
     }
 }
 
@@ -83,18 +75,44 @@ struct Tip {
     place: Place,
     chain: usize,
     is_end: bool,
-    /// Order at one place: 0 comes before 1.
-    rank: u8,
+    /// From the place into the chain.
+    direction: [i64; 2],
     /// The corner of the ring, if the place is one.
     corner: Option<usize>,
+}
+
+/// A run of corners of one ring that are strictly nearer to `p`.
+#[derive(Clone, Copy)]
+struct Chain {
+    first: usize,
+    last: usize,
+    /// The first corner of the ring, and the one behind its last.
+    ring: [usize; 2],
+}
+
+impl Chain {
+    fn after(&self, k: usize) -> usize {
+        if k + 1 == self.ring[1] {
+            self.ring[0]
+        } else {
+            k + 1
+        }
+    }
+
+    fn before(&self, k: usize) -> usize {
+        if k == self.ring[0] {
+            self.ring[1] - 1
+        } else {
+            k - 1
+        }
+    }
 }
 
 /// The lists that cuts reuse.
 #[derive(Default)]
 pub(super) struct Cutter {
     signs: Vec<Ordering>,
-    /// The first and the last corner of each chain, and the beginning and the end on the border.
-    chains: Vec<[usize; 2]>,
+    chains: Vec<Chain>,
     tips: Vec<Tip>,
     /// The chain that follows each chain, and the side of the edge between them.
     next: Vec<(usize, Side)>,
@@ -104,76 +122,95 @@ pub(super) struct Cutter {
 }
 
 impl Cutter {
-    /// Appends to `out` and `counts` what is left of a ring: corners, and how many each new ring has.
-    pub(super) fn cut(&mut self, ring: &[Bend], view: View<'_>, q: u32, out: &mut Vec<Bend>, counts: &mut Vec<usize>) {
+    /// Appends to `out` and `counts` what is left of some rings, of which each has so many corners: the corners, and how
+    /// many each new ring has.
+    pub(super) fn cut(
+        &mut self,
+        rings: (&[Bend], &[usize]),
+        view: View<'_>,
+        q: u32,
+        out: &mut Vec<Bend>,
+        counts: &mut Vec<usize>,
+    ) {
+        let (bends, lengths) = rings;
         let at = view.points[q as usize];
         self.signs.clear();
-        self.signs.extend(ring.iter().map(|bend| bend.place.side(view.p, at)));
+        self.signs.extend(bends.iter().map(|bend| bend.place.side(view.p, at)));
         if !self.signs.contains(&Ordering::Less) {
-            out.extend_from_slice(ring);
-            counts.push(ring.len());
+            out.extend_from_slice(bends);
+            counts.extend_from_slice(lengths);
             return;
         }
-        self.find_chains(ring.len());
+        self.chains.clear();
+        let mut begin = 0;
+        for &length in lengths {
+            let ring = [begin, begin + length];
+            if self.stays(ring) {
+                out.extend_from_slice(&bends[begin..begin + length]);
+                counts.push(length);
+            } else {
+                self.find_chains(ring);
+            }
+            begin += length;
+        }
         if self.chains.is_empty() {
             return;
         }
-        self.find_tips(ring, view, at);
-        self.join(ring, q);
-        self.collect(ring, out, counts);
+        self.find_tips(bends, view, at);
+        self.join(bends, q);
+        self.collect(bends, out, counts);
     }
 
-    /// Finds the runs of corners that are strictly nearer to `p`.
-    fn find_chains(&mut self, count: usize) {
-        self.chains.clear();
-        let before = |k: usize| if k == 0 { count - 1 } else { k - 1 };
+    /// Whether a ring has no corner beyond the border, and at most one on it.
+    fn stays(&self, [begin, end]: [usize; 2]) -> bool {
+        let signs = &self.signs[begin..end];
+        !signs.contains(&Ordering::Less) && signs.iter().filter(|sign| sign.is_eq()).count() < 2
+    }
+
+    /// Finds the chains of a ring, which has a corner on the border or beyond.
+    fn find_chains(&mut self, ring: [usize; 2]) {
         let is_near = |k: usize| self.signs[k] == Ordering::Greater;
-        for first in (0..count).filter(|&k| is_near(k) && !is_near(before(k))) {
-            let mut last = first;
-            loop {
-                let next = if last + 1 == count { 0 } else { last + 1 };
-                if !is_near(next) {
-                    break;
-                }
-                last = next;
+        for first in ring[0]..ring[1] {
+            let mut chain = Chain { first, last: first, ring };
+            if !is_near(first) || is_near(chain.before(first)) {
+                continue;
             }
-            self.chains.push([first, last]);
+            while is_near(chain.after(chain.last)) {
+                chain.last = chain.after(chain.last);
+            }
+            self.chains.push(chain);
         }
     }
 
     /// Finds where each chain leaves and reaches the border.
-    fn find_tips(&mut self, ring: &[Bend], view: View<'_>, q: Point) {
-        let count = ring.len();
-        let (before, after) = (|k: usize| (k + count - 1) % count, |k: usize| (k + 1) % count);
+    fn find_tips(&mut self, bends: &[Bend], view: View<'_>, q: Point) {
         self.tips.clear();
         self.begins.clear();
         self.ends.clear();
-        for (chain, &[first, last]) in self.chains.iter().enumerate() {
-            let (outer, beyond) = (before(first), after(last));
-            let side = ring[outer].side;
+        for (number, chain) in self.chains.iter().enumerate() {
+            let (outer, beyond) = (chain.before(chain.first), chain.after(chain.last));
+            let (side, last) = (bends[outer].side, bends[chain.last].side);
             let is_on = |k: usize| self.signs[k] == Ordering::Equal;
-            let begin = if is_on(outer) { ring[outer].place } else { view.meet(side, q) };
-            let end = if is_on(beyond) { ring[beyond].place } else { view.meet(ring[last].side, q) };
-            // Both tips at one corner of the ring: a left turn has its end first.
-            let shared = |k: usize| is_on(k) && self.signs[before(k)].is_gt() && self.signs[after(k)].is_gt();
-            let left = |k: usize| view.turns_left(ring[before(k)].side, ring[k].side);
-            let begin_rank = u8::from(shared(outer) && left(outer));
-            let end_rank = u8::from(shared(beyond) && !left(beyond));
+            let begin = if is_on(outer) { bends[outer].place } else { view.meet(side, q) };
+            let end = if is_on(beyond) { bends[beyond].place } else { view.meet(last, q) };
             let corner = |k: usize| is_on(k).then_some(k);
+            let tip = |place, is_end, direction, corner| Tip { place, chain: number, is_end, direction, corner };
             self.begins.push(Bend { place: begin, side });
             self.ends.push(end);
-            self.tips.push(Tip { place: begin, chain, is_end: false, rank: begin_rank, corner: corner(outer) });
-            self.tips.push(Tip { place: end, chain, is_end: true, rank: end_rank, corner: corner(beyond) });
+            self.tips.push(tip(begin, false, view.direction(side), corner(outer)));
+            self.tips.push(tip(end, true, view.direction(last).map(|length| -length), corner(beyond)));
         }
         if self.chains.len() > 1 {
+            // At one place, the direction that points back along the border comes first.
             self.tips.sort_unstable_by(|one, other| {
-                one.place.compare_positions(other.place, view.p, q).then(one.rank.cmp(&other.rank))
+                let order = one.place.compare_positions(other.place, view.p, q);
+                order.then_with(|| cross(one.direction, other.direction).cmp(&0))
             });
         }
     }
 
     /// Joins each end with the beginning behind it.
-    fn join(&mut self, ring: &[Bend], q: u32) {
+    fn join(&mut self, bends: &[Bend], q: u32) {
         self.next.clear();
         self.next.resize(self.chains.len(), (0, Side::Neighbor(q)));
         if self.chains.len() == 1 {
@@ -181,49 +218,51 @@ impl Cutter {
         }
         for pair in self.tips.windows(2) {
             if pair[0].is_end && !pair[1].is_end {
-                self.next[pair[0].chain] = (pair[1].chain, self.side_between(ring, pair[0], pair[1], q));
+                self.next[pair[0].chain] = (pair[1].chain, self.side_between(bends, pair[0], pair[1], q));
             }
         }
     }
 
-    /// What the edge between two tips lies on. Where the ring itself runs along the border and has its inside on the
-    /// side of `p`, the edge stays that of the ring: the inside does not reach the other cell.
-    fn side_between(&self, ring: &[Bend], end: Tip, begin: Tip, q: u32) -> Side {
-        let (Some(mut k), Some(last)) = (end.corner, begin.corner) else { return Side::Neighbor(q) };
-        let side = ring[k].side;
+    /// What the edge between two tips lies on. Where a ring itself runs along the border and has its inside on the side
+    /// of `p`, the edge stays that of the ring: the inside does not reach the other cell.
+    fn side_between(&self, bends: &[Bend], end: Tip, begin: Tip, q: u32) -> Side {
+        let (Some(first), Some(last)) = (end.corner, begin.corner) else { return Side::Neighbor(q) };
+        let chain = self.chains[end.chain];
+        if chain.ring != self.chains[begin.chain].ring {
+            return Side::Neighbor(q);
+        }
+        let mut k = first;
         while k != last {
-            k = if k + 1 == ring.len() { 0 } else { k + 1 };
+            k = chain.after(k);
             if self.signs[k] != Ordering::Equal {
                 return Side::Neighbor(q);
             }
         }
-        side
+        bends[first].side
     }
 
     /// Collects the new rings.
-    fn collect(&mut self, ring: &[Bend], out: &mut Vec<Bend>, counts: &mut Vec<usize>) {
+    fn collect(&mut self, bends: &[Bend], out: &mut Vec<Bend>, counts: &mut Vec<usize>) {
         self.done.clear();
         self.done.resize(self.chains.len(), false);
         for first in 0..self.chains.len() {
-            let (mut chain, begin) = (first, out.len());
-            while !self.done[chain] {
-                self.done[chain] = true;
-                let [from, to] = self.chains[chain];
-                out.push(self.begins[chain]);
-                let mut k = from;
-                loop {
-                    out.push(ring[k]);
-                    if k == to {
-                        break;
-                    }
-                    k = if k + 1 == ring.len() { 0 } else { k + 1 };
+            let (mut number, begin) = (first, out.len());
+            while !self.done[number] {
+                self.done[number] = true;
+                let chain = self.chains[number];
+                out.push(self.begins[number]);
+                let mut k = chain.first;
+                out.push(bends[k]);
+                while k != chain.last {
+                    k = chain.after(k);
+                    out.push(bends[k]);
                 }
-                let (next, side) = self.next[chain];
+                let (next, side) = self.next[number];
                 // An end at the corner at which the next chain begins would make an edge of length zero.
-                if self.ends[chain] != self.begins[next].place {
-                    out.push(Bend { place: self.ends[chain], side });
+                if self.ends[number] != self.begins[next].place {
+                    out.push(Bend { place: self.ends[number], side });
                 }
-                chain = next;
+                number = next;
             }
             if out.len() > begin {
                 counts.push(out.len() - begin);

@@ -31,13 +31,22 @@ pub enum Error {
     /// The clip has fewer than three different corners, or no area.
     #[error("the clip has no area: give two opposite corners of a rectangle, or three corners that turn")]
     EmptyClip,
+    /// A hole of the clip does not lie inside the outer ring, or lies inside another hole.
+    #[error(
+        "hole {hole} of the clip lies outside its outer ring or inside another hole: give holes that lie side by side \
+         within the outer ring"
+    )]
+    MisplacedHole {
+        /// Number of the hole, counted from 1.
+        hole: usize,
+    },
     /// The border of the clip crosses or touches itself.
     #[error(
         "the border of the clip crosses or touches itself: edges {one} and {other} have a common place; give a ring in \
          which only consecutive edges meet"
     )]
     CrossedClip {
-        /// Number of an edge, counted from 0: it begins at the corner of this number.
+        /// Number of an edge, counted from 0: it begins at the corner of this number. Holes are counted on.
         one: usize,
         /// Number of the other edge, which is higher.
         other: usize,

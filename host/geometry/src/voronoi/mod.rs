@@ -2,7 +2,7 @@
 //! polygon.
 //!
 //! Use a [`Voronoi`] if you ask which region lies nearest to each point. The diagram is made of the mesh of the set,
-//! and [`Cells`] clips its cells to a [`Clip`]: a rectangle or any simple polygon.
+//! and [`Cells`] clips its cells to a [`Clip`]: a rectangle or any simple polygon, perhaps with holes.
 //!
 //! | you want | call | cost |
 //! |---|---|---|
@@ -48,6 +48,8 @@ mod border;
 mod build;
 mod cells;
 mod clip;
+mod clipped;
+mod clipper;
 mod corner;
 mod cut;
 mod diagram;
@@ -57,8 +59,11 @@ mod place;
 mod tests;
 mod wide;
 
-pub use cells::{Cells, ClippedCell, Piece};
+pub use cells::Cells;
 pub use clip::Clip;
+pub use clipped::{ClippedCell, Piece, Ring};
+pub(crate) use clipper::Clipper;
+pub(crate) use corner::center_seen;
 pub use corner::{nearest_quotient, Corner};
 pub use cut::Side;
 pub use diagram::{Cell, Edge, Voronoi};

@@ -14,7 +14,7 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use clap::Args;
-use incircle_geometry::constraints::{constrain, Plan};
+use incircle_geometry::constraints::{self, Plan};
 use incircle_geometry::{cpu, Mesh, Point};
 use incircle_testkit::SplitMix64;
 
@@ -114,7 +114,7 @@ fn free(points: &[Point]) -> Result<Run, Failure> {
 
 fn ours(points: &[Point], constraints: &[[u32; 2]]) -> Result<Run, Failure> {
     let since = Instant::now();
-    let mesh = triangulated(points)?;
-    let made = constrain(&mesh, &Plan::new(constraints))?;
-    Ok(Run { seconds: since.elapsed().as_secs_f64(), triangles: made.triangles })
+    let plan = Plan::new(constraints);
+    let mesh = constraints::triangulate(points, &plan, NonZeroUsize::MIN, &mut |_| ControlFlow::Continue(()))?;
+    Ok(Run { seconds: since.elapsed().as_secs_f64(), triangles: mesh.made.triangles })
 }

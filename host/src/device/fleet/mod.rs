@@ -165,7 +165,7 @@ fn lead<P: PlanePoint>(
     let Numbers::Grid(grid) = &numbers else {
         return Err(Error::NoLattice { coord_bits: report.coord_bits, device: report.backend });
     };
-    let cut = Parts::divide(grid, part_size(&greeted, grid.len()), host_threads()).map_err(error_of)?;
+    let cut = Parts::divide(grid, part_size(&greeted, grid.len()), host_threads(grid.len())).map_err(error_of)?;
     drop(numbers);
     watch.ended(Stage::Order);
     let distinct = cut.distinct();
@@ -220,7 +220,8 @@ fn listen(hall: &Hall, total: usize, limit: Limit, backend: &str, options: &Opti
 
 /// Joins the parts, all of which are done.
 fn join(parts: Parts, hall: &Hall, report: &Report) -> Result<Connectivity, Error> {
-    parts.join(hall.take_solved(), host_threads()).map_err(|Unsound| Error::Device {
+    let threads = host_threads(parts.distinct());
+    parts.join(hall.take_solved(), threads).map_err(|Unsound| Error::Device {
         device: report.backend.clone(),
         during: DURING,
         fault: DeviceFault::Unsound,

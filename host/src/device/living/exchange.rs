@@ -22,8 +22,15 @@ pub(super) struct LivingDevice<'d> {
     timeout: Option<Duration>,
 }
 
-/// The answer to the one item of a run: its outcome, and the words behind it.
-type Part = (Outcome, Located);
+/// The answer to an item of a run: its outcome, and the words behind it.
+pub(super) type Part = (Outcome, Located);
+
+/// An item of a run. A kind that has no vertex or no point leaves it out.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Item {
+    pub(super) vertex: u32,
+    pub(super) point: Point,
+}
 
 impl<'d> LivingDevice<'d> {
     pub(super) fn new(backend: &'d mut dyn Backend, identity: Identity, timeout: Option<Duration>) -> Self {
@@ -58,17 +65,34 @@ impl<'d> LivingDevice<'d> {
 
     /// Does a run of one item, and returns its answer.
     pub(super) fn ask(&mut self, kind: RunKind, vertex: Option<u32>, point: Option<Point>) -> Result<Part, Error> {
-        let (mut item, mut words) = (Vec::new(), Vec::new());
-        item.extend(vertex);
-        if let Some(point) = point {
-            self.put_point(point, &mut item);
+        let item = Item { vertex: vertex.unwrap_or(0), point: point.unwrap_or_default() };
+        let mut parts = self.ask_all(kind, &[item])?;
+        // Every item has its part: `ask_all` checks that.
+        Ok(parts.pop().unwrap_or((Outcome::Missing, Located::default())))
+    }
+
+    /// Does a run of these items, and returns the answer to each in their order.
+    pub(super) fn ask_all(&mut self, kind: RunKind, items: &[Item]) -> Result<Vec<Part>, Error> {
+        let mut sent = Vec::with_capacity(items.len() * kind.item_words(self.layout));
+        for &Item { vertex, point } in items {
+            sent.extend(Some(vertex).filter(|_| kind.has_vertex()));
+            if kind.has_point() {
+                self.put_point(point, &mut sent);
+            }
         }
-        self.exchange(Command::run(kind, &item, self.layout), 1, &mut words)?;
-        let head = words.first().copied().unwrap_or(u32::MAX);
-        match Outcome::from_u8(part_outcome(head)) {
-            Some(outcome) if part_item(head) == 0 => Ok((outcome, Located::from_words(words.get(1..).unwrap_or(&[])))),
-            _ => Err(self.distrust(kind.opcode(), DeviceFault::Part { item: 0, found: head })),
+        let mut words = Vec::new();
+        self.exchange(Command::run(kind, &sent, self.layout), items.len(), &mut words)?;
+        let mut parts: Vec<Option<Part>> = vec![None; items.len()];
+        for part in words.chunks(kind.part_words()) {
+            let head = part.first().copied().unwrap_or(u32::MAX);
+            let place = parts.get_mut(part_item(head) as usize).filter(|place| place.is_none());
+            match (place, Outcome::from_u8(part_outcome(head))) {
+                (Some(place), Some(outcome)) => *place = Some((outcome, Located::from_words(&part[1..]))),
+                _ => return Err(self.distrust(kind.opcode(), DeviceFault::Part { item: part_item(head), found: head })),
+            }
         }
+        // As many parts as items have come, and none came twice.
+        Ok(parts.into_iter().flatten().collect())
     }
 
     /// The triangles and the hull of the mesh, in canonical form. `ranks` has the index in `points` of each vertex of

@@ -1,11 +1,12 @@
 //! Meshes that live, on the host and on a device, behind one trait.
 //!
-//! [`LivingSession`] keeps the mesh on a device that takes runs. `names` knows the point of every index, `line` answers
+//! [`LivingSession`] keeps the mesh on a device that takes runs, `runs` puts items together to runs, `names` knows the point of every index, `line` answers
 //! while all points lie on one line, and `exchange` speaks with the device.
 
 mod exchange;
 mod line;
 mod names;
+mod runs;
 mod session;
 
 use crate::error::Error;
@@ -98,6 +99,42 @@ pub trait LivingMesh<P: PlanePoint> {
     /// Those of [`locate`](Self::locate).
     fn nearest(&mut self, place: P) -> Result<Option<u32>, Error>;
 
+    /// Says what each of these places is, in their order, as [`locate`](Self::locate) does. A device answers in runs,
+    /// several places at a time.
+    ///
+    /// # Errors
+    /// Those of [`locate`](Self::locate), for any of the places.
+    fn locate_all(&mut self, places: &[P]) -> Result<Vec<Location>, Error> {
+        places.iter().map(|&place| self.locate(place)).collect()
+    }
+
+    /// The index of the living point nearest to each of these places, in their order, as [`nearest`](Self::nearest)
+    /// finds it. A device answers in runs, several places at a time.
+    ///
+    /// # Errors
+    /// Those of [`nearest`](Self::nearest), for any of the places.
+    fn nearest_all(&mut self, places: &[P]) -> Result<Vec<Option<u32>>, Error> {
+        places.iter().map(|&place| self.nearest(place)).collect()
+    }
+
+    /// Deletes the points of these indices, as [`delete`](Self::delete) does one after another. A device deletes several
+    /// at a time.
+    ///
+    /// # Errors
+    /// Those of [`delete`](Self::delete). The points before the one at fault are deleted.
+    fn delete_all(&mut self, indices: &[u32]) -> Result<(), Error> {
+        indices.iter().try_for_each(|&index| self.delete(index))
+    }
+
+    /// Moves the points of these indices to other places, as [`move_to`](Self::move_to) does one after another. A device
+    /// moves several at a time; a move whose index or place an earlier one has touched waits for that one.
+    ///
+    /// # Errors
+    /// Those of [`move_to`](Self::move_to). The points before the one at fault are moved.
+    fn move_all(&mut self, moves: &[(u32, P)]) -> Result<(), Error> {
+        moves.iter().try_for_each(|&(index, point)| self.move_to(index, point))
+    }
+
     /// The canonical mesh of the living points. Its indices count the living points in the order of
     /// [`indices`](Self::indices).
     ///
@@ -119,8 +156,11 @@ impl<P: PlanePoint> LivingMesh<P> for Triangulation<P> {
 
     fn insert_all(&mut self, points: &[P]) -> Result<(), Error> {
         if Triangulation::next_index(self) == 0 {
-            *self = Self::from(points.iter().copied())?;
-            return Ok(());
+            if let Ok(made) = Self::from(points.iter().copied()) {
+                *self = made;
+                return Ok(());
+            }
+            // One by one below, so that the points before the one at fault are in.
         }
         points.iter().try_for_each(|&point| LivingMesh::insert(self, point).map(|_| ()))
     }

@@ -39,15 +39,15 @@ pub(crate) struct Choices {
 /// - **Faults.** After an error of the link or a wrong answer, the mesh on the device is not known, and all further
 ///   calls fail: open the device again.
 pub struct LivingSession<'d> {
-    device: LivingDevice<'d>,
-    choices: Choices,
-    names: Names,
+    pub(super) device: LivingDevice<'d>,
+    pub(super) choices: Choices,
+    pub(super) names: Names,
     /// The place of each vertex that the device has had since it was loaded; `None` for those that are free.
-    vertices: Vec<Option<Point>>,
+    pub(super) vertices: Vec<Option<Point>>,
     /// Vertices that are free, the last freed last.
-    free: Vec<u32>,
+    pub(super) free: Vec<u32>,
     /// Whether the device has the mesh. If not, all points lie on one line.
-    is_loaded: bool,
+    pub(super) is_loaded: bool,
 }
 
 impl<'d> LivingSession<'d> {
@@ -95,7 +95,7 @@ impl<'d> LivingSession<'d> {
         weighed.map(|(vertex, weight)| Ok((self.name(RunKind::Interpolate, vertex)?, weight))).collect()
     }
 
-    fn check_grid(&self, point: Point) -> Result<(), Error> {
+    pub(super) fn check_grid(&self, point: Point) -> Result<(), Error> {
         let (Point { x, y }, coord_bits) = (point, self.device.identity.coord_bits);
         if (x | y) >> coord_bits == 0 {
             return Ok(());
@@ -113,7 +113,7 @@ impl<'d> LivingSession<'d> {
     }
 
     /// The index for another point, unless the point cannot be taken.
-    fn check_new(&self, point: Point) -> Result<u32, Error> {
+    pub(super) fn check_new(&self, point: Point) -> Result<u32, Error> {
         let index = self.names.new_index()?;
         self.check_grid(point)?;
         if self.names.place(point).is_none() {
@@ -123,7 +123,7 @@ impl<'d> LivingSession<'d> {
     }
 
     /// The name of the place of a vertex that the device named.
-    fn name(&mut self, kind: RunKind, vertex: u32) -> Result<u32, Error> {
+    pub(super) fn name(&mut self, kind: RunKind, vertex: u32) -> Result<u32, Error> {
         let point = self.vertices.get(vertex as usize).copied().flatten();
         match point.and_then(|point| self.names.place(point)) {
             Some(place) => Ok(place.name()),
@@ -132,7 +132,7 @@ impl<'d> LivingSession<'d> {
     }
 
     /// The error for an outcome that no sound device gives to this item.
-    fn unexpected(&mut self, kind: RunKind, outcome: Outcome) -> Error {
+    pub(super) fn unexpected(&mut self, kind: RunKind, outcome: Outcome) -> Error {
         self.device.distrust(kind.opcode(), DeviceFault::Outcome { found: outcome as u8 })
     }
 
@@ -200,7 +200,7 @@ impl<'d> LivingSession<'d> {
     }
 
     /// Makes the mesh on the device anew, if the points span a triangle.
-    fn load(&mut self) -> Result<(), Error> {
+    pub(super) fn load(&mut self) -> Result<(), Error> {
         self.is_loaded = false;
         self.vertices.clear();
         self.free.clear();
@@ -233,7 +233,7 @@ impl LivingMesh<Point> for LivingSession<'_> {
 
     fn insert_all(&mut self, points: &[Point]) -> Result<(), Error> {
         if self.is_loaded {
-            return points.iter().try_for_each(|&point| self.insert(point).map(|_| ()));
+            return self.insert_in_runs(points);
         }
         // The device gets all points at once, up to one that is refused.
         let refused = points.iter().try_for_each(|&point| {
@@ -293,23 +293,8 @@ impl LivingMesh<Point> for LivingSession<'_> {
         if !self.is_loaded {
             return Ok(self.names.locate_on_line(place));
         }
-        let (outcome, located) = self.device.ask(RunKind::Locate, None, Some(place))?;
-        let mut name = |k: usize| self.name(RunKind::Locate, located.vertices[k]);
-        Ok(match outcome {
-            Outcome::Vertex => Location::Vertex(name(0)?),
-            Outcome::Edge => {
-                let [one, other] = [name(0)?, name(1)?];
-                Location::Edge([one.min(other), one.max(other)])
-            }
-            Outcome::Triangle => {
-                let mut corners = [name(0)?, name(1)?, name(2)?];
-                let lowest = (0..3).min_by_key(|&k| corners[k]).unwrap_or(0);
-                corners.rotate_left(lowest);
-                Location::Triangle(corners)
-            }
-            Outcome::Outside => Location::Outside([name(0)?, name(1)?]),
-            other => return Err(self.unexpected(RunKind::Locate, other)),
-        })
+        let part = self.device.ask(RunKind::Locate, None, Some(place))?;
+        self.location(part)
     }
 
     fn nearest(&mut self, place: Point) -> Result<Option<u32>, Error> {
@@ -317,10 +302,24 @@ impl LivingMesh<Point> for LivingSession<'_> {
         if !self.is_loaded {
             return Ok(self.names.nearest_of_all(place));
         }
-        match self.device.ask(RunKind::Nearest, None, Some(place))? {
-            (Outcome::Vertex, located) => self.name(RunKind::Nearest, located.vertices[0]).map(Some),
-            (other, _) => Err(self.unexpected(RunKind::Nearest, other)),
-        }
+        let part = self.device.ask(RunKind::Nearest, None, Some(place))?;
+        self.nearest_name(part).map(Some)
+    }
+
+    fn locate_all(&mut self, places: &[Point]) -> Result<Vec<Location>, Error> {
+        self.locate_in_runs(places)
+    }
+
+    fn nearest_all(&mut self, places: &[Point]) -> Result<Vec<Option<u32>>, Error> {
+        self.nearest_in_runs(places)
+    }
+
+    fn delete_all(&mut self, indices: &[u32]) -> Result<(), Error> {
+        self.delete_in_runs(indices)
+    }
+
+    fn move_all(&mut self, moves: &[(u32, Point)]) -> Result<(), Error> {
+        self.move_in_runs(moves)
     }
 
     fn mesh(&mut self) -> Result<Mesh, Error> {

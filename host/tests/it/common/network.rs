@@ -45,7 +45,8 @@ impl WordDevice for Paced {
 
 /// The device behind the link.
 pub enum Core {
-    Paced(Paced),
+    /// The model by commands, which takes its time.
+    Paced(Box<Paced>),
     /// A chip of several engines, clock by clock.
     Chip(Box<ChipModel>),
 }
@@ -100,7 +101,7 @@ impl VirtualNetwork {
     pub fn new(faults: &NetworkFaults, trip: Duration) -> Self {
         let core = Instantly::of(FULL).expect("a named configuration");
         let identity = core.identity();
-        Self::around(Core::Paced(Paced { core, every: 15, left: 0 }), identity, faults, trip)
+        Self::around(Core::Paced(Box::new(Paced { core, every: 15, left: 0 })), identity, faults, trip)
     }
 
     /// Connects a host to a chip.

@@ -135,6 +135,17 @@ impl Memory {
         self.vertices[id as usize % self.vertices.len()]
     }
 
+    /// Number of points that the vertex memory holds.
+    pub(super) fn capacity(&self) -> u32 {
+        self.vertices.len() as u32
+    }
+
+    /// Writes the point of a vertex.
+    pub(super) fn set_vertex(&mut self, id: u32, point: Point) {
+        let place = id as usize % self.vertices.len();
+        self.vertices[place] = point;
+    }
+
     pub(super) fn record_words(&self, id: u32) -> [u32; 3] {
         let record = self.record(id);
         let words = self.layout.record_to_words(record.v, record.n, self.locks[id as usize % self.locks.len()]);

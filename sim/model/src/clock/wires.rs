@@ -46,6 +46,8 @@ pub(super) struct Registers {
     /// The bundle that enters the queue in this clock.
     pub push: Option<Bundle>,
     pub write: Write,
+    /// Whether the core has the commands for a mesh that stands; a constant.
+    pub has_runs: bool,
 }
 
 impl Registers {

@@ -1,6 +1,6 @@
 //! Changes of a standing mesh, vertex by vertex. The vertices have the ids that the host chooses.
 
-use super::hole::{Across, Filling, RingEdge};
+use super::hole::{Across, RingEdge};
 use super::record::Record;
 use super::{Changed, Insertion, Mesh};
 use crate::predicate::{finite_conflict, orient2d, Point};
@@ -120,11 +120,11 @@ impl Mesh {
     /// Takes the vertex inside the ring out of the mesh, or says why not.
     fn close_star(&mut self, vertex: u32) -> Option<Outcome> {
         self.fill_hole();
-        if self.is_flat_without_star() {
+        if self.hole.is_flat(self.infinite) {
             return Some(Outcome::Flat);
         }
         let hole = std::mem::take(&mut self.hole);
-        let (ids, free) = ids_of(&hole.ring, &hole.fillings);
+        let (ids, free) = hole.ids();
         for (filling, &id) in hole.fillings.iter().zip(&ids) {
             let link = |across: Across| match across {
                 Across::Ring(edge) => hole.ring[usize::from(edge)].outside,
@@ -149,25 +149,4 @@ impl Mesh {
         self.deletions += 1;
         None
     }
-}
-
-/// The ids of the triangles that fill a hole, and the two that are left over.
-///
-/// A triangle on the ring keeps the id of the star's record on its first ring edge, so that the record outside need not
-/// be told. The others take ids that no triangle keeps.
-fn ids_of(ring: &[RingEdge], fillings: &[Filling]) -> (Vec<u32>, Vec<u32>) {
-    let mut left: Vec<Option<u32>> = ring.iter().map(|edge| Some(edge.record)).collect();
-    let kept: Vec<Option<u32>> = fillings
-        .iter()
-        .map(|filling| {
-            let mut edges = filling.across.iter().filter_map(|&across| match across {
-                Across::Ring(edge) => Some(usize::from(edge)),
-                Across::Filling(..) => None,
-            });
-            edges.next().and_then(|edge| left[edge].take())
-        })
-        .collect();
-    let mut left = left.into_iter().flatten();
-    let ids = kept.into_iter().filter_map(|id| id.or_else(|| left.next())).collect();
-    (ids, left.collect())
 }

@@ -11,25 +11,25 @@ const HELD_BACK: usize = 64;
 
 /// The free ids, first in, first out.
 #[derive(Clone, Debug, Default)]
-pub(super) struct FreeRecords {
+pub(crate) struct FreeRecords {
     ids: VecDeque<u32>,
 }
 
 impl FreeRecords {
-    pub(super) fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.ids.clear();
     }
 
-    pub(super) fn len(&self) -> u32 {
+    pub(crate) fn len(&self) -> u32 {
         self.ids.len() as u32
     }
 
-    pub(super) fn put(&mut self, id: u32) {
+    pub(crate) fn put(&mut self, id: u32) {
         self.ids.push_back(id);
     }
 
     /// The id that has been free for longest, unless it is held back. Nothing is held back if all ids are used up.
-    pub(super) fn take(&mut self, are_all_used: bool) -> Option<u32> {
+    pub(crate) fn take(&mut self, are_all_used: bool) -> Option<u32> {
         let may_take = are_all_used || self.ids.len() > HELD_BACK;
         if may_take {
             self.ids.pop_front()

@@ -18,6 +18,8 @@ mod clock {
     mod watchdog;
 }
 
+mod living;
+
 mod mesh {
     mod approach;
     mod changes;

@@ -138,6 +138,8 @@ csv\t'Rows `a,b,c`'
 npy\t'An array of NumPy, of shape (m, 3) and type u4'"
 complete -c incircle -n "__fish_incircle_using_subcommand verify" -l coord-bits -d 'Bits of a coordinate of the grid of --quantize, 8 to 31 (default: 31, or 16 for a core)' -r
 complete -c incircle -n "__fish_incircle_using_subcommand verify" -l quantize -d 'Round the points onto a grid: \'fit\', \'SCALE\' or \'SCALE,X0,Y0\'' -r
+complete -c incircle -n "__fish_incircle_using_subcommand verify" -l memory -d 'Memory that the check may take, from 32M on, such as 300M or 2G: the rest lies in files' -r
+complete -c incircle -n "__fish_incircle_using_subcommand verify" -l scratch -d 'Folder for the files of a check with --memory (default: the folder of the mesh)' -r -F
 complete -c incircle -n "__fish_incircle_using_subcommand verify" -l script -d 'POINTS is a script of \'replay\': check the mesh of the points that live at its end'
 complete -c incircle -n "__fish_incircle_using_subcommand verify" -l unordered -d 'Take the triangles in any order, as \'triangulate --unordered\' writes them'
 complete -c incircle -n "__fish_incircle_using_subcommand verify" -l json -d 'Print the result as one JSON object on standard output'
@@ -335,16 +337,24 @@ complete -c incircle -n "__fish_incircle_using_subcommand interpolate" -l value 
 complete -c incircle -n "__fish_incircle_using_subcommand interpolate" -l at -d 'File of the places at which values are wanted, in the format of its extension' -r -F
 complete -c incircle -n "__fish_incircle_using_subcommand interpolate" -l grid -d 'Values at all multiples of this step within the box of the points' -r
 complete -c incircle -n "__fish_incircle_using_subcommand interpolate" -l contours -d 'Lines of equal value instead of values: one for each multiple of this step' -r
-complete -c incircle -n "__fish_incircle_using_subcommand interpolate" -s o -l output -d 'File for the values: .csv, .npy, .asc or .geojson; \'-\' is standard output and needs --format' -r -F
+complete -c incircle -n "__fish_incircle_using_subcommand interpolate" -s o -l output -d 'File for the values: .csv, .npy, .asc, .tif or .geojson; \'-\' is standard output and needs --format' -r -F
 complete -c incircle -n "__fish_incircle_using_subcommand interpolate" -l format -d 'Format of the values' -r -f -a "csv\t'Rows x,y,value below a header, in the order of the places'
 npy\t'An array of NumPy: the values in the order of the places, or rows of a grid from the lowest y'
 asc\t'An ASCII grid of Esri, for --grid'
+tif\t'A GeoTIFF of doubles, for --grid'
 geojson\t'Lines, for --contours'"
 complete -c incircle -n "__fish_incircle_using_subcommand interpolate" -l method -d 'How values between points are made' -r -f -a "linear\t'The plane through the corners of the triangle'
 laplace\t'Natural neighbours, weighted by edge length over distance'
 sibson\t'Natural neighbours, weighted by area'"
 complete -c incircle -n "__fish_incircle_using_subcommand interpolate" -l outside -d 'The value outside the hull of the points' -r -f -a "nan\t'Not a number'
 nearest\t'The value of the nearest point'"
+complete -c incircle -n "__fish_incircle_using_subcommand interpolate" -l backend -d 'Back end that says in which triangle each place lies: \'cpu\' (default) or \'model\'' -r -f -a "cpu\t''
+model\t''
+clock\t''
+sim\t''
+serial:PORT\t''
+udp:HOST\t''
+pcie:N\t''"
 complete -c incircle -n "__fish_incircle_using_subcommand interpolate" -l threads -d 'Threads (default: all processors); the values do not depend on them' -r
 complete -c incircle -n "__fish_incircle_using_subcommand interpolate" -l from -d 'Point format' -r -f -a "csv\t'Rows `x,y`, header optional'
 xyz\t'Rows `x y [z]`'
@@ -372,6 +382,7 @@ npy\t'An array of NumPy with n rows and two columns, .npy'"
 complete -c incircle -n "__fish_incircle_using_subcommand lloyd" -l iterations -d 'Steps to do: in each, every point moves to the centroid of its cell' -r
 complete -c incircle -n "__fish_incircle_using_subcommand lloyd" -l clip -d 'Clip the cells to this rectangle: two opposite corners \'X0,Y0,X1,Y1\' (default: around the points)' -r
 complete -c incircle -n "__fish_incircle_using_subcommand lloyd" -l clip-to -d 'Clip the cells to the polygon in this file' -r -F
+complete -c incircle -n "__fish_incircle_using_subcommand lloyd" -l density -d 'Let points gather where this image is dark: a PNG, JPEG or PGM file' -r -F
 complete -c incircle -n "__fish_incircle_using_subcommand lloyd" -l threads -d 'Threads (default: all processors); the places do not depend on them' -r
 complete -c incircle -n "__fish_incircle_using_subcommand lloyd" -l from -d 'Point format' -r -f -a "csv\t'Rows `x,y`, header optional'
 xyz\t'Rows `x y [z]`'

@@ -6,6 +6,6 @@ mod pieces;
 mod stream;
 
 pub use cells::Cells;
-pub use header::Wanted;
+pub use header::{Layout, Wanted};
 pub use pieces::Pieces;
 pub use stream::Source;

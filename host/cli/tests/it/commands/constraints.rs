@@ -73,6 +73,66 @@ fn every_back_end_and_number_gives_the_same_bytes() {
     made("p.poly", POLY, "--quantize 100");
 }
 
+/// Points and constraints without a crossing: squares, each in the next, and points inside of all, two at one place.
+fn squares() -> (String, String) {
+    let (mut points, mut edges) = (String::new(), String::new());
+    for ring in 0..12 {
+        let (near, far) = (ring, 40 - ring);
+        points += &format!("{near},{near}\n{far},{near}\n{far},{far}\n{near},{far}\n");
+        (0..4).for_each(|corner| edges += &format!("{},{}\n", 4 * ring + corner, 4 * ring + (corner + 1) % 4));
+    }
+    (points + "20,20\n20,20\n19,21\n", edges)
+}
+
+#[test]
+fn the_processor_alone_and_two_steps_give_the_same_files_and_reports() {
+    // Two back ends triangulate first, and the constraints are forced afterwards. One processor does both at once.
+    let (points, edges) = squares();
+    let scratch = Scratch::new();
+    scratch.write("p.csv", points);
+    scratch.write("e.csv", edges);
+    scratch.write("p.geojson", GEOJSON);
+    scratch.write("p.poly", POLY);
+    let with = ["p.csv --constraints e.csv", "p.csv --constraints e.csv --domain even-odd", "p.geojson", "p.poly"];
+    for set in with {
+        let made = |backends: &str| {
+            let lists = "-o m.json --edges m.edge --neighbors m.neigh --json";
+            let run = scratch.run(&format!("triangulate {set} {lists} {backends}")).ok();
+            let report: serde_json::Value = serde_json::from_str(&run.stdout).expect("JSON");
+            let same = ["points", "distinct", "duplicates", "triangles", "hull", "collinear", "lattice", "plan"];
+            let counts = same.map(|key| report[key].clone());
+            (["m.json", "m.edge", "m.neigh"].map(|name| scratch.bytes(name)), counts)
+        };
+        let (alone, together) = (made(""), made("--backend cpu --backend cpu"));
+        assert!(alone == together, "{set}: {:?} {:?}", alone.1, together.1);
+        assert!(made("--backend cpu --threads 1") == alone && made("--backend model") == alone, "{set}");
+    }
+}
+
+#[test]
+fn the_processor_alone_and_two_steps_refuse_with_the_same_sentence() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", "0.5,0\n4,0\n4,3\n0,3\n2,1\n");
+    for (edges, domain) in
+        [("0,2\n1,3\n", "all"), ("0,1\n1,2\n", "even-odd"), ("0,1\n1,2\n0,2\n", "non-zero"), ("0,1\n", "holes")]
+    {
+        scratch.write("e.csv", edges);
+        let told = |backends: &str| {
+            let run =
+                scratch.run(&format!("triangulate p.csv -o m.ele --constraints e.csv --domain {domain} {backends}"));
+            assert_eq!(scratch.files(), ["e.csv", "p.csv"]);
+            (run.code, run.stdout, run.stderr)
+        };
+        let alone = told("");
+        assert_eq!(alone.0, Some(3), "{alone:?}");
+        assert_eq!(alone, told("--backend cpu --backend cpu"));
+    }
+    scratch.write("e.csv", "0,1\n");
+    let run = scratch.run("triangulate p.csv -o m.ele --constraints e.csv --timeout 0.000000001");
+    let plain = scratch.run("triangulate p.csv -o m.ele --timeout 0.000000001");
+    assert_eq!((run.code, run.stderr), (plain.code, plain.stderr));
+}
+
 #[test]
 fn lists_tell_edges_neighbours_and_constraints() {
     let scratch = Scratch::new();

@@ -150,3 +150,80 @@ fn wrong_input_is_one_sentence_and_no_file() {
     }
     assert_eq!(scratch.run("interpolate p.csv -o v.csv").code, Some(2));
 }
+
+#[test]
+fn a_geotiff_has_the_rows_of_the_grid_and_its_place() {
+    use tiff::decoder::{Decoder, DecodingResult};
+    use tiff::tags::Tag;
+    let scratch = Scratch::new();
+    // A triangle, so that nodes beyond its long side have no value.
+    scratch.write("p.csv", "x,y,z\n-0.3,0.1,1\n0.5,0.1,5\n-0.3,0.5,9\n");
+    scratch.run("interpolate p.csv --grid 0.1 -o g.tif --quiet").ok();
+    scratch.run("interpolate p.csv --grid 0.1 -o g.csv --quiet").ok();
+    let file = std::io::Cursor::new(scratch.bytes("g.tif"));
+    let mut decoder = Decoder::new(file).expect("a TIFF");
+    assert_eq!(decoder.dimensions().expect("sides"), (9, 5));
+    assert_eq!(decoder.get_tag_f64_vec(Tag::ModelPixelScaleTag).expect("the step"), [0.1, 0.1, 0.0]);
+    let place = decoder.get_tag_f64_vec(Tag::ModelTiepointTag).expect("the place");
+    assert_eq!(place, [0.0, 0.0, 0.0, -0.3, 0.5, 0.0]);
+    let keys = decoder.get_tag_u16_vec(Tag::GeoKeyDirectoryTag).expect("the keys");
+    assert_eq!(keys, [1, 1, 0, 1, 1025, 0, 1, 2]);
+    assert_eq!(decoder.get_tag_ascii_string(Tag::GdalNodata).expect("the missing value"), "nan");
+    let DecodingResult::F64(values) = decoder.read_image().expect("values") else { panic!("not doubles") };
+    let expected: Vec<f64> = rows(&scratch.read("g.csv")).iter().map(|row| row[2]).collect();
+    let from_top: Vec<f64> = expected.chunks(9).rev().flatten().copied().collect();
+    assert!(values.iter().zip(&from_top).all(|(a, b)| a == b || a.is_nan() && b.is_nan()), "{values:?}");
+    assert!(values[8].is_nan() && values[0] == 9.0 && values[36] == 1.0);
+    let files = scratch.files();
+    scratch.run("interpolate p.csv --grid 7 -o h.tif").fails(3, &["the grid has no node", "smaller --grid"]);
+    scratch.run("interpolate p.csv --at p.csv -o h.tiff").fails(2, &["a GeoTIFF has the values of a grid"]);
+    assert_eq!(scratch.files(), files);
+}
+
+#[test]
+fn a_geotiff_of_many_strips_keeps_its_rows() {
+    use tiff::decoder::{Decoder, DecodingResult};
+    let scratch = Scratch::new();
+    scratch.write("p.csv", "x,y,z\n0,0,0\n999,0,999\n0,499,499000\n999,499,499999\n");
+    scratch.run("interpolate p.csv --grid 1 -o g.tif --quiet").ok();
+    let mut decoder = Decoder::new(std::io::Cursor::new(scratch.bytes("g.tif"))).expect("a TIFF");
+    let DecodingResult::F64(values) = decoder.read_image().expect("values") else { panic!("not doubles") };
+    assert_eq!(values.len(), 500_000);
+    let wrong = (0..values.len()).find(|&k| (values[k] - (k % 1000 + (499 - k / 1000) * 1000) as f64).abs() > 1e-6);
+    assert_eq!(wrong, None);
+}
+
+#[test]
+fn devices_with_meshes_that_live_give_the_bytes_of_the_processor() {
+    let scratch = Scratch::new();
+    let mut text = "x,y,z\n".to_owned();
+    for k in 0..300u32 {
+        // Whole numbers with duplicates and points on lines.
+        text.push_str(&format!("{},{},{}\n", k * k % 37, k * 7 % 31, k % 11));
+    }
+    scratch.write("p.csv", text);
+    scratch.run("interpolate p.csv --grid 0.5 -o cpu.csv --quiet").ok();
+    for device in ["model", "clock"] {
+        scratch.run(&format!("interpolate p.csv --grid 0.5 -o {device}.csv --backend {device} --quiet")).ok();
+        assert_eq!(scratch.read(&format!("{device}.csv")), scratch.read("cpu.csv"));
+    }
+    scratch.run("interpolate p.csv --grid 0.5 -o one.csv --backend cpu --quiet").ok();
+    assert_eq!(scratch.read("one.csv"), scratch.read("cpu.csv"));
+    scratch.write("wide.csv", "x,y,z\n0,0,1\n1,4000000000,2\n7,9,3\n");
+    scratch.write("line.csv", "x,y,z\n0,0,1\n1,1,2\n7,7,3\n");
+    let files = scratch.files();
+    for (arguments, code, part) in [
+        ("p.csv --grid 1 --method sibson --backend model", 2, "a device gives linear values at places"),
+        ("p.csv --grid 1 --outside nearest --backend model", 2, "leave out --backend"),
+        ("wide.csv --at p.csv --backend model", 3, "give --backend cpu"),
+        ("line.csv --at p.csv --backend model", 3, "there is no triangle between the points"),
+        (
+            "p.csv --at p.csv --backend clock?config=dual",
+            2,
+            "cannot keep a mesh that lives: use the back end model or clock",
+        ),
+    ] {
+        scratch.run(&format!("interpolate {arguments} -o x.csv")).fails(code, &[part]);
+        assert_eq!(scratch.files(), files, "{arguments}");
+    }
+}

@@ -38,6 +38,64 @@ fn threads_orders_and_formats_change_nothing() {
 }
 
 #[test]
+fn points_gather_in_the_dark_of_an_image() {
+    let scratch = Scratch::new();
+    // Dark on the upper left.
+    scratch.write("i.pgm", "P2 2 2 100\n0 98 98 98\n");
+    scratch.run("generate uniform -n 60 --bits 12 --seed 7 -o few.csv").ok();
+    let run = "lloyd few.csv -o end.csv --clip 0,0,4096,4096 --iterations 300 --density i.pgm --json";
+    let report: Value = serde_json::from_str(&scratch.run(run).ok().stdout).expect("a report");
+    assert_eq!((report["density"]["columns"].as_u64(), report["density"]["rows"].as_u64()), (Some(2), Some(2)));
+    let is_in = |line: &&str| {
+        let mut numbers = line.split(',').map(|number| number.parse::<f64>().expect("a number"));
+        numbers.next() < Some(2048.0) && numbers.next() > Some(2048.0)
+    };
+    let gathered = scratch.read("end.csv").lines().filter(is_in).count();
+    // Spread evenly it would be 15. Steps are slow to gather points: in the end it would be 42.
+    assert!(gathered > 20, "{gathered} of 60");
+    scratch.run("generate uniform -n 4500 --bits 12 --seed 7 -o p.csv").ok();
+    let region = "--clip 0,0,4096,4096 --iterations 3";
+    scratch.run(&format!("lloyd p.csv -o q.csv {region} --density i.pgm --quiet")).ok();
+    let places = scratch.read("q.csv");
+    let run = scratch.run(&format!("lloyd p.csv -o r.csv {region} --density i.pgm --threads 1")).ok();
+    assert!(run.stderr.contains("density: an image of 2 by 2 pixels"), "{run:?}");
+    assert_eq!(scratch.read("r.csv"), places);
+    // The same picture as a PNG of 16 bits, with other bytes but the same weights.
+    let mut encoder = png::Encoder::new(std::fs::File::create(scratch.path("i.png")).expect("a file"), 2, 2);
+    encoder.set_color(png::ColorType::Grayscale);
+    encoder.set_depth(png::BitDepth::Sixteen);
+    let light = (98u32 * 65535 / 100) as u16;
+    let pixels: Vec<u8> = [0, light, light, light].into_iter().flat_map(u16::to_be_bytes).collect();
+    encoder.write_header().expect("a header").write_image_data(&pixels).expect("pixels");
+    scratch.run(&format!("lloyd p.csv -o s.csv {region} --density i.png --quiet")).ok();
+    assert_eq!(scratch.read("s.csv"), places);
+}
+
+#[test]
+fn images_that_tell_no_density_are_one_sentence_and_no_file() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", "0,0\n4,0\n4,4\n");
+    scratch.write("white.pgm", "P2 2 1 9\n9 9\n");
+    scratch.write("short.pgm", "P2 2 2 9\n0 1\n");
+    scratch.write("text.png", "no image");
+    scratch.write("cut.jpg", &include_bytes!("../common/grey.jpg")[..200]);
+    let files = scratch.files();
+    for (image, part) in [
+        ("white.pgm", "white.pgm: all pixels of the image are white"),
+        ("short.pgm", "short.pgm: the PGM image cannot be read (2 of 4 pixels are there)"),
+        ("text.png", "text.png: the image is neither PNG, JPEG nor PGM"),
+        ("cut.jpg", "cut.jpg: the JPEG image cannot be read"),
+        ("none.png", "none.png: the file cannot be read"),
+    ] {
+        scratch.run(&format!("lloyd p.csv --iterations 1 -o q.csv --density {image}")).fails(3, &[part]);
+        assert_eq!(scratch.files(), files, "{image}");
+    }
+    scratch
+        .run("lloyd p.csv --iterations 1 -o white.pgm --format csv --density white.pgm")
+        .fails(2, &["both the input"]);
+}
+
+#[test]
 fn wrong_input_is_one_sentence_and_no_file() {
     let scratch = Scratch::new();
     scratch.write("p.csv", "0,0\n4,0\n4,4\n");

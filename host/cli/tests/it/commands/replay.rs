@@ -147,14 +147,19 @@ fn devices_make_the_same_mesh() {
     scratch.run("generate churn -n 60 --commands 2000 --seed 5 -o s.txt").ok();
     for format in ["ele", "json", "ply", "svg"] {
         scratch.run(&format!("replay s.txt -o cpu.{format} --answers cpu.txt -q")).ok();
-        for backend in ["model", "clock", "clock?config=tiny"] {
+        for backend in ["model", "clock", "clock?config=dual"] {
             scratch.run(&format!("replay s.txt -o m.{format} --answers a.txt --backend {backend} -q")).ok();
             assert_eq!(scratch.read(&format!("m.{format}")), scratch.read(&format!("cpu.{format}")), "{backend}");
             assert_eq!(scratch.read("a.txt"), scratch.read("cpu.txt"));
         }
     }
-    let run = scratch.run("replay s.txt -o m.ele --backend clock").ok();
+    let run = scratch.run("replay s.txt -o m.ele --backend clock?config=dual").ok();
     assert!(run.stderr.contains("changes and answers by cpu, mesh by clock"), "{run:?}");
+    let run = scratch.run("replay s.txt -o m.ele --backend clock").ok();
+    assert!(!run.stderr.contains("by cpu"), "{run:?}");
+    let full = "all 8 places that clock:tiny can hold have points";
+    scratch.run("replay s.txt -o none.ele --backend clock?config=tiny").fails(7, &["s.txt: command", full]);
+    assert!(!scratch.files().iter().any(|file| file.contains("none")));
 }
 
 #[test]
@@ -227,7 +232,7 @@ fn the_report_counts_commands() {
     let report: Value = serde_json::from_str(&report).expect("JSON");
     assert_eq!(
         (&report["changes_by"], &report["mesh_by"], &report["config"]),
-        (&"cpu".into(), &"clock".into(), &"tiny".into())
+        (&"clock".into(), &"clock".into(), &"tiny".into())
     );
     assert!(report["film"].is_null());
     let lines = scratch.run("replay s.txt -o m.ele").ok().stderr;

@@ -16,7 +16,9 @@ fn streets() -> Scratch {
 #[test]
 fn crossings_become_points_and_verify_takes_the_mesh() {
     let scratch = streets();
-    scratch.run("triangulate p.csv -o m.ele --constraints e.csv").fails(3, &["crosses constraint 0"]);
+    scratch
+        .run("triangulate p.csv -o m.ele --constraints e.csv")
+        .fails(3, &["crosses constraint 0", "or let --crossings snap make points of crossings"]);
     let told = scratch.run("triangulate p.csv -o m.ele --constraints e.csv --crossings snap --json").ok();
     let report: serde_json::Value = serde_json::from_str(&told.stdout).expect("JSON");
     assert_eq!((&report["plan"]["snapping"]["new_points"], &report["plan"]["constraints"]), (&3.into(), &3.into()));
@@ -72,4 +74,15 @@ fn sets_without_room_are_told_to_quantize() {
     scratch.write("q.csv", "0.1,0.7\n0.9,1e-9\n0.123456789012345678,0.1\n1e6,0.9\n");
     let none = command.replace("p.csv", "q.csv");
     scratch.run(&none).fails(3, &["crosses constraint 0"]);
+}
+
+#[test]
+fn crossings_of_points_without_a_grid_name_the_option_that_makes_one() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", "0.1,0\n1.7e-9,1\n0,1.3e-14\n2e9,0.123456789012\n");
+    scratch.write("e.csv", "0,1\n2,3\n");
+    let command = "triangulate p.csv -o m.ele --constraints e.csv --crossings snap";
+    scratch.run(command).fails(3, &["crosses constraint 0", "--quantize fit --coord-bits 24", "no grid"]);
+    assert!(!scratch.files().contains(&"m.ele".to_owned()));
+    scratch.run(&format!("{command} --quantize fit --coord-bits 24")).ok();
 }

@@ -114,6 +114,28 @@ fn a_polygon_in_a_file_cuts_cells_into_pieces() {
 }
 
 #[test]
+fn holes_of_a_polygon_stay_empty() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", "2,2\n8,2\n5,40\n");
+    // A hole across the border of the first two cells, and one inside the first cell; rings may turn either way.
+    let ring = |low: [f64; 2], high: [f64; 2]| {
+        let ([a, b], [c, d]) = (low, high);
+        format!("[[{a},{b}],[{c},{b}],[{c},{d}],[{a},{d}],[{a},{b}]]")
+    };
+    let rings = [ring([0.0, 0.0], [10.0, 8.0]), ring([4.0, 2.0], [6.0, 4.0]), ring([1.0, 1.0], [1.5, 3.0])].join(",");
+    scratch.write("c.geojson", format!("{{\"type\":\"Polygon\",\"coordinates\":[{rings}]}}"));
+    scratch.run("voronoi p.csv -o cells.geojson --clip-to c.geojson --quiet").ok();
+    let json: Value = serde_json::from_str(&scratch.read("cells.geojson")).expect("JSON");
+    let features = json["features"].as_array().expect("features");
+    let areas: Vec<f64> = features.iter().filter_map(|it| it["properties"]["area"].as_f64()).collect();
+    assert_eq!(areas, [40.0 - 2.0 - 1.0, 40.0 - 2.0]);
+    let counts = features.iter().map(|it| it["geometry"]["coordinates"].as_array().map_or(0, Vec::len));
+    assert_eq!(counts.collect::<Vec<_>>(), [2, 1]);
+    scratch.run("voronoi p.csv -o cells.svg --clip-to c.geojson --quiet").ok();
+    scratch.run("lloyd p.csv -o q.csv --clip-to c.geojson --iterations 3 --quiet").ok();
+}
+
+#[test]
 fn wrong_input_is_one_sentence_and_no_file() {
     let scratch = Scratch::new();
     scratch.write("p.csv", "0,0\n4,0\n4,4\n");
@@ -122,6 +144,10 @@ fn wrong_input_is_one_sentence_and_no_file() {
     scratch.write("point.geojson", "{\"type\":\"Point\",\"coordinates\":[1,2]}");
     let ring = "[[0,0],[9,0],[9,9],[0,0]]";
     scratch.write("hole.geojson", format!("{{\"type\":\"Polygon\",\"coordinates\":[{ring},{ring}]}}"));
+    let far = "[[20,20],[29,20],[29,29]]";
+    scratch.write("far.geojson", format!("{{\"type\":\"Polygon\",\"coordinates\":[{ring},{far}]}}"));
+    scratch.write("text.geojson", format!("{{\"type\":\"Polygon\",\"coordinates\":[{ring},[[1,1],[1]]]}}"));
+    scratch.write("empty.geojson", "{\"type\":\"Polygon\",\"coordinates\":[]}");
     scratch.write("wide.csv", "0,0\n1,4294967296\n0.5,9\n");
     scratch.write("bad.csv", "0,0\n1,x\n");
     let files = scratch.files();
@@ -130,7 +156,14 @@ fn wrong_input_is_one_sentence_and_no_file() {
         ("p.csv -o c.geojson --clip-to bow.csv", 3, &["bow.csv: the border of the clip crosses", "edges 0 and 2"]),
         ("p.csv -o c.geojson --clip-to line.csv", 3, &["line.csv: the clip has no area"]),
         ("p.csv -o c.geojson --clip-to point.geojson", 3, &["point.geojson: the type is 'Point'"]),
-        ("p.csv -o c.geojson --clip-to hole.geojson", 3, &["hole.geojson: there are 2 rings"]),
+        ("p.csv -o c.geojson --clip-to hole.geojson", 3, &["hole.geojson: the border of the clip crosses"]),
+        ("p.csv -o c.geojson --clip-to far.geojson", 3, &["far.geojson: hole 1 of the clip lies outside"]),
+        (
+            "p.csv -o c.geojson --clip-to text.geojson",
+            3,
+            &["text.geojson: corner 2 of ring 2 is '[1]', not two numbers"],
+        ),
+        ("p.csv -o c.geojson --clip-to empty.geojson", 3, &["empty.geojson: the polygon has no ring"]),
         ("p.csv -o c.geojson --clip-to none.csv", 3, &["none.csv"]),
         ("line.csv -o c.geojson", 3, &["the rectangle around the points has no area"]),
         ("wide.csv -o c.json", 3, &["wide.csv: ", "lattice of up to 31 bits: give --quantize fit"]),

@@ -6,8 +6,9 @@ use std::ops::ControlFlow;
 use incircle_testkit::SplitMix64;
 
 use super::brute::Graph;
-use crate::constraints::{constrain, Constrained, Error, Place, Plan};
-use crate::cpu::triangulate;
+use crate::constraints::constrain::in_numbers;
+use crate::constraints::{self, constrain, Constrained, Error, Place, Plan, TriangulateError};
+use crate::cpu::{connect_fixed, triangulate, Asked};
 use crate::mesh::Mesh;
 use crate::plane_point::PlanePoint;
 use crate::point::Point;
@@ -16,10 +17,33 @@ pub fn mesh_of<P: PlanePoint>(points: &[P]) -> Mesh<P> {
     triangulate(points.to_vec(), NonZeroUsize::MIN, &mut |_| ControlFlow::Continue(())).expect("finite points")
 }
 
+/// The answer for points and constraints, which is the same for a mesh that is there already and for the points alone.
+pub fn in_both_ways<P: PlanePoint>(points: &[P], plan: &Plan<'_, P>) -> Result<Constrained, Error> {
+    let mesh = mesh_of(points);
+    let made = constrain(&mesh, plan);
+    match constraints::triangulate(points, plan, NonZeroUsize::MIN, &mut |_| ControlFlow::Continue(())) {
+        Ok(again) => {
+            assert_eq!(made.as_ref(), Ok(&again.made));
+            // Places at vertices are left to the slow way, and so are points on one line.
+            let is_fast = in_numbers(points, plan, |numbers, plan| -> Result<bool, Error> {
+                let asked = Asked { plan, most: usize::MAX, threads: NonZeroUsize::MIN };
+                let forced = connect_fixed(numbers, points.len(), asked, &mut |_| ControlFlow::Continue(()));
+                Ok(forced.expect("finite points").is_some())
+            });
+            let has_marks = !plan.holes.is_empty() || !plan.regions.is_empty();
+            assert!(is_fast == Ok(true) || has_marks || mesh.triangles.is_empty());
+            assert_eq!((again.hull, again.duplicates), (mesh.hull, mesh.duplicates));
+        }
+        Err(TriangulateError::Plan(error)) => assert_eq!(made.as_ref(), Err(&error)),
+        Err(TriangulateError::Points(error)) => panic!("{error}"),
+    }
+    made
+}
+
 /// The constrained mesh of the points of a graph, brought into other numbers.
 fn constrained<P: PlanePoint>(graph: &Graph, point: impl Fn([u32; 2]) -> P) -> Result<Constrained, Error> {
     let points: Vec<P> = graph.points.iter().map(|&at| point(at)).collect();
-    constrain(&mesh_of(&points), &Plan::new(&graph.constraints))
+    in_both_ways(&points, &Plan::new(&graph.constraints))
 }
 
 /// In numbers of all kinds, stretched so that ties stay ties.
@@ -29,7 +53,7 @@ fn in_all_numbers(graph: &Graph) -> [Result<Constrained, Error>; 5] {
         constrained(graph, |[x, y]| Point::new(x * (u32::MAX / 4), y * (u32::MAX / 4))),
         constrained(graph, |[x, y]| [i64::from(x) << 50, i64::from(y) << 50]),
         constrained(graph, |[x, y]| [f64::from(x) * 2f64.powi(900), f64::from(y) * 2f64.powi(900)]),
-        constrained(graph, |[x, y]| [f64::from(x) * 2f64.powi(-1074), f64::from(y) * 2f64.powi(-1074)]),
+        constrained(graph, |[x, y]| [f64::from_bits(x.into()), f64::from_bits(y.into())]),
     ]
 }
 
@@ -49,6 +73,14 @@ fn check_crossing(graph: &Graph, error: Error) {
     }
 }
 
+/// Checks that the place of a crossing is finite, also where its numbers are near the limits of doubles.
+fn check_crossing_in_doubles(error: Error) {
+    let Error::Crossing { place, .. } = error else { panic!("{error}") };
+    if let Place::About(place) = place {
+        assert!(place.iter().all(|value| value.is_finite()), "{place:?}");
+    }
+}
+
 /// Checks random graphs. Returns how many have a mesh, and how many crossings.
 fn check(seed: u64, rounds: usize) -> [usize; 2] {
     let mut random = SplitMix64::new(seed);
@@ -58,8 +90,11 @@ fn check(seed: u64, rounds: usize) -> [usize; 2] {
         let all = in_all_numbers(&graph);
         let pieces = graph.pieces();
         if graph.crosses() {
-            let [first, ..] = all;
+            let [first, others @ ..] = all;
             check_crossing(&graph, first.expect_err("a crossing"));
+            for error in others {
+                check_crossing_in_doubles(error.expect_err("a crossing"));
+            }
             counts[1] += 1;
             continue;
         }

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use incircle_testkit::{orient2d, SplitMix64};
 
 use super::brute::Graph;
-use super::canonical::mesh_of;
+use super::canonical::{in_both_ways, mesh_of};
 use crate::constraints::{constrain, Constrained, Domain, Error, Mark, Plan};
 use crate::point::Point;
 
@@ -48,7 +48,7 @@ fn rings(random: &mut SplitMix64) -> (Graph, usize) {
 fn made(graph: &Graph, boundary: usize, domain: Domain) -> Result<Constrained, Error> {
     let points: Vec<Point> = graph.points.iter().map(|&point| point.into()).collect();
     let lines = graph.constraints.len() - boundary;
-    constrain(&mesh_of(&points), &Plan { domain, lines, ..Plan::new(&graph.constraints) })
+    in_both_ways(&points, &Plan { domain, lines, ..Plan::new(&graph.constraints) })
 }
 
 fn area(graph: &Graph, [a, b, c]: [u32; 3]) -> i128 {
@@ -143,7 +143,7 @@ fn holes_and_the_outside_eat_triangles_up_to_constraints() {
         let mark = |random: &mut SplitMix64| Point::new(random.below_u32(10), random.below_u32(10));
         let marks: Vec<Point> = (0..random.below(3)).map(|_| mark(&mut random)).collect();
         let plan = Plan { domain: Domain::Holes, holes: &marks, ..Plan::new(&graph.constraints) };
-        let found = constrain(&mesh, &plan);
+        let found = in_both_ways(&points, &plan);
         let (labels, sides) = labels(&all.triangles, &all);
         let corners = |triangle: usize| all.triangles[triangle].map(|corner| points[corner as usize]);
         let holds = |triangle: usize, at: Point| {
@@ -198,7 +198,7 @@ fn places_in_regions_tell_their_numbers() {
     let points = [[0, 0], [9, 0], [9, 9], [0, 9]].map(Point::from);
     let made = |places: &[[u32; 2]]| {
         let places: Vec<Point> = places.iter().map(|&place| place.into()).collect();
-        constrain(&mesh_of(&points), &Plan { regions: &places, ..Plan::new(&[[0, 2]]) }).map(|made| made.marked)
+        in_both_ways(&points, &Plan { regions: &places, ..Plan::new(&[[0, 2]]) }).map(|made| made.marked)
     };
     assert_eq!(made(&[[1, 8], [8, 1], [7, 2]]), Ok(vec![1, 0, 0]));
     assert_eq!(made(&[[9, 9]]), Err(Error::OnConstraint { kind: Mark::Region, number: 0, edge: [0, 2] }));
@@ -208,9 +208,8 @@ fn places_in_regions_tell_their_numbers() {
 #[test]
 fn boundaries_that_are_not_closed_are_refused() {
     let points: Vec<Point> = [[0, 0], [9, 0], [9, 9], [0, 9]].map(Point::from).to_vec();
-    let mesh = mesh_of(&points);
     let made = |constraints: &[[u32; 2]], lines, domain| {
-        constrain(&mesh, &Plan { domain, lines, ..Plan::new(constraints) }).map(|made| made.triangles)
+        in_both_ways(&points, &Plan { domain, lines, ..Plan::new(constraints) }).map(|made| made.triangles)
     };
     let open = [[0, 1], [1, 2], [2, 3]];
     assert_eq!(made(&open, 0, Domain::EvenOdd), Err(Error::Open { point: 0, count: 1 }));

@@ -3,7 +3,7 @@
 use incircle_testkit::SplitMix64;
 
 use super::canonical::mesh_of;
-use crate::constraints::{constrain, Domain, Error, Plan};
+use crate::constraints::{constrain, Domain, Error, Mark, Plan};
 use crate::mesh::Mesh;
 use crate::point::{Duplicate, Point};
 
@@ -51,4 +51,14 @@ fn numbers_beyond_the_points_are_refused() {
     assert_eq!(made, Err(Error::OutOfRange { constraint: 1, index: 3, points: 3 }));
     let bad = Mesh::new(vec![[0.0, 0.0], [f64::NAN, 0.0]], Vec::new(), Vec::new(), Vec::new());
     assert_eq!(constrain(&bad, &Plan::new(&[])), Err(Error::NotFinite { index: 1 }));
+    let mesh = mesh_of(&[[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]]);
+    let places = [[1.0, 1.0], [f64::INFINITY, 0.0]];
+    let marks = |holes, regions| constrain(&mesh, &Plan { domain: Domain::Holes, holes, regions, ..Plan::new(&[]) });
+    let error = |kind| Err(Error::MarkNotFinite { kind, number: 1 });
+    assert_eq!(marks(&places[..1], &places), error(Mark::Region));
+    assert_eq!(marks(&places, &[]), error(Mark::Hole));
+    assert_eq!(
+        marks(&places, &[]).map_err(|error| error.to_string()).unwrap_err(),
+        "hole 1 has a coordinate that is infinite or not a number"
+    );
 }

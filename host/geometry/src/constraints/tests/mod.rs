@@ -3,4 +3,5 @@ mod brute;
 mod canonical;
 mod domains;
 mod hostile;
+mod published;
 mod snap;

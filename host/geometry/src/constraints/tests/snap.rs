@@ -6,6 +6,8 @@ use incircle_testkit::SplitMix64;
 
 use super::brute::Graph;
 use super::canonical::mesh_of;
+use crate::constraints::pixels::Segment;
+use crate::constraints::snap::crossing_pairs;
 use crate::constraints::{constrain, snap, Pieces, Plan, SnapError, Snapped, SNAP_BITS};
 use crate::point::Point;
 
@@ -133,4 +135,20 @@ fn sets_without_room_are_refused_only_if_constraints_cross() {
     assert_eq!((kept.finer_bits, &kept.points[..], kept.of), (0, &points[..], vec![0, 1]));
     let missing = SnapError::OutOfRange { constraint: 1, index: 5, points: 5 };
     assert_eq!(snap(&points, &[[0, 1], [2, 5]]), Err(missing));
+}
+
+#[test]
+fn constraints_through_one_point_do_not_count_as_crossings() {
+    let (count, middle) = (300, 1 << 20);
+    let mut points = vec![Point::new(middle, middle)];
+    for k in 0..count {
+        points.extend([Point::new(k, 0), Point::new(2 * middle - k, 2 * middle)]);
+    }
+    let constraints: Vec<[u32; 2]> = (0..count).map(|k| [2 * k + 1, 2 * k + 2]).collect();
+    let kept = snap(&points, &constraints).expect("no crossing but at a point");
+    assert_eq!((kept.finer_bits, kept.constraints.len()), (0, constraints.len()));
+    // Their list is limited, so none of the many pairs stands in it.
+    let segments: Vec<Segment> = constraints.iter().map(|pair| Segment(pair.map(|end| points[end as usize]))).collect();
+    assert_eq!(crossing_pairs(&segments, &points[..1]), Ok(vec![]));
+    assert_eq!(crossing_pairs(&segments, &[]).map(|pairs| pairs.len()), Ok(300 * 299 / 2));
 }

@@ -158,7 +158,8 @@ impl Parts {
     /// # Errors
     /// The errors of both functions.
     pub fn join_meshes(self, meshes: Vec<PartMesh>, threads: NonZeroUsize) -> Result<Connectivity, Unsound> {
-        let share = meshes.len().div_ceil(threads.get()).max(1);
+        // A thread takes longer to start than a few thousand points take.
+        let share = meshes.len().div_ceil(threads_for(self.points, threads).get()).max(1);
         let mut meshes = meshes.into_iter().enumerate();
         let shares = core::iter::from_fn(|| Some(meshes.by_ref().take(share).collect::<Vec<_>>()));
         let shares: Vec<_> = shares.take_while(|share| !share.is_empty()).collect();

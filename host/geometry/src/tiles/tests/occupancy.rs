@@ -99,6 +99,29 @@ fn the_large_empty_discs_of_curves_are_final() {
     }
 }
 
+/// A point that was left out would be in the disc of a triangle that counts as final.
+#[test]
+fn points_of_more_bits_than_announced_are_kept() {
+    for seed in 0..2000 {
+        let points = tie_rich(seed);
+        let expected = mesh_of(&points);
+        for bits in [0, 1, 2] {
+            let found = by_tiles(&points, 2, &occupancy_of(&points, bits)).0;
+            assert!(found == expected, "{seed} {bits}: {points:?}");
+        }
+    }
+    let far = [(u32::MAX, 0), (0, u32::MAX), (5, 5)].map(Point::from);
+    for bits in [0, 5, 11, 13] {
+        let occupancy = occupancy_of(&far, bits);
+        // The corners of the grid are in three of the cells, which follow each other only if they are few.
+        let cells: u32 = occupancy.stretches().iter().map(|[first, end]| end - first).sum();
+        assert_eq!(cells, 3, "{bits}: {occupancy:?}");
+        assert!(!occupancy
+            .beyond(&crate::tiles::Region { east: Some(9), ..crate::tiles::Region::WHOLE })
+            .is_clear(far));
+    }
+}
+
 #[test]
 fn cells_become_larger_where_there_are_too_many_stretches() {
     let board: Vec<Point> = (0..1u32 << 20).map(|k| Point::new(2 * (k % 1024), 2 * (k / 1024))).collect();

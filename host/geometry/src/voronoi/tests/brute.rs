@@ -11,30 +11,30 @@ use crate::voronoi::{Cells, Clip, ClippedCell, Corner, Error, Voronoi};
 use crate::{cpu, incircle, orient2d, Mesh, Point};
 
 /// Sets of each test, or the number in the environment variable `INCIRCLE_SETS`.
-fn sets() -> u64 {
+pub(super) fn sets() -> u64 {
     std::env::var("INCIRCLE_SETS").ok().and_then(|text| text.parse().ok()).unwrap_or(300)
 }
 
-fn mesh_of(points: &[Point]) -> Mesh<Point> {
+pub(super) fn mesh_of(points: &[Point]) -> Mesh<Point> {
     cpu::triangulate(points.to_vec(), NonZeroUsize::MIN, &mut |_| ControlFlow::Continue(())).expect("a mesh")
 }
 
 /// A few points of a small square, away from the origin.
-fn draw(random: &mut SplitMix64) -> Vec<Point> {
+pub(super) fn draw(random: &mut SplitMix64) -> Vec<Point> {
     let side = random.pick(&[2, 3, 4, 5, 8]);
     let count = 1 + random.below(10);
     (0..count).map(|_| Point::new(3 + random.below_u32(side), 3 + random.below_u32(side))).collect()
 }
 
-fn draw_corner(random: &mut SplitMix64) -> Point {
+pub(super) fn draw_corner(random: &mut SplitMix64) -> Point {
     Point::new(random.below_u32(15), random.below_u32(15))
 }
 
-fn wide(points: &[Point]) -> Vec<[i64; 2]> {
+pub(super) fn wide(points: &[Point]) -> Vec<[i64; 2]> {
     points.iter().map(|point| [point.x.into(), point.y.into()]).collect()
 }
 
-fn fraction(corner: Corner) -> Fraction {
+pub(super) fn fraction(corner: Corner) -> Fraction {
     let corner = corner.reduced();
     [corner.x, corner.y, corner.d.into()]
 }
@@ -141,7 +141,7 @@ fn check_area(cell: &ClippedCell<'_>) {
     assert!((cell.area() - exact).abs() < 1e-10, "{} {exact}", cell.area());
 }
 
-fn shoelace(ring: &[Fraction]) -> f64 {
+pub(super) fn shoelace(ring: &[Fraction]) -> f64 {
     let term = |(k, from): (usize, &Fraction)| {
         let to = ring[(k + 1) % ring.len()];
         (from[0] * to[1] - from[1] * to[0]) as f64 / (from[2] * to[2]) as f64 / 2.0
@@ -184,7 +184,7 @@ fn check_ring(ring: &[Fraction]) {
 }
 
 /// A ring of random corners that is simple.
-fn draw_clip(random: &mut SplitMix64) -> Clip {
+pub(super) fn draw_clip(random: &mut SplitMix64) -> Clip {
     loop {
         let count = 3 + random.below(6);
         let ring: Vec<Point> = (0..count).map(|_| draw_corner(random)).collect();

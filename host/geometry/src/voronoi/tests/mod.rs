@@ -1,1 +1,2 @@
 mod brute;
+mod holes;

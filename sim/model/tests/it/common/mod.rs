@@ -2,6 +2,7 @@
 
 pub mod batches;
 pub mod bench;
+pub mod living;
 pub mod mesh_check;
 pub mod sphere;
 

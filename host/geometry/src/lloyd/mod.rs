@@ -7,6 +7,10 @@
 //! nearest grid point, halves upwards. So the new place of a point depends on its clipped cell alone, which is exact and
 //! canonical, and neither threads nor the order of the points can change it.
 //!
+//! **Where mass counts.** With a [`Density`], an image over the rectangle around the clip, points move to the centre of
+//! mass of their cells. Borders of cells are cut at the borders of pixels, and each cut becomes integers by division,
+//! too; the mass and the moments of what lies between are integers.
+//!
 //! **How exact it is.** Each corner is off by less than `2^-8` of a step of the grid, and the centroid of a cell that is
 //! many steps wide by about as much. Points move to grid points, so give them a grid with spare bits: multiply the
 //! coordinates by a power of two.
@@ -24,32 +28,25 @@
 //! # Ok::<(), incircle_geometry::lloyd::Error>(())
 //! ```
 
+mod centroid;
+mod density;
+mod error;
+mod quotient;
+mod stars;
+mod step;
+mod weigh;
+
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 use core::num::NonZeroUsize;
-use core::ops::ControlFlow;
 
-use crate::cpu::{self, in_parallel};
 use crate::order::{hilbert, mix};
 use crate::point::Point;
-use crate::voronoi::{self, Cells, Clip, ClippedCell, Corner, Voronoi};
+use crate::voronoi::Clip;
 
-/// Bits behind the point of a corner.
-const BITS: u32 = 8;
-/// Points that justify one more thread.
-const THREAD_POINTS: usize = 4096;
-
-/// The reasons why points cannot be relaxed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum Error {
-    /// The points have no mesh.
-    #[error(transparent)]
-    Mesh(#[from] cpu::Error),
-    /// The points or the clip have no cells.
-    #[error(transparent)]
-    Cells(#[from] voronoi::Error),
-}
+pub use density::{Density, DensityError};
+pub use error::Error;
+pub use step::{step, weighted_step};
 
 /// When a relaxation ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,18 +85,43 @@ pub struct Relaxed {
 /// Relaxes points inside a clip, on at most `threads` threads. Points at one place move together. A point whose cell has
 /// no area in the clip stays where it is.
 ///
-/// A step makes the mesh of the points and clips all cells.
+/// A step makes the mesh of the points and takes O(n) more; only cells near the border of the clip are cut.
 ///
 /// # Errors
 /// A coordinate has more than 31 bits, or there are too many points.
 pub fn relax(points: Vec<Point>, clip: &Clip, stop: Stop, threads: NonZeroUsize) -> Result<Relaxed, Error> {
+    repeat(points, stop, |points| step(points, clip, threads))
+}
+
+/// Relaxes points inside a clip over which mass is spread: every point moves to the centre of mass of its cell, so
+/// points gather where the density is high. A point whose cell has no mass stays where it is. Everything else is as in
+/// [`relax`]; a step also takes time for each pixel that a border between cells crosses.
+///
+/// # Errors
+/// As those of [`relax`], and the density was made for another clip.
+pub fn relax_weighted(
+    points: Vec<Point>,
+    clip: &Clip,
+    density: &Density,
+    stop: Stop,
+    threads: NonZeroUsize,
+) -> Result<Relaxed, Error> {
+    repeat(points, stop, |points| weighted_step(points, clip, density, threads))
+}
+
+/// Does steps until the end. `step` gives the new place of each point.
+fn repeat(
+    points: Vec<Point>,
+    stop: Stop,
+    step: impl Fn(&[Point]) -> Result<Vec<Point>, Error>,
+) -> Result<Relaxed, Error> {
     // Points near one another stand near one another in the lists of each step.
     let order = hilbert(&points);
     let mut now: Vec<Point> = order.iter().map(|&index| points[index as usize]).collect();
     let mut known = BTreeSet::from([hash(&now)]);
     let mut result = Relaxed { points, iterations: 0, moved: 0, end: End::Iterations };
     while result.iterations < stop.iterations {
-        let next = step(&now, clip, threads)?;
+        let next = step(&now)?;
         result.iterations += 1;
         result.moved = now.iter().zip(&next).filter(|(one, other)| one != other).count();
         now = next;
@@ -119,81 +141,6 @@ pub fn relax(points: Vec<Point>, clip: &Clip, stop: Stop, threads: NonZeroUsize)
 /// A number that tells states apart.
 fn hash(points: &[Point]) -> u64 {
     points.iter().fold(0, |sum, point| mix(sum ^ (u64::from(point.x) << 32 | u64::from(point.y))))
-}
-
-/// Moves every point to the centroid of its clipped cell, rounded to the grid. See [`relax`].
-///
-/// # Errors
-/// As those of [`relax`].
-pub fn step(points: &[Point], clip: &Clip, threads: NonZeroUsize) -> Result<Vec<Point>, Error> {
-    let mesh = cpu::triangulate(points.to_vec(), threads, &mut |_| ControlFlow::Continue(()))?;
-    let voronoi = Voronoi::of(&mesh)?;
-    let mut next = points.to_vec();
-    let threads = threads.get().min(points.len() / THREAD_POINTS + 1);
-    let share = points.len().div_ceil(threads).max(1);
-    in_parallel(next.chunks_mut(share).enumerate(), |(part, next)| {
-        let mut cells = Cells::new(&voronoi, clip);
-        for (place, point) in next.iter_mut().enumerate() {
-            let index = part * share + place;
-            *point = centroid(&cells.cell(index as u32), *point);
-        }
-    });
-    for duplicate in &mesh.duplicates {
-        next[duplicate.index as usize] = next[duplicate.of as usize];
-    }
-    Ok(next)
-}
-
-/// The grid point nearest to the centroid of a cell; the point itself if the cell has no area.
-fn centroid(cell: &ClippedCell<'_>, point: Point) -> Point {
-    let (mut area, mut moments) = (0i128, [0i128; 2]);
-    let (mut low, mut high) = ([i128::MAX; 2], [i128::MIN; 2]);
-    for piece in cell.pieces() {
-        let (mut first, mut from) = (None, [0i128; 2]);
-        for (corner, _) in piece.corners() {
-            let to = seen(corner, point);
-            for axis in 0..2 {
-                low[axis] = low[axis].min(to[axis]);
-                high[axis] = high[axis].max(to[axis]);
-            }
-            if first.is_some() {
-                add(from, to, &mut area, &mut moments);
-            }
-            first.get_or_insert(to);
-            from = to;
-        }
-        add(from, first.unwrap_or(from), &mut area, &mut moments);
-    }
-    if area <= 0 {
-        return point;
-    }
-    // Three times the area, in units of a grid step.
-    let divisor = (3 * area) << BITS;
-    let round = |value: i128| (value + (1 << (BITS - 1))) >> BITS;
-    let moved = |value: u32, axis: usize| {
-        let offset = (2 * moments[axis] + divisor).div_euclid(2 * divisor);
-        // The rounded corners of a cell that is thinner than a share of a step can have a centroid outside their box.
-        let inside = offset.clamp(round(low[axis]), round(high[axis]));
-        (i128::from(value) + inside).clamp(0, (1 << 31) - 1) as u32
-    };
-    Point::new(moved(point.x, 0), moved(point.y, 1))
-}
-
-/// A corner as seen from the point, in 2^-8 of a step, rounded down. At most 40 bits inside the grid.
-fn seen(corner: Corner, point: Point) -> [i128; 2] {
-    let d = i128::from(corner.d);
-    let down = |numerator: i128, value: u32| ((numerator - i128::from(value) * d) << BITS).div_euclid(d);
-    [down(corner.x, point.x), down(corner.y, point.y)]
-}
-
-/// Adds the triangle of the point and an edge: twice its area, and six times its moments. Sums of many edges may wrap;
-/// the last sums do not, because the area has at most 80 bits and each moment at most 122.
-fn add(from: [i128; 2], to: [i128; 2], area: &mut i128, moments: &mut [i128; 2]) {
-    let twice = from[0] * to[1] - from[1] * to[0];
-    *area = area.wrapping_add(twice);
-    for axis in 0..2 {
-        moments[axis] = moments[axis].wrapping_add((from[axis] + to[axis]).wrapping_mul(twice));
-    }
 }
 
 #[cfg(test)]

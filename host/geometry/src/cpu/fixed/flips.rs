@@ -1,0 +1,69 @@
+//! Flips of free edges, until the mesh is canonical again.
+
+use super::mesh::Fixed;
+use crate::cpu::kernel::{Ends, Kernel};
+
+/// The four vertices around an edge from `a` to `b`: its ends, the apex `c` to its left and the apex `d` to its right.
+/// The half-edges to both apexes are those around `a` and those around `b`.
+struct Around {
+    ends: [u32; 2],
+    apexes: [u32; 2],
+    from_a: [u32; 2],
+    from_b: [u32; 2],
+}
+
+impl<K: Kernel> Fixed<'_, K> {
+    /// Flips edges until the mesh is canonical. All edges that may have to be flipped are on the stack.
+    pub(super) fn repair(&mut self) {
+        while let Some(edge) = self.stack.pop() {
+            if self.is_fixed(edge) || self.is_outside(edge) || self.is_outside(edge ^ 1) {
+                continue;
+            }
+            let around = self.around(edge);
+            if self.must_flip(&around) {
+                self.flip(edge, &around);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn around(&self, edge: u32) -> Around {
+        let (one, other) = (self.half(edge), self.half(edge ^ 1));
+        Around {
+            ends: [other.end, one.end],
+            apexes: [one.next, one.previous].map(|half| self.end(half)),
+            from_a: [one.next, one.previous],
+            from_b: [other.previous, other.next],
+        }
+    }
+
+    /// Whether the apex to the right conflicts with the triangle to the left.
+    #[inline(always)]
+    fn must_flip(&self, around: &Around) -> bool {
+        let [a, b, c, d] =
+            [around.ends[0], around.ends[1], around.apexes[0], around.apexes[1]].map(|vertex| self.site(vertex));
+        // Seen from the edge between `c` and `a`, both `b` and `d` lie to the left if the edge can be flipped. Where `d`
+        // does not, it lies in the angle opposite that at `a`, which is outside the circle.
+        let ends = Ends { a: c, b: a, bounds: K::bounds(|| [a, b, c, d]) };
+        K::is_left_and_inside(ends, K::see(ends, b), K::see(ends, d))
+    }
+
+    /// Replaces an edge by the other diagonal, and puts the four edges around both triangles on the stack.
+    ///
+    /// ```text
+    ///      c            c
+    ///     / \          /|\
+    ///    a-->b   ->   a | b
+    ///     \ /          \v/
+    ///      d            d
+    /// ```
+    #[inline(always)]
+    fn flip(&mut self, edge: u32, around: &Around) {
+        let Around { ends: [a, b], apexes: [c, d], from_a: [ac, ad], from_b: [bc, bd] } = *around;
+        self.unlink(edge, a);
+        self.unlink(edge ^ 1, b);
+        self.insert(edge, d, ac ^ 1, bc ^ 1);
+        self.insert(edge ^ 1, c, bd ^ 1, ad ^ 1);
+        self.stack.extend([ac, ad, bc, bd]);
+    }
+}

@@ -1,0 +1,180 @@
+//! Forcing a constraint into the mesh: the edges that it crosses are replaced by others on either side of it.
+//!
+//! The way goes straight from one end through the triangles, until it meets a vertex on the constraint. The edges that
+//! it crosses are taken out, which leaves a room with one chain of edges on either side. The constraint is put between
+//! both ends of the room. A scan with a stack then cuts off every vertex at which a chain turns towards the constraint,
+//! which fills a chain in linear time (Toussaint and Avis, *On a convex hull algorithm for polygons and its application
+//! to triangulation problems*, 1982). As many edges are put in as were taken out, and they take the same numbers.
+//!
+//! An edge may hang into the room, with both of its sides in one chain. New half-edges are put beside those of the
+//! chain, so this case needs no care.
+
+use alloc::vec::Vec;
+use core::cmp::Ordering;
+
+use super::mesh::{Fixed, Part, FIXED};
+use super::turn::{is_between, Way};
+use crate::cpu::kernel::Kernel;
+use crate::sort::{sort_by_key, Keyed};
+
+/// Why constraints were not forced in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Stop {
+    /// A constraint crosses a fixed edge.
+    Crossing,
+    /// There is no room for the list of all parts.
+    TooManyParts,
+}
+
+/// A constraint, by the place on the curve at which it is forced.
+#[derive(Clone, Copy, bytemuck::Zeroable)]
+struct Turned {
+    first: u32,
+    constraint: u32,
+}
+
+impl Keyed for Turned {
+    #[inline(always)]
+    fn key(&self) -> u64 {
+        self.first.into()
+    }
+}
+
+impl<K: Kernel> Fixed<'_, K> {
+    /// Forces all constraints in, given by the vertices at their ends, as far as there is room for `most` parts.
+    ///
+    /// # Errors
+    /// Two constraints cross at a place that is not a vertex, or there are too many parts.
+    pub(super) fn force_all(&mut self, ends: &[[u32; 2]], most: usize) -> Result<Vec<Part>, Stop> {
+        let turned = |(constraint, [a, b]): (u32, &[u32; 2])| Turned { first: *a.min(b), constraint };
+        let mut order: Vec<Turned> = (0..).zip(ends).map(turned).collect();
+        sort_by_key(&mut order);
+        let mut parts = Vec::with_capacity(ends.len());
+        for Turned { constraint, .. } in order {
+            let mut rest = ends[constraint as usize];
+            while rest[0] != rest[1] {
+                let (edge, left) = self.step(rest)?;
+                if parts.len() == most {
+                    return Err(Stop::TooManyParts);
+                }
+                parts.push(Part { edge, constraint });
+                rest = left;
+            }
+        }
+        Ok(parts)
+    }
+
+    /// Forces an edge at one end of the line between two vertices, and fixes it. Returns the edge, and the ends of the
+    /// rest of the line.
+    fn step(&mut self, ends: [u32; 2]) -> Result<(u32, [u32; 2]), Stop> {
+        let (side, way) = self.way(ends);
+        let [from, to] = [ends[side], ends[1 - side]];
+        let edge = match way {
+            Way::Along(edge) => {
+                self.fix(edge);
+                self.at[from as usize] = edge;
+                edge
+            }
+            Way::Through(first) => {
+                let end = self.cross(first, from, to)?;
+                let edge = self.fill(from, end);
+                self.repair();
+                edge
+            }
+        };
+        Ok((edge, [self.end(edge), to]))
+    }
+
+    /// Walks to the next vertex on the line, and collects the edges on the way with the chains on both sides: the right
+    /// one from `from` to that vertex, the left one back. The room lies to the left of both. `first` leaves `from`, and
+    /// the line goes through the triangle to its left.
+    fn cross(&mut self, first: u32, from: u32, to: u32) -> Result<u32, Stop> {
+        let [a, q] = [from, to].map(|vertex| self.site(vertex));
+        self.crossed.clear();
+        self.right.clear();
+        self.left.clear();
+        self.right.push(first);
+        self.left.push(self.half(first).next ^ 1);
+        // The edge that is crossed, from its right end to its left one.
+        let mut edge = self.follower(first);
+        loop {
+            if self.is_fixed(edge) {
+                return Err(Stop::Crossing);
+            }
+            self.crossed.push(edge);
+            let right = self.half(edge).previous;
+            let left = self.follower(right);
+            let apex = self.end(right);
+            let site = self.site(apex);
+            match K::orient2d(a, q, site) {
+                Ordering::Less => {
+                    self.right.push(right);
+                    edge = left;
+                }
+                Ordering::Greater => {
+                    self.left.push(left);
+                    edge = right;
+                }
+                Ordering::Equal => {
+                    debug_assert!(apex == to || is_between(a, site, q));
+                    self.right.push(right);
+                    self.left.push(left);
+                    self.left.reverse();
+                    return Ok(apex);
+                }
+            }
+        }
+    }
+
+    /// Replaces the edges that were crossed by the fixed edge between both vertices, and by others that fill both
+    /// chains. Returns the fixed edge.
+    fn fill(&mut self, from: u32, end: u32) -> u32 {
+        let mut crossed = core::mem::take(&mut self.crossed);
+        for &edge in &crossed {
+            for half in [edge, edge ^ 1] {
+                let origin = self.origin(half);
+                self.unlink(half, origin);
+            }
+        }
+        let (right, left) = (core::mem::take(&mut self.right), core::mem::take(&mut self.left));
+        // Both chains have at least two edges, and at least one edge was crossed.
+        let new = crossed.pop().unwrap_or_default();
+        self.insert(new, end | FIXED, right[0], left[left.len() - 1] ^ 1);
+        self.insert(new ^ 1, from | FIXED, left[0], right[right.len() - 1] ^ 1);
+        self.fixed.push(new & !1);
+        self.fill_chain(&right, &mut crossed);
+        self.fill_chain(&left, &mut crossed);
+        (self.crossed, self.right, self.left) = (crossed, right, left);
+        new
+    }
+
+    /// Fills the room between a chain and the fixed edge between its ends. The new edges take these numbers.
+    fn fill_chain(&mut self, chain: &[u32], numbers: &mut Vec<u32>) {
+        let mut open = core::mem::take(&mut self.open);
+        open.clear();
+        self.stack.extend_from_slice(chain);
+        for (place, &edge) in chain.iter().enumerate() {
+            let (mut last, to) = (edge, self.end(edge));
+            while let Some(&before) = open.last() {
+                let (from, corner) = (self.origin(before), self.origin(last));
+                let is_corner = K::orient2d(self.site(from), self.site(corner), self.site(to)).is_gt();
+                // The last triangle lies at the fixed edge itself, and needs no other.
+                let is_last = open.len() == 1 && place == chain.len() - 1;
+                if !is_corner || is_last {
+                    debug_assert!(is_corner || !is_last);
+                    break;
+                }
+                // There are as many numbers as edges to be made.
+                let new = numbers.pop().unwrap_or_default();
+                let back = last ^ 1;
+                self.insert(new, to, before, self.half(before).next);
+                self.insert(new ^ 1, from, self.half(back).previous, back);
+                self.stack.push(new);
+                open.pop();
+                last = new;
+            }
+            open.push(last);
+        }
+        self.open = open;
+    }
+}
