@@ -10,7 +10,7 @@ use incircle_protocol::{Identity, InsertReport, Opcode, COUNTER_WORDS, INSERT_RE
 
 use super::answer::Answer;
 use super::counters::{Counters, Latencies};
-use super::group::Ordered;
+use super::group::{Group, Ordered};
 use super::load::{Assembled, Load, Meshes, Step};
 use super::options::{Options, Stage};
 use super::read_form::ReadForm;

@@ -70,7 +70,7 @@ fn head(was: &Registers) -> (Status, u32) {
                     _ if command.opcode == Opcode::Read as u8 => ids,
                     None => ids.div_ceil(2),
                     Some(ShortIds::Ten) => command.count,
-                    Some(ShortIds::Twelve) => command.count + command.count.div_ceil(8),
+                    Some(ShortIds::Thirteen) => command.count + command.count.div_ceil(4),
                 };
                 (Status::Ok, words)
             } else {

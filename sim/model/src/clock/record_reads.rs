@@ -12,8 +12,8 @@ const ROOM: usize = 4;
 const QUEUE: usize = 16;
 /// Number of halves of a word, 16 bits each, in a full beat.
 const FULL: usize = 4;
-/// Number of records whose rests share a half, with short ids of 12 bits.
-const GROUP: u32 = 4;
+/// Most halves that a record brings.
+const MOST_BROUGHT: usize = 6;
 
 /// The words of a record that a payload has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -108,9 +108,8 @@ struct Packer {
     count: usize,
     /// Whether the held halves become a beat although no record comes.
     flushes: bool,
-    /// The rests of the records of the group so far, the last one at the top, and the number of these records.
-    rests: u32,
-    in_group: u32,
+    /// With short ids of 13 bits, the rest of the record before, if it was the first of two.
+    rest: Option<u32>,
     /// A beat that is full, or the last one.
     filled: Option<Beat>,
 }
@@ -130,13 +129,11 @@ impl Packer {
             return;
         };
         self.left = self.left.wrapping_sub(1);
-        let mut halves = [0; FULL + 6];
+        let mut halves = [0; FULL + MOST_BROUGHT];
         halves[..FULL].copy_from_slice(&was.held);
-        let mut end = was.count;
-        for half in self.halves(words, form) {
-            halves[end] = half;
-            end += 1;
-        }
+        let (brought, number) = self.halves(words, form);
+        let end = was.count + number;
+        halves[was.count..end].copy_from_slice(&brought[..number]);
         let sent = if end < FULL { 0 } else { FULL };
         self.count = end - sent;
         self.held = [0, 1, 2, 3].map(|place| halves[sent + place]);
@@ -145,23 +142,29 @@ impl Packer {
         self.filled = (sent != 0).then(|| beat_of([0, 1, 2, 3].map(|place| halves[place]), FULL, last));
     }
 
-    /// The halves that a record brings.
-    fn halves(&mut self, words: [u32; 3], form: Form) -> Vec<u32> {
+    /// The halves that a record brings, and their number.
+    fn halves(&mut self, words: [u32; 3], form: Form) -> ([u32; MOST_BROUGHT], usize) {
         let [v0, v1, v2] = words.map(|word| word & ((1 << NARROW_ID_BITS) - 1));
         let ids = match form {
-            Form::Whole => return words.into_iter().flat_map(|word| [word & 0xffff, word >> 16]).collect(),
-            Form::Vertices => return vec![v0, v1, v2],
+            Form::Whole => {
+                let [a, b, c] = words.map(|word| [word & 0xffff, word >> 16]);
+                return ([a[0], a[1], b[0], b[1], c[0], c[1]], 6);
+            }
+            Form::Vertices => return ([v0, v1, v2, 0, 0, 0], 3),
             Form::Short(ids) => ids,
         };
         let low = v0 & 0x3ff | (v1 & 0x3ff) << 10 | (v2 & 0x3ff) << 20 | (v0 >> 10 & 3) << 30;
-        let mut halves = vec![low & 0xffff, low >> 16];
-        self.rests = self.rests >> 4 | (v1 >> 10 & 3 | (v2 >> 10 & 3) << 2) << 12;
-        self.in_group += 1;
-        if ids == ShortIds::Twelve && (self.in_group == GROUP || self.left == 0) {
-            halves.push(self.rests);
-            (self.rests, self.in_group) = (0, 0);
-        }
-        halves
+        let rest = v1 >> 10 & 7 | (v2 >> 10 & 7) << 3 | (v0 >> 12 & 1) << 6;
+        let third = match (ids, self.rest.take()) {
+            (ShortIds::Ten, _) => None,
+            (ShortIds::Thirteen, Some(first)) => Some(first | rest << 8),
+            (ShortIds::Thirteen, None) if self.left == 0 => Some(rest),
+            (ShortIds::Thirteen, None) => {
+                self.rest = Some(rest);
+                None
+            }
+        };
+        ([low & 0xffff, low >> 16, third.unwrap_or(0), 0, 0, 0], 2 + usize::from(third.is_some()))
     }
 }
 

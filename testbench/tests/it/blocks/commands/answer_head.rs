@@ -23,8 +23,8 @@ fn answer_heads_follow_the_protocol() {
                 ("opcode", u32::from(asked.opcode)),
                 ("first", asked.first),
                 ("count", asked.count),
-                ("has_short_ids", asked.short_ids.is_some().into()),
-                ("has_rests", (asked.short_ids == Some(ShortIds::Twelve)).into()),
+                ("request_has_short_ids", asked.short_ids.is_some().into()),
+                ("request_has_rests", (asked.short_ids == Some(ShortIds::Thirteen)).into()),
                 ("is_refused", asked.is_refused.into()),
                 ("tag", asked.tag.into()),
                 ("engine", asked.engine.into()),
@@ -39,6 +39,8 @@ fn answer_heads_follow_the_protocol() {
             answers.push(asked.answer());
             block.expect("is_read", [Opcode::Read as u8, Opcode::Triangles as u8].contains(&opcode));
             block.expect("is_packed", opcode == Opcode::Triangles as u8);
+            block.expect("head_has_short_ids", asked.short_ids.is_some());
+            block.expect("head_has_rests", asked.short_ids == Some(ShortIds::Thirteen));
             if clock >= 3 {
                 let answer = &answers[clock - 3];
                 bad_ranges += u32::from(answer.status == Status::BadRange);
