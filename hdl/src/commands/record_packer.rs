@@ -75,7 +75,7 @@ pub struct RecordPacker {
     /// The rest of the record before, and whether the next record is the second of two.
     rest: DFF<Bits<8>>,
     is_second: DFF<Bit>,
-    byte: Signal<Local, Half>,
+    byte_bits: Signal<Local, Half>,
     is_short: Signal<Local, Bit>,
     brings_two: Signal<Local, Bit>,
     /// The third half that the record brings; zero if there is none.
@@ -95,7 +95,7 @@ impl Logic for RecordPacker {
         dff_setup!(self, clock, left, is_last, all_came, rest, is_second);
         self.one.next = 1.into();
         self.two.next = 2.into();
-        self.byte.next = 8.into();
+        self.byte_bits.next = 8.into();
         self.valid.next = self.is_there.q.val();
         self.beat.next = self.filled.q.val();
 
@@ -104,7 +104,7 @@ impl Logic for RecordPacker {
             self.is_short.val() & (!(self.has_rests.val() & (self.is_second.q.val() | self.is_last.q.val())));
         self.third.next = self.halves.val().half2;
         if self.is_short.val() & self.is_second.q.val() {
-            self.third.next = (self.halves.val().half2 << self.byte.val()) | bit_cast::<16, 8>(self.rest.q.val());
+            self.third.next = (self.halves.val().half2 << self.byte_bits.val()) | bit_cast::<16, 8>(self.rest.q.val());
         }
         if self.brings_two.val() {
             self.third.next = 0.into();
