@@ -5,9 +5,11 @@
 //!    second record, so no record may come in that clock.
 //! 2. The vertices of a record are three halves. Four records fill three beats: the first of the four fills none, and
 //!    each of the others fills one.
-//! 3. The halves that the last record leaves follow a clock later as a beat of their own, with as many words as they
+//! 3. With short ids a record brings two halves. With 13 bits, every second record and the last one bring a third: the
+//!    rests of the two, a byte each, or the rest of the last one alone and a byte of zeros.
+//! 4. The halves that the last record leaves follow a clock later as a beat of their own, with as many words as they
 //!    need; an odd half is zero.
-//! 4. Nothing can stall this block: the user makes sure that there is room for every beat.
+//! 5. Nothing can stall this block: the user makes sure that there is room for every beat.
 //!
 //! Latency: 1 clock from a record to the beat that it fills, 2 to the beat with the rest.
 //!
@@ -23,7 +25,7 @@
 //! last            ________________________/^^\____________________/^^
 //! ```
 
-use super::types::{AnswerBeat, BeatHalves, Halves, RecordCount, WORD_PAIR_BITS};
+use super::types::{AnswerBeat, BeatHalves, Half, Halves, RecordCount, WORD_PAIR_BITS};
 use crate::prelude::*;
 
 /// Number of halves that earlier records left to the next beat.
@@ -51,7 +53,10 @@ pub struct RecordPacker {
     pub count: Signal<In, RecordCount>,
     /// The payload has the vertices of the records alone.
     pub vertices_alone: Signal<In, Bit>,
-    /// A record comes.
+    /// Ids are short in such a payload, of 10 bits; with `has_rests`, of 13.
+    pub has_short_ids: Signal<In, Bit>,
+    pub has_rests: Signal<In, Bit>,
+    /// A record comes. With short ids its rest is the lower byte of half 2.
     pub comes: Signal<In, Bit>,
     pub halves: Signal<In, Halves>,
     /// A beat is full or is the last one; held for one clock.
@@ -67,6 +72,15 @@ pub struct RecordPacker {
     /// One record is left to come, and none is.
     is_last: DFF<Bit>,
     all_came: DFF<Bit>,
+    /// The rest of the record before, and whether the next record is the second of two.
+    rest: DFF<Bits<8>>,
+    is_second: DFF<Bit>,
+    byte_bits: Signal<Local, Half>,
+    is_short: Signal<Local, Bit>,
+    brings_two: Signal<Local, Bit>,
+    /// The third half that the record brings; zero if there is none.
+    third: Signal<Local, Half>,
+    fills_beat: Signal<Local, Bit>,
     takes: Signal<Local, Bit>,
     sent: Signal<Local, BeatHalves>,
     sent_bits: Signal<Local, Bits<WORD_PAIR_BITS>>,
@@ -78,11 +92,23 @@ impl Logic for RecordPacker {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, is_there, filled, number, kept, many_are_kept);
-        dff_setup!(self, clock, left, is_last, all_came);
+        dff_setup!(self, clock, left, is_last, all_came, rest, is_second);
         self.one.next = 1.into();
         self.two.next = 2.into();
+        self.byte_bits.next = 8.into();
         self.valid.next = self.is_there.q.val();
         self.beat.next = self.filled.q.val();
+
+        self.is_short.next = self.vertices_alone.val() & self.has_short_ids.val();
+        self.brings_two.next =
+            self.is_short.val() & (!(self.has_rests.val() & (self.is_second.q.val() | self.is_last.q.val())));
+        self.third.next = self.halves.val().half2;
+        if self.is_short.val() & self.is_second.q.val() {
+            self.third.next = (self.halves.val().half2 << self.byte_bits.val()) | bit_cast::<16, 8>(self.rest.q.val());
+        }
+        if self.brings_two.val() {
+            self.third.next = 0.into();
+        }
 
         // Kept halves come before those of the new record. What does not fit into the beat is kept, with zeros behind
         // it, because it may be the last beat.
@@ -108,23 +134,39 @@ impl Logic for RecordPacker {
                     self.is_there.d.next = false;
                     self.kept.d.next.half0 = self.halves.val().half0;
                     self.kept.d.next.half1 = self.halves.val().half1;
-                    self.kept.d.next.half2 = self.halves.val().half2;
+                    self.kept.d.next.half2 = self.third.val();
                     self.many_are_kept.d.next = true;
                     self.number.d.next = KeptHalves::Three;
+                    if self.brings_two.val() {
+                        self.many_are_kept.d.next = false;
+                        self.number.d.next = KeptHalves::Two;
+                    }
                 }
             }
             KeptHalves::One => {
                 self.sent.next.half1 = self.halves.val().half0;
                 self.sent.next.half2 = self.halves.val().half1;
-                self.sent.next.half3 = self.halves.val().half2;
+                self.sent.next.half3 = self.third.val();
                 self.filled.d.next.last = self.is_last.q.val();
                 self.number.d.next = KeptHalves::Zero;
+                if self.brings_two.val() {
+                    self.is_there.d.next = false;
+                    self.kept.d.next.half0 = self.kept.q.val().half0;
+                    self.kept.d.next.half1 = self.halves.val().half0;
+                    self.kept.d.next.half2 = self.halves.val().half1;
+                    self.many_are_kept.d.next = true;
+                    self.number.d.next = KeptHalves::Three;
+                }
             }
             KeptHalves::Two => {
                 self.sent.next.half2 = self.halves.val().half0;
                 self.sent.next.half3 = self.halves.val().half1;
-                self.kept.d.next.half0 = self.halves.val().half2;
+                self.kept.d.next.half0 = self.third.val();
                 self.number.d.next = KeptHalves::One;
+                if self.brings_two.val() {
+                    self.filled.d.next.last = self.is_last.q.val();
+                    self.number.d.next = KeptHalves::Zero;
+                }
                 if !self.vertices_alone.val() {
                     self.kept.d.next.half1 = self.halves.val().half3;
                     self.kept.d.next.half2 = self.halves.val().half4;
@@ -136,8 +178,11 @@ impl Logic for RecordPacker {
             KeptHalves::Three => {
                 self.sent.next.half3 = self.halves.val().half0;
                 self.kept.d.next.half0 = self.halves.val().half1;
-                self.kept.d.next.half1 = self.halves.val().half2;
+                self.kept.d.next.half1 = self.third.val();
                 self.number.d.next = KeptHalves::Two;
+                if self.brings_two.val() {
+                    self.number.d.next = KeptHalves::One;
+                }
             }
             _ => {
                 self.takes.next = true;
@@ -147,6 +192,9 @@ impl Logic for RecordPacker {
                 self.number.d.next = KeptHalves::Zero;
             }
         }
+        // The last record leaves nothing behind the beat that it fills.
+        self.fills_beat.next = ((self.number.q.val() == KeptHalves::One) & (!self.brings_two.val()))
+            | ((self.number.q.val() == KeptHalves::Two) & self.brings_two.val());
         self.sent_bits.next = self.sent.val().into();
         self.filled.d.next.low = self.sent_bits.val().get_bits::<32>(0);
         self.filled.d.next.high = self.sent_bits.val().get_bits::<32>(32);
@@ -154,7 +202,9 @@ impl Logic for RecordPacker {
             self.left.d.next = self.left.q.val() - self.one.val();
             self.is_last.d.next = self.left.q.val() == self.two.val();
             self.all_came.d.next = self.is_last.q.val();
-            if self.is_last.q.val() & (self.number.q.val() != KeptHalves::One) {
+            self.rest.d.next = bit_cast::<8, 16>(self.halves.val().half2);
+            self.is_second.d.next = !self.is_second.q.val();
+            if self.is_last.q.val() & (!self.fills_beat.val()) {
                 self.number.d.next = KeptHalves::Rest;
             }
         }
@@ -163,6 +213,7 @@ impl Logic for RecordPacker {
             self.kept.d.next = self.kept.q.val();
         }
         if self.starts.val() {
+            self.is_second.d.next = false;
             self.left.d.next = self.count.val();
             self.is_last.d.next = self.count.val() == self.one.val();
         }

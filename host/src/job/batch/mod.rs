@@ -17,10 +17,11 @@ use super::group::{Group, Ordered};
 use super::load::Load;
 use super::options::{Options, Stage};
 use super::prepare::prepare;
+use super::read_form::ReadForm;
 use super::watch::tell;
 use incircle_geometry::Order;
 use incircle_geometry::Point;
-use incircle_protocol::{Command, Identity, RecordRange};
+use incircle_protocol::Identity;
 use plan::{Part, Plan};
 
 /// Most points of a job that is done beside others: in a group, whose records are read with one command, or in one of
@@ -81,10 +82,14 @@ impl<'b> Batch<'b> {
 
     /// Number of points whose mesh the device keeps for the line while its core goes on.
     fn kept_points(&self) -> usize {
-        // A point stands for two records.
-        let two = Command::<()>::Triangles(RecordRange { first: 0, count: 2 });
-        let words = two.payload_words(self.carrier.channel.layout()).max(1);
-        self.carrier.channel.capabilities().kept_words / usize::try_from(words).unwrap_or(usize::MAX)
+        let carrier = &self.carrier;
+        let capabilities = carrier.channel.capabilities();
+        // The jobs together may have as many ids as the device has, and then their ids are the longest.
+        let ids = usize::try_from(carrier.identity.capacity).unwrap_or(usize::MAX);
+        let form = ReadForm::of(ids, capabilities, carrier.identity.features);
+        // A point stands for two records, and the records of two points end with a whole word.
+        let words = form.command::<()>(0..4).payload_words(carrier.channel.layout()).max(1);
+        2 * (capabilities.kept_words / usize::try_from(words).unwrap_or(usize::MAX))
     }
 
     /// The jobs that may share the memory, and the exclusive ones.
@@ -168,14 +173,16 @@ fn next_load(
         tell(carrier.options, Stage::Insert, done.passed, carrier.points())?;
         done.passed += group.jobs.iter().map(|ordered| carrier.jobs[ordered.job].len()).sum::<usize>();
         if group.is_shared {
-            return Ok(Some(Load::at_once(group, None)));
+            let form = carrier.read_form(&group);
+            return Ok(Some(Load::at_once(group, form, None)));
         }
         let own = group.only_job().filter(|_| !carrier.shares_limit);
         let time = own.map(|job| exclusive_time(carrier, job));
         let jobs = std::mem::take(&mut group.jobs);
         group.jobs = jobs.into_iter().filter_map(|ordered| carrier.answer_here(ordered, 1, done)).collect();
         if !group.jobs.is_empty() {
-            return Ok(Some(Load::at_once(group, time)));
+            let form = carrier.read_form(&group);
+            return Ok(Some(Load::at_once(group, form, time)));
         }
     }
     Ok(None)
