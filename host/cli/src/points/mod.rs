@@ -82,12 +82,12 @@ impl PointTable {
         }
     }
 
-    /// Takes all further numbers as the doubles nearest to them, because the file has the mark [`DOUBLES`].
+    /// Takes all further numbers as the doubles nearest to them, because the file has the mark `DOUBLES`.
     pub fn take_doubles(&mut self) {
         self.takes_doubles = true;
     }
 
-    /// Whether a text of the coordinates needs the mark [`DOUBLES`]. A double is written in the fewest digits that tell
+    /// Whether a text of the coordinates needs the mark `DOUBLES`. A double is written in the fewest digits that tell
     /// it from all other doubles, and the decimal that stands there is often another number.
     pub fn needs_mark(&self) -> bool {
         let is_written = |value: f64| {

@@ -100,8 +100,8 @@ impl Restored for Error {
 /// the points of the mesh. Holes and regions are indices of places, which may stand behind them.
 ///
 /// # Errors
-/// As those of [`constrain`]. A crossing is told in these numbers; [`Place::restored`] gives it in the coordinates
-/// that a lattice has brought onto the grid.
+/// As those of [`constrain`]. A crossing is told in these numbers; [`Place::restored`](super::Place::restored) gives it
+/// in the coordinates that a lattice has brought onto the grid.
 pub fn constrain_numbers(
     numbers: &Numbers<'_>,
     points: usize,
