@@ -1,7 +1,8 @@
 """Measures the package beside the library itself and beside SciPy, in interleaved pairs, and compares the answers.
 
 Run it with the Python of an environment that has the package and SciPy. For each row it prints the medians of the times
-in milliseconds, and the median of the ratios of neighbouring runs.
+of the processor in milliseconds, and the medians of the ratios of neighbouring runs: of the processor's time, and of the
+time on the clock. Other programs on the machine disturb the latter more.
 """
 
 import argparse
@@ -16,9 +17,10 @@ from incircle import _native
 
 
 def seconds(call):
-    start = time.perf_counter()
+    """The seconds of a call on the clock and of the processor, and its answer."""
+    start, began = time.perf_counter(), time.process_time()
     answer = call()
-    return time.perf_counter() - start, answer
+    return (time.perf_counter() - start, time.process_time() - began), answer
 
 
 def by_python(points, threads):
@@ -49,9 +51,9 @@ def row(name, one, other, rounds, same):
         # The first round warms up.
         if turn:
             pairs.append((first, second) if turn % 2 else (second, first))
-    ours, theirs = (statistics.median(times) * 1e3 for times in zip(*pairs))
-    ratio = statistics.median(first / second for first, second in pairs)
-    print(f"| {name} | {ours:.1f} | {theirs:.1f} | {ratio:.3f} |", flush=True)
+    ours, theirs = (statistics.median(processor for _, processor in times) * 1e3 for times in zip(*pairs))
+    clock, processor = (statistics.median(one[kind] / other[kind] for one, other in pairs) for kind in (0, 1))
+    print(f"| {name} | {ours:.0f} | {theirs:.0f} | {processor:.3f} | {clock:.3f} |", flush=True)
 
 
 def main():
@@ -63,7 +65,7 @@ def main():
     generator = np.random.default_rng(1)
     doubles = generator.random((given.points, 2))
     grid = generator.integers(0, 1 << 24, (given.points, 2), dtype=np.uint32)
-    print("| what | incircle in Python, ms | beside it, ms | ratio |\n|---|---:|---:|---:|")
+    print("| what | incircle in Python, ms | beside it, ms | ratio | ratio on the clock |\n|---|---:|---:|---:|---:|")
     for name, points in (("doubles", doubles), ("uint32 of 24 bits", grid)):
         for threads in (1, None):
             label = f"`triangulate`, {given.points:,} {name}, {'one thread' if threads else 'all threads'}: the library"
