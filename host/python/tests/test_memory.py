@@ -21,7 +21,7 @@ resource.setrlimit(resource.RLIMIT_AS, (used + 150_000_000, resource.RLIM_INFINI
 
 def insert_one_by_one():
     mesh = incircle.Triangulation()
-    for point in points.tolist():
+    for point in points:
         mesh.insert(point)
 
 CALLS = {
