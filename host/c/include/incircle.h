@@ -220,6 +220,19 @@ typedef struct {
   const void *clip;
   // The number of these corners.
   size_t corner_count;
+  // How many of the corners each ring has, if the clip is a polygon with holes: that around the polygon, then those of
+  // the holes, as for `incircle_diagram_new_with_holes`. Null stands for a clip without holes.
+  const size_t *ring_counts;
+  // The number of rings, or 0.
+  size_t ring_count;
+  // How densely points are to lie: `rows` rows of `columns` weights, stretched over the smallest rectangle around the
+  // clip, with the first row at the largest y as in images. A point moves to the centre of mass of its cell. Null
+  // stands for the same weight everywhere.
+  const uint16_t *density;
+  // Weights in a row.
+  size_t columns;
+  // Rows of weights.
+  size_t rows;
 } incircle_relaxation;
 
 // The outcome of a relaxation.
@@ -388,7 +401,8 @@ int32_t incircle_constrained_piece_constraints(const incircle_constrained *const
                                                size_t *count);
 
 // Proves with the independent validator that these are the triangles of the plan's domain in the canonical mesh of the
-// points of `mesh`. The status is `INCIRCLE_WRONG_MESH` if they are not.
+// points of `mesh`. The status is `INCIRCLE_WRONG_MESH` if they are not. `mesh` may be null if `constrained` came from
+// `incircle_triangulate_constrained`, which keeps the points.
 //
 // # Safety
 // The pointers are as for `incircle_constrain`, and `constrained` is one that is not freed.
@@ -401,6 +415,43 @@ int32_t incircle_constrained_verify(const incircle_constrained *constrained,
 // # Safety
 // `constrained` is null, or one that is not freed, and is not used again.
 void incircle_constrained_free(incircle_constrained *constrained);
+
+// Triangulates `count` points with the constraints of a plan, and takes the triangles of a domain. `points` has x and
+// y of each, in the type of numbers `number`, such as `INCIRCLE_F64`. `options` may be null. `made` becomes a
+// constrained mesh that must be freed, or null if the call fails.
+//
+// The triangles are those of `incircle_triangulate` and then `incircle_constrain`, byte for byte. This call takes less
+// time with the CPU triangulator, whose progress is told while constraints are forced, too. The statuses are those of
+// both functions. The points are copied, and kept for `incircle_constrained_verify`.
+//
+// # Safety
+// All pointers are null or point to what is said above and in `incircle_plan`.
+int32_t incircle_triangulate_constrained(const void *points,
+                                         size_t count,
+                                         uint32_t number,
+                                         const incircle_options *options,
+                                         const incircle_plan *plan,
+                                         incircle_constrained **made);
+
+// The points on the hull of all points, as in `incircle_mesh_hull`. The status is `INCIRCLE_CHOICE` if `constrained`
+// came from `incircle_constrain`, whose mesh has them.
+//
+// # Safety
+// As for `incircle_constrained_triangles`.
+int32_t incircle_constrained_hull(const incircle_constrained *constrained,
+                                  uint32_t *buffer,
+                                  size_t room,
+                                  size_t *count);
+
+// The points with the coordinates of an earlier one, as in `incircle_mesh_duplicates`. The status is `INCIRCLE_CHOICE`
+// if `constrained` came from `incircle_constrain`, whose mesh has them.
+//
+// # Safety
+// As for `incircle_constrained_triangles`.
+int32_t incircle_constrained_duplicates(const incircle_constrained *constrained,
+                                        uint32_t (*buffer)[2],
+                                        size_t room,
+                                        size_t *count);
 
 // Makes the triangulation of `count` points, whose indices are their positions. `points` may be null if `count` is 0.
 // All coordinates that the triangulation takes have the type `number`, such as `INCIRCLE_F64`. `made` becomes a
@@ -576,6 +627,25 @@ int32_t incircle_diagram_new(const void *points,
                              uint32_t quantize,
                              incircle_diagram **diagram);
 
+// As `incircle_diagram_new`, with a clip that may have holes. `clip` has the corners of all rings, one ring behind the
+// other: that around the polygon, then those of the holes, which lie side by side inside it. `ring_counts` says how
+// many corners each of the `ring_count` rings has, three or more. Rings may turn either way, and do not touch.
+//
+// The status is also `INCIRCLE_INPUT` for a hole that lies outside the polygon or inside another hole, and for rings
+// that meet.
+//
+// # Safety
+// `ring_counts` points to `ring_count` numbers, `clip` to as many pairs of numbers as they add up to; the rest is as for
+// `incircle_diagram_new`.
+int32_t incircle_diagram_new_with_holes(const void *points,
+                                        size_t count,
+                                        const void *clip,
+                                        const size_t *ring_counts,
+                                        size_t ring_count,
+                                        uint32_t number,
+                                        uint32_t quantize,
+                                        incircle_diagram **diagram);
+
 // The Voronoi vertices, all at different places: each coordinate is the double nearest to the exact one.
 //
 // # Safety
@@ -628,8 +698,15 @@ int32_t incircle_diagram_duplicates(const incircle_diagram *diagram,
 // `diagram` is one that is not freed, and `error` may be written.
 int32_t incircle_diagram_largest_error(const incircle_diagram *diagram, double *error);
 
-// The corners of the pieces of all cells inside the clip, counter-clockwise, one piece behind the other. A cell has no
-// piece, one, or several if the clip is not convex. The status is `INCIRCLE_CHOICE` if the diagram has no clip.
+// Frees a diagram. A null pointer is allowed.
+//
+// # Safety
+// `diagram` is null, or one that is not freed, and is not used again.
+void incircle_diagram_free(incircle_diagram *diagram);
+
+// The corners of the rings of all cells inside the clip, one ring behind the other: counter-clockwise around a piece,
+// clockwise around a hole in it. A cell has no piece, one, or several if the clip is not convex, and only a clip with
+// holes has pieces with holes. The status is `INCIRCLE_CHOICE` if the diagram has no clip.
 //
 // # Safety
 // As for `incircle_diagram_vertices`.
@@ -638,7 +715,7 @@ int32_t incircle_diagram_cell_corners(const incircle_diagram *diagram,
                                       size_t room,
                                       size_t *count);
 
-// Where each piece begins in `incircle_diagram_cell_corners`. There is one item more than pieces: the end of the last.
+// Where each ring begins in `incircle_diagram_cell_corners`. There is one item more than rings: the end of the last.
 //
 // # Safety
 // As for `incircle_diagram_vertices`.
@@ -647,12 +724,21 @@ int32_t incircle_diagram_piece_starts(const incircle_diagram *diagram,
                                       size_t room,
                                       size_t *count);
 
-// The point to which each piece belongs, in rising order.
+// The point to which each ring belongs, in rising order.
 //
 // # Safety
 // As for `incircle_diagram_vertices`.
 int32_t incircle_diagram_piece_points(const incircle_diagram *diagram,
                                       uint32_t *buffer,
+                                      size_t room,
+                                      size_t *count);
+
+// Whether each ring bounds a hole of the last piece before it: 1, or 0 for the ring around a piece.
+//
+// # Safety
+// As for `incircle_diagram_vertices`.
+int32_t incircle_diagram_ring_is_hole(const incircle_diagram *diagram,
+                                      uint8_t *buffer,
                                       size_t room,
                                       size_t *count);
 
@@ -684,20 +770,15 @@ int32_t incircle_diagram_inside_starts(const incircle_diagram *diagram,
                                        size_t room,
                                        size_t *count);
 
-// Frees a diagram. A null pointer is allowed.
-//
-// # Safety
-// `diagram` is null, or one that is not freed, and is not used again.
-void incircle_diagram_free(incircle_diagram *diagram);
-
 // Spreads `count` points evenly: each step moves every point to the centroid of its Voronoi cell inside the clip of
 // the choices. `points` has x and y of each, in the type of numbers `number`, such as `INCIRCLE_F64`. `places` gets
 // the new place of each point, in their order; the places are the same bytes on every machine and with any number of
 // threads. `relaxed` says what was done, and may be null.
 //
 // Points and clip must lie on a lattice of up to 23 bits, or are rounded onto one by `INCIRCLE_QUANTIZE`. The status
-// is `INCIRCLE_INPUT` for points and clips that `incircle_diagram_new` refuses, and for a rectangle around the points
-// that has no area. `places` has room for `room` points; with less room than points the status is `INCIRCLE_BUFFER`.
+// is `INCIRCLE_INPUT` for points and clips that `incircle_diagram_new` refuses, for a rectangle around the points that
+// has no area, for rings whose corners are not `corner_count`, and for a density without weights or whose weights are
+// all 0. `places` has room for `room` points; with less room than points the status is `INCIRCLE_BUFFER`.
 //
 // # Safety
 // The pointers of the choices are as described there, and the others point to what is said above.

@@ -36,7 +36,7 @@ fn of_all_threads() -> f64 {
 }
 
 /// The least seconds by the wall and of processor time of two kinds of work that take turns.
-fn in_turns(mut works: [&mut dyn FnMut(); 2]) -> [[f64; 2]; 2] {
+fn in_turns(works: [&mut dyn FnMut(); 2]) -> [[f64; 2]; 2] {
     let mut least = [[f64::INFINITY; 2]; 2];
     for turn in 0..4 * RUNS {
         let (since, begin) = (Instant::now(), of_all_threads());

@@ -147,6 +147,49 @@ fn progress_cancelling_and_the_deadline_are_those_of_a_job() {
 }
 
 #[test]
+fn a_wrong_plan_is_told_after_one_run_of_the_stages() {
+    let points = Random(8).points(5000, 1 << 16);
+    let mut device = Device::cpu(None);
+    let mut session = device.session().expect("a session");
+    let heard = RefCell::new(Vec::new());
+    let listen = |progress: incircle::Progress| {
+        heard.borrow_mut().push(progress.stage);
+        ControlFlow::Continue(())
+    };
+    // Chords between random points surely cross, and a boundary of one edge is not closed.
+    let chords: Vec<[u32; 2]> = (0..50).map(|k| [k, 4999 - k]).collect();
+    let open = Plan { domain: Domain::EvenOdd, ..Plan::new(&chords[..1]) };
+    for plan in [Plan::new(&chords), open] {
+        let found = session.triangulate_constrained(&points, &plan, &Options::default().progress(&listen));
+        assert!(matches!(found, Err(ConstrainedError::Plan(_))));
+        let mut stages = heard.take();
+        stages.dedup();
+        assert_eq!(stages, [Stage::Order, Stage::Insert, Stage::Assemble]);
+    }
+}
+
+#[test]
+fn the_listener_can_end_a_job_while_constraints_are_forced() {
+    let points = Random(9).points(5000, 1 << 16);
+    // A fan has no crossings, and many pieces.
+    let fan: Vec<[u32; 2]> = (1..5000).map(|k| [0, k]).collect();
+    let mut device = Device::cpu(None);
+    let mut session = device.session().expect("a session");
+    let heard = RefCell::new(0);
+    let third = |progress: incircle::Progress| {
+        *heard.borrow_mut() += u32::from(progress.stage == Stage::Assemble);
+        match *heard.borrow() < 3 {
+            true => ControlFlow::Continue(()),
+            false => ControlFlow::Break(()),
+        }
+    };
+    let options = Options::default().progress(&third);
+    let error = session.triangulate_constrained(&points, &Plan::new(&fan), &options).expect_err("cancelled");
+    assert!(matches!(error, ConstrainedError::Job(Error::Cancelled { stage: "assemble", .. })), "{error}");
+    assert_eq!(*heard.borrow(), 3);
+}
+
+#[test]
 fn points_are_refused_before_constraints() {
     let (nan, plan) = ([[0.0, 0.0], [f64::NAN, 1.0]], Plan::new(&[[0, 7]]));
     assert!(!compare(&nan, &plan));
