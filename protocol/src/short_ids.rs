@@ -1,23 +1,21 @@
-//! Short ids: the answer to a `Triangles` in which an id takes 10 or 13 bits instead of 16.
+//! Short ids: the answer to a `Triangles` in which an id takes 10 or 12 bits instead of 16.
 //!
 //! A device has them if its [`Identity`](crate::Identity) has the feature [`FEATURE_SHORT_IDS`]. The host chooses the
 //! form in the command word. Ids keep their low bits, so the infinite vertex is all ones, or all ones of its own width
-//! where that is smaller. A record takes a word, and with 13 bits a byte more, its *rest*. Two records share half a word
-//! behind them for their rests.
+//! where that is smaller. A record takes a word, and of 12 bits four more, its *rest*; the rests of four records share
+//! half a word behind them.
 
 /// The bit of [`Identity::features`](crate::Identity::features) of a device that sends short ids.
 pub const FEATURE_SHORT_IDS: u32 = 2;
 
 /// The bit in the word of a `Triangles` that asks for short ids.
 pub const TRIANGLES_SHORT: u32 = 8;
-/// The bit beside [`TRIANGLES_SHORT`] that asks for 13 bits rather than 10.
-pub const TRIANGLES_THIRTEEN: u32 = 4;
+/// The bit beside [`TRIANGLES_SHORT`] that asks for 12 bits rather than 10.
+pub const TRIANGLES_TWELVE: u32 = 4;
 
 /// Records whose rests share half a word.
-const GROUP: usize = 2;
-/// Halves of a word that a group takes: two for each record, and one for the rests.
-const GROUP_HALVES: usize = 2 * GROUP + 1;
-/// Bits of each id that are in the word of its record; the first id has two more at its top.
+const GROUP: usize = 4;
+/// Bits of each id that are in the word of its record.
 const LOW_BITS: u32 = 10;
 
 /// How many bits an id takes.
@@ -25,31 +23,33 @@ const LOW_BITS: u32 = 10;
 pub enum ShortIds {
     /// 10 bits: for ids below 1,023.
     Ten,
-    /// 13 bits: for ids below 8,191.
-    Thirteen,
+    /// 12 bits: for ids below 4,095.
+    Twelve,
 }
 
 impl ShortIds {
     /// Number of records whose payload ends with a whole word. Ranges of so many records, or of a multiple, may be asked
     /// for one by one, and their payloads put together.
-    pub const WHOLE: u32 = 4;
+    pub const WHOLE: u32 = 8;
+    /// Most points of a mesh whose ids can be short.
+    pub const MOST_IDS: u32 = 0xfff;
 
     /// The shortest form for a mesh of points with ids below `ids`; `None` if only 16 bits are enough. One value more
     /// is needed for the infinite vertex.
     pub const fn below(ids: u32) -> Option<Self> {
         match ids {
             0..=0x3ff => Some(Self::Ten),
-            0x400..=0x1fff => Some(Self::Thirteen),
+            0x400..=0xfff => Some(Self::Twelve),
             _ => None,
         }
     }
 
     /// The form that the word of a `Triangles` asks for; `None` for ids of 16 bits.
     pub const fn of_word(word: u32) -> Option<Self> {
-        match (word & TRIANGLES_SHORT != 0, word & TRIANGLES_THIRTEEN != 0) {
+        match (word & TRIANGLES_SHORT != 0, word & TRIANGLES_TWELVE != 0) {
             (false, _) => None,
             (true, false) => Some(Self::Ten),
-            (true, true) => Some(Self::Thirteen),
+            (true, true) => Some(Self::Twelve),
         }
     }
 
@@ -57,7 +57,7 @@ impl ShortIds {
     pub const fn word_bits(self) -> u32 {
         match self {
             Self::Ten => 10,
-            Self::Thirteen => 13,
+            Self::Twelve => 12,
         }
     }
 
@@ -70,7 +70,7 @@ impl ShortIds {
     pub const fn words(self, records: u32) -> u64 {
         match self {
             Self::Ten => records as u64,
-            Self::Thirteen => (5 * records as u64).div_ceil(4),
+            Self::Twelve => (9 * records as u64).div_ceil(8),
         }
     }
 
@@ -86,8 +86,7 @@ impl ShortIds {
             None => [v0, v1, v2],
             Some((place, shift)) => {
                 let rest = half(place) >> shift;
-                let above = low >> 30 | (rest >> 6 & 1) << 2;
-                [v0 | above << LOW_BITS, v1 | (rest & 7) << LOW_BITS, v2 | (rest >> 3 & 7) << LOW_BITS]
+                [v0 | low >> 30 << LOW_BITS, v1 | (rest & 3) << LOW_BITS, v2 | (rest >> 2 & 3) << LOW_BITS]
             }
         }
     }
@@ -102,19 +101,24 @@ impl ShortIds {
         put(own, low);
         put(own + 1, low >> 16);
         if let Some((place, shift)) = rest {
-            let rest = v1 >> LOW_BITS & 7 | (v2 >> LOW_BITS & 7) << 3 | (v0 >> 12 & 1) << 6;
-            put(place, rest << shift);
+            put(place, (v1 >> LOW_BITS & 3 | (v2 >> LOW_BITS & 3) << 2) << shift);
         }
     }
 
     /// The bits of the last word of a payload that hold nothing and are 0.
     pub const fn spare_bits(self, records: usize) -> u32 {
-        match (self, records % 4) {
-            (Self::Ten, _) | (Self::Thirteen, 0) => 0,
-            // The last word has the rest of one record, the rests of two, or half a record and a rest.
-            (Self::Thirteen, 1) => 0xffff_ff00,
-            (Self::Thirteen, 2) => 0xffff_0000,
-            (Self::Thirteen, _) => 0xff00_0000,
+        match self {
+            Self::Ten => 0,
+            Self::Twelve => {
+                // Rests fill their half from the top. It is the low half of the last word after one to four records of
+                // eight, and the high half after more.
+                let empty = (1 << (4 * ((GROUP - records % GROUP) % GROUP))) - 1;
+                match records % (2 * GROUP) {
+                    0 => 0,
+                    1..=GROUP => 0xffff_0000 | empty,
+                    _ => empty << 16,
+                }
+            }
         }
     }
 
@@ -122,11 +126,12 @@ impl ShortIds {
     fn places(self, records: usize, record: usize) -> (usize, Option<(usize, usize)>) {
         match self {
             Self::Ten => (2 * record, None),
-            Self::Thirteen => {
+            Self::Twelve => {
                 let (group, place) = (record / GROUP, record % GROUP);
                 let count = GROUP.min(records - group * GROUP);
-                let first = group * GROUP_HALVES;
-                (first + 2 * place, Some((first + 2 * count, 8 * place)))
+                let first = group * (2 * GROUP + 1);
+                // The rest of the last record of a group is at the top.
+                (first + 2 * place, Some((first + 2 * count, 4 * (GROUP - count + place))))
             }
         }
     }
@@ -141,7 +146,7 @@ mod tests {
 
     #[test]
     fn what_is_put_in_comes_out() {
-        for form in [ShortIds::Ten, ShortIds::Thirteen] {
+        for form in [ShortIds::Ten, ShortIds::Twelve] {
             let all = (1 << form.word_bits()) - 1;
             assert_eq!(ShortIds::of_word(7 << 24 | form.word_bits()), Some(form));
             for records in 0..40usize {
@@ -157,7 +162,7 @@ mod tests {
                 }
                 let spare = form.spare_bits(records);
                 assert!(words.last().is_none_or(|last| last & spare == 0), "{form:?}, {records} records");
-                // Four records end with a word, so what follows is as in a payload of its own.
+                // Eight records end with a word, so what follows is as in a payload of its own.
                 if let Some(rest) = records.checked_sub(ShortIds::WHOLE as usize) {
                     let mut behind = vec![0; form.words(rest as u32) as usize];
                     for (record, v) in vertices[ShortIds::WHOLE as usize..].iter().enumerate() {
@@ -168,11 +173,11 @@ mod tests {
             }
         }
         assert_eq!(
-            [1023, 1024, 8191, 8192].map(ShortIds::below),
-            [Some(ShortIds::Ten), Some(ShortIds::Thirteen), Some(ShortIds::Thirteen), None]
+            [1023, 1024, 4095, 4096].map(ShortIds::below),
+            [Some(ShortIds::Ten), Some(ShortIds::Twelve), Some(ShortIds::Twelve), None]
         );
         assert_eq!(ShortIds::of_word(7 << 24), None);
-        assert_eq!(ShortIds::Thirteen.infinite(0x7ff), 0x7ff);
-        assert_eq!(ShortIds::Thirteen.infinite(0x3fff), 0x1fff);
+        assert_eq!(ShortIds::Twelve.infinite(0x7ff), 0x7ff);
+        assert_eq!(ShortIds::Twelve.infinite(0x1fff), 0xfff);
     }
 }

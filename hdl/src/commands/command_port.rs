@@ -29,7 +29,7 @@ use super::point_slot::PointSlot;
 use super::types::{Activity, AnswerProgress, Clearing, CommandState, Request, Tally, VertexCount, Word};
 use crate::engine::{Arrival, Deal, EngineState};
 use crate::prelude::*;
-use incircle_protocol::{Opcode, PADDING, TRIANGLES_SHORT, TRIANGLES_THIRTEEN};
+use incircle_protocol::{Opcode, PADDING, TRIANGLES_SHORT, TRIANGLES_TWELVE};
 
 #[derive(LogicBlock, Default)]
 pub struct CommandPort {
@@ -76,7 +76,7 @@ const _: () = assert!(
         && Opcode::Triangles as u8 == 7
         && PADDING == 0
         && TRIANGLES_SHORT == 1 << 3
-        && TRIANGLES_THIRTEEN == 1 << 2,
+        && TRIANGLES_TWELVE == 1 << 2,
     "the opcodes of this block follow the protocol"
 );
 

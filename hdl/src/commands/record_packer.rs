@@ -5,8 +5,8 @@
 //!    second record, so no record may come in that clock.
 //! 2. The vertices of a record are three halves. Four records fill three beats: the first of the four fills none, and
 //!    each of the others fills one.
-//! 3. With short ids a record brings two halves. With 13 bits, every second record and the last one bring a third: the
-//!    rests of the two, a byte each, or the rest of the last one alone and a byte of zeros.
+//! 3. With short ids a record brings two halves. Of 12 bits, every fourth record and the last one bring a third: the
+//!    rests of up to four records, 4 bits each, that of the last one on top and zeros below that of the first.
 //! 4. The halves that the last record leaves follow a clock later as a beat of their own, with as many words as they
 //!    need; an odd half is zero.
 //! 5. Nothing can stall this block: the user makes sure that there is room for every beat.
@@ -53,10 +53,10 @@ pub struct RecordPacker {
     pub count: Signal<In, RecordCount>,
     /// The payload has the vertices of the records alone.
     pub vertices_alone: Signal<In, Bit>,
-    /// Ids are short in such a payload, of 10 bits; with `has_rests`, of 13.
+    /// Ids are short in such a payload, of 10 bits; with `has_rests`, of 12.
     pub has_short_ids: Signal<In, Bit>,
     pub has_rests: Signal<In, Bit>,
-    /// A record comes. With short ids its rest is the lower byte of half 2.
+    /// A record comes. With short ids its rest is on top of half 2.
     pub comes: Signal<In, Bit>,
     pub halves: Signal<In, Halves>,
     /// A beat is full or is the last one; held for one clock.
@@ -72,15 +72,20 @@ pub struct RecordPacker {
     /// One record is left to come, and none is.
     is_last: DFF<Bit>,
     all_came: DFF<Bit>,
-    /// The rest of the record before, and whether the next record is the second of two.
-    rest: DFF<Bits<8>>,
-    is_second: DFF<Bit>,
-    byte_bits: Signal<Local, Half>,
+    /// The rests of the records of the group so far, and number of these records.
+    rests: DFF<Half>,
+    in_group: DFF<Bits<2>>,
+    earlier: Signal<Local, Half>,
+    together: Signal<Local, Half>,
+    ends_group: Signal<Local, Bit>,
     is_short: Signal<Local, Bit>,
     brings_two: Signal<Local, Bit>,
     /// The third half that the record brings; zero if there is none.
     third: Signal<Local, Half>,
     fills_beat: Signal<Local, Bit>,
+    four: Signal<Local, Half>,
+    three_places: Signal<Local, Bits<2>>,
+    one_place: Signal<Local, Bits<2>>,
     takes: Signal<Local, Bit>,
     sent: Signal<Local, BeatHalves>,
     sent_bits: Signal<Local, Bits<WORD_PAIR_BITS>>,
@@ -92,19 +97,26 @@ impl Logic for RecordPacker {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, is_there, filled, number, kept, many_are_kept);
-        dff_setup!(self, clock, left, is_last, all_came, rest, is_second);
+        dff_setup!(self, clock, left, is_last, all_came, rests, in_group);
         self.one.next = 1.into();
         self.two.next = 2.into();
-        self.byte_bits.next = 8.into();
+        self.four.next = 4.into();
+        self.three_places.next = 3.into();
+        self.one_place.next = 1.into();
         self.valid.next = self.is_there.q.val();
         self.beat.next = self.filled.q.val();
 
+        self.earlier.next = self.rests.q.val() >> self.four.val();
+        if !self.in_group.q.val().any() {
+            self.earlier.next = 0.into();
+        }
+        self.together.next = self.halves.val().half2 | self.earlier.val();
+        self.ends_group.next = self.is_last.q.val() | (self.in_group.q.val() == self.three_places.val());
         self.is_short.next = self.vertices_alone.val() & self.has_short_ids.val();
-        self.brings_two.next =
-            self.is_short.val() & (!(self.has_rests.val() & (self.is_second.q.val() | self.is_last.q.val())));
+        self.brings_two.next = self.is_short.val() & (!(self.has_rests.val() & self.ends_group.val()));
         self.third.next = self.halves.val().half2;
-        if self.is_short.val() & self.is_second.q.val() {
-            self.third.next = (self.halves.val().half2 << self.byte_bits.val()) | bit_cast::<16, 8>(self.rest.q.val());
+        if self.is_short.val() {
+            self.third.next = self.together.val();
         }
         if self.brings_two.val() {
             self.third.next = 0.into();
@@ -202,8 +214,8 @@ impl Logic for RecordPacker {
             self.left.d.next = self.left.q.val() - self.one.val();
             self.is_last.d.next = self.left.q.val() == self.two.val();
             self.all_came.d.next = self.is_last.q.val();
-            self.rest.d.next = bit_cast::<8, 16>(self.halves.val().half2);
-            self.is_second.d.next = !self.is_second.q.val();
+            self.rests.d.next = self.together.val();
+            self.in_group.d.next = self.in_group.q.val() + self.one_place.val();
             if self.is_last.q.val() & (!self.fills_beat.val()) {
                 self.number.d.next = KeptHalves::Rest;
             }
@@ -213,7 +225,7 @@ impl Logic for RecordPacker {
             self.kept.d.next = self.kept.q.val();
         }
         if self.starts.val() {
-            self.is_second.d.next = false;
+            self.in_group.d.next = 0.into();
             self.left.d.next = self.count.val();
             self.is_last.d.next = self.count.val() == self.one.val();
         }

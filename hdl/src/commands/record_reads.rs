@@ -26,7 +26,7 @@ pub struct RecordReads {
     pub count: Signal<In, RecordCount>,
     /// The payload has the vertices of the records alone; stable from the clock before `runs` on.
     pub is_packed: Signal<In, Bit>,
-    /// Ids are short in such a payload, of 10 bits; with `has_rests`, of 13. Both are as stable as `is_packed`.
+    /// Ids are short in such a payload, of 10 bits; with `has_rests`, of 12. Both are as stable as `is_packed`.
     pub has_short_ids: Signal<In, Bit>,
     pub has_rests: Signal<In, Bit>,
     /// The payload is being sent.

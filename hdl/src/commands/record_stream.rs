@@ -26,7 +26,7 @@ pub struct RecordStream {
     pub count: Signal<In, RecordCount>,
     /// The payload has the vertices of the records alone; stable from `starts` to the last beat.
     pub vertices_alone: Signal<In, Bit>,
-    /// Ids are short in such a payload, of 10 bits; with `has_rests`, of 13. Both are stable as well.
+    /// Ids are short in such a payload, of 10 bits; with `has_rests`, of 12. Both are stable as well.
     pub has_short_ids: Signal<In, Bit>,
     pub has_rests: Signal<In, Bit>,
     /// A record may be asked for.

@@ -19,7 +19,7 @@ crate::packed! {
         pub first: Word,
         /// Number of records of a read-out, or of points that an `Insert` has yet to bring.
         pub count: Word,
-        /// A `Triangles` asks for short ids of 10 bits; with `has_rests`, of 13.
+        /// A `Triangles` asks for short ids of 10 bits; with `has_rests`, of 12.
         pub has_short_ids: bool,
         pub has_rests: bool,
     }
@@ -70,7 +70,7 @@ crate::packed! {
         /// The payload consists of records (`is_read`); with `is_packed` as well, of their vertices alone.
         pub is_read: bool,
         pub is_packed: bool,
-        /// If the payload consists of vertices: with short ids of 10 bits; with `has_rests`, of 13.
+        /// If the payload consists of vertices: with short ids of 10 bits; with `has_rests`, of 12.
         pub has_short_ids: bool,
         pub has_rests: bool,
     }

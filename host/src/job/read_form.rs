@@ -64,8 +64,8 @@ impl ReadForm {
         match self {
             Self::Whole | Self::Short(ShortIds::Ten) => Ok(()),
             Self::Vertices => check_last_half(layout, records, words),
-            Self::Short(ShortIds::Thirteen) => {
-                let spare = ShortIds::Thirteen.spare_bits(records.len());
+            Self::Short(ShortIds::Twelve) => {
+                let spare = ShortIds::Twelve.spare_bits(records.len());
                 match words.last() {
                     Some(&word) if word & spare != 0 => Err(DeviceFault::SpareHalf { record: records.end - 1, word }),
                     _ => Ok(()),
@@ -84,23 +84,23 @@ mod tests {
         let plain = Capabilities::default();
         let whole = Capabilities { packs_records: false, ..plain };
         let of = |ids| ReadForm::of(ids, plain, FEATURE_SHORT_IDS);
-        let forms = [1023, 1024, 8191, 8192].map(of);
-        let [ten, thirteen] = [ShortIds::Ten, ShortIds::Thirteen].map(ReadForm::Short);
-        assert_eq!(forms, [ten, thirteen, thirteen, ReadForm::Vertices]);
+        let forms = [1023, 1024, 4095, 4096].map(of);
+        let [ten, twelve] = [ShortIds::Ten, ShortIds::Twelve].map(ReadForm::Short);
+        assert_eq!(forms, [ten, twelve, twelve, ReadForm::Vertices]);
         assert_eq!(ReadForm::of(5, plain, 0), ReadForm::Vertices);
         assert_eq!(ReadForm::of(5, whole, FEATURE_SHORT_IDS), ReadForm::Whole);
     }
 
     #[test]
     fn bits_behind_the_last_record_are_found() {
-        let layout = Layout::of(16, 8192);
-        let form = ReadForm::Short(ShortIds::Thirteen);
-        let mut words = vec![0; ShortIds::Thirteen.words(3) as usize];
-        ShortIds::Thirteen.vertices_to_words([8191, 8191, 8191], &mut words, 3, 2);
+        let layout = Layout::of(16, 4096);
+        let form = ReadForm::Short(ShortIds::Twelve);
+        let mut words = vec![0; ShortIds::Twelve.words(3) as usize];
+        ShortIds::Twelve.vertices_to_words([4095, 4095, 4095], &mut words, 3, 2);
         assert_eq!(form.check_spare(layout, &(7..10), &words), Ok(()));
-        assert_eq!(form.vertices(layout, 8192, &words, 3, 2), [16383; 3], "the infinite vertex of the device");
+        assert_eq!(form.vertices(layout, 4096, &words, 3, 2), [8191; 3], "the infinite vertex of the device");
         let last = words.len() - 1;
-        for bit in [24, 31] {
+        for bit in [0, 3, 16, 31] {
             let mut wrong = words.clone();
             wrong[last] |= 1 << bit;
             let fault = DeviceFault::SpareHalf { record: 9, word: wrong[last] };

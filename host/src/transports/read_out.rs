@@ -64,7 +64,7 @@ mod tests {
     fn parts_are_the_whole() {
         let layout = Layout::of(16, 1024);
         let range = RecordRange { first: 7, count: 100 };
-        let commands = [ShortIds::Ten, ShortIds::Thirteen].map(|ids| Command::ShortTriangles(range, ids));
+        let commands = [ShortIds::Ten, ShortIds::Twelve].map(|ids| Command::ShortTriangles(range, ids));
         for command in [Command::Read(range), Command::Triangles(range)].into_iter().chain(commands) {
             let read_out = ReadOut::of(command, layout).expect("a command that reads records");
             assert_eq!(read_out.range(), range);

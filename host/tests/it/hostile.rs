@@ -1,5 +1,7 @@
 //! Devices that lie: every lie ends in a typed error, never in a panic, a hang or wrong memory use.
 
+use std::cell::Cell;
+use std::rc::Rc;
 use std::time::Duration;
 
 use crate::common::liar::Liar;
@@ -64,6 +66,34 @@ fn an_honest_device_passes() {
     let mesh = run(Liar::new(16, |_, _| {})).expect("an honest mesh");
     crate::common::assert_right(&mesh);
     assert_eq!(mesh.report.backend, "liar");
+}
+
+/// A device sends short ids only if it says that it can, so older devices are read as before.
+#[test]
+fn a_device_without_short_ids_is_read_in_16_bits() {
+    let mesh = run(Liar::new(16, |_, _| {})).expect("an honest mesh").mesh;
+    let words = Rc::new(Cell::new([0; 2]));
+    let (short, long) = (Rc::clone(&words), Rc::clone(&words));
+    let liars = [
+        Liar::new(16, move |opcode, answer| {
+            if opcode == Opcode::Triangles {
+                short.set([short.get()[0] + answer[1], short.get()[1]]);
+            }
+        }),
+        Liar::new(
+            16,
+            without_short_ids(move |opcode, answer| {
+                if opcode == Opcode::Triangles {
+                    long.set([long.get()[0], long.get()[1] + answer[1]]);
+                }
+            }),
+        ),
+    ];
+    for liar in liars {
+        assert_eq!(run(liar).expect("an honest mesh").mesh, mesh);
+    }
+    // 40 points have 78 records: a word each with ids of 10 bits, and a word and a half with those of 16.
+    assert_eq!(words.get(), [78, 117]);
 }
 
 #[test]

@@ -88,7 +88,7 @@ impl Job {
         let records = model.mesh().records().len() as u32;
         let [read, triangles, latencies, counters] =
             [Opcode::Read, Opcode::Triangles, Opcode::Latencies, Opcode::Counters].map(command_word);
-        let short = [ShortIds::Ten, ShortIds::Thirteen].map(|ids| triangles | ids.word_bits());
+        let short = [ShortIds::Ten, ShortIds::Twelve].map(|ids| triangles | ids.word_bits());
         let rest = [
             [triangles, 0, records, PADDING],
             [short[0], 0, records, PADDING],

@@ -21,7 +21,7 @@ use super::read_form::ReadForm;
 use super::watch::tell;
 use incircle_geometry::Order;
 use incircle_geometry::Point;
-use incircle_protocol::Identity;
+use incircle_protocol::{Identity, ShortIds};
 use plan::{Part, Plan};
 
 /// Most points of a job that is done beside others: in a group, whose records are read with one command, or in one of
@@ -67,7 +67,7 @@ impl<'b> Batch<'b> {
         let (jobs, options) = (self.carrier.jobs, self.carrier.options);
         let has_teams = self.carrier.identity.protocol_version >= FIRST_VERSION_WITH_TEAMS;
         let plan =
-            Plan::new(self.contexts, self.carrier.identity.capacity, has_teams).sharing_at_most(self.kept_points());
+            Plan::new(self.contexts, self.carrier.identity.capacity, has_teams).sharing_at_most(self.most_shared());
         let (small, mut exclusive) = self.divide(&plan);
         let groups = self.group(&plan, small, &mut exclusive)?;
         let Self { mut carrier, mut done, left, .. } = self;
@@ -80,16 +80,21 @@ impl<'b> Batch<'b> {
         Ok((done, left))
     }
 
-    /// Number of points whose mesh the device keeps for the line while its core goes on.
-    fn kept_points(&self) -> usize {
+    /// Most points of jobs that share the memory: those whose mesh the device keeps for the line while its core goes on.
+    /// Where the line may be slower than the core, they are also no more than short ids can number.
+    fn most_shared(&self) -> usize {
         let carrier = &self.carrier;
         let capabilities = carrier.channel.capabilities();
-        // The jobs together may have as many ids as the device has, and then their ids are the longest.
-        let ids = usize::try_from(carrier.identity.capacity).unwrap_or(usize::MAX);
-        let form = ReadForm::of(ids, capabilities, carrier.identity.features);
-        // A point stands for two records, and the records of two points end with a whole word.
-        let words = form.command::<()>(0..4).payload_words(carrier.channel.layout()).max(1);
-        2 * (capabilities.kept_words / usize::try_from(words).unwrap_or(usize::MAX))
+        if capabilities.kept_words == usize::MAX && capabilities.pace.words_per_second.is_none() {
+            return usize::MAX;
+        }
+        let most = ShortIds::MOST_IDS as usize;
+        let form = ReadForm::of(most, capabilities, carrier.identity.features);
+        // A point stands for two records.
+        let [records, points] = [ShortIds::WHOLE as usize, ShortIds::WHOLE as usize / 2];
+        let words = form.command::<()>(0..records).payload_words(carrier.channel.layout()).max(1);
+        let kept = (capabilities.kept_words / usize::try_from(words).unwrap_or(usize::MAX)).saturating_mul(points);
+        kept.min(if matches!(form, ReadForm::Short(_)) { most } else { usize::MAX })
     }
 
     /// The jobs that may share the memory, and the exclusive ones.

@@ -70,7 +70,7 @@ fn head(was: &Registers) -> (Status, u32) {
                     _ if command.opcode == Opcode::Read as u8 => ids,
                     None => ids.div_ceil(2),
                     Some(ShortIds::Ten) => command.count,
-                    Some(ShortIds::Thirteen) => command.count + command.count.div_ceil(4),
+                    Some(ShortIds::Twelve) => command.count + command.count.div_ceil(8),
                 };
                 (Status::Ok, words)
             } else {

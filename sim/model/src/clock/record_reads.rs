@@ -12,6 +12,8 @@ const ROOM: usize = 4;
 const QUEUE: usize = 16;
 /// Number of halves of a word, 16 bits each, in a full beat.
 const FULL: usize = 4;
+/// Number of records whose rests share a half, with short ids of 12 bits.
+const GROUP: u32 = 4;
 /// Most halves that a record brings.
 const MOST_BROUGHT: usize = 6;
 
@@ -108,8 +110,10 @@ struct Packer {
     count: usize,
     /// Whether the held halves become a beat although no record comes.
     flushes: bool,
-    /// With short ids of 13 bits, the rest of the record before, if it was the first of two.
-    rest: Option<u32>,
+    /// With short ids of 12 bits, the rests of the records of the group so far, the last one on top, and the number of
+    /// these records.
+    rests: u32,
+    in_group: u32,
     /// A beat that is full, or the last one.
     filled: Option<Beat>,
 }
@@ -154,17 +158,18 @@ impl Packer {
             Form::Short(ids) => ids,
         };
         let low = v0 & 0x3ff | (v1 & 0x3ff) << 10 | (v2 & 0x3ff) << 20 | (v0 >> 10 & 3) << 30;
-        let rest = v1 >> 10 & 7 | (v2 >> 10 & 7) << 3 | (v0 >> 12 & 1) << 6;
-        let third = match (ids, self.rest.take()) {
-            (ShortIds::Ten, _) => None,
-            (ShortIds::Thirteen, Some(first)) => Some(first | rest << 8),
-            (ShortIds::Thirteen, None) if self.left == 0 => Some(rest),
-            (ShortIds::Thirteen, None) => {
-                self.rest = Some(rest);
-                None
-            }
-        };
-        ([low & 0xffff, low >> 16, third.unwrap_or(0), 0, 0, 0], 2 + usize::from(third.is_some()))
+        let mut halves = [low & 0xffff, low >> 16, 0, 0, 0, 0];
+        if ids == ShortIds::Ten {
+            return (halves, 2);
+        }
+        self.rests = self.rests >> 4 | (v1 >> 10 & 3 | (v2 >> 10 & 3) << 2) << 12;
+        self.in_group += 1;
+        if self.in_group < GROUP && self.left > 0 {
+            return (halves, 2);
+        }
+        halves[2] = self.rests;
+        (self.rests, self.in_group) = (0, 0);
+        (halves, 3)
     }
 }
 

@@ -40,7 +40,7 @@ impl CommandModel {
     /// Turns the next records of the range being read into words; false if none is left.
     ///
     /// Only a window is converted at a time, so reading a large mesh takes no memory of the mesh's size. The window has
-    /// a multiple of four records, so that its ids fill whole words.
+    /// a multiple of eight records, so that its ids fill whole words.
     pub(super) fn read_on(&mut self) -> bool {
         const WINDOW: u32 = 4096;
         let Reading { range, next, left } = self.reading;

@@ -57,7 +57,7 @@ impl Asked {
                 // Exactly up to the last record, one less, or one more.
                 _ => rest.wrapping_add(random.below(3) as u32).wrapping_sub(1),
             },
-            short_ids: [None, Some(ShortIds::Ten), Some(ShortIds::Thirteen)][random.below(3) as usize],
+            short_ids: [None, Some(ShortIds::Ten), Some(ShortIds::Twelve)][random.below(3) as usize],
             is_refused: false,
             engine: word(random) as u8,
             tag: word(random) as u8,

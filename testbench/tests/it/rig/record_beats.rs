@@ -73,8 +73,7 @@ pub enum Form {
 }
 
 impl Form {
-    pub const ALL: [Self; 4] =
-        [Self::Whole, Self::Vertices, Self::Short(ShortIds::Ten), Self::Short(ShortIds::Thirteen)];
+    pub const ALL: [Self; 4] = [Self::Whole, Self::Vertices, Self::Short(ShortIds::Ten), Self::Short(ShortIds::Twelve)];
 
     pub fn random(random: &mut SplitMix64) -> Self {
         Self::ALL[random.below(4) as usize]
@@ -89,7 +88,7 @@ impl Form {
     pub fn set<U: NamedPorts>(self, block: &mut Stepper<U>, vertices_alone: &str) {
         block.set(vertices_alone, self.has_vertices_alone());
         block.set("has_short_ids", matches!(self, Self::Short(_)));
-        block.set("has_rests", self == Self::Short(ShortIds::Thirteen));
+        block.set("has_rests", self == Self::Short(ShortIds::Twelve));
         if self == Self::Whole {
             block.set("has_short_ids", true);
         }
@@ -113,14 +112,14 @@ pub fn payload_of(records: &[Columns], form: Form) -> Vec<u32> {
 /// The payload with short ids, bit by bit as `protocol/README.md` says it.
 fn short_payload_of(records: &[Columns], ids: ShortIds) -> Vec<u32> {
     let mut halves = Vec::new();
-    for pair in records.chunks(2) {
+    for group in records.chunks(4) {
         let mut rests = 0;
-        for (place, Columns { v: [a, b, c], .. }) in pair.iter().enumerate() {
+        for Columns { v: [a, b, c], .. } in group {
             let low = a & 0x3ff | (b & 0x3ff) << 10 | (c & 0x3ff) << 20 | (a >> 10 & 3) << 30;
             halves.extend([low & 0xffff, low >> 16]);
-            rests |= (b >> 10 & 7 | (c >> 10 & 7) << 3 | (a >> 12 & 1) << 6) << (8 * place);
+            rests = rests >> 4 | (b >> 10 & 3) << 12 | (c >> 10 & 3) << 14;
         }
-        halves.extend((ids == ShortIds::Thirteen).then_some(rests));
+        halves.extend((ids == ShortIds::Twelve).then_some(rests));
     }
     halves.chunks(2).map(|pair| pair[0] | pair.get(1).map_or(0, |high| high << 16)).collect()
 }

@@ -111,7 +111,7 @@ fn command() -> impl Strategy<Value = Command<Vec<u32>>> {
         (any::<u16>(), 0u32..3000, 0usize..3).prop_map(|(first, count, form)| {
             let range = RecordRange { first: u32::from(first), count };
             let short = |ids| Command::ShortTriangles(range, ids);
-            [Command::Triangles(range), short(ShortIds::Ten), short(ShortIds::Thirteen)][form].clone()
+            [Command::Triangles(range), short(ShortIds::Ten), short(ShortIds::Twelve)][form].clone()
         }),
     ]
 }

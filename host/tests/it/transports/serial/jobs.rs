@@ -27,8 +27,8 @@ fn read(count: u32) -> Command<[u32; 0]> {
 /// The commands that read these records with their links, without them, and with short ids.
 fn reads(first: u32, count: u32) -> [Command<[u32; 0]>; 4] {
     let range = RecordRange { first, count };
-    let [ten, thirteen] = [ShortIds::Ten, ShortIds::Thirteen].map(|ids| Command::ShortTriangles(range, ids));
-    [Command::Read(range), Command::Triangles(range), ten, thirteen]
+    let [ten, twelve] = [ShortIds::Ten, ShortIds::Twelve].map(|ids| Command::ShortTriangles(range, ids));
+    [Command::Read(range), Command::Triangles(range), ten, twelve]
 }
 
 fn rig() -> Rig {

@@ -68,7 +68,7 @@ fn every_range_has_the_records_of_the_memory() {
         if count % 2 == 1 {
             assert_eq!(answer.payload.last().map(|word| word >> 16), Some(0), "the last half");
         }
-        for ids in [ShortIds::Ten, ShortIds::Thirteen] {
+        for ids in [ShortIds::Ten, ShortIds::Twelve] {
             let words = [command_word(Opcode::Triangles) | ids.word_bits(), first, count];
             let answer = bench.run(&words, 1, stalls, 100_000, &mut random).expect("an end").swap_remove(0);
             assert_eq!(answer.payload.len() as u64, ids.words(count));

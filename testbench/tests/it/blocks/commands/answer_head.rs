@@ -24,7 +24,7 @@ fn answer_heads_follow_the_protocol() {
                 ("first", asked.first),
                 ("count", asked.count),
                 ("request_has_short_ids", asked.short_ids.is_some().into()),
-                ("request_has_rests", (asked.short_ids == Some(ShortIds::Thirteen)).into()),
+                ("request_has_rests", (asked.short_ids == Some(ShortIds::Twelve)).into()),
                 ("is_refused", asked.is_refused.into()),
                 ("tag", asked.tag.into()),
                 ("engine", asked.engine.into()),
@@ -40,7 +40,7 @@ fn answer_heads_follow_the_protocol() {
             block.expect("is_read", [Opcode::Read as u8, Opcode::Triangles as u8].contains(&opcode));
             block.expect("is_packed", opcode == Opcode::Triangles as u8);
             block.expect("head_has_short_ids", asked.short_ids.is_some());
-            block.expect("head_has_rests", asked.short_ids == Some(ShortIds::Thirteen));
+            block.expect("head_has_rests", asked.short_ids == Some(ShortIds::Twelve));
             if clock >= 3 {
                 let answer = &answers[clock - 3];
                 bad_ranges += u32::from(answer.status == Status::BadRange);

@@ -26,7 +26,7 @@ fn halves_are_those_of_the_words_or_the_ids_of_the_vertices() {
             let halves = kept.words().map(|word| [word & 0xffff, word >> 16]).concat();
             let [a, b, c] = kept.v;
             let low = a & 0x3ff | (b & 0x3ff) << 10 | (c & 0x3ff) << 20 | (a >> 10 & 3) << 30;
-            let short = [low & 0xffff, low >> 16, b >> 10 & 7 | (c >> 10 & 7) << 3 | (a >> 12 & 1) << 6];
+            let short = [low & 0xffff, low >> 16, (b >> 10 & 3) << 12 | (c >> 10 & 3) << 14];
             let expected = match form {
                 Form::Whole => &halves[..],
                 Form::Vertices => &kept.v[..],

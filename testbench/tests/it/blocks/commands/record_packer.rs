@@ -36,7 +36,7 @@ fn halves(record: Columns, form: Form) -> [u32; 6] {
         Form::Vertices => [v0, v1, v2, b[1], c[0], c[1]],
         Form::Short(_) => {
             let low = v0 & 0x3ff | (v1 & 0x3ff) << 10 | (v2 & 0x3ff) << 20 | (v0 >> 10 & 3) << 30;
-            [low & 0xffff, low >> 16, v1 >> 10 & 7 | (v2 >> 10 & 7) << 3 | (v0 >> 12 & 1) << 6, b[1], c[0], c[1]]
+            [low & 0xffff, low >> 16, (v1 >> 10 & 3) << 12 | (v2 >> 10 & 3) << 14, b[1], c[0], c[1]]
         }
     }
 }

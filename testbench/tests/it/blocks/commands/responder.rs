@@ -310,7 +310,7 @@ fn responder_is_as_fast_as_it_says() {
     assert_eq!([ends[1] - ends[0], ends[2] - ends[0]], [3, 1503], "three clocks for two whole records");
     let ends = ends_of(&[1, 25].map(|count| Sent { header: 8, payload: vec![5; count], ..Sent::default() }));
     assert_eq!(ends[1] - ends[0], 24 * 3, "clocks a word");
-    for form in [Form::Vertices, Form::Short(ShortIds::Ten), Form::Short(ShortIds::Thirteen)] {
+    for form in [Form::Vertices, Form::Short(ShortIds::Ten), Form::Short(ShortIds::Twelve)] {
         let mut ends_of = |counts: [u32; 2]| {
             counts.map(|count| {
                 let (end, _) = rig.answer(&Sent::read_out(9, 3, count, form));
