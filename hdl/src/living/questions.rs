@@ -23,7 +23,8 @@ use super::run_port::RunPort;
 use super::types::{Item, ItemNumber, Launch, Part};
 use crate::commands::{AnswerSource, CommandSink};
 use crate::engine::types::{
-    context_bits, Bundle, Completion, ContextId, ContextSet, Position, Push, TriangleId, Visit, CONTEXT_BITS, TRIANGLE_BITS,
+    context_bits, Bundle, Completion, ContextId, ContextSet, Position, Push, TriangleId, Visit, CONTEXT_BITS,
+    TRIANGLE_BITS,
 };
 use crate::leaf::LutMemory;
 use crate::predicate::EdgeFlags;

@@ -1,0 +1,7 @@
+//! Tests of the blocks in `hdl/src/living`.
+
+mod item_queues;
+mod part_queue;
+mod question_step;
+mod questions;
+mod run_port;
