@@ -122,7 +122,7 @@ impl Rig {
             block,
             mesh: Mesh::new(Vec::new(), Vec::new()),
             places: vec![(0, 0); 24],
-            visits: VecDeque::from(vec![None; LOOP - 1]),
+            visits: VecDeque::from(vec![None; LOOP]),
             random: SplitMix64::new(seed),
             visited: 0,
         }
@@ -299,7 +299,8 @@ fn locate_takes_fewer_than_five_cycles_an_item() {
     let set = |seed: u64| generate(Distribution::Uniform, COUNT, 16, seed).expect("a set of this size");
     let points: BTreeSet<[u32; 2]> = set(1).into_iter().collect();
     let points: Vec<[u32; 2]> = points.into_iter().collect();
-    let triangles = incircle::triangulate(&points).expect("a mesh").triangles;
+    let stored: Vec<incircle::Point> = points.iter().copied().map(incircle::Point::from).collect();
+    let triangles = incircle::triangulate(&stored).expect("a mesh").triangles;
     let pair = |points: Vec<[u32; 2]>| points.into_iter().map(|[x, y]| (i64::from(x), i64::from(y))).collect();
     let mut rig = Rig::new("living_questions_16", FULL, 69);
     rig.stand_on(Mesh::new(pair(points), triangles));
