@@ -17,7 +17,8 @@ use super::insertions::Insertions;
 use super::seed::Seeder;
 use super::solo::Solo;
 use super::types::{
-    Arrival, Clocks, Completion, Deal, EngineState, Events, Limits, RecordRead, Verdict, VertexId, Write,
+    Arrival, Clocks, Completion, Deal, EngineState, Events, Judged, Limits, Position, Push, Questioning, RecordRead,
+    Verdict, VertexId, Write,
 };
 use super::visit::{PushPort, VisitPipeline};
 use super::write::WritePort;
@@ -48,6 +49,10 @@ pub struct InsertionEngine {
     pub write: Signal<Out, Write>,
     /// The events of this edge, for the counters.
     pub events: Signal<Out, Events>,
+    /// In a core that answers questions: what they want from the pipeline, only while the engine is quiet, and the visit
+    /// that completes.
+    pub questioning: Vec<Signal<In, Questioning>>,
+    pub judged: Vec<Signal<Out, Judged>>,
     insertions: Insertions,
     pipeline: VisitPipeline,
     solo: Solo,
@@ -56,12 +61,27 @@ pub struct InsertionEngine {
     write_port: WritePort,
     completion: Signal<Local, Completion>,
     verdict: Signal<Local, Verdict>,
+    question_push: Vec<Signal<Local, Push>>,
+    question_position: Vec<Signal<Local, Position>>,
 }
 
 impl InsertionEngine {
     /// Builds the engine of a configuration, which must be a valid one.
     pub fn new(config: Config) -> Self {
         Self { insertions: Insertions::new(config), pipeline: VisitPipeline::new(config), ..Self::default() }
+    }
+
+    /// Builds the engine of a core that answers questions.
+    pub fn with_questions(config: Config) -> Self {
+        Self {
+            pipeline: VisitPipeline::with_sides(config),
+            push_port: PushPort::with_questions(),
+            questioning: vec![Signal::default()],
+            judged: vec![Signal::default()],
+            question_push: vec![Signal::default()],
+            question_position: vec![Signal::default()],
+            ..Self::new(config)
+        }
     }
 }
 
@@ -135,5 +155,21 @@ impl Logic for InsertionEngine {
         self.events.next = self.insertions.events.val();
         self.events.next.is_issuing = self.pipeline.is_issuing.val();
         self.events.next.is_writing = self.write_port.write.val().valid;
+
+        // The visits of a question go through the pipeline alone: no other block sees them, and they are not counted.
+        for i in 0..self.questioning.len() {
+            self.question_push[i].next = self.questioning[i].val().push;
+            self.question_position[i].next = self.questioning[i].val().position;
+            self.push_port.question[i].next = self.question_push[i].val();
+            if self.question_position[i].val().valid {
+                self.pipeline.position.next = self.question_position[i].val();
+            }
+            if self.questioning[i].val().is_active {
+                self.insertions.early.next.done = false;
+                self.events.next.is_issuing = false;
+            }
+            self.judged[i].next.completion = self.pipeline.completion.val();
+            self.judged[i].next.sides = self.pipeline.sides[i].val();
+        }
     }
 }

@@ -7,6 +7,7 @@ mod item_queues;
 mod part_queue;
 mod question_step;
 mod questions;
+mod run_gate;
 mod run_port;
 pub mod types;
 
@@ -14,4 +15,5 @@ pub use item_queues::ItemQueues;
 pub use part_queue::PartQueue;
 pub use question_step::QuestionStep;
 pub use questions::Questions;
+pub use run_gate::RunGate;
 pub use run_port::{RunPort, RunState};

@@ -66,6 +66,21 @@ crate::packed! {
         pub part: Part,
     }
 
+    /// What a core knows of the mesh that it could be asked about.
+    pub struct Standing {
+        /// The next word is a command.
+        pub awaits_command: bool,
+        /// The mesh is forgotten at this edge.
+        pub clears: bool,
+        /// What answers are signed with: the tag of the last `Clear`, and the number of the engine.
+        pub tag: Bits<8>,
+        pub engine: Bits<8>,
+        /// Number of contexts that work.
+        pub contexts: Bits<5>,
+        /// There is a mesh to ask.
+        pub has_mesh: bool,
+    }
+
     /// The head of the answer to a run.
     pub struct RunHead {
         /// The answer begins at this edge.

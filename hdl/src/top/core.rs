@@ -11,8 +11,9 @@
 //! ```
 
 use crate::commands::{AnswerHead, AnswerSource, AnswerWords, CommandPort, CommandSink, Responder};
-use crate::engine::{Counters, InsertionEngine, Latencies, Write};
+use crate::engine::{Counters, InsertionEngine, Judged, Latencies, Questioning, Write};
 use crate::leaf::Parameter;
+use crate::living::types::Standing;
 use incircle_protocol::{infinite_vertex, patience, triangle_capacity, Config, ConfigError};
 use rust_hdl_core::prelude::*;
 
@@ -26,6 +27,11 @@ pub struct Core {
     pub response: AnswerSource,
     /// The write port of the triangle memory, for simulation.
     pub write: Signal<Out, Write>,
+    /// In a core that answers questions: what they want from the pipeline, the visit that completes, and what they know
+    /// of the mesh.
+    pub questioning: Vec<Signal<In, Questioning>>,
+    pub judged: Vec<Signal<Out, Judged>>,
+    pub standing: Vec<Signal<Out, Standing>>,
     command_port: CommandPort,
     answer_head: AnswerHead,
     answer_words: AnswerWords,
@@ -43,6 +49,7 @@ pub struct Core {
     all_contexts: Parameter<Bits<24>>,
     patience: Parameter<Bits<22>>,
     sweeps: Signal<Local, Bit>,
+    one_job: Vec<Constant<Bits<5>>>,
 }
 
 impl Core {
@@ -72,6 +79,24 @@ impl Core {
             all_contexts: Parameter::new(((1u64 << config.contexts) - 1).into()),
             patience: Parameter::new(u64::from(patience(config.points)).into()),
             ..Self::default()
+        })
+    }
+}
+
+impl Core {
+    /// The parts of the core that [`LivingCore`](super::LivingCore) puts questions around.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_questions(config: Config) -> Result<Self, ConfigError> {
+        Ok(Self {
+            engine: InsertionEngine::with_questions(config.check()?),
+            command_port: CommandPort::with_questions(),
+            questioning: vec![Signal::default()],
+            judged: vec![Signal::default()],
+            standing: vec![Signal::default()],
+            one_job: vec![Constant::new(1.into())],
+            ..Self::new(config)?
         })
     }
 }
@@ -152,5 +177,19 @@ impl Logic for Core {
         self.latencies.comes.next = self.counters.latency_comes.val();
         self.latencies.latency.next = self.counters.latency.val();
         self.latencies.select.next = self.responder.index.val();
+
+        // A batch has a mesh for each job, so there is no mesh to ask.
+        for i in 0..self.standing.len() {
+            self.engine.questioning[i].next = self.questioning[i].val();
+            self.judged[i].next = self.engine.judged[i].val();
+            self.standing[i].next.awaits_command = self.command_port.awaits_command[i].val();
+            self.standing[i].next.clears = self.command_port.clearing.val().clears;
+            self.standing[i].next.tag = self.command_port.clearing.val().tag;
+            self.standing[i].next.engine = self.engine_number.val();
+            self.standing[i].next.contexts = self.command_port.deal.val().contexts;
+            self.standing[i].next.has_mesh = self.engine.state.val().records.any()
+                & (self.command_port.deal.val().jobs == self.one_job[i].val())
+                & (!self.engine.state.val().stuck);
+        }
     }
 }

@@ -35,9 +35,18 @@ pub struct PushPort {
     /// A solo insertion is at work; `solo` is the visit that it asks for.
     pub solo_is_at_work: Signal<In, Bit>,
     pub solo: Signal<In, Push>,
+    /// The visit that a question asks for: in a core that answers questions, and while the insertion engine rests.
+    pub question: Vec<Signal<In, Push>>,
     pub push: Signal<Out, Push>,
     pushes: DFF<Bit>,
     pushed: DFF<Bundle>,
+}
+
+impl PushPort {
+    /// The port of a core that answers questions.
+    pub fn with_questions() -> Self {
+        Self { question: vec![Signal::default()], ..Self::default() }
+    }
 }
 
 impl Logic for PushPort {
@@ -58,6 +67,12 @@ impl Logic for PushPort {
         }
         if self.solo_is_at_work.val() {
             self.pushed.d.next = self.solo.val().bundle;
+        }
+        for i in 0..self.question.len() {
+            if self.question[i].val().valid {
+                self.pushes.d.next = true;
+                self.pushed.d.next = self.question[i].val().bundle;
+            }
         }
         if self.reset.val() {
             self.pushes.d.next = false;
