@@ -17,12 +17,13 @@ use super::insertions::Insertions;
 use super::seed::Seeder;
 use super::solo::Solo;
 use super::types::{
-    Arrival, Clocks, Completion, Deal, EngineState, Events, Judged, Limits, Position, Push, Questioning, RecordRead,
-    Verdict, VertexId, Write,
+    Arrival, Bundle, Clocks, Completion, Deal, EngineState, Events, Limits, Position, RecordRead, Verdict, VertexId,
+    Write,
 };
 use super::visit::{PushPort, VisitPipeline};
 use super::write::WritePort;
 use crate::mesh::ReadRecord;
+use crate::predicate::EdgeFlags;
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 
@@ -49,10 +50,15 @@ pub struct InsertionEngine {
     pub write: Signal<Out, Write>,
     /// The events of this edge, for the counters.
     pub events: Signal<Out, Events>,
-    /// In a core that answers questions: what they want from the pipeline, only while the engine is quiet, and the visit
-    /// that completes.
-    pub questioning: Vec<Signal<In, Questioning>>,
-    pub judged: Vec<Signal<Out, Judged>>,
+    /// In a core that answers questions: a run of them is under way, which it is only while the engine is quiet. All
+    /// visits are theirs then. A question asks for the visit, or begins with a place; and the visit that completes, with
+    /// the signs of its orient2d for the corners as stored.
+    pub question_runs: Vec<Signal<In, Bit>>,
+    pub question_asks: Vec<Signal<In, Bit>>,
+    pub question: Vec<Signal<In, Bundle>>,
+    pub question_place: Vec<Signal<In, Position>>,
+    pub completed: Vec<Signal<Out, Completion>>,
+    pub sides: Vec<Signal<Out, EdgeFlags>>,
     insertions: Insertions,
     pipeline: VisitPipeline,
     solo: Solo,
@@ -61,8 +67,6 @@ pub struct InsertionEngine {
     write_port: WritePort,
     completion: Signal<Local, Completion>,
     verdict: Signal<Local, Verdict>,
-    question_push: Vec<Signal<Local, Push>>,
-    question_position: Vec<Signal<Local, Position>>,
 }
 
 impl InsertionEngine {
@@ -76,10 +80,12 @@ impl InsertionEngine {
         Self {
             pipeline: VisitPipeline::with_sides(config),
             push_port: PushPort::with_questions(),
-            questioning: vec![Signal::default()],
-            judged: vec![Signal::default()],
-            question_push: vec![Signal::default()],
-            question_position: vec![Signal::default()],
+            question_runs: vec![Signal::default()],
+            question_asks: vec![Signal::default()],
+            question: vec![Signal::default()],
+            question_place: vec![Signal::default()],
+            completed: vec![Signal::default()],
+            sides: vec![Signal::default()],
             ..Self::new(config)
         }
     }
@@ -157,19 +163,16 @@ impl Logic for InsertionEngine {
         self.events.next.is_writing = self.write_port.write.val().valid;
 
         // The visits of a question go through the pipeline alone: no other block sees them, and they are not counted.
-        for i in 0..self.questioning.len() {
-            self.question_push[i].next = self.questioning[i].val().push;
-            self.question_position[i].next = self.questioning[i].val().position;
-            self.push_port.question[i].next = self.question_push[i].val();
-            if self.question_position[i].val().valid {
-                self.pipeline.position.next = self.question_position[i].val();
-            }
-            if self.questioning[i].val().is_active {
+        for i in 0..self.question_runs.len() {
+            self.push_port.question_asks[i].next = self.question_asks[i].val();
+            self.push_port.question[i].next = self.question[i].val();
+            if self.question_runs[i].val() {
+                self.pipeline.position.next = self.question_place[i].val();
                 self.insertions.early.next.done = false;
                 self.events.next.is_issuing = false;
             }
-            self.judged[i].next.completion = self.pipeline.completion.val();
-            self.judged[i].next.sides = self.pipeline.sides[i].val();
+            self.completed[i].next = self.pipeline.completion.val();
+            self.sides[i].next = self.pipeline.sides[i].val();
         }
     }
 }

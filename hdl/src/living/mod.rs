@@ -9,6 +9,7 @@ mod question_step;
 mod questions;
 mod run_gate;
 mod run_port;
+mod standing_view;
 pub mod types;
 
 pub use item_queues::ItemQueues;
@@ -17,3 +18,4 @@ pub use question_step::QuestionStep;
 pub use questions::Questions;
 pub use run_gate::RunGate;
 pub use run_port::{RunPort, RunState};
+pub use standing_view::StandingView;

@@ -11,9 +11,11 @@
 //! ```
 
 use crate::commands::{AnswerHead, AnswerSource, AnswerWords, CommandPort, CommandSink, Responder};
-use crate::engine::{Counters, InsertionEngine, Judged, Latencies, Questioning, Write};
+use crate::engine::{Bundle, Completion, Counters, InsertionEngine, Latencies, Position, Write};
 use crate::leaf::Parameter;
 use crate::living::types::Standing;
+use crate::living::StandingView;
+use crate::predicate::EdgeFlags;
 use incircle_protocol::{infinite_vertex, patience, triangle_capacity, Config, ConfigError};
 use rust_hdl_core::prelude::*;
 
@@ -27,10 +29,13 @@ pub struct Core {
     pub response: AnswerSource,
     /// The write port of the triangle memory, for simulation.
     pub write: Signal<Out, Write>,
-    /// In a core that answers questions: what they want from the pipeline, the visit that completes, and what they know
-    /// of the mesh.
-    pub questioning: Vec<Signal<In, Questioning>>,
-    pub judged: Vec<Signal<Out, Judged>>,
+    /// In a core that answers questions: the ports of the engine for them, and what they must know of the core.
+    pub question_runs: Vec<Signal<In, Bit>>,
+    pub question_asks: Vec<Signal<In, Bit>>,
+    pub question: Vec<Signal<In, Bundle>>,
+    pub question_place: Vec<Signal<In, Position>>,
+    pub completed: Vec<Signal<Out, Completion>>,
+    pub sides: Vec<Signal<Out, EdgeFlags>>,
     pub standing: Vec<Signal<Out, Standing>>,
     command_port: CommandPort,
     answer_head: AnswerHead,
@@ -49,7 +54,7 @@ pub struct Core {
     all_contexts: Parameter<Bits<24>>,
     patience: Parameter<Bits<22>>,
     sweeps: Signal<Local, Bit>,
-    one_job: Vec<Constant<Bits<5>>>,
+    view: Vec<StandingView>,
 }
 
 impl Core {
@@ -92,10 +97,14 @@ impl Core {
         Ok(Self {
             engine: InsertionEngine::with_questions(config.check()?),
             command_port: CommandPort::with_questions(),
-            questioning: vec![Signal::default()],
-            judged: vec![Signal::default()],
+            question_runs: vec![Signal::default()],
+            question_asks: vec![Signal::default()],
+            question: vec![Signal::default()],
+            question_place: vec![Signal::default()],
+            completed: vec![Signal::default()],
+            sides: vec![Signal::default()],
             standing: vec![Signal::default()],
-            one_job: vec![Constant::new(1.into())],
+            view: vec![StandingView::default()],
             ..Self::new(config)?
         })
     }
@@ -178,18 +187,19 @@ impl Logic for Core {
         self.latencies.latency.next = self.counters.latency.val();
         self.latencies.select.next = self.responder.index.val();
 
-        // A batch has a mesh for each job, so there is no mesh to ask.
-        for i in 0..self.standing.len() {
-            self.engine.questioning[i].next = self.questioning[i].val();
-            self.judged[i].next = self.engine.judged[i].val();
-            self.standing[i].next.awaits_command = self.command_port.awaits_command[i].val();
-            self.standing[i].next.clears = self.command_port.clearing.val().clears;
-            self.standing[i].next.tag = self.command_port.clearing.val().tag;
-            self.standing[i].next.engine = self.engine_number.val();
-            self.standing[i].next.contexts = self.command_port.deal.val().contexts;
-            self.standing[i].next.has_mesh = self.engine.state.val().records.any()
-                & (self.command_port.deal.val().jobs == self.one_job[i].val())
-                & (!self.engine.state.val().stuck);
+        for i in 0..self.view.len() {
+            self.engine.question_runs[i].next = self.question_runs[i].val();
+            self.engine.question_asks[i].next = self.question_asks[i].val();
+            self.engine.question[i].next = self.question[i].val();
+            self.engine.question_place[i].next = self.question_place[i].val();
+            self.completed[i].next = self.engine.completed[i].val();
+            self.sides[i].next = self.engine.sides[i].val();
+            self.view[i].awaits_command.next = self.command_port.awaits_command[i].val();
+            self.view[i].clearing.next = self.command_port.clearing.val();
+            self.view[i].deal.next = self.command_port.deal.val();
+            self.view[i].state.next = self.engine.state.val();
+            self.view[i].engine.next = self.engine_number.val();
+            self.standing[i].next = self.view[i].standing.val();
         }
     }
 }

@@ -10,7 +10,7 @@
 
 use super::core::Core;
 use crate::commands::{AnswerSink, AnswerSource, CommandSink, CommandSource};
-use crate::engine::{Completion, Judged, Write};
+use crate::engine::{Completion, Write};
 use crate::living::types::Standing;
 use crate::living::{Questions, RunGate};
 use crate::prelude::*;
@@ -29,7 +29,6 @@ pub struct LivingCore {
     core: Core,
     questions: Questions,
     standing: Signal<Local, Standing>,
-    judged: Signal<Local, Judged>,
     completion: Signal<Local, Completion>,
     wide_engine: Signal<Local, Bits<16>>,
     shifted_engine: Signal<Local, Bits<16>>,
@@ -75,13 +74,13 @@ impl Logic for LivingCore {
         self.wide_tag.next = bit_cast::<16, 8>(self.standing.val().tag);
         self.questions.signature.next = self.shifted_engine.val() | self.wide_tag.val();
 
-        self.judged.next = self.core.judged[0].val();
-        self.completion.next = self.judged.val().completion;
+        self.completion.next = self.core.completed[0].val();
         self.questions.completion.next = self.completion.val();
         self.questions.completion.next.done = self.completion.val().done & self.questions.is_active.val();
-        self.questions.sides.next = self.judged.val().sides;
-        self.core.questioning[0].next.is_active = self.questions.is_active.val();
-        self.core.questioning[0].next.push = self.questions.push.val();
-        self.core.questioning[0].next.position = self.questions.position.val();
+        self.questions.sides.next = self.core.sides[0].val();
+        self.core.question_runs[0].next = self.questions.is_active.val();
+        self.core.question_asks[0].next = self.questions.push.val().valid;
+        self.core.question[0].next = self.questions.push.val().bundle;
+        self.core.question_place[0].next = self.questions.position.val();
     }
 }

@@ -1,7 +1,7 @@
 //! Visits on their way through the pipeline.
 
 use super::widths::{ContextId, RingEntry, Slot, TriangleId, VertexId};
-use crate::predicate::{EdgeFlags, Point};
+use crate::predicate::Point;
 use rust_hdl_core::prelude::*;
 
 /// Width of [`Visit`] in bits.
@@ -139,21 +139,6 @@ crate::packed! {
     pub struct RecordRead {
         pub valid: bool,
         pub id: TriangleId,
-    }
-
-    /// What the questions of a run want from the pipeline.
-    pub struct Questioning {
-        /// A run is under way: all visits are visits of questions.
-        pub is_active: bool,
-        pub push: Push,
-        pub position: Position,
-    }
-
-    /// A visit that completes in this clock, for a question.
-    pub struct Judged {
-        pub completion: Completion,
-        /// The signs of its orient2d, for the corners as stored.
-        pub sides: EdgeFlags,
     }
 
     /// The coordinates of the point that a context inserts from now on.

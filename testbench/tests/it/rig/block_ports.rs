@@ -16,7 +16,7 @@ use incircle_hdl::engine::{
 };
 use incircle_hdl::ethernet::types::{OnTheWay, Station};
 use incircle_hdl::leaf::Unpacked;
-use incircle_hdl::living::types::{ContextEnd, DealtItem, Finding, Launch, PartCame, RunHead};
+use incircle_hdl::living::types::{ContextEnd, DealtItem, Finding, Launch, PartCame, RunHead, Standing};
 use incircle_hdl::mesh::{ReadRecord, Record};
 use incircle_hdl::predicate::{Corners, EdgeFlags, OrderFlags, Signs};
 use incircle_hdl::serial::types::{AnswerPlace, BytePlace, Contents, FifoRoom, FrameHead, Lamps, Receipt, Session};
@@ -208,6 +208,7 @@ packed_values!(
     Launch,
     PartCame,
     RunHead,
+    Standing,
     StarTriangle,
     Start,
     Step,

@@ -4,4 +4,6 @@ mod item_queues;
 mod part_queue;
 mod question_step;
 mod questions;
+mod run_gate;
 mod run_port;
+mod standing_view;
