@@ -1,11 +1,12 @@
 //! Runs `Questions` in Rust and in Verilog in front of a mesh and a visit pipeline of plain code. Every answer is
 //! compared with what the triangles say by their definition.
 
-use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::collections::{BTreeSet, VecDeque};
 
+use crate::rig::standing_mesh::{Mesh, INFINITE};
 use crate::rig::stepper::bundles::{unpack, Visit, VERDICT};
 use crate::rig::stepper::{named_ports, Stepper};
-use crate::rig::visit_model::{orientation, point, word, Point, Record};
+use crate::rig::visit_model::{orientation, point, word, Point};
 use incircle_hdl::living::Questions;
 use incircle_protocol::{Config, FULL, TINY};
 use incircle_testkit::{delaunay, generate, Distribution, SplitMix64};
@@ -30,64 +31,11 @@ named_ports!(
     clock
 );
 
-const INFINITE: u64 = 0x7fff;
 /// Number of clocks from the request of a visit to the requests that follow it.
 const LOOP: usize = 18;
 /// Clocks in which the counts of the queues are cleared, with those of the reset.
 const START: usize = 40;
 const LOCATE: u64 = 8;
-
-/// Records and points.
-struct Mesh {
-    points: Vec<Point>,
-    triangles: Vec<[u32; 3]>,
-    records: Vec<Record>,
-}
-
-impl Mesh {
-    fn new(points: Vec<Point>, triangles: Vec<[u32; 3]>) -> Self {
-        let mut corners: Vec<[u64; 3]> = triangles.iter().map(|triangle| triangle.map(u64::from)).collect();
-        let edges = |corners: &[u64; 3]| [0, 1, 2].map(|slot| (corners[(slot + 1) % 3], corners[(slot + 2) % 3]));
-        let inner: BTreeSet<(u64, u64)> = corners.iter().flat_map(edges).collect();
-        corners.extend(inner.iter().filter(|&&(a, b)| !inner.contains(&(b, a))).map(|&(a, b)| [b, a, INFINITE]));
-        let by_edge: BTreeMap<(u64, u64), u64> =
-            corners.iter().enumerate().flat_map(|(id, corners)| edges(corners).map(|edge| (edge, id as u64))).collect();
-        let records = corners.iter().map(|v| Record { v: *v, n: edges(v).map(|(a, b)| by_edge[&(b, a)]) }).collect();
-        Self { points, triangles, records }
-    }
-
-    /// Places of the corners of a record, with any place for the infinite vertex.
-    fn corners(&self, record: &Record) -> [Point; 3] {
-        record.v.map(|v| self.points.get(v as usize).copied().unwrap_or((5, 7)))
-    }
-
-    /// Checks an answer by the definition of its outcome.
-    fn check(&self, place: Point, outcome: u64, [v0, v1, v2]: [u64; 3]) {
-        let at = |vertex: u64| self.points[vertex as usize];
-        let is_edge = |a: u64, b: u64| self.records.iter().any(|record| record.v.contains(&a) && record.v.contains(&b));
-        let is_right = match outcome {
-            1 => at(v0) == place && [v1, v2] == [0, 0],
-            2 => {
-                let (low, high) = (at(v0).min(at(v1)), at(v0).max(at(v1)));
-                is_edge(v0, v1) && orientation(low, high, place) == 0 && low < place && place < high && v2 == 0
-            }
-            3 => {
-                let sides = [(v0, v1), (v1, v2), (v2, v0)].map(|(a, b)| orientation(at(a), at(b), place));
-                let mut sorted = [v0, v1, v2];
-                sorted.rotate_left((0..3).min_by_key(|&slot| sorted[slot]).unwrap_or(0));
-                sides.iter().all(|&side| side > 0) && self.triangles.contains(&sorted.map(|v| v as u32))
-            }
-            4 => {
-                let sees = |ghost: &&Record| orientation(at(ghost.v[1]), at(ghost.v[0]), place) < 0;
-                let ghosts = self.records.iter().filter(|record| record.v[2] == INFINITE);
-                let seen: Vec<[u64; 2]> = ghosts.filter(sees).map(|ghost| [ghost.v[1], ghost.v[0]]).collect();
-                seen.contains(&[v0, v1]) && seen.iter().all(|edge| edge[1] != v0) && v2 == 0
-            }
-            _ => false,
-        };
-        assert!(is_right, "{place:?}: outcome {outcome}, vertices {v0}, {v1}, {v2}");
-    }
-}
 
 /// The block with a mesh behind it.
 struct Rig {
