@@ -23,7 +23,7 @@
 //! is_active       ___/^^^^^^^^^^^^^^^^^^^^^^^^^^^^\_
 //! ```
 
-use super::types::{DealtItem, Item, ItemNumber, Launch, RunHead};
+use super::types::{DealtItem, Item, ItemNumber, RunHead};
 use crate::commands::types::Word;
 use crate::commands::CommandSink;
 use crate::engine::types::ContextId;
@@ -77,7 +77,7 @@ pub struct RunPort {
     status: DFF<Bits<3>>,
     answers: DFF<Bit>,
     holds: DFF<Bit>,
-    held: DFF<Launch>,
+    held: DFF<DealtItem>,
     context: DFF<ContextId>,
     number: DFF<ItemNumber>,
     item: Signal<Local, Item>,
