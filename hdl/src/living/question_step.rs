@@ -42,7 +42,7 @@ pub struct QuestionStep {
     passes_by: Signal<Local, Bit>,
     hull_start: Signal<Local, VertexId>,
     hull_end: Signal<Local, VertexId>,
-    before: Signal<Local, TriangleId>,
+    hull_before: Signal<Local, TriangleId>,
 }
 
 impl Logic for QuestionStep {
@@ -62,16 +62,16 @@ impl Logic for QuestionStep {
         // ghost triangle before it lies opposite the end.
         self.hull_end.next = self.turned.val().v1;
         self.hull_start.next = self.turned.val().v2;
-        self.before.next = self.turned.val().n1;
+        self.hull_before.next = self.turned.val().n1;
         if self.turned.val().infinite1 {
             self.hull_end.next = self.turned.val().v2;
             self.hull_start.next = self.turned.val().v0;
-            self.before.next = self.turned.val().n2;
+            self.hull_before.next = self.turned.val().n2;
         }
         if self.turned.val().infinite2 {
             self.hull_end.next = self.turned.val().v0;
             self.hull_start.next = self.turned.val().v1;
-            self.before.next = self.turned.val().n0;
+            self.hull_before.next = self.turned.val().n0;
         }
 
         self.bundle.next.is_pair = false;
@@ -89,7 +89,7 @@ impl Logic for QuestionStep {
         self.bundle.next.third_record = 0.into();
         if self.sees.val() {
             self.bundle.next.entry = 1.into();
-            self.bundle.next.record = self.before.val();
+            self.bundle.next.record = self.hull_before.val();
         }
         self.ends.next = self.completion.val().done & (self.stands.val() | self.passes_by.val());
         self.asks.next = self.completion.val().done & (!self.stands.val()) & (!self.passes_by.val());

@@ -23,7 +23,7 @@
 //! is_active       ___/^^^^^^^^^^^^^^^^^^^^^^^^^^^^\_
 //! ```
 
-use super::types::{DealtItem, Item, ItemNumber, RunHead};
+use super::types::{DealtItem, Item, ItemNumber, Launch, RunHead};
 use crate::commands::types::Word;
 use crate::commands::CommandSink;
 use crate::engine::types::ContextId;
@@ -77,8 +77,8 @@ pub struct RunPort {
     status: DFF<Bits<3>>,
     answers: DFF<Bit>,
     holds: DFF<Bit>,
-    held: DFF<DealtItem>,
-    context: DFF<ContextId>,
+    held: DFF<Launch>,
+    turn: DFF<ContextId>,
     number: DFF<ItemNumber>,
     item: Signal<Local, Item>,
     takes_item: Signal<Local, Bit>,
@@ -87,13 +87,13 @@ pub struct RunPort {
     is_refused: Signal<Local, Bit>,
     is_too_long: Signal<Local, Bit>,
     top: Signal<Local, Word>,
-    after_context: Signal<Local, ContextId>,
+    after_turn: Signal<Local, ContextId>,
     wide_status: Signal<Local, Word>,
     shifted_status: Signal<Local, Word>,
     wide_code: Signal<Local, Word>,
     shifted_code: Signal<Local, Word>,
     one: Signal<Local, Word>,
-    one_context: Signal<Local, ContextId>,
+    one_turn: Signal<Local, ContextId>,
     one_number: Signal<Local, ItemNumber>,
     two: Signal<Local, Word>,
     top_shift: Signal<Local, Word>,
@@ -111,9 +111,9 @@ impl Logic for RunPort {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, state, code, count, left, some_are_left, status, answers);
-        dff_setup!(self, clock, holds, held, context, number);
+        dff_setup!(self, clock, holds, held, turn, number);
         self.one.next = 1.into();
-        self.one_context.next = 1.into();
+        self.one_turn.next = 1.into();
         self.one_number.next = 1.into();
         self.two.next = 2.into();
         self.top_shift.next = 30.into();
@@ -137,18 +137,18 @@ impl Logic for RunPort {
         self.dealt.next.valid = self.holds.q.val();
         self.dealt.next.context = self.held.q.val().context;
         self.dealt.next.item = self.held.q.val().item;
-        self.after_context.next = self.context.q.val() + self.one_context.val();
+        self.after_turn.next = self.turn.q.val() + self.one_turn.val();
         if self.taken.val() {
             self.holds.d.next = false;
         }
         if self.takes_item.val() {
             self.holds.d.next = true;
-            self.held.d.next.context = self.context.q.val();
+            self.held.d.next.context = self.turn.q.val();
             self.held.d.next.item = self.item.val();
             self.number.d.next = self.number.q.val() + self.one_number.val();
-            self.context.d.next = self.after_context.val();
-            if self.after_context.val() == self.contexts.val() {
-                self.context.d.next = 0.into();
+            self.turn.d.next = self.after_turn.val();
+            if self.after_turn.val() == self.contexts.val() {
+                self.turn.d.next = 0.into();
             }
         }
         self.is_last.next = self.left.q.val() == self.one.val();
@@ -180,7 +180,7 @@ impl Logic for RunPort {
             RunState::Idle => {
                 if self.begins.val() {
                     self.code.d.next = self.opcode.val();
-                    self.context.d.next = 0.into();
+                    self.turn.d.next = 0.into();
                     self.number.d.next = 0.into();
                     self.state.d.next = RunState::Count;
                 }
