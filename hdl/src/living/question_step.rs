@@ -40,7 +40,6 @@ pub struct QuestionStep {
     sees: Signal<Local, Bit>,
     stands: Signal<Local, Bit>,
     passes_by: Signal<Local, Bit>,
-    hull_start: Signal<Local, VertexId>,
     hull_end: Signal<Local, VertexId>,
     hull_before: Signal<Local, TriangleId>,
 }
@@ -61,17 +60,14 @@ impl Logic for QuestionStep {
         // Counter-clockwise, a ghost triangle has the infinite vertex, the end and the start of its hull edge. The
         // ghost triangle before it lies opposite the end.
         self.hull_end.next = self.turned.val().v1;
-        self.hull_start.next = self.turned.val().v2;
         self.hull_before.next = self.turned.val().n1;
         if self.turned.val().infinite1 {
             self.hull_end.next = self.turned.val().v2;
-            self.hull_start.next = self.turned.val().v0;
-            self.hull_before.next = self.turned.val().n2;
+                self.hull_before.next = self.turned.val().n2;
         }
         if self.turned.val().infinite2 {
             self.hull_end.next = self.turned.val().v0;
-            self.hull_start.next = self.turned.val().v1;
-            self.hull_before.next = self.turned.val().n0;
+                self.hull_before.next = self.turned.val().n0;
         }
 
         self.bundle.next.is_pair = false;
