@@ -63,11 +63,11 @@ impl Logic for QuestionStep {
         self.hull_before.next = self.turned.val().n1;
         if self.turned.val().infinite1 {
             self.hull_end.next = self.turned.val().v2;
-                self.hull_before.next = self.turned.val().n2;
+            self.hull_before.next = self.turned.val().n2;
         }
         if self.turned.val().infinite2 {
             self.hull_end.next = self.turned.val().v0;
-                self.hull_before.next = self.turned.val().n0;
+            self.hull_before.next = self.turned.val().n0;
         }
 
         self.bundle.next.is_pair = false;
