@@ -45,7 +45,8 @@ impl Mesh {
             3 => {
                 let sides = [(v0, v1), (v1, v2), (v2, v0)].map(|(a, b)| orientation(at(a), at(b), place));
                 let mut sorted = [v0, v1, v2];
-                sorted.rotate_left((0..3).min_by_key(|&slot| sorted[slot]).unwrap_or(0));
+                let smallest = (0..3).min_by_key(|&slot| sorted[slot]).unwrap_or(0);
+                sorted.rotate_left(smallest);
                 sides.iter().all(|&side| side > 0) && self.triangles.contains(&sorted.map(|v| v as u32))
             }
             4 => {

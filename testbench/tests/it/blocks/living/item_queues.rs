@@ -130,7 +130,8 @@ fn random_items(name: &str, config: Config, seed: u64) {
             let pace = [1, 3, 40][(clock / 500 + run) % 3];
             if dealt.is_none() && random.once_in(pace) {
                 // The first contexts get the most.
-                let context = random.below(1 + random.below(contexts as u64)) as usize;
+                let most = 1 + random.below(contexts as u64);
+                let context = random.below(most) as usize;
                 dealt = Some((context, (clock as u64, random.bits(32))));
             }
             let ends = lists.at_work.first().copied().filter(|_| random.once_in(4));
