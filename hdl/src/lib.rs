@@ -9,6 +9,7 @@ pub mod ethernet;
 pub mod export;
 mod files;
 pub mod leaf;
+pub mod living;
 pub mod mesh;
 pub mod predicate;
 mod prelude;

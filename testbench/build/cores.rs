@@ -26,6 +26,8 @@ pub fn all() -> Vec<(&'static str, String)> {
     vec![
         ("core_least", core(least)),
         ("core_tiny", core(TINY)),
+        ("core_tiny_questions", with_questions(TINY)),
+        ("core_small_questions", with_questions(SMALL)),
         ("core_small", core(SMALL)),
         (FAST_CLOCKS, core(SMALL)),
         ("core_small_ring9", core(ring9)),
@@ -44,6 +46,10 @@ pub fn all() -> Vec<(&'static str, String)> {
 
 fn core(config: Config) -> String {
     export::core(config, true).unwrap_or_else(|error| panic!("core {}: {error}", config.name))
+}
+
+fn with_questions(config: Config) -> String {
+    export::core_with_questions(config, true).unwrap_or_else(|error| panic!("core {}: {error}", config.name))
 }
 
 /// A core with every fault in its Verilog, each behind a switch: one bit of the port `faults` of the root module.

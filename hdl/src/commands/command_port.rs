@@ -53,6 +53,8 @@ pub struct CommandPort {
     pub tally: Signal<Out, Tally>,
     pub answer: Signal<In, AnswerProgress>,
     pub activity: Signal<Out, Activity>,
+    /// The next word is a command: in a core that answers questions.
+    pub awaits_command: Vec<Signal<Out, Bit>>,
     state: DFF<CommandState>,
     held: DFF<Request>,
     /// No point of the command is left; valid while points come.
@@ -79,6 +81,13 @@ const _: () = assert!(
         && TRIANGLES_TWELVE == 1 << 2,
     "the opcodes of this block follow the protocol"
 );
+
+impl CommandPort {
+    /// The port of a core that answers questions.
+    pub fn with_questions() -> Self {
+        Self { awaits_command: vec![Signal::default()], ..Self::default() }
+    }
+}
 
 impl Logic for CommandPort {
     #[hdl_gen]
@@ -109,6 +118,9 @@ impl Logic for CommandPort {
         self.gate.came.next = self.slot.arrival.val().came;
         self.gate.engine.next = self.engine.val();
         self.activity.next.awaits_point = self.gate.awaits_point.val();
+        for i in 0..self.awaits_command.len() {
+            self.awaits_command[i].next = (self.state.q.val() == CommandState::Command) & (!self.sweeps.val());
+        }
         self.clear.reset.next = self.reset.val();
         self.clear.built.next = self.built.val();
         self.clear.taken.next = self.gate.taken.val();

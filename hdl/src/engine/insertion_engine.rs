@@ -17,11 +17,13 @@ use super::insertions::Insertions;
 use super::seed::Seeder;
 use super::solo::Solo;
 use super::types::{
-    Arrival, Clocks, Completion, Deal, EngineState, Events, Limits, RecordRead, Verdict, VertexId, Write,
+    Arrival, Bundle, Clocks, Completion, Deal, EngineState, Events, Limits, Position, RecordRead, Verdict, VertexId,
+    Write,
 };
 use super::visit::{PushPort, VisitPipeline};
 use super::write::WritePort;
 use crate::mesh::ReadRecord;
+use crate::predicate::EdgeFlags;
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 
@@ -48,6 +50,15 @@ pub struct InsertionEngine {
     pub write: Signal<Out, Write>,
     /// The events of this edge, for the counters.
     pub events: Signal<Out, Events>,
+    /// In a core that answers questions: a run of them is under way, which it is only while the engine is quiet. All
+    /// visits are theirs then. A question asks for the visit, or begins with a place; and the visit that completes, with
+    /// the signs of its orient2d for the corners as stored.
+    pub question_runs: Vec<Signal<In, Bit>>,
+    pub question_asks: Vec<Signal<In, Bit>>,
+    pub question: Vec<Signal<In, Bundle>>,
+    pub question_place: Vec<Signal<In, Position>>,
+    pub completed: Vec<Signal<Out, Completion>>,
+    pub sides: Vec<Signal<Out, EdgeFlags>>,
     insertions: Insertions,
     pipeline: VisitPipeline,
     solo: Solo,
@@ -62,6 +73,21 @@ impl InsertionEngine {
     /// Builds the engine of a configuration, which must be a valid one.
     pub fn new(config: Config) -> Self {
         Self { insertions: Insertions::new(config), pipeline: VisitPipeline::new(config), ..Self::default() }
+    }
+
+    /// Builds the engine of a core that answers questions.
+    pub fn with_questions(config: Config) -> Self {
+        Self {
+            pipeline: VisitPipeline::with_sides(config),
+            push_port: PushPort::with_questions(),
+            question_runs: vec![Signal::default()],
+            question_asks: vec![Signal::default()],
+            question: vec![Signal::default()],
+            question_place: vec![Signal::default()],
+            completed: vec![Signal::default()],
+            sides: vec![Signal::default()],
+            ..Self::new(config)
+        }
     }
 }
 
@@ -135,5 +161,18 @@ impl Logic for InsertionEngine {
         self.events.next = self.insertions.events.val();
         self.events.next.is_issuing = self.pipeline.is_issuing.val();
         self.events.next.is_writing = self.write_port.write.val().valid;
+
+        // The visits of a question go through the pipeline alone: no other block sees them, and they are not counted.
+        for i in 0..self.question_runs.len() {
+            self.push_port.question_asks[i].next = self.question_asks[i].val();
+            self.push_port.question[i].next = self.question[i].val();
+            if self.question_runs[i].val() {
+                self.pipeline.position.next = self.question_place[i].val();
+                self.insertions.early.next.done = false;
+                self.events.next.is_issuing = false;
+            }
+            self.completed[i].next = self.pipeline.completion.val();
+            self.sides[i].next = self.pipeline.sides[i].val();
+        }
     }
 }

@@ -11,8 +11,8 @@ use crate::ethernet::{RgmiiIn, RgmiiOut};
 use crate::serial::{SerialError, SerialLink};
 use crate::stream::StreamLink;
 use crate::top::{
-    serial_wrapper, stream_wrapper, udp_wrapper, wrapper, ChipParts, Core, SerialTop, StreamTop, UdpPins, UdpTop,
-    CORE_NAME, SERIAL_TOP_NAME, STREAM_TOP_NAME, UDP_TOP_NAME,
+    serial_wrapper, stream_wrapper, udp_wrapper, wrapper, ChipParts, Core, LivingCore, SerialTop, StreamTop, UdpPins,
+    UdpTop, CORE_NAME, SERIAL_TOP_NAME, STREAM_TOP_NAME, UDP_TOP_NAME,
 };
 use crate::udp::{UdpDevice, UdpError, UdpLink, UdpParameters};
 
@@ -120,6 +120,20 @@ pub fn core(config: Config, with_probe: bool) -> Result<String, ExportError> {
     on_large_stack(|| {
         let inside = format!("{CORE_NAME}_logic");
         Ok(format!("{}{}", engines(config, &inside)?, wrapper(&inside, config.engines, with_probe)))
+    })
+}
+
+/// The whole Verilog of a core of one engine that answers questions about its mesh: the core, and the ANSI wrapper
+/// [`CORE_NAME`](crate::top::CORE_NAME) around it.
+///
+/// `with_probe` adds the write port of the triangle memory to the wrapper's ports, for simulation.
+///
+/// # Errors
+/// If a parameter is out of range, or the design is not fit for export.
+pub fn core_with_questions(config: Config, with_probe: bool) -> Result<String, ExportError> {
+    on_large_stack(|| {
+        let inside = format!("{CORE_NAME}_logic");
+        Ok(format!("{}{}", connected(LivingCore::new(config)?, &inside)?, wrapper(&inside, config.engines, with_probe)))
     })
 }
 

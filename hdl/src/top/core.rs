@@ -11,8 +11,11 @@
 //! ```
 
 use crate::commands::{AnswerHead, AnswerSource, AnswerWords, CommandPort, CommandSink, Responder};
-use crate::engine::{Counters, InsertionEngine, Latencies, Write};
+use crate::engine::{Bundle, Completion, Counters, InsertionEngine, Latencies, Position, Write};
 use crate::leaf::Parameter;
+use crate::living::types::Standing;
+use crate::living::StandingView;
+use crate::predicate::EdgeFlags;
 use incircle_protocol::{infinite_vertex, patience, triangle_capacity, Config, ConfigError};
 use rust_hdl_core::prelude::*;
 
@@ -26,6 +29,14 @@ pub struct Core {
     pub response: AnswerSource,
     /// The write port of the triangle memory, for simulation.
     pub write: Signal<Out, Write>,
+    /// In a core that answers questions: the ports of the engine for them, and what they must know of the core.
+    pub question_runs: Vec<Signal<In, Bit>>,
+    pub question_asks: Vec<Signal<In, Bit>>,
+    pub question: Vec<Signal<In, Bundle>>,
+    pub question_place: Vec<Signal<In, Position>>,
+    pub completed: Vec<Signal<Out, Completion>>,
+    pub sides: Vec<Signal<Out, EdgeFlags>>,
+    pub standing: Vec<Signal<Out, Standing>>,
     command_port: CommandPort,
     answer_head: AnswerHead,
     answer_words: AnswerWords,
@@ -43,6 +54,7 @@ pub struct Core {
     all_contexts: Parameter<Bits<24>>,
     patience: Parameter<Bits<22>>,
     sweeps: Signal<Local, Bit>,
+    view: Vec<StandingView>,
 }
 
 impl Core {
@@ -72,6 +84,28 @@ impl Core {
             all_contexts: Parameter::new(((1u64 << config.contexts) - 1).into()),
             patience: Parameter::new(u64::from(patience(config.points)).into()),
             ..Self::default()
+        })
+    }
+}
+
+impl Core {
+    /// The parts of the core that [`LivingCore`](super::LivingCore) puts questions around.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_questions(config: Config) -> Result<Self, ConfigError> {
+        Ok(Self {
+            engine: InsertionEngine::with_questions(config.check()?),
+            command_port: CommandPort::with_questions(),
+            question_runs: vec![Signal::default()],
+            question_asks: vec![Signal::default()],
+            question: vec![Signal::default()],
+            question_place: vec![Signal::default()],
+            completed: vec![Signal::default()],
+            sides: vec![Signal::default()],
+            standing: vec![Signal::default()],
+            view: vec![StandingView::default()],
+            ..Self::new(config)?
         })
     }
 }
@@ -152,5 +186,20 @@ impl Logic for Core {
         self.latencies.comes.next = self.counters.latency_comes.val();
         self.latencies.latency.next = self.counters.latency.val();
         self.latencies.select.next = self.responder.index.val();
+
+        for i in 0..self.view.len() {
+            self.engine.question_runs[i].next = self.question_runs[i].val();
+            self.engine.question_asks[i].next = self.question_asks[i].val();
+            self.engine.question[i].next = self.question[i].val();
+            self.engine.question_place[i].next = self.question_place[i].val();
+            self.completed[i].next = self.engine.completed[i].val();
+            self.sides[i].next = self.engine.sides[i].val();
+            self.view[i].awaits_command.next = self.command_port.awaits_command[i].val();
+            self.view[i].clearing.next = self.command_port.clearing.val();
+            self.view[i].deal.next = self.command_port.deal.val();
+            self.view[i].state.next = self.engine.state.val();
+            self.view[i].engine.next = self.engine_number.val();
+            self.standing[i].next = self.view[i].standing.val();
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! The core with all its parts, and the devices that put a link around the core.
 
 mod core;
+mod living_core;
 mod serial_top;
 mod stream_top;
 mod udp_top;
@@ -8,6 +9,7 @@ mod udp_wrapper;
 mod wrapper;
 
 pub use self::core::Core;
+pub use living_core::LivingCore;
 pub use serial_top::SerialTop;
 pub use stream_top::StreamTop;
 pub use udp_top::UdpTop;

@@ -68,6 +68,15 @@ impl ChipModel {
         self
     }
 
+    /// The same chip with questions about a mesh that stands, and no other runs, if it is a single engine.
+    #[must_use]
+    pub fn with_questions(mut self) -> Self {
+        if let [only] = &mut self.engines[..] {
+            *only = only.clone().with_questions();
+        }
+        self
+    }
+
     /// The outputs in the current state, with the write port of engine 0.
     pub fn outputs(&self) -> Outputs {
         if let [only] = &self.engines[..] {

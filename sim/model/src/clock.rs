@@ -21,6 +21,7 @@ mod living;
 mod memory;
 mod pipeline;
 mod ports;
+mod questions;
 mod record_reads;
 mod release;
 mod responder;
@@ -39,6 +40,7 @@ use incircle_protocol::{Config, ConfigError};
 use living::LivingEngine;
 use memory::Memory;
 use pipeline::Pipeline;
+use questions::Questions;
 use release::Release;
 use ring::RingReader;
 use wires::Registers;
@@ -65,6 +67,8 @@ pub struct ClockModel {
     defect: Option<Defect>,
     /// The living engine, in a core that has runs.
     living: Option<LivingEngine>,
+    /// The questions of a core that has no other runs.
+    questions: Option<Questions>,
 }
 
 impl ClockModel {
@@ -96,6 +100,7 @@ impl ClockModel {
             latencies: Latencies::new(),
             defect: None,
             living: None,
+            questions: None,
         })
     }
 
@@ -108,7 +113,7 @@ impl ClockModel {
     /// The outputs in the current state.
     pub fn outputs(&self) -> Outputs {
         let now = &self.registers;
-        self.with_living_outputs(Outputs {
+        self.with_run_outputs(Outputs {
             command_ready: now.command.is_ready(now, self.sweeps()),
             response_valid: now.responder.valid,
             response_data: u64::from(now.responder.offered.low) | u64::from(now.responder.offered.high) << 32,
@@ -158,12 +163,14 @@ impl ClockModel {
             if let Some(living) = &mut self.living {
                 living.reset();
             }
+            self.questions = self.questions.as_ref().map(|_| Questions::new(self.config.contexts));
             self.release.reset();
             self.pipeline.reset();
             self.ring.reset();
             self.latencies.reset();
             return;
         }
+        let inputs = self.clock_questions(inputs);
         let (inputs, living_write) = self.clock_living(inputs);
         let was = self.registers;
         let wires = self.wires(inputs);

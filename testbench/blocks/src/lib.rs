@@ -7,6 +7,7 @@ mod ethernet;
 mod exported;
 mod leaf;
 mod links;
+mod living;
 mod serial;
 mod stream;
 mod udp;
@@ -24,6 +25,7 @@ pub fn blocks() -> Vec<(String, String)> {
     [
         leaf::blocks(),
         visit::blocks(),
+        living::blocks(),
         control::blocks(),
         serial::blocks(),
         stream::blocks(),

@@ -108,6 +108,13 @@ impl Lockstep {
         self.with_defect_in(0, defect)
     }
 
+    /// Gives the model the questions that the core beside it has.
+    #[must_use]
+    pub fn with_questions(mut self) -> Self {
+        self.model = self.model.with_questions();
+        self
+    }
+
     /// Lets one engine of the model leave out a rule.
     pub fn with_defect_in(mut self, engine: usize, defect: Defect) -> Self {
         self.model = self.model.with_defect(engine, defect);

@@ -35,9 +35,19 @@ pub struct PushPort {
     /// A solo insertion is at work; `solo` is the visit that it asks for.
     pub solo_is_at_work: Signal<In, Bit>,
     pub solo: Signal<In, Push>,
+    /// In a core that answers questions, and only while the insertion engine rests: a question asks for the visit.
+    pub question_asks: Vec<Signal<In, Bit>>,
+    pub question: Vec<Signal<In, Bundle>>,
     pub push: Signal<Out, Push>,
     pushes: DFF<Bit>,
     pushed: DFF<Bundle>,
+}
+
+impl PushPort {
+    /// The port of a core that answers questions.
+    pub fn with_questions() -> Self {
+        Self { question_asks: vec![Signal::default()], question: vec![Signal::default()], ..Self::default() }
+    }
 }
 
 impl Logic for PushPort {
@@ -58,6 +68,12 @@ impl Logic for PushPort {
         }
         if self.solo_is_at_work.val() {
             self.pushed.d.next = self.solo.val().bundle;
+        }
+        for i in 0..self.question.len() {
+            if self.question_asks[i].val() {
+                self.pushes.d.next = true;
+                self.pushed.d.next = self.question[i].val();
+            }
         }
         if self.reset.val() {
             self.pushes.d.next = false;

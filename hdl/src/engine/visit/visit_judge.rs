@@ -18,7 +18,7 @@
 
 use super::verdict_logic::VerdictLogic;
 use crate::engine::types::{Turned, Verdict};
-use crate::predicate::{Corners, Point, VisitPredicates};
+use crate::predicate::{Corners, EdgeFlags, Point, VisitPredicates};
 use rust_hdl_core::prelude::*;
 
 #[derive(LogicBlock, Default)]
@@ -31,6 +31,8 @@ pub struct VisitJudge {
     pub turned: Signal<In, Turned>,
     /// The findings of the visit, in clock 10.
     pub verdict: Signal<Out, Verdict>,
+    /// The signs of its orient2d, for the corners as stored, in clock 10: in a core that answers questions.
+    pub sides: Vec<Signal<Out, EdgeFlags>>,
     predicates: VisitPredicates,
     verdict_logic: VerdictLogic,
 }
@@ -38,6 +40,11 @@ pub struct VisitJudge {
 impl VisitJudge {
     /// The number of clocks from the corners to the verdict.
     pub const LATENCY: usize = VisitPredicates::LATENCY;
+
+    /// The judge of a core that answers questions.
+    pub fn with_sides() -> Self {
+        Self { sides: vec![Signal::default()], ..Self::default() }
+    }
 }
 
 impl Logic for VisitJudge {
@@ -49,5 +56,8 @@ impl Logic for VisitJudge {
         self.verdict_logic.turned.next = self.turned.val();
         self.verdict_logic.signs.next = self.predicates.signs.val();
         self.verdict.next = self.verdict_logic.verdict.val();
+        for i in 0..self.sides.len() {
+            self.sides[i].next = self.predicates.signs.val().edges;
+        }
     }
 }

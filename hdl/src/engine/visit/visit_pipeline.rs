@@ -35,7 +35,7 @@ use crate::engine::types::{
 };
 use crate::leaf::{DelayLine, LutMemory, Unpack};
 use crate::mesh::{ReadRecord, TriangleStore, VertexStore};
-use crate::predicate::{Point, POINT_BITS};
+use crate::predicate::{EdgeFlags, Point, POINT_BITS};
 use crate::prelude::*;
 use incircle_protocol::{triangle_id_bits, vertex_id_bits, Config};
 
@@ -57,6 +57,9 @@ pub struct VisitPipeline {
     /// The visit that completes in this clock; and the one that completes in the next clock unless reset comes first.
     pub completion: Signal<Out, Completion>,
     pub early: Signal<Out, Upcoming>,
+    /// The signs of the orient2d of the visit that completes in this clock, for the corners as stored: in a core that
+    /// answers questions.
+    pub sides: Vec<Signal<Out, EdgeFlags>>,
     /// A record that the read-out wants, only while no visit is in flight; and the record that has been read.
     pub read: Signal<In, RecordRead>,
     pub read_out: Signal<Out, ReadRecord>,
@@ -98,6 +101,7 @@ pub struct VisitPipeline {
     read_valid1: DFF<Bit>,
     read_valid2: DFF<Bit>,
     completes: DFF<Completion>,
+    kept_sides: Vec<DFF<EdgeFlags>>,
     shifted: Signal<Local, Bits<15>>,
     one: Signal<Local, Bits<15>>,
 }
@@ -124,6 +128,20 @@ impl VisitPipeline {
             visit_delay: DelayLine::new(signs - TriangleStore::LATENCY),
             turned_delay: DelayLine::new(signs - VisitReader::TURNED_LATENCY - 1),
             ..Self::default()
+        }
+    }
+
+    /// The pipeline of a core that answers questions.
+    ///
+    /// # Panics
+    ///
+    /// As [`new`](Self::new).
+    pub fn with_sides(config: Config) -> Self {
+        Self {
+            judge: VisitJudge::with_sides(),
+            sides: vec![Signal::default()],
+            kept_sides: vec![DFF::default()],
+            ..Self::new(config)
         }
     }
 }
@@ -203,6 +221,11 @@ impl Logic for VisitPipeline {
         self.completes.d.next.turned = self.judged.q.val();
         self.completes.d.next.verdict = self.judge.verdict.val();
         self.completion.next = self.completes.q.val();
+        for i in 0..self.sides.len() {
+            self.kept_sides[i].clock.next = self.clock.val();
+            self.kept_sides[i].d.next = self.judge.sides[i].val();
+            self.sides[i].next = self.kept_sides[i].q.val();
+        }
 
         self.shifted.next = self.valid.q.val() << self.one.val();
         self.valid.d.next = self.shifted.val();

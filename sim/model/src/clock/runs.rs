@@ -4,6 +4,7 @@ use super::command_port::State as CommandState;
 use super::living::{LivingDefect, LivingEngine, RunCounts, Signals, Signature, Standing};
 use super::memory::Write;
 use super::ports::{Inputs, Outputs};
+use super::questions::{Questions, Signals as QuestionSignals};
 use super::ClockModel;
 use incircle_protocol::{command_opcode, Opcode, RunKind};
 
@@ -24,18 +25,28 @@ impl ClockModel {
         self
     }
 
+    /// The same core with questions about a mesh that stands, and no other runs: a core of the hardware as far as it is
+    /// built. Of the questions it has `Locate`, and its identity does not offer runs.
+    #[must_use]
+    pub fn with_questions(mut self) -> Self {
+        self.questions = Some(Questions::new(self.config.contexts));
+        self
+    }
+
     /// What the last run did. `None` for a core without runs.
     pub fn run_counts(&self) -> Option<&RunCounts> {
         self.living.as_ref().map(LivingEngine::counts)
     }
 
     /// The outputs of the core, given those of the insertion engine.
-    pub(super) fn with_living_outputs(&self, outputs: Outputs) -> Outputs {
-        let Some(living) = &self.living else {
-            return outputs;
+    pub(super) fn with_run_outputs(&self, outputs: Outputs) -> Outputs {
+        let (is_active, is_ready, offered) = match (&self.living, &self.questions) {
+            (Some(living), _) => (living.is_active(), living.is_ready(), living.offered()),
+            (None, Some(questions)) => (questions.is_active(), questions.is_ready(), questions.offered()),
+            (None, None) => return outputs,
         };
-        let command_ready = if living.is_active() { living.is_ready() } else { outputs.command_ready };
-        match living.offered().filter(|_| !outputs.response_valid) {
+        let command_ready = if is_active { is_ready } else { outputs.command_ready };
+        match offered.filter(|_| !outputs.response_valid) {
             None => Outputs { command_ready, ..outputs },
             Some(beat) => Outputs {
                 command_ready,
@@ -46,6 +57,36 @@ impl ClockModel {
                 write: outputs.write,
             },
         }
+    }
+
+    /// Simulates one edge of the questions. Returns the inputs that are left for the rest of the core.
+    pub(super) fn clock_questions(&mut self, inputs: Inputs) -> Inputs {
+        let awaits_command = self.registers.command.state == CommandState::Command && !self.sweeps();
+        let has_mesh = self.has_mesh();
+        let Some(questions) = &mut self.questions else {
+            return inputs;
+        };
+        let command = &self.registers.command;
+        let is_active = questions.is_active();
+        let word = Some(inputs.command_data).filter(|_| inputs.command_valid);
+        let opcode = word.map(command_opcode).filter(|&opcode| opcode == Opcode::Locate as u8);
+        let begins = opcode.filter(|_| awaits_command && !is_active);
+        let signals = QuestionSignals {
+            begins,
+            word: word.filter(|_| is_active),
+            is_taken: inputs.response_ready && !self.registers.responder.valid,
+            clears: command.clears,
+            has_mesh,
+            contexts: command.contexts as usize,
+            signature: u32::from(self.engine) << 8 | u32::from(command.tag),
+        };
+        questions.clock(&signals, &self.memory);
+        Inputs { command_valid: inputs.command_valid && !is_active && begins.is_none(), ..inputs }
+    }
+
+    /// Whether there is a mesh to ask and to change. A batch has several.
+    fn has_mesh(&self) -> bool {
+        self.registers.command.jobs == 1 && self.registers.commit.records > 0 && !self.registers.watchdog.stuck
     }
 
     /// Simulates one edge of the living engine. Returns the inputs that are left for the rest of the core, and the
@@ -61,7 +102,7 @@ impl ClockModel {
         let is_ready = self.outputs().command_ready;
         let word = (inputs.command_valid && is_ready).then_some(inputs.command_data);
         let standing = self.standing();
-        let has_mesh = self.registers.command.jobs == 1 && standing.records > 0 && !self.registers.watchdog.stuck;
+        let has_mesh = self.has_mesh();
         let signature = Signature { engine: self.engine, tag: self.registers.command.tag };
         let contexts = self.registers.command.contexts;
         let Some(living) = &mut self.living else {

@@ -5,6 +5,7 @@ mod commands;
 mod engine;
 mod ethernet;
 mod leaf;
+mod living;
 mod mesh;
 mod predicate;
 mod serial;

@@ -6,4 +6,5 @@ mod cycles;
 mod in_rust;
 mod lockstep;
 mod netlist;
+mod questions;
 mod stuck;

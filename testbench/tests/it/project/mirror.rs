@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 /// Blocks without a test file of their own: the test that runs the block, by its path from `tests/it`,
 /// and why that test is enough.
-const ELSEWHERE: [(&str, &str, &str); 48] = [
+const ELSEWHERE: [(&str, &str, &str); 49] = [
     ("cluster/dual", "cores/chip", "wires between router, slots and collector"),
     ("cluster/engine_slot", "cores/chip", "a core with its queue and a count, at every clock"),
     ("cluster/quad", "cores/chip", "wires between router, slots and collector"),
@@ -58,6 +58,7 @@ const ELSEWHERE: [(&str, &str, &str); 48] = [
     ("udp/udp_transmitter", "blocks/udp/udp_link", "the sending half of the link, at its ports"),
     ("top/udp_top", "links/ether", "the device at its pins"),
     ("top/core", "cores/lockstep", "every root port at every clock"),
+    ("top/living_core", "cores/questions", "every root port at every clock"),
     ("top/serial_top", "links/page", "the device at its pins"),
     ("top/stream_top", "links/stream_top", "the device at its ports"),
 ];

@@ -16,6 +16,7 @@ use incircle_hdl::engine::{
 };
 use incircle_hdl::ethernet::types::{OnTheWay, Station};
 use incircle_hdl::leaf::Unpacked;
+use incircle_hdl::living::types::{ContextEnd, DealtItem, Finding, Launch, PartCame, RunHead, Standing};
 use incircle_hdl::mesh::{ReadRecord, Record};
 use incircle_hdl::predicate::{Corners, EdgeFlags, OrderFlags, Signs};
 use incircle_hdl::serial::types::{AnswerPlace, BytePlace, Contents, FifoRoom, FrameHead, Lamps, Receipt, Session};
@@ -201,6 +202,13 @@ packed_values!(
     SoloProgress,
     SoloStart,
     SoloTurn,
+    ContextEnd,
+    DealtItem,
+    Finding,
+    Launch,
+    PartCame,
+    RunHead,
+    Standing,
     StarTriangle,
     Start,
     Step,

@@ -18,6 +18,7 @@ pub mod record_beats;
 pub mod record_count;
 pub mod serial_host;
 pub mod serial_rig;
+pub mod standing_mesh;
 pub mod stepper;
 pub mod stream_bits;
 pub mod stream_rig;

@@ -1,0 +1,21 @@
+//! A mesh that stands and answers: runs of questions, in all contexts side by side.
+//!
+//! A run comes as words, and its answer leaves as words. In between, each question is a walk through the visit pipeline
+//! of the insertion engine, which rests meanwhile. [`Questions`] draws its blocks.
+
+mod item_queues;
+mod part_queue;
+mod question_step;
+mod questions;
+mod run_gate;
+mod run_port;
+mod standing_view;
+pub mod types;
+
+pub use item_queues::ItemQueues;
+pub use part_queue::PartQueue;
+pub use question_step::QuestionStep;
+pub use questions::Questions;
+pub use run_gate::RunGate;
+pub use run_port::{RunPort, RunState};
+pub use standing_view::StandingView;

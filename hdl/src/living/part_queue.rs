@@ -1,0 +1,177 @@
+//! The answer to a run: its head, and the parts in the order in which their items end.
+//!
+//! 1. A part has four words: outcome and number of the item, and three vertices. Two words leave in each clock.
+//! 2. An item begins only if there is a place for its part (`has_room`), so a part that comes always has one. The place
+//!    is free again when the last word of the part is on offer.
+//! 3. `head` comes while no answer is under way, and before the first part of its answer.
+//! 4. A beat on offer stays until it is taken; `response_valid` does not wait for `response_ready`. A reset drops the
+//!    answer.
+//!
+//! Latency: 2 clocks from `head` to its beat, and 3 from `came` to the first beat of the part.
+//!
+//! An answer of one part, whose head has to wait for the reader:
+//! ```text
+//! head            /^^\_____________________________
+//! begins          ___/^^\__________________________
+//! came            _________/^^\____________________
+//! response_valid  ______/^^^^^^^^^^^\__/^^^^^\______
+//! response_ready  _______________/^^^^^^^^^^^^^^^^^
+//! response_last   ________________________/^^\_____
+//! low               .  . 85 85 85 85  .  6  7  .  .
+//! is_over         /^^\_______________________/^^^^^
+//! ```
+
+use super::types::{Finding, Part, PartCame, RunHead, PART_ADDRESS_BITS, PART_BITS};
+use crate::commands::types::Word;
+use crate::commands::{AnswerBeat, AnswerSource, WordPair, WORD_PAIR_BITS};
+use crate::leaf::{Fifo, Unpack};
+use crate::prelude::*;
+
+#[derive(LogicBlock, Default)]
+pub struct PartQueue {
+    pub clock: Signal<In, Clock>,
+    pub reset: Signal<In, Bit>,
+    /// The head of an answer.
+    pub head: Signal<In, RunHead>,
+    /// An item begins at this edge, which takes a place; only with `has_room`.
+    pub begins: Signal<In, Bit>,
+    pub has_room: Signal<Out, Bit>,
+    /// A part that comes.
+    pub came: Signal<In, PartCame>,
+    pub response: AnswerSource,
+    /// The last word of the last answer has been taken.
+    pub is_over: Signal<Out, Bit>,
+    parts: Fifo<PART_ADDRESS_BITS, PART_BITS>,
+    first: Unpack<Part, PART_BITS>,
+    kept: DFF<PartCame>,
+    /// Number of places that are taken, and whether all are.
+    places: DFF<Bits<6>>,
+    is_full: DFF<Bit>,
+    announced: DFF<RunHead>,
+    head_is_due: DFF<Bit>,
+    /// Number of parts that are still to leave, and whether there are any.
+    left: DFF<Word>,
+    some_are_left: DFF<Bit>,
+    /// The first beat of a part has been loaded.
+    at_second: DFF<Bit>,
+    valid: DFF<Bit>,
+    offered: DFF<AnswerBeat>,
+    part: Signal<Local, Part>,
+    finding: Signal<Local, Finding>,
+    part_bits: Signal<Local, Bits<PART_BITS>>,
+    pair: Signal<Local, WordPair>,
+    pair_bits: Signal<Local, Bits<WORD_PAIR_BITS>>,
+    loads: Signal<Local, Bit>,
+    loads_head: Signal<Local, Bit>,
+    loads_part: Signal<Local, Bit>,
+    leaves: Signal<Local, Bit>,
+    is_last: Signal<Local, Bit>,
+    wide_outcome: Signal<Local, Word>,
+    shifted_outcome: Signal<Local, Word>,
+    wide_number: Signal<Local, Word>,
+    next_places: Signal<Local, Bits<6>>,
+    outcome_shift: Signal<Local, Word>,
+    one: Signal<Local, Word>,
+    one_place: Signal<Local, Bits<6>>,
+    all_places: Signal<Local, Bits<6>>,
+}
+
+// The kernel holds the numbers as literals, because rust-hdl allows no constants there. A changed protocol fails here.
+const _: () = assert!(
+    incircle_protocol::OUTCOME_SHIFT == 24
+        && incircle_protocol::RunKind::Locate.part_words() == 4
+        && PART_ADDRESS_BITS == 5,
+    "the words of this block follow the protocol"
+);
+
+impl Logic for PartQueue {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, kept, places, is_full, announced, head_is_due, left, some_are_left, at_second);
+        dff_setup!(self, clock, valid, offered);
+        clock!(self, clock, parts);
+        self.outcome_shift.next = 24.into();
+        self.one.next = 1.into();
+        self.one_place.next = 1.into();
+        self.all_places.next = 32.into();
+        self.pair.next.low = self.offered.q.val().low;
+        self.pair.next.high = self.offered.q.val().high;
+        self.pair_bits.next = self.pair.val().into();
+        self.response.valid.next = self.valid.q.val();
+        self.response.data.next = self.pair_bits.val();
+        self.response.both.next = self.offered.q.val().both;
+        self.response.last.next = self.offered.q.val().last;
+        self.loads.next = (!self.valid.q.val()) | self.response.ready.val();
+        self.is_over.next = (!self.head_is_due.q.val()) & (!self.some_are_left.q.val()) & (!self.valid.q.val());
+        self.has_room.next = !self.is_full.q.val();
+
+        // A part waits a clock before it joins the others, because what it holds is known late.
+        self.kept.d.next = self.came.val();
+        self.part.next = self.kept.q.val().part;
+        self.part_bits.next = self.part.val().into();
+        self.parts.reset.next = self.reset.val();
+        self.parts.push.next = self.kept.q.val().valid;
+        self.parts.push_data.next = self.part_bits.val();
+        self.first.bits.next = self.parts.data.val();
+
+        self.loads_head.next = self.loads.val() & self.head_is_due.q.val();
+        self.loads_part.next = self.loads.val() & (!self.head_is_due.q.val()) & self.parts.valid.val();
+        self.leaves.next = self.loads_part.val() & self.at_second.q.val();
+        self.parts.pop.next = self.leaves.val();
+        self.is_last.next = self.left.q.val() == self.one.val();
+        self.finding.next = self.first.value.val().finding;
+        self.wide_outcome.next = bit_cast::<32, 4>(self.finding.val().outcome);
+        self.shifted_outcome.next = self.wide_outcome.val() << self.outcome_shift.val();
+        self.wide_number.next = bit_cast::<32, 24>(self.first.value.val().number);
+        self.valid.d.next = self.valid.q.val() & (!self.loads.val());
+        if self.loads_head.val() {
+            self.valid.d.next = true;
+            self.head_is_due.d.next = false;
+            self.offered.d.next.low = self.announced.q.val().header;
+            self.offered.d.next.high = self.announced.q.val().length;
+            self.offered.d.next.both = true;
+            self.offered.d.next.last = !self.some_are_left.q.val();
+        }
+        if self.loads_part.val() {
+            self.valid.d.next = true;
+            self.at_second.d.next = !self.at_second.q.val();
+            self.offered.d.next.low = self.shifted_outcome.val() | self.wide_number.val();
+            self.offered.d.next.high = bit_cast::<32, 15>(self.finding.val().v0);
+            self.offered.d.next.last = false;
+            if self.at_second.q.val() {
+                self.offered.d.next.low = bit_cast::<32, 15>(self.finding.val().v1);
+                self.offered.d.next.high = bit_cast::<32, 15>(self.finding.val().v2);
+                self.offered.d.next.last = self.is_last.val();
+            }
+        }
+        if self.leaves.val() {
+            self.left.d.next = self.left.q.val() - self.one.val();
+            self.some_are_left.d.next = !self.is_last.val();
+        }
+        if self.head.val().valid {
+            self.announced.d.next = self.head.val();
+            self.head_is_due.d.next = true;
+            self.left.d.next = self.head.val().parts;
+            self.some_are_left.d.next = self.head.val().parts.any();
+        }
+
+        self.next_places.next = self.places.q.val();
+        if self.begins.val() & (!self.leaves.val()) {
+            self.next_places.next = self.places.q.val() + self.one_place.val();
+        }
+        if self.leaves.val() & (!self.begins.val()) {
+            self.next_places.next = self.places.q.val() - self.one_place.val();
+        }
+        self.places.d.next = self.next_places.val();
+        self.is_full.d.next = self.next_places.val() == self.all_places.val();
+        if self.reset.val() {
+            self.kept.d.next.valid = false;
+            self.places.d.next = 0.into();
+            self.is_full.d.next = false;
+            self.head_is_due.d.next = false;
+            self.some_are_left.d.next = false;
+            self.at_second.d.next = false;
+            self.valid.d.next = false;
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! What follows a visit of a question on a mesh that stands: another visit, or the end of its item.
+//!
+//! 1. A walk goes on until it has reached the record that holds the place. That is a triangle with the place on the
+//!    right of no side, or a ghost triangle whose hull edge has the place strictly beyond.
+//! 2. In a triangle, the sides with the place on their line say what the place is: with none, the place lies inside the
+//!    triangle; with one, inside the edge between the other two corners; with two, on the corner opposite the third
+//!    side. The vertices that remain are named in the order of their slots.
+//! 3. From a ghost triangle the search goes on to the ghost triangle before it on the hull, as long as that one sees the
+//!    place too. The answer is the edge of the last one that does, counter-clockwise on the hull. A visit of this search
+//!    has the number 1 as `entry`, and as `cavity_record` the end of the hull edge of the ghost triangle that it came
+//!    from: the start of that edge is a corner of both.
+//! 4. Visits of questions turn no record and take no lock.
+//!
+//! Latency: none, the block is combinational.
+
+use super::types::Finding;
+use crate::engine::types::{Bundle, Completion, RingEntry, TriangleId, Turned, Verdict, VertexId, Visit};
+use crate::predicate::EdgeFlags;
+use rust_hdl_core::prelude::*;
+
+#[derive(LogicBlock, Default)]
+pub struct QuestionStep {
+    /// The visit that completes, and the signs of its orient2d, for the corners as stored.
+    pub completion: Signal<In, Completion>,
+    pub sides: Signal<In, EdgeFlags>,
+    /// The visit asks for another one.
+    pub asks: Signal<Out, Bit>,
+    pub bundle: Signal<Out, Bundle>,
+    /// The walk has reached the record that holds the place.
+    pub arrives: Signal<Out, Bit>,
+    /// The item ends, with this finding.
+    pub ends: Signal<Out, Bit>,
+    pub finding: Signal<Out, Finding>,
+    visit: Signal<Local, Visit>,
+    turned: Signal<Local, Turned>,
+    verdict: Signal<Local, Verdict>,
+    entry: Signal<Local, RingEntry>,
+    is_search: Signal<Local, Bit>,
+    is_ghost: Signal<Local, Bit>,
+    sees: Signal<Local, Bit>,
+    stands: Signal<Local, Bit>,
+    passes_by: Signal<Local, Bit>,
+    hull_end: Signal<Local, VertexId>,
+    hull_before: Signal<Local, TriangleId>,
+}
+
+impl Logic for QuestionStep {
+    #[hdl_gen]
+    fn update(&mut self) {
+        self.visit.next = self.completion.val().visit;
+        self.turned.next = self.completion.val().turned;
+        self.verdict.next = self.completion.val().verdict;
+        self.entry.next = self.visit.val().entry;
+        self.is_search.next = self.entry.val().get_bit(0);
+        self.is_ghost.next = self.turned.val().infinite0 | self.turned.val().infinite1 | self.turned.val().infinite2;
+        self.sees.next = self.is_ghost.val() & self.verdict.val().located;
+        self.stands.next = (!self.is_ghost.val()) & self.verdict.val().located & (!self.is_search.val());
+        self.passes_by.next = self.is_search.val() & (!self.verdict.val().located);
+
+        // Counter-clockwise, a ghost triangle has the infinite vertex, the end and the start of its hull edge. The
+        // ghost triangle before it lies opposite the end.
+        self.hull_end.next = self.turned.val().v1;
+        self.hull_before.next = self.turned.val().n1;
+        if self.turned.val().infinite1 {
+            self.hull_end.next = self.turned.val().v2;
+            self.hull_before.next = self.turned.val().n2;
+        }
+        if self.turned.val().infinite2 {
+            self.hull_end.next = self.turned.val().v0;
+            self.hull_before.next = self.turned.val().n0;
+        }
+
+        self.bundle.next.is_pair = false;
+        self.bundle.next.is_triple = false;
+        self.bundle.next.context = self.visit.val().context;
+        self.bundle.next.rotates = false;
+        self.bundle.next.locks = false;
+        self.bundle.next.entry = 0.into();
+        self.bundle.next.after = 0.into();
+        self.bundle.next.cavity_entry = 0.into();
+        self.bundle.next.cavity_record = self.hull_end.val();
+        self.bundle.next.record = self.verdict.val().walk_next;
+        self.bundle.next.second_after = 0.into();
+        self.bundle.next.second_record = 0.into();
+        self.bundle.next.third_record = 0.into();
+        if self.sees.val() {
+            self.bundle.next.entry = 1.into();
+            self.bundle.next.record = self.hull_before.val();
+        }
+        self.ends.next = self.completion.val().done & (self.stands.val() | self.passes_by.val());
+        self.asks.next = self.completion.val().done & (!self.stands.val()) & (!self.passes_by.val());
+        self.arrives.next = self.completion.val().done & self.verdict.val().located & (!self.is_search.val());
+
+        self.finding.next.outcome = 3.into();
+        self.finding.next.v0 = self.turned.val().v0;
+        self.finding.next.v1 = self.turned.val().v1;
+        self.finding.next.v2 = self.turned.val().v2;
+        if self.sides.val().e0_zero | self.sides.val().e1_zero | self.sides.val().e2_zero {
+            self.finding.next.outcome = 2.into();
+            self.finding.next.v2 = 0.into();
+        }
+        if self.sides.val().e1_zero {
+            self.finding.next.v1 = self.turned.val().v2;
+        }
+        if self.sides.val().e0_zero {
+            self.finding.next.v0 = self.turned.val().v1;
+            self.finding.next.v1 = self.turned.val().v2;
+        }
+        if (self.sides.val().e0_zero & self.sides.val().e1_zero)
+            | (self.sides.val().e0_zero & self.sides.val().e2_zero)
+            | (self.sides.val().e1_zero & self.sides.val().e2_zero)
+        {
+            self.finding.next.outcome = 1.into();
+            self.finding.next.v1 = 0.into();
+            self.finding.next.v0 = self.turned.val().v0;
+            if !self.sides.val().e1_zero {
+                self.finding.next.v0 = self.turned.val().v1;
+            }
+            if !self.sides.val().e2_zero {
+                self.finding.next.v0 = self.turned.val().v2;
+            }
+        }
+        if self.is_search.val() {
+            self.finding.next.outcome = 4.into();
+            self.finding.next.v0 = self.hull_end.val();
+            self.finding.next.v1 = self.visit.val().cavity_record;
+            self.finding.next.v2 = 0.into();
+        }
+    }
+}

@@ -1,0 +1,171 @@
+//! Answers the questions of a run on a mesh that stands, in all contexts side by side.
+//!
+//! ```text
+//! words -> RunPort -> ItemQueues -> walks begin --+--> visits, to the pipeline
+//!                         ^                       |
+//!                         +-- ends -- QuestionStep <-- completed visits
+//! answer <- PartQueue <---- parts --------+
+//! ```
+//! 1. A context works on one item at a time, and has one visit in flight. A visit that completes asks for the next one,
+//!    or ends its item. A walk begins in a clock in which no completed visit asks, so visits enter the queue of the
+//!    pipeline one a clock.
+//! 2. A walk begins where the last walk of its context has ended, or at record 0 if there was none since the last
+//!    `clears`. No record goes away while the mesh stands.
+//! 3. Nothing takes a lock and nothing is written, because no change of the mesh is under way. The user sees to that:
+//!    a run begins only while the insertion engine rests.
+//!
+//! Latency: none (combinational) from a completed visit to `push`.
+
+use super::item_queues::ItemQueues;
+use super::part_queue::PartQueue;
+use super::question_step::QuestionStep;
+use super::run_port::RunPort;
+use super::types::{Item, ItemNumber, Launch, Part};
+use crate::commands::{AnswerSource, CommandSink};
+use crate::engine::types::{
+    context_bits, Bundle, Completion, ContextId, ContextSet, Position, Push, TriangleId, Visit, CONTEXT_BITS,
+    TRIANGLE_BITS,
+};
+use crate::leaf::LutMemory;
+use crate::predicate::EdgeFlags;
+use crate::prelude::*;
+use incircle_protocol::Config;
+
+#[derive(LogicBlock, Default)]
+pub struct Questions {
+    pub clock: Signal<In, Clock>,
+    /// Reset drops the run; `clears` forgets where the walks have ended, and comes only between runs.
+    pub reset: Signal<In, Bit>,
+    pub clears: Signal<In, Bit>,
+    /// A run begins: its opcode is taken at this edge.
+    pub begins: Signal<In, Bit>,
+    pub opcode: Signal<In, Bits<8>>,
+    /// The low half of the header: engine and tag. The number of contexts that work. There is a mesh to ask.
+    pub signature: Signal<In, Bits<16>>,
+    pub contexts: Signal<In, ContextId>,
+    pub has_mesh: Signal<In, Bit>,
+    pub command: CommandSink,
+    pub response: AnswerSource,
+    /// A visit of a question that completes, and the signs of its orient2d, for the corners as stored.
+    pub completion: Signal<In, Completion>,
+    pub sides: Signal<In, EdgeFlags>,
+    pub push: Signal<Out, Push>,
+    /// The place that a context asks about from now on.
+    pub position: Signal<Out, Position>,
+    /// A run is under way.
+    pub is_active: Signal<Out, Bit>,
+    port: RunPort,
+    queues: ItemQueues,
+    step: QuestionStep,
+    parts: PartQueue,
+    /// The record at which the last walk of each context has ended, and the number of its item.
+    hints: LutMemory<CONTEXT_BITS, TRIANGLE_BITS>,
+    numbers: LutMemory<CONTEXT_BITS, 24>,
+    /// Bit `c`: context `c` has a hint.
+    hinted: DFF<ContextSet>,
+    visit: Signal<Local, Visit>,
+    launch: Signal<Local, Launch>,
+    item: Signal<Local, Item>,
+    launches: Signal<Local, Bit>,
+    bundle: Signal<Local, Bundle>,
+    number: Signal<Local, ItemNumber>,
+    part: Signal<Local, Part>,
+    start: Signal<Local, TriangleId>,
+    wide_visit: Signal<Local, ContextSet>,
+    wide_launch: Signal<Local, ContextSet>,
+    of_launch: Signal<Local, ContextSet>,
+    new_hint: Signal<Local, ContextSet>,
+    one_bit: Signal<Local, ContextSet>,
+}
+
+impl Questions {
+    /// The questions of a configuration, which must be a valid one.
+    pub fn new(config: Config) -> Self {
+        let bits = context_bits(config);
+        Self {
+            queues: ItemQueues::new(config),
+            hints: LutMemory::new(bits, TRIANGLE_BITS),
+            numbers: LutMemory::new(bits, 24),
+            ..Self::default()
+        }
+    }
+}
+
+impl Logic for Questions {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, hinted);
+        clock!(self, clock, port, queues, parts, hints, numbers);
+        self.one_bit.next = 1.into();
+        self.port.reset.next = self.reset.val();
+        self.port.begins.next = self.begins.val();
+        self.port.opcode.next = self.opcode.val();
+        self.port.signature.next = self.signature.val();
+        self.port.contexts.next = self.contexts.val();
+        self.port.has_mesh.next = self.has_mesh.val();
+        CommandSink::link(&mut self.command, &mut self.port.command);
+        self.port.taken.next = self.queues.taken.val();
+        self.port.is_over.next = self.parts.is_over.val();
+        self.is_active.next = self.port.is_active.val();
+
+        self.step.completion.next = self.completion.val();
+        self.step.sides.next = self.sides.val();
+        self.visit.next = self.completion.val().visit;
+        self.queues.reset.next = self.reset.val();
+        self.queues.dealt.next = self.port.dealt.val();
+        self.queues.ends.next.valid = self.step.ends.val();
+        self.queues.ends.next.context = self.visit.val().context;
+
+        // A walk begins where no visit follows the completed one, and if there is room for its part.
+        self.launch.next = self.queues.launch.val();
+        self.item.next = self.launch.val().item;
+        self.launches.next = self.queues.waits.val() & self.parts.has_room.val() & (!self.step.asks.val());
+        self.queues.launches.next = self.launches.val();
+        self.hints.read_address.next = self.launch.val().context;
+        self.wide_launch.next = bit_cast::<24, 5>(self.launch.val().context);
+        self.of_launch.next = self.hinted.q.val() >> self.wide_launch.val();
+        self.start.next = 0.into();
+        if self.of_launch.val().get_bit(0) {
+            self.start.next = self.hints.read_data.val();
+        }
+        self.push.next.valid = self.step.asks.val() | self.launches.val();
+        self.bundle.next = self.step.bundle.val();
+        if !self.step.asks.val() {
+            self.bundle.next.context = self.launch.val().context;
+            self.bundle.next.entry = 0.into();
+            self.bundle.next.record = self.start.val();
+        }
+        self.push.next.bundle = self.bundle.val();
+        self.position.next.valid = self.launches.val();
+        self.position.next.context = self.launch.val().context;
+        self.position.next.point = self.item.val().place;
+        self.numbers.write_address.next = self.launch.val().context;
+        self.numbers.write_data.next = self.item.val().number;
+        self.numbers.write_enable.next = self.launches.val();
+
+        // The end of an item, and of its walk.
+        self.numbers.read_address.next = self.visit.val().context;
+        self.number.next = self.numbers.read_data.val();
+        self.part.next.number = self.number.val();
+        self.part.next.finding = self.step.finding.val();
+        self.parts.came.next.valid = self.step.ends.val();
+        self.parts.came.next.part = self.part.val();
+        self.hints.write_address.next = self.visit.val().context;
+        self.hints.write_data.next = self.visit.val().record;
+        self.hints.write_enable.next = self.step.arrives.val();
+        self.wide_visit.next = bit_cast::<24, 5>(self.visit.val().context);
+        self.new_hint.next = 0.into();
+        if self.step.arrives.val() {
+            self.new_hint.next = self.one_bit.val() << self.wide_visit.val();
+        }
+        self.hinted.d.next = self.hinted.q.val() | self.new_hint.val();
+        if self.reset.val() | self.clears.val() {
+            self.hinted.d.next = 0.into();
+        }
+
+        self.parts.reset.next = self.reset.val();
+        self.parts.head.next = self.port.head.val();
+        self.parts.begins.next = self.launches.val();
+        AnswerSource::link(&mut self.response, &mut self.parts.response);
+    }
+}

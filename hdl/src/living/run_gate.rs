@@ -1,0 +1,71 @@
+//! Parts the words of runs from those of all other commands, and joins their answers.
+//!
+//! 1. A run begins with its opcode, which the gate keeps. Up to the end of the run all words belong to it; all others go
+//!    to the rest of the core. Of the opcodes, 8 (`Locate`) begins a run.
+//! 2. An answer of the rest of the core goes before that of a run, which is given while the rest of the core awaits its
+//!    next command. Only the last beat of an answer can still be on offer then.
+//!
+//! Latency: none, the block is combinational.
+
+use super::types::Standing;
+use crate::commands::{AnswerSink, AnswerSource, CommandSink, CommandSource};
+use crate::prelude::*;
+use incircle_protocol::Opcode;
+
+#[derive(LogicBlock, Default)]
+pub struct RunGate {
+    /// The streams of the core.
+    pub command: CommandSink,
+    pub response: AnswerSource,
+    /// What the rest of the core says of itself; a run is under way.
+    pub standing: Signal<In, Standing>,
+    pub is_active: Signal<In, Bit>,
+    /// A run begins with the word on offer, whose opcode this is.
+    pub begins: Signal<Out, Bit>,
+    pub opcode: Signal<Out, Bits<8>>,
+    /// The streams of the rest of the core, and those of a run.
+    pub core_command: CommandSource,
+    pub core_response: AnswerSink,
+    pub run_command: CommandSource,
+    pub run_response: AnswerSink,
+    gives_run: Signal<Local, Bit>,
+    code: Signal<Local, Bits<8>>,
+    locate_code: Signal<Local, Bits<8>>,
+}
+
+// The kernel holds the opcode as a literal, because rust-hdl allows no constants there. A changed protocol fails here.
+const _: () = assert!(Opcode::Locate as u8 == 8, "the opcodes of this block follow the protocol");
+
+impl Logic for RunGate {
+    #[hdl_gen]
+    fn update(&mut self) {
+        self.locate_code.next = 8.into();
+        self.code.next = self.command.data.val().get_bits::<8>(24);
+        self.opcode.next = self.code.val();
+        self.begins.next = self.command.valid.val()
+            & self.standing.val().awaits_command
+            & (!self.is_active.val())
+            & (self.code.val() == self.locate_code.val());
+        self.core_command.data.next = self.command.data.val();
+        self.core_command.valid.next = self.command.valid.val() & (!self.is_active.val()) & (!self.begins.val());
+        self.run_command.data.next = self.command.data.val();
+        self.run_command.valid.next = self.command.valid.val() & self.is_active.val();
+        self.command.ready.next = self.core_command.ready.val();
+        if self.is_active.val() {
+            self.command.ready.next = self.run_command.ready.val();
+        }
+
+        self.response.valid.next = self.core_response.valid.val() | self.run_response.valid.val();
+        self.response.data.next = self.core_response.data.val();
+        self.response.both.next = self.core_response.both.val();
+        self.response.last.next = self.core_response.last.val();
+        self.gives_run.next = self.run_response.valid.val() & (!self.core_response.valid.val());
+        if self.gives_run.val() {
+            self.response.data.next = self.run_response.data.val();
+            self.response.both.next = self.run_response.both.val();
+            self.response.last.next = self.run_response.last.val();
+        }
+        self.core_response.ready.next = self.response.ready.val();
+        self.run_response.ready.next = self.response.ready.val() & (!self.core_response.valid.val());
+    }
+}

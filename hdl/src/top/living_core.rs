@@ -1,0 +1,86 @@
+//! The core with questions: as [`Core`], and it also answers runs of `Locate` about the mesh that stands.
+//!
+//! ```text
+//! commands -> RunGate --> Core ------- completed visits --+
+//! answers  <-    |  ^       ^                             |
+//!                |  |       +--------- visits --------+   |
+//!                |  +------- answers ------------ Questions
+//!                +---------- runs ------------------->
+//! ```
+
+use super::core::Core;
+use crate::commands::{AnswerSink, AnswerSource, CommandSink, CommandSource};
+use crate::engine::{Completion, Write};
+use crate::living::types::Standing;
+use crate::living::{Questions, RunGate};
+use crate::prelude::*;
+use incircle_protocol::{Config, ConfigError};
+
+#[derive(LogicBlock, Default)]
+pub struct LivingCore {
+    /// Clock and reset as those of [`Core`].
+    pub clock: Signal<In, Clock>,
+    pub reset: Signal<In, Bit>,
+    pub command: CommandSink,
+    pub response: AnswerSource,
+    /// The write port of the triangle memory, for simulation.
+    pub write: Signal<Out, Write>,
+    gate: RunGate,
+    core: Core,
+    questions: Questions,
+    standing: Signal<Local, Standing>,
+    completion: Signal<Local, Completion>,
+    wide_engine: Signal<Local, Bits<16>>,
+    shifted_engine: Signal<Local, Bits<16>>,
+    wide_tag: Signal<Local, Bits<16>>,
+    engine_shift: Signal<Local, Bits<16>>,
+}
+
+impl LivingCore {
+    /// The core of a configuration of one engine.
+    ///
+    /// # Errors
+    /// If a parameter is out of range; the error says which one and what is possible.
+    pub fn new(config: Config) -> Result<Self, ConfigError> {
+        Ok(Self { core: Core::with_questions(config)?, questions: Questions::new(config), ..Self::default() })
+    }
+}
+
+impl Logic for LivingCore {
+    #[hdl_gen]
+    fn update(&mut self) {
+        clock!(self, clock, core, questions);
+        self.engine_shift.next = 8.into();
+        self.core.reset.next = self.reset.val();
+        self.questions.reset.next = self.reset.val();
+        CommandSink::link(&mut self.command, &mut self.gate.command);
+        AnswerSource::link(&mut self.response, &mut self.gate.response);
+        CommandSource::join(&mut self.gate.core_command, &mut self.core.command);
+        AnswerSink::join(&mut self.gate.core_response, &mut self.core.response);
+        CommandSource::join(&mut self.gate.run_command, &mut self.questions.command);
+        AnswerSink::join(&mut self.gate.run_response, &mut self.questions.response);
+        self.write.next = self.core.write.val();
+
+        self.standing.next = self.core.standing[0].val();
+        self.gate.standing.next = self.standing.val();
+        self.gate.is_active.next = self.questions.is_active.val();
+        self.questions.begins.next = self.gate.begins.val();
+        self.questions.opcode.next = self.gate.opcode.val();
+        self.questions.clears.next = self.standing.val().clears;
+        self.questions.contexts.next = self.standing.val().contexts;
+        self.questions.has_mesh.next = self.standing.val().has_mesh;
+        self.wide_engine.next = bit_cast::<16, 8>(self.standing.val().engine);
+        self.shifted_engine.next = self.wide_engine.val() << self.engine_shift.val();
+        self.wide_tag.next = bit_cast::<16, 8>(self.standing.val().tag);
+        self.questions.signature.next = self.shifted_engine.val() | self.wide_tag.val();
+
+        self.completion.next = self.core.completed[0].val();
+        self.questions.completion.next = self.completion.val();
+        self.questions.completion.next.done = self.completion.val().done & self.questions.is_active.val();
+        self.questions.sides.next = self.core.sides[0].val();
+        self.core.question_runs[0].next = self.questions.is_active.val();
+        self.core.question_asks[0].next = self.questions.push.val().valid;
+        self.core.question[0].next = self.questions.push.val().bundle;
+        self.core.question_place[0].next = self.questions.position.val();
+    }
+}

@@ -1,0 +1,126 @@
+//! Runs of questions about a mesh that stands, clock by clock: the words of a run, the queues of its items, the walks,
+//! and the parts of its answer.
+//!
+//! Hardware twin: the block `Questions`. It has the stages of the visit pipeline to itself, because a run begins only
+//! while the insertion engine rests. So a visit is a place in a delay line here, and its record is read when it
+//! completes: the mesh stands.
+
+mod item_queues;
+mod part_queue;
+mod run_port;
+mod step;
+
+use super::beat::Beat;
+use super::memory::Memory;
+use crate::predicate::Point;
+use item_queues::ItemQueues;
+use part_queue::{Part, PartQueue};
+use run_port::RunPort;
+use std::collections::VecDeque;
+use step::{Followed, Visit};
+
+/// Number of clocks from the request of a visit to the requests that follow it.
+const LOOP: usize = 18;
+
+/// An item of a run.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Item {
+    pub number: u32,
+    pub place: Point,
+}
+
+/// What the rest of the core says at an edge.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Signals {
+    /// A run begins with this opcode.
+    pub begins: Option<u8>,
+    /// The word on offer, if it belongs to the run under way.
+    pub word: Option<u32>,
+    /// Whether the offered beat is taken.
+    pub is_taken: bool,
+    /// Whether the mesh is forgotten.
+    pub clears: bool,
+    pub has_mesh: bool,
+    /// Number of contexts that work.
+    pub contexts: usize,
+    /// The low half of a header.
+    pub signature: u32,
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct Questions {
+    port: RunPort,
+    queues: ItemQueues,
+    parts: PartQueue,
+    /// Visits on their way.
+    visits: VecDeque<Option<Visit>>,
+    /// The item of each context.
+    items: Vec<Item>,
+    /// The record at which the last walk of each context has ended.
+    hints: Vec<u32>,
+}
+
+impl Questions {
+    pub(super) fn new(contexts: u32) -> Self {
+        let contexts = contexts as usize;
+        Self {
+            port: RunPort::default(),
+            queues: ItemQueues::new(contexts),
+            parts: PartQueue::default(),
+            visits: VecDeque::from(vec![None; LOOP]),
+            items: vec![Item::default(); contexts],
+            hints: vec![0; contexts],
+        }
+    }
+
+    /// Whether a run is under way.
+    pub(super) fn is_active(&self) -> bool {
+        self.port.is_active()
+    }
+
+    /// Whether a word of the run is taken.
+    pub(super) fn is_ready(&self) -> bool {
+        self.port.is_ready()
+    }
+
+    /// The beat on offer.
+    pub(super) fn offered(&self) -> Option<Beat> {
+        self.parts.offered()
+    }
+
+    /// Simulates one edge.
+    pub(super) fn clock(&mut self, signals: &Signals, memory: &Memory) {
+        let visit = self.visits.pop_front().flatten();
+        let followed = visit.map(|visit| {
+            let place = self.items[visit.context].place;
+            step::follow(&visit, memory.record(visit.record), place, memory)
+        });
+        let next = followed.and_then(|followed| followed.next());
+        let context = visit.map_or(0, |visit| visit.context);
+        let ends = followed.is_some_and(|followed| matches!(followed, Followed::End(..)));
+        let came = match followed {
+            Some(Followed::End(outcome, vertices)) => {
+                Some(Part { number: self.items[context].number, outcome, vertices })
+            }
+            _ => None,
+        };
+        if let Some(visit) = visit.filter(|_| followed.is_some_and(|followed| followed.arrives())) {
+            self.hints[context] = visit.record;
+        }
+        let may_launch = self.parts.has_room() && next.is_none();
+        let offer = self.port.dealt();
+        let done = self.queues.clock(offer, ends.then_some(context), may_launch);
+        let launched = done.launched.map(|(context, item)| {
+            self.items[context] = item;
+            Visit::walk(context, self.hints[context])
+        });
+        self.visits.push_back(next.or(launched));
+        let is_over = self.parts.is_over();
+        let head = self.port.head(signals.signature);
+        self.port.clock(signals, done.taken, is_over);
+        self.parts.clock(head, launched.is_some(), came, signals.is_taken);
+        if signals.clears {
+            self.hints.fill(0);
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! A queue of items for each context, and the order in which contexts begin.
+//!
+//! Hardware twin: the block `ItemQueues`.
+
+use super::Item;
+use std::collections::VecDeque;
+
+/// Most items that wait for a context.
+const DEPTH: usize = 32;
+
+/// What the queues do at an edge.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Done {
+    /// Whether the item on offer is taken.
+    pub taken: bool,
+    /// The item that begins, with its context.
+    pub launched: Option<(usize, Item)>,
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct ItemQueues {
+    /// Whether a context has no item.
+    idle: Vec<bool>,
+    waiting: Vec<VecDeque<Item>>,
+    /// Items that come out of the memory in this clock and in the next.
+    fetched: [Option<(usize, Item)>; 2],
+    beginners: VecDeque<(usize, Item)>,
+}
+
+impl ItemQueues {
+    pub(super) fn new(contexts: usize) -> Self {
+        Self {
+            idle: vec![true; contexts],
+            waiting: vec![VecDeque::new(); contexts],
+            fetched: [None; 2],
+            beginners: VecDeque::new(),
+        }
+    }
+
+    /// Simulates one edge, with an item on offer and a context whose item ends.
+    pub(super) fn clock(&mut self, offer: Option<(usize, Item)>, ends: Option<usize>, may_launch: bool) -> Done {
+        let [comes, comes_next] = self.fetched;
+        let begins = offer.filter(|&(context, _)| self.idle[context] && comes.is_none());
+        let stores = offer.filter(|&(context, _)| {
+            !self.idle[context] && self.waiting[context].len() < DEPTH && ends != Some(context)
+        });
+        self.beginners.extend(comes.or(begins));
+        let launched = if may_launch { self.beginners.pop_front() } else { None };
+        if let Some((context, _)) = begins {
+            self.idle[context] = false;
+        }
+        let fetched = ends.and_then(|context| {
+            let item = self.waiting[context].pop_front();
+            self.idle[context] = item.is_none();
+            Some((context, item?))
+        });
+        self.fetched = [comes_next, fetched];
+        if let Some((context, item)) = stores {
+            self.waiting[context].push_back(item);
+        }
+        Done { taken: begins.is_some() || stores.is_some(), launched }
+    }
+}

@@ -1,0 +1,126 @@
+//! Takes the words of a run, and deals its items to the contexts in turn.
+//!
+//! Hardware twin: the block `RunPort`.
+
+use super::part_queue::Head;
+use super::{Item, Signals};
+use crate::predicate::Point;
+use incircle_protocol::{part_item, RunKind, Status};
+
+/// The meaning of the next word, or the event that is awaited.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum State {
+    #[default]
+    Idle,
+    Count,
+    Judge,
+    Items,
+    Refused,
+    Settle,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct RunPort {
+    state: State,
+    opcode: u8,
+    count: u32,
+    left: u32,
+    /// The status of a run that is refused.
+    refusal: Option<Status>,
+    /// Whether the head of the answer goes out.
+    answers: bool,
+    held: Option<(usize, Item)>,
+    context: usize,
+    number: u32,
+}
+
+impl RunPort {
+    pub(super) fn is_active(&self) -> bool {
+        self.state != State::Idle
+    }
+
+    pub(super) fn is_ready(&self) -> bool {
+        match self.state {
+            State::Count => true,
+            State::Items => self.left > 0 && self.held.is_none(),
+            State::Refused => self.left > 0,
+            State::Idle | State::Judge | State::Settle => false,
+        }
+    }
+
+    /// The item on offer to its context.
+    pub(super) fn dealt(&self) -> Option<(usize, Item)> {
+        self.held
+    }
+
+    /// The head of the answer, if it goes out now.
+    pub(super) fn head(&self, signature: u32) -> Option<Head> {
+        let status = self.refusal.map_or(0, |status| status as u32);
+        let parts = if self.refusal.is_none() { self.count } else { 0 };
+        let length = parts * RunKind::Locate.part_words() as u32;
+        let header = u32::from(self.opcode) << 24 | status << 16 | signature;
+        self.answers.then_some(Head { header, length, parts })
+    }
+
+    /// Simulates one edge; `is_over` says that the answer has been taken.
+    pub(super) fn clock(&mut self, signals: &Signals, taken: bool, is_over: bool) {
+        let was = *self;
+        let word = signals.word.filter(|_| was.is_ready());
+        if taken {
+            self.held = None;
+        }
+        self.answers = false;
+        match was.state {
+            State::Idle => {
+                if let Some(opcode) = signals.begins {
+                    *self = Self { state: State::Count, opcode, ..*self };
+                    (self.context, self.number) = (0, 0);
+                }
+            }
+            State::Count => {
+                if let Some(count) = word {
+                    (self.count, self.left, self.state) = (count, count, State::Judge);
+                }
+            }
+            State::Judge => self.judge(signals.has_mesh),
+            State::Items => {
+                if let Some(word) = word {
+                    self.hold(word, signals.contexts);
+                }
+                if was.left == 0 && was.held.is_none() && !was.answers {
+                    self.state = State::Settle;
+                }
+            }
+            State::Refused => {
+                self.left -= u32::from(word.is_some());
+                if was.left == 0 {
+                    (self.answers, self.state) = (true, State::Settle);
+                }
+            }
+            State::Settle => {
+                if is_over && !was.answers {
+                    self.state = State::Idle;
+                }
+            }
+        }
+    }
+
+    /// Decides whether the run is done.
+    fn judge(&mut self, has_mesh: bool) {
+        let is_too_long = self.count.checked_mul(RunKind::Locate.part_words() as u32).is_none();
+        self.refusal = match has_mesh {
+            false => Some(Status::NoMesh),
+            true => is_too_long.then_some(Status::BadRange),
+        };
+        self.answers = self.refusal.is_none();
+        self.state = if self.answers { State::Items } else { State::Refused };
+    }
+
+    fn hold(&mut self, word: u32, contexts: usize) {
+        let place = Point { x: word & 0xffff, y: word >> 16 };
+        self.held = Some((self.context, Item { number: self.number, place }));
+        self.number = part_item(self.number + 1);
+        self.context = (self.context + 1) % contexts;
+        self.left -= 1;
+    }
+}

@@ -1,0 +1,22 @@
+//! The blocks that answer questions on a mesh that stands.
+
+use incircle_protocol::{Config, FULL, TINY};
+
+use crate::exported::block;
+use incircle_hdl::living::{ItemQueues, PartQueue, QuestionStep, Questions, RunGate, RunPort, StandingView};
+
+/// Name of the root module and Verilog of each block.
+pub(crate) fn blocks() -> Vec<(String, String)> {
+    let most_contexts = Config { contexts: 24, ..TINY };
+    vec![
+        block(ItemQueues::new(TINY), "living_item_queues_2"),
+        block(ItemQueues::new(most_contexts), "living_item_queues_24"),
+        block(QuestionStep::default(), "living_question_step"),
+        block(PartQueue::default(), "living_part_queue"),
+        block(RunPort::default(), "living_run_port"),
+        block(RunGate::default(), "living_run_gate"),
+        block(StandingView::default(), "living_standing_view"),
+        block(Questions::new(TINY), "living_questions_2"),
+        block(Questions::new(FULL), "living_questions_16"),
+    ]
+}

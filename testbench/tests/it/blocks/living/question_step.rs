@@ -1,0 +1,112 @@
+//! Runs `QuestionStep` in Rust and in Verilog beside a statement of the rules: all three must agree.
+
+use crate::rig::stepper::bundles::{flip, id, Visit};
+use crate::rig::stepper::{named_ports, Stepper};
+use crate::rig::visit_model::{orientation, Point, Record};
+use incircle_hdl::living::QuestionStep;
+use incircle_testkit::SplitMix64;
+
+named_ports!(QuestionStep, [completion, sides], [asks, bundle, arrives, ends, finding]);
+
+const ROUNDS: usize = 20_000;
+const INFINITE: u64 = 0x7fff;
+
+/// What must follow a visit.
+#[derive(Debug, PartialEq, Eq)]
+enum Follows {
+    /// A visit of this record; in the search along the hull with the end of a hull edge.
+    Visit(u64, Option<u64>),
+    /// An outcome with three vertices.
+    End(u64, [u64; 3]),
+}
+
+/// What follows the visit of a record that holds the place or not, by the signs of its sides.
+fn follows(visit: Visit, record: Record, located: bool, walk_next: u64, sides: [i64; 3]) -> (Follows, bool) {
+    let is_search = visit.entry == 1;
+    let arrives = located && !is_search;
+    if let Some(slot) = record.v.iter().position(|&v| v == INFINITE) {
+        let end = record.v[(slot + 1) % 3];
+        return match (located, is_search) {
+            (true, _) => (Follows::Visit(record.n[(slot + 1) % 3], Some(end)), arrives),
+            (false, true) => (Follows::End(4, [end, visit.cavity_record, 0]), false),
+            (false, false) => (Follows::Visit(walk_next, None), false),
+        };
+    }
+    if !located {
+        return (Follows::Visit(walk_next, None), false);
+    }
+    let mut named: Vec<u64> = (0..3).filter(|&slot| sides[slot] != 0).map(|slot| record.v[slot]).collect();
+    let outcome = named.len() as u64;
+    named.resize(3, 0);
+    (Follows::End(outcome, [named[0], named[1], named[2]]), arrives)
+}
+
+/// Three corners of a triangle that turns left, and a place, in a box so small that lines and equal points are common.
+fn geometry(random: &mut SplitMix64) -> ([Point; 3], Point) {
+    let side = [2, 3, 4, 1 << 16][random.below(4) as usize];
+    loop {
+        let mut point = || (random.below(side) as i64, random.below(side) as i64);
+        let (corners, place) = ([(); 3].map(|()| point()), point());
+        if orientation(corners[0], corners[1], corners[2]) > 0 {
+            return (corners, place);
+        }
+    }
+}
+
+#[test]
+fn question_step_follows_the_rules() {
+    let mut random = SplitMix64::new(61);
+    let mut block = Stepper::new("living_question_step", QuestionStep::default(), 1);
+    let mut seen = [0; 5];
+    for _ in 0..ROUNDS {
+        let (corners, place) = geometry(&mut random);
+        let mut record =
+            Record { v: [(); 3].map(|()| 1 + random.below(INFINITE - 1)), n: [(); 3].map(|()| id(&mut random)) };
+        let is_search = random.once_in(4);
+        if is_search || flip(&mut random) {
+            record.v[random.below(3) as usize] = INFINITE;
+        }
+        let visit = Visit {
+            context: random.below(24),
+            entry: is_search.into(),
+            cavity_record: id(&mut random),
+            ..Visit::look(id(&mut random))
+        };
+        let verdict = record.verdict(0, corners, place, INFINITE);
+        let (located, walk_next) = (verdict >> 1 & 1 == 1, (verdict >> 5) as u64);
+        let sides = [0, 1, 2].map(|k| orientation(corners[(k + 1) % 3], corners[(k + 2) % 3], place));
+        let done = !random.once_in(8);
+        block.set("completion_done", done);
+        block.set("completion_visit", visit.packed());
+        block.set("completion_turned", record.pack_turned(0, [false; 3], INFINITE));
+        block.set("completion_verdict", verdict);
+        for (port, side) in ["e0_zero", "e1_zero", "e2_zero"].into_iter().zip(sides) {
+            block.set(port, side == 0);
+        }
+        block.settle();
+        let (follows, arrives) = follows(visit, record, located, walk_next, sides);
+        block.expect("arrives", arrives && done);
+        match follows {
+            Follows::Visit(next, end) => {
+                block.expect("asks", done);
+                block.expect("ends", false);
+                let found = Visit::of_bundle(block.get("bundle"));
+                let wanted = Visit { context: visit.context, entry: end.is_some().into(), ..Visit::look(next) };
+                let cavity_record = end.unwrap_or(found.cavity_record);
+                assert_eq!(found, Visit { cavity_record, ..wanted });
+                block.expect_masked("bundle", 3, 0u128);
+                seen[0] += 1;
+            }
+            Follows::End(outcome, [v0, v1, v2]) => {
+                block.expect("asks", false);
+                block.expect("ends", done);
+                block.expect("finding_outcome", outcome);
+                block.expect("finding_v0", v0);
+                block.expect("finding_v1", v1);
+                block.expect("finding_v2", v2);
+                seen[outcome as usize] += 1;
+            }
+        }
+    }
+    assert!(seen.iter().all(|&count| count > ROUNDS / 100), "visits, then ends by their outcome: {seen:?}");
+}
