@@ -116,8 +116,8 @@ impl Links {
         self.halves.extend([half(larger), half(smaller)]);
         let number = |side: Side| pair + (side as u32 & 1);
         match sides {
-            &[only] => self.holes.push(number(only) ^ 1),
-            &[one, other] if number(one) != number(other) => {}
+            [only] => self.holes.push(number(*only) ^ 1),
+            [one, other] if number(*one) != number(*other) => {}
             _ => return Err(Unsound),
         }
         for &side in sides {
