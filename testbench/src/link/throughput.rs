@@ -20,11 +20,6 @@ const LIMIT: Duration = Duration::from_secs(2);
 const LONGEST_JOB_US: u32 = 3000;
 /// Points that the batches of the page have together, about.
 const POINTS: usize = 100_000;
-/// Bytes of answers that the host asks for at a time in the first table.
-const WINDOW: usize = 64 * 1024;
-/// Bytes that the driver asks for at a time on a Linux whose limits nobody changed. A socket then gets twice the 212,992
-/// bytes of `net.core.rmem_max`, and the driver uses a quarter of what a socket gets.
-const LINUX_WINDOW: usize = 2 * 212_992 / 4;
 /// The largest coordinate of the points, plus 1.
 const SIDE: u32 = 1 << 16;
 
@@ -39,12 +34,10 @@ pub struct Load {
     pub points: usize,
     /// Million points a second that were aimed at, if there is an aim.
     pub target: Option<f64>,
-    /// Bytes of answers that the host asks for at a time.
-    pub window: usize,
 }
 
 const fn load(config: Config, clock_mhz: u32, points: usize, target: Option<f64>) -> Load {
-    Load { config, clock_mhz, jobs: POINTS / points, points, target, window: WINDOW }
+    Load { config, clock_mhz, jobs: POINTS / points, points, target }
 }
 
 /// The rows of the page.
@@ -62,11 +55,8 @@ const LOADS: [Load; 11] = [
     load(DUAL, 150, 4000, Some(11.0)),
 ];
 
-/// The head of a table.
-const HEAD: &str = "| core | MHz | jobs x points | million points a second | aim |\n|---|---:|---:|---:|---|\n";
-
 /// The frame whose time the page tells, and the milliseconds that were aimed at.
-const FRAME: Load = Load { config: FULL, clock_mhz: 120, jobs: 1, points: 4000, target: None, window: WINDOW };
+const FRAME: Load = Load { config: FULL, clock_mhz: 120, jobs: 1, points: 4000, target: None };
 const FRAME_TARGET_MS: f64 = 1.2;
 
 impl Load {
@@ -79,7 +69,6 @@ impl Load {
         let board = NetworkBoard::at_clock(self.config, self.clock_mhz * 1_000_000)?;
         let ether = Rc::new(RefCell::new(VirtualEther::new(board, Duration::ZERO, &NetworkFaults::default())));
         ether.borrow_mut().set_longest_job(LONGEST_JOB_US);
-        ether.borrow_mut().set_window(1, self.window);
         let mut device = Device::from_transport(Box::new(EtherTransport::new(Rc::clone(&ether), LIMIT)));
         let mut session = device.session()?;
         let mut random = SplitMix64::new(1);
@@ -123,7 +112,6 @@ pub fn throughput_rows(core: &str, say: &dyn Fn(&str)) -> Result<(), Box<dyn Err
     }
     loads.try_for_each(|load| {
         say(load.row()?.trim_end());
-        say(Load { window: LINUX_WINDOW, ..load }.row()?.trim_end());
         Ok(())
     })
 }
@@ -139,21 +127,13 @@ pub fn throughput_document(say: &dyn Fn(&str)) -> Result<String, Box<dyn Error>>
          gigabit Ethernet. Made by `cargo run --release -p incircle-testbench --bin throughput-udp`: the library's\n\
          protocol runs before the Verilated `incircle_udp_top`, whose GMII pins are driven and sampled byte by byte. Time\n\
          is counted in clocks, so the figures are the same on every machine. The cable delays and loses nothing, the host\n\
-         takes no time of its own, and at most 64 KiB of answers are asked for at a time. Every mesh is compared with that\n\
-         of the CPU triangulator. No board was measured.\n\n",
+         takes no time of its own, and at most 64 kB of answers are asked for at a time. Every mesh is compared with that\n\
+         of the CPU triangulator. No board was measured.\n\n\
+         | core | MHz | jobs x points | million points a second | aim |\n\
+         |---|---:|---:|---:|---|\n",
     );
-    text += HEAD;
     for load in LOADS {
         let row = load.row()?;
-        say(row.trim_end());
-        text += &row;
-    }
-    text +=
-        "\nThe same with 104 KiB asked for at a time, which is what the driver does on a Linux whose limits nobody\n\
-         changed:\n\n";
-    text += HEAD;
-    for load in LOADS {
-        let row = Load { window: LINUX_WINDOW, ..load }.row()?;
         say(row.trim_end());
         text += &row;
     }

@@ -56,11 +56,6 @@ impl VirtualEther {
         self.most_quiet = microseconds;
     }
 
-    /// Lets the host ask for so many bytes of answers at a time. It must not have begun.
-    pub fn set_window(&mut self, random: u64, window_bytes: usize) {
-        self.protocol = UdpProtocol::new(UdpParams { random, window_bytes });
-    }
-
     /// The virtual time since the start.
     pub fn now(&self) -> Duration {
         Duration::from_nanos(self.nanoseconds())
