@@ -7,18 +7,18 @@
 //! 4. A beat on offer stays until it is taken; `response_valid` does not wait for `response_ready`. A reset drops the
 //!    answer.
 //!
-//! Latency: 2 clocks from `head` to its beat, and 3 from `came` to the first beat of the part.
+//! Latency: 2 clocks from `head` to its beat, and from `came` to the first beat of the part.
 //!
 //! An answer of one part, whose head has to wait for the reader:
 //! ```text
 //! head            /^^\_____________________________
 //! begins          ___/^^\__________________________
 //! came            _________/^^\____________________
-//! response_valid  ______/^^^^^^^^^^^\__/^^^^^\______
+//! response_valid  ______/^^^^^^^^^^^^^^^^^\________
 //! response_ready  _______________/^^^^^^^^^^^^^^^^^
-//! response_last   ________________________/^^\_____
-//! low               .  . 85 85 85 85  .  6  7  .  .
-//! is_over         /^^\_______________________/^^^^^
+//! response_last   _____________________/^^\________
+//! low               .  . 85 85 85 85  6  7  .  .  .
+//! is_over         /^^\____________________/^^^^^^^^
 //! ```
 
 use super::types::{Finding, Part, PartCame, RunHead, PART_ADDRESS_BITS, PART_BITS};
