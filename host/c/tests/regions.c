@@ -83,6 +83,10 @@ static void a_job_with_constraints_ends_when_asked(void) {
     TRUE(heard >= 3 && made == NULL);
 }
 
+#define CELLS(clip, counts, ring_count, out, status)                                                             \
+    IS(incircle_diagram_new_with_holes(points, 2, clip, counts, ring_count, INCIRCLE_I32, INCIRCLE_EXACT, out), \
+       status)
+
 static void cells_keep_out_of_holes(void) {
     static const int32_t points[][2] = {{5, 5}, {15, 5}};
     static const int32_t rings[][2] = {{0, 0}, {20, 0}, {20, 10}, {0, 10}, {2, 2}, {4, 2},
@@ -94,7 +98,7 @@ static void cells_keep_out_of_holes(void) {
     uint32_t list[8];
     double areas[2];
     size_t count;
-    IS(incircle_diagram_new_with_holes(points, 2, rings, counts, 3, INCIRCLE_I32, INCIRCLE_EXACT, &diagram), INCIRCLE_OK);
+    CELLS(rings, counts, 3, &diagram, INCIRCLE_OK);
     IS(incircle_diagram_areas(diagram, areas, 2, &count), INCIRCLE_OK);
     TRUE(areas[0] == 92 && areas[1] == 96);
     IS(incircle_diagram_ring_is_hole(diagram, flags, 2, &count), INCIRCLE_BUFFER);
@@ -105,25 +109,26 @@ static void cells_keep_out_of_holes(void) {
     IS(incircle_diagram_piece_starts(diagram, starts, 8, &count), INCIRCLE_OK);
     TRUE(count == 4 && starts[2] - starts[1] == 4);
     incircle_diagram_free(diagram);
-    IS(incircle_diagram_new_with_holes(points, 2, rings, counts, 1, INCIRCLE_I32, INCIRCLE_EXACT, &diagram), INCIRCLE_OK);
+    CELLS(rings, counts, 1, &diagram, INCIRCLE_OK);
     IS(incircle_diagram_areas(diagram, areas, 2, &count), INCIRCLE_OK);
     TRUE(areas[0] == 100 && areas[1] == 100);
     incircle_diagram_free(diagram);
-    IS(incircle_diagram_new_with_holes(points, 2, rings, counts, 0, INCIRCLE_I32, INCIRCLE_EXACT, &diagram), INCIRCLE_INPUT);
+    CELLS(rings, counts, 0, &diagram, INCIRCLE_INPUT);
     says("the clip has 0 rings");
-    IS(incircle_diagram_new_with_holes(points, 2, rings, few, 2, INCIRCLE_I32, INCIRCLE_EXACT, &diagram), INCIRCLE_INPUT);
-    IS(incircle_diagram_new_with_holes(points, 2, rings, huge, 2, INCIRCLE_I32, INCIRCLE_EXACT, &diagram), INCIRCLE_CAPACITY);
-    IS(incircle_diagram_new_with_holes(points, 2, rings + 4, counts, 2, INCIRCLE_I32, INCIRCLE_EXACT, &diagram), INCIRCLE_INPUT);
+    CELLS(rings, few, 2, &diagram, INCIRCLE_INPUT);
+    CELLS(rings, huge, 2, &diagram, INCIRCLE_CAPACITY);
+    CELLS(rings + 4, counts, 2, &diagram, INCIRCLE_INPUT);
     TRUE(diagram == NULL);
-    IS(incircle_diagram_new_with_holes(points, 2, rings, NULL, 3, INCIRCLE_I32, INCIRCLE_EXACT, &diagram), INCIRCLE_ARGUMENT);
-    IS(incircle_diagram_new_with_holes(points, 2, NULL, counts, 3, INCIRCLE_I32, INCIRCLE_EXACT, &diagram), INCIRCLE_ARGUMENT);
-    IS(incircle_diagram_new_with_holes(points, 2, rings, counts, 3, INCIRCLE_I32, INCIRCLE_EXACT, NULL), INCIRCLE_ARGUMENT);
+    CELLS(rings, NULL, 3, &diagram, INCIRCLE_ARGUMENT);
+    CELLS(NULL, counts, 3, &diagram, INCIRCLE_ARGUMENT);
+    CELLS(rings, counts, 3, NULL, INCIRCLE_ARGUMENT);
     IS(incircle_diagram_ring_is_hole(NULL, flags, 4, &count), INCIRCLE_ARGUMENT);
 }
 
 static void points_follow_a_density_and_keep_out_of_holes(void) {
     static const int32_t points[][2] = {{7, 7}}, box[][2] = {{0, 0}, {400, 100}};
-    static const int32_t rings[][2] = {{0, 0}, {400, 0}, {400, 100}, {0, 100}, {200, 10}, {390, 10}, {390, 90}, {200, 90}};
+    static const int32_t rings[][2] = {{0, 0},    {400, 0},  {400, 100}, {0, 100},
+                                       {200, 10}, {390, 10}, {390, 90},  {200, 90}};
     const uint16_t left[] = {3, 1}, upper[] = {1, 0}, nothing[] = {0, 0};
     const size_t counts[] = {4, 4};
     double places[1][2], free_place[1][2];
