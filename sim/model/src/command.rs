@@ -10,9 +10,7 @@ use crate::mesh::Mesh;
 use crate::predicate::Point;
 use awaited::{Awaited, Range, Reading};
 use incircle_protocol as protocol;
-use protocol::{
-    answer_header, signed_header, Counter, Identity, InsertReport, Layout, Opcode, RunKind, ShortIds, Status,
-};
+use protocol::{answer_header, signed_header, Counter, Identity, InsertReport, Layout, Opcode, RunKind, Status};
 use std::collections::VecDeque;
 use std::fmt;
 
@@ -90,8 +88,6 @@ impl CommandModel {
         if !(protocol::MIN_RING..=protocol::MAX_RING).contains(&ring_capacity) {
             return Err(ModelError::Ring(ring_capacity));
         }
-        let layout = Layout::of(coord_bits, capacity);
-        let is_narrow = layout.record_words == 3;
         Ok(Self {
             identity: Identity {
                 magic: protocol::MAGIC,
@@ -102,9 +98,9 @@ impl CommandModel {
                 contexts: 1,
                 engines: 1,
                 ring_capacity,
-                features: if is_narrow { protocol::FEATURE_SHORT_IDS } else { 0 },
+                features: 0,
             },
-            layout,
+            layout: Layout::of(coord_bits, capacity),
             mesh: Mesh::new(capacity, ring_capacity),
             awaited: Awaited::Command,
             tag: 0,
@@ -224,11 +220,7 @@ impl CommandModel {
             Some(Opcode::Clear) => self.clear(word),
             Some(Opcode::Insert) => self.awaited = Awaited::InsertCount,
             Some(Opcode::Read) => self.awaited = Awaited::ReadFirst(Range::Records),
-            Some(Opcode::Triangles) => {
-                let short =
-                    ShortIds::of_word(word).filter(|_| self.identity.features & protocol::FEATURE_SHORT_IDS != 0);
-                self.awaited = Awaited::ReadFirst(short.map_or(Range::Vertices, Range::ShortVertices));
-            }
+            Some(Opcode::Triangles) => self.awaited = Awaited::ReadFirst(Range::Vertices),
             Some(Opcode::Counters) => {
                 let words = self.counter_words();
                 self.answer(opcode, Status::Ok, &words);
