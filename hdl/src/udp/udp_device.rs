@@ -44,7 +44,8 @@ pub struct UdpDevice<const P: usize> {
     pub rx_data: Signal<In, Byte>,
     pub tx_valid: Signal<Out, Bit>,
     pub tx_data: Signal<Out, Byte>,
-    /// Lamps: alive, busy, error, from bit 0 up; see [`UdpLink`]. Busy is lit while a datagram waits as well.
+    /// Lamps: alive, busy, error, from bit 0 up; see [`UdpLink`]. Busy is lit while a datagram waits as well, and alive is
+    /// dark while the clock of the PHY stands.
     pub leds: Signal<Out, Bits<3>>,
     /// Synchronous reset of the core, and its streams, in the clock of the core.
     pub core_reset: Signal<Out, Bit>,
@@ -65,6 +66,7 @@ pub struct UdpDevice<const P: usize> {
     port_resets: ResetReply,
     request_seen: Synchroniser<Bit>,
     reply_seen: Synchroniser<Bit>,
+    beat_seen: Synchroniser<Bit>,
     station: Parameter<Station>,
     lamps: Signal<Local, Lamps>,
     entry: Signal<Local, AnswerEntry>,
@@ -94,7 +96,7 @@ impl<const P: usize> Logic for UdpDevice<P> {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, core_clock, ended);
-        clock!(self, core_clock, link, reset_seen, core_resets, reply_seen, progress);
+        clock!(self, core_clock, link, reset_seen, core_resets, reply_seen, beat_seen, progress);
         clock!(self, port_clock, port_resets, request_seen);
         self.reset_seen.sent.next = self.reset.val();
         self.core_resets.reset.next = self.reset_seen.received.val();
@@ -103,8 +105,8 @@ impl<const P: usize> Logic for UdpDevice<P> {
         self.port_resets.request.next = self.request_seen.received.val();
         self.reply_seen.sent.next = self.port_resets.reply.val();
         self.core_resets.reply.next = self.reply_seen.received.val();
-        // Nobody asks whether the clock of the PHY runs.
-        self.core_resets.core_beat.next = false;
+        self.beat_seen.sent.next = self.port_resets.beat.val();
+        self.core_resets.core_beat.next = self.beat_seen.received.val();
         self.port.port_clock.next = self.port_clock.val();
         self.port.port_reset.next = self.port_resets.resets.val();
         self.port.core_clock.next = self.core_clock.val();
@@ -163,7 +165,7 @@ impl<const P: usize> Logic for UdpDevice<P> {
             | self.progress.is_busy.val()
             | (!self.answers.is_fetched.val())
             | (!self.answers.is_empty.val());
-        self.lamps.next.alive = self.link.lamps.val().alive;
+        self.lamps.next.alive = self.link.lamps.val().alive & self.core_resets.core_runs.val();
         self.lamps.next.busy = self.link.lamps.val().busy | self.port.on_the_way.val().to_the_reader;
         self.lamps.next.error = self.link.lamps.val().error;
         self.leds.next = self.lamps.val().into();
