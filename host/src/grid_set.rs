@@ -145,7 +145,8 @@ impl GridSet {
         &self.points
     }
 
-    /// The clip without holes that the corners make, or the smallest rectangle around the points if there are no corners.
+    /// The clip without holes that the corners make, or the smallest rectangle around the points if there are no
+    /// corners.
     ///
     /// # Errors
     /// The clip has no area, or crosses or touches itself.
@@ -157,8 +158,8 @@ impl GridSet {
         }
     }
 
-    /// The polygon with holes that the corners make. `counts` says how many of the corners each ring has: that around the
-    /// polygon, then those of the holes.
+    /// The polygon with holes that the corners make. `counts` says how many of the corners each ring has: that around
+    /// the polygon, then those of the holes.
     ///
     /// ```
     /// use incircle::GridSet;

@@ -1,4 +1,5 @@
-//! How the records of a load are read: whole, or their vertices alone, with ids of as many bits as the job needs.
+//! The form in which the records of a load are read: whole, or their vertices alone, with ids of as many bits as the
+//! job needs.
 
 use std::ops::Range;
 
@@ -8,7 +9,7 @@ use super::assemble::check_last_half;
 use crate::error::DeviceFault;
 use crate::transports::Capabilities;
 
-/// The form of the answers to a load's questions for records.
+/// The form of the answers to the commands by which a load reads its records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ReadForm {
     /// Whole records, with their neighbours.
@@ -39,6 +40,7 @@ impl ReadForm {
         }
     }
 
+    /// The opcode of the commands that read records in this form.
     pub(crate) fn opcode(self) -> Opcode {
         self.command::<()>(0..0).opcode()
     }

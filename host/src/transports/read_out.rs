@@ -1,4 +1,4 @@
-//! Reading records in parts: links that ask again for what was lost read a range in several questions, and put the
+//! Reading records in parts: a link that asks again for lost answers reads a range by several commands, and puts the
 //! payloads together.
 
 use incircle_protocol::{Command, Layout, RecordRange, ShortIds};
@@ -39,7 +39,7 @@ impl ReadOut {
         }
     }
 
-    /// Number of words of payload of so many records.
+    /// Number of words of payload of `count` records.
     pub fn words(&self, count: u32) -> usize {
         usize::try_from(self.part::<()>(0, count).payload_words(self.layout)).unwrap_or(usize::MAX)
     }

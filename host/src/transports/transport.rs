@@ -109,8 +109,8 @@ pub struct Capabilities {
     /// Whether answers are taken in the order in which they come, by [`receive_next`](Transport::receive_next). Without
     /// it a device of several engines gets one job at a time.
     pub any_order: bool,
-    /// Whether meshes are read with `Triangles`, which leaves out the neighbours and so half of the words. Clear it for
-    /// a transport that only knows `Read`.
+    /// Whether meshes are read with `Triangles`, which leaves out the neighbours and so half of the words or more: a
+    /// device that has short ids is asked for them. Clear it for a transport that only knows `Read`.
     pub packs_records: bool,
     /// Words of answers that the device keeps for the line while its core goes on, or `usize::MAX` where the core does
     /// not wait for the line. Jobs are put side by side only while their meshes fit, because a core inserts nothing

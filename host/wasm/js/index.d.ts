@@ -44,8 +44,8 @@ export interface Pen {
 }
 
 /**
- * The Voronoi cells of a set with the interface of d3-delaunay. The neighbours of a cell are exact; its corners are computed in
- * doubles, each from its point, and so are right to some units in the last place of the size of the cell.
+ * The Voronoi cells of a set with the interface of d3-delaunay. The neighbours of a cell are exact; its corners are
+ * computed in doubles, each from its point, and so are right to some units in the last place of the size of the cell.
  */
 export class Voronoi {
     constructor(delaunay: Incircle, bounds?: Bounds);
@@ -118,7 +118,7 @@ export class Triangulation {
     insert(x: number, y: number): number;
     /** Deletes the point of an index. Throws a `RangeError` if no living point has the index. */
     delete(point: number): void;
-    /** Moves the point of an index, which it keeps. Throws a `RangeError` if no living point has the index. */
+    /** Moves a point, which keeps its index. Throws a `RangeError` if no living point has the index. */
     move(point: number, x: number, y: number): void;
     /** Moves all living points: x and y of each new place in turn, in the order of the indices. */
     moveAll(coords: Coordinates): void;

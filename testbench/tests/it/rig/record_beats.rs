@@ -83,8 +83,8 @@ impl Form {
         self != Self::Whole
     }
 
-    /// Sets the ports that choose the form; the first one is named differently from block to block. Of whole records the
-    /// form of ids must not matter.
+    /// Sets the ports that choose the form; the first one is named differently from block to block. For whole records
+    /// the form of ids must not matter.
     pub fn set<U: NamedPorts>(self, block: &mut Stepper<U>, vertices_alone: &str) {
         block.set(vertices_alone, self.has_vertices_alone());
         block.set("has_short_ids", matches!(self, Self::Short(_)));
