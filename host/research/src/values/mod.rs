@@ -151,9 +151,12 @@ fn agreement(ours: &[f64], theirs: &[f64]) -> Result<String, Failure> {
     let largest = inside.iter().map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     let undecided = ours.len() - inside.len();
     let outside = ours.iter().filter(|value| value.is_nan()).count();
+    if inside.is_empty() && outside < ours.len() {
+        return Err("cgal has no value at any place that is inside for us".into());
+    }
     let text = format!(
-        "        ours and cgal's differ by {largest:.1e} at most; {outside} places are outside for us, and {undecided} for \
-         us or cgal\n"
+        "        ours and cgal's differ by {largest:.1e} at most; {outside} places are outside for us, and {undecided} \
+         for us or cgal\n"
     );
     match largest < 1e-6 {
         true => Ok(text),
