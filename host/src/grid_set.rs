@@ -45,7 +45,9 @@ pub enum GridSetError {
         most: u32,
     },
     /// The rings of a clip have another number of corners than were given.
-    #[error("the rings of the clip have {have} corners, but the clip has {corners}: give the number of each ring")]
+    #[error(
+        "the rings of the clip have {have} corners, but the clip has {corners}: give the number of corners of each ring"
+    )]
     RingCounts {
         /// The corners of all rings together.
         have: usize,
