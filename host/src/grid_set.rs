@@ -45,7 +45,9 @@ pub enum GridSetError {
         most: u32,
     },
     /// The rings of a clip have another number of corners than were given.
-    #[error("the rings of the clip have {have} corners, but the clip has {corners}: give the number of each ring")]
+    #[error(
+        "the rings of the clip have {have} corners, but the clip has {corners}: give the number of corners of each ring"
+    )]
     RingCounts {
         /// The corners of all rings together.
         have: usize,
@@ -145,7 +147,8 @@ impl GridSet {
         &self.points
     }
 
-    /// The clip without holes that the corners make, or the smallest rectangle around the points if there are no corners.
+    /// The clip without holes that the corners make, or the smallest rectangle around the points if there are no
+    /// corners.
     ///
     /// # Errors
     /// The clip has no area, or crosses or touches itself.
@@ -157,8 +160,8 @@ impl GridSet {
         }
     }
 
-    /// The polygon with holes that the corners make. `counts` says how many of the corners each ring has: that around the
-    /// polygon, then those of the holes.
+    /// The polygon with holes that the corners make. `counts` says how many of the corners each ring has: that around
+    /// the polygon, then those of the holes.
     ///
     /// ```
     /// use incircle::GridSet;

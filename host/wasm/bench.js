@@ -1,5 +1,5 @@
-// Times of Incircle and delaunator on the same Float64Array, in turn, in Node.js or in a browser. Node.js tells the time
-// of the processor, which other programs disturb less. The argument is the number of points.
+// Times of Incircle and delaunator on the same Float64Array, in turn, in Node.js or in a browser. In Node.js the times
+// are those of the processor, which other programs disturb less. The argument is the number of points.
 import Delaunator from 'delaunator';
 import Incircle, {triangulate} from './js/index.js';
 import {random} from './tests/random.js';

@@ -220,14 +220,14 @@ typedef struct {
   const void *clip;
   // The number of these corners.
   size_t corner_count;
-  // How many of the corners each ring has, if the clip is a polygon with holes: that around the polygon, then those of
-  // the holes, as for `incircle_diagram_new_with_holes`. Null stands for a clip without holes.
+  // How many of the corners each ring has, if the clip is a polygon with holes: that around the polygon, then those
+  // of the holes, as for `incircle_diagram_new_with_holes`. Null stands for a clip without holes.
   const size_t *ring_counts;
   // The number of rings, or 0.
   size_t ring_count;
-  // How densely points are to lie: `rows` rows of `columns` weights, stretched over the smallest rectangle around the
-  // clip, with the first row at the largest y as in images. A point moves to the centre of mass of its cell. Null
-  // stands for the same weight everywhere.
+  // How densely points are to lie: `rows` rows of `columns` weights, stretched over the smallest rectangle around
+  // the clip, with the first row at the largest y as in images. A point moves to the centre of mass of its cell.
+  // Null stands for the same weight everywhere.
   const uint16_t *density;
   // Weights in a row.
   size_t columns;
@@ -635,8 +635,8 @@ int32_t incircle_diagram_new(const void *points,
 // that meet.
 //
 // # Safety
-// `ring_counts` points to `ring_count` numbers, `clip` to as many pairs of numbers as they add up to; the rest is as for
-// `incircle_diagram_new`.
+// `ring_counts` points to `ring_count` numbers, `clip` to as many pairs of numbers as they add up to; the rest is as
+// for `incircle_diagram_new`.
 int32_t incircle_diagram_new_with_holes(const void *points,
                                         size_t count,
                                         const void *clip,

@@ -117,7 +117,7 @@ impl<P: Copy> Copied<P> {
         }
     }
 
-    /// Looks whether there is memory for a constrained mesh of so many points.
+    /// Looks whether there is memory for a constrained mesh of `points` points.
     pub(crate) fn look_for_memory(&self, points: usize) -> Outcome {
         look_for_memory((points + self.constraints.len()) * BYTES_OF_A_PLAN)
     }

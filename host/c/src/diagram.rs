@@ -52,8 +52,8 @@ pub unsafe extern "C" fn incircle_diagram_new(
 /// that meet.
 ///
 /// # Safety
-/// `ring_counts` points to `ring_count` numbers, `clip` to as many pairs of numbers as they add up to; the rest is as for
-/// `incircle_diagram_new`.
+/// `ring_counts` points to `ring_count` numbers, `clip` to as many pairs of numbers as they add up to; the rest is as
+/// for `incircle_diagram_new`.
 #[no_mangle]
 #[allow(clippy::too_many_arguments)] // each list in C is a pointer and a count
 pub unsafe extern "C" fn incircle_diagram_new_with_holes(

@@ -46,14 +46,14 @@ pub struct incircle_relaxation {
     pub clip: *const c_void,
     /// The number of these corners.
     pub corner_count: usize,
-    /// How many of the corners each ring has, if the clip is a polygon with holes: that around the polygon, then those of
-    /// the holes, as for `incircle_diagram_new_with_holes`. Null stands for a clip without holes.
+    /// How many of the corners each ring has, if the clip is a polygon with holes: that around the polygon, then those
+    /// of the holes, as for `incircle_diagram_new_with_holes`. Null stands for a clip without holes.
     pub ring_counts: *const usize,
     /// The number of rings, or 0.
     pub ring_count: usize,
-    /// How densely points are to lie: `rows` rows of `columns` weights, stretched over the smallest rectangle around the
-    /// clip, with the first row at the largest y as in images. A point moves to the centre of mass of its cell. Null
-    /// stands for the same weight everywhere.
+    /// How densely points are to lie: `rows` rows of `columns` weights, stretched over the smallest rectangle around
+    /// the clip, with the first row at the largest y as in images. A point moves to the centre of mass of its cell.
+    /// Null stands for the same weight everywhere.
     pub density: *const u16,
     /// Weights in a row.
     pub columns: usize,

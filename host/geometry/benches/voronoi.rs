@@ -25,8 +25,8 @@ fn now(since: Instant) -> f64 {
     nanoseconds.map_or_else(|| since.elapsed().as_secs_f64(), |nanoseconds| nanoseconds / 1e9)
 }
 
-/// The processor time of all threads of this process so far, in steps of a hundredth of a second. 0 where the system does
-/// not tell.
+/// The processor time of all threads of this process so far, in steps of a hundredth of a second. 0 where the system
+/// does not tell it.
 fn of_all_threads() -> f64 {
     let text = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
     // The name of the program, in brackets, may have spaces.

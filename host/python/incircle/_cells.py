@@ -23,8 +23,8 @@ MOST_STEPS = 100_000
 class Cells:
     """The cells of a set of points inside a clip, as flat arrays of rings.
 
-    A cell may have no piece, one, or several if the clip is not convex. Each piece is one ring around it, and a ring for
-    each hole of the clip that lies inside it.
+    A cell may have no piece, one, or several if the clip is not convex. Each piece is one ring around it, and a ring
+    for each hole of the clip that lies inside it.
     """
 
     corners: NDArray[np.float64]
@@ -125,12 +125,18 @@ class Voronoi:
         Raises
         ------
         UnknownPointError
-            There is no point of the index; so in `neighbors_of`.
+            There is no point of the index.
         """
         return self.corners[self._edges(point)]
 
     def neighbors_of(self, point: int) -> NDArray[np.uint32]:
-        """The points whose cells share an edge with that of a point, counter-clockwise."""
+        """The points whose cells share an edge with that of a point, counter-clockwise.
+
+        Raises
+        ------
+        UnknownPointError
+            There is no point of the index.
+        """
         return self.neighbors[self._edges(point)]
 
     def _edges(self, point: int) -> slice:
@@ -245,7 +251,7 @@ def lloyd(
     holes
         Holes of the region, as for `voronoi`.
     density
-        How much each place weighs: an array of two dimensions with whole numbers from 0 to 65,535, such as the grey
+        The weight of each place: an array of two dimensions with whole numbers from 0 to 65,535, such as the grey
         values of an image. It is stretched over the smallest rectangle around the clip, with row 0 at the largest y as
         in images. For an image in which points are to gather where it is dark, give `255 - image`.
     threads
@@ -275,7 +281,7 @@ def lloyd(
 
 
 def _index(point: int, count: int) -> int:
-    """The index of one of `count` points, checked. A negative one counts from no end."""
+    """The index of one of `count` points, checked. Negative indices are refused: they do not count from the end."""
     number = operator.index(point)
     if not 0 <= number < count:
         raise UnknownPointError(f"there is no point {number}: the set has {count}, which are counted from 0")

@@ -29,9 +29,15 @@ def border(clip: Any, holes: Any, points: NDArray[Any]) -> Border:
 
 def _holes(holes: Any) -> list[Any]:
     """The rings of holes; one array of numbers with three dimensions is a list of rings, too."""
-    if isinstance(holes, (str, bytes)) or not hasattr(holes, "__len__") or not hasattr(holes, "__getitem__"):
+    rings: list[Any] | None = None
+    if not isinstance(holes, (str, bytes, dict)):
+        try:
+            rings = list(holes)
+        except TypeError:
+            pass
+    if rings is None:
         raise InputError(f"the holes are {holes!r}: give a list with the corners of each hole")
-    return [holes[k] for k in range(len(holes))]
+    return rings
 
 
 def _outer(clip: Any, points: NDArray[Any]) -> NDArray[Any]:

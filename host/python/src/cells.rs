@@ -18,8 +18,8 @@ use crate::watch::Signals;
 /// Bits below the lattice that a relaxation needs for places between the points.
 const SPARE_BITS: u32 = 8;
 
-/// A clip as it comes from Python: the corners of all rings in the type of numbers of the points, and how many each ring
-/// has. Without counts there is one ring, or two corners of a rectangle, or none.
+/// A clip as it comes from Python: the corners of all rings in the type of numbers of the points, and how many each
+/// ring has. Without counts there is one ring, or two corners of a rectangle, or none.
 #[derive(FromPyObject)]
 pub struct Border<'py>(Bound<'py, PyAny>, Vec<usize>);
 

@@ -69,8 +69,8 @@ fn fresh<P: PlanePoint + Send>(py: Python<'_>, points: Vec<P>) -> PyResult<Trian
     py.detach(|| Triangulation::from(points)).map_err(|error| of_living(py, error))
 }
 
-/// Looks for the memory for so many insertions. A list that doubles needs twice its bytes while it is copied, and all
-/// lists may double in turn.
+/// Looks for the memory for `insertions` insertions. A list that doubles needs twice its bytes while it is copied, and
+/// all lists may double in turn.
 fn look_for_growth<P: PlanePoint>(py: Python<'_>, mesh: &Triangulation<P>, insertions: usize) -> PyResult<()> {
     look_for_memory(py, 2 * mesh.bytes() + insertions.saturating_mul(BYTES_OF_A_LIVING_POINT), 1)
 }

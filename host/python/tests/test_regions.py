@@ -88,6 +88,8 @@ def test_a_relaxation_keeps_out_of_holes():
         ([[(2, 5), (3,), (2, 6)]], "the hole 0 is no array of two columns"),
         ([np.ma.masked_all((3, 2))], "the corners of the hole 0 are a masked array"),
         (7, "the holes are 7: give a list"),
+        ({"first": HOLES[0]}, "the holes are {'first'"),
+        (np.array(5), "the holes are array"),
     ],
 )
 def test_bad_holes_are_refused(holes, sentence):

@@ -5,7 +5,8 @@
 //! [guides](order::brio_dc()). All are measured on the software model, and in cycles of the largest core.
 //!
 //! The package also compares the mesh that lives, constrained meshes and values between points with those of other
-//! libraries, and ways to fill the hole of a vertex that is deleted. It counts the cycles of questions and changes on the core's living engine.
+//! libraries, and ways to fill the hole of a vertex that is deleted. It counts the cycles of questions and changes on
+//! the core's living engine.
 //!
 //! Nothing here ships with the product. `cargo run --release -p incircle-research -- figures` makes
 //! all published figures again.

@@ -18,8 +18,9 @@ impl Session<'_> {
     /// device, and the report has no time for that.
     ///
     /// The report counts the triangles of the whole hull, whatever the domain is. [`Options::timeout`] is for the
-    /// triangulation, and on the CPU for the forcing of constraints, too. The listener hears of [`Stage::Assemble`](crate::Stage::Assemble) again from time to time
-    /// while the CPU triangulator forces constraints, so that it can end the job.
+    /// triangulation, and on the CPU for the forcing of constraints, too. The listener hears of
+    /// [`Stage::Assemble`](crate::Stage::Assemble) again from time to time while the CPU triangulator forces
+    /// constraints, so that it can end the job. With any other device nothing ends the forcing of constraints.
     ///
     /// Cost: that of `triangulate_with`, then for each constraint the edges that it crosses, and the flips around them.
     ///

@@ -44,8 +44,8 @@ export interface Pen {
 }
 
 /**
- * The Voronoi cells of a set with the interface of d3-delaunay. The neighbours of a cell are exact; its corners are computed in
- * doubles, each from its point, and so are right to some units in the last place of the size of the cell.
+ * The Voronoi cells of a set with the interface of d3-delaunay. The neighbours of a cell are exact; its corners are
+ * computed in doubles, each from its point, and so are right to some units in the last place of the size of the cell.
  */
 export class Voronoi {
     constructor(delaunay: Incircle, bounds?: Bounds);
@@ -91,8 +91,8 @@ export function ties(coords: Coordinates): Uint32Array;
 /** The triangles that are wanted: all of the hull, or those inside the rings or outside the holes of constraints. */
 export type Domain = 'all' | 'holes' | 'even-odd' | 'non-zero';
 /**
- * The canonical mesh with pairs of indices as edges, cut to a domain. For the domain `holes`, `holes` has a place in each
- * hole, x and y in turn. Throws a `RangeError` if constraints cross, or if a place lies in no part of the hull.
+ * The canonical mesh with pairs of indices as edges, cut to a domain. For the domain `holes`, `holes` has a place in
+ * each hole, x and y in turn. Throws a `RangeError` if constraints cross, or if a place lies in no part of the hull.
  */
 export function constrain(coords: Coordinates, pairs: number[] | Uint32Array, domain?: Domain, holes?: Coordinates):
     {triangles: Uint32Array; regions: Uint32Array};
@@ -118,13 +118,13 @@ export class Triangulation {
     insert(x: number, y: number): number;
     /** Deletes the point of an index. Throws a `RangeError` if no living point has the index. */
     delete(point: number): void;
-    /** Moves the point of an index, which it keeps. Throws a `RangeError` if no living point has the index. */
+    /** Moves a point, which keeps its index. Throws a `RangeError` if no living point has the index. */
     move(point: number, x: number, y: number): void;
     /** Moves all living points: x and y of each new place in turn, in the order of the indices. */
     moveAll(coords: Coordinates): void;
     /**
-     * Says what a place is, with the indices of the vertices there. Those of a triangle are counter-clockwise if y grows
-     * upwards, the smallest first. Outside the hull they are the first hull edge that is visible from the place.
+     * Says what a place is, with the indices of the vertices there. Those of a triangle are counter-clockwise if y
+     * grows upwards, the smallest first. Outside the hull they are the first hull edge that is visible from the place.
      */
     locate(x: number, y: number): {kind: Kind; vertices: Uint32Array};
     /** The index of the nearest point, or -1 if there is none. */

@@ -1,4 +1,4 @@
-// Voronoi cells with the interface of d3-delaunay: the half planes of the neighbours in the mesh, cut out of a rectangle.
+// Voronoi cells with the interface of d3-delaunay: a rectangle, cut by the half planes of the neighbours in the mesh.
 import {coordinate, index} from './engine.js';
 
 /** The rectangle of d3-delaunay. */

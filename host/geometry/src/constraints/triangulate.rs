@@ -55,9 +55,9 @@ impl Restored for TriangulateError {
 /// byte, in less time: the constraints are forced in before the triangles are sorted, while neighbours lie close
 /// together in memory. Use `constrain` if there is a mesh already, for example that of a device.
 ///
-/// `threads` and `watch` are those of `cpu::triangulate`; one thread forces the constraints. O(n) on even sets, then for
-/// each constraint the edges that it crosses, and the flips around them. Where the answer is an error, the constraints
-/// are taken out of the mesh, and `constrain` finds out what is wrong; `watch` does not hear of that.
+/// `threads` and `watch` are those of `cpu::triangulate`; one thread forces the constraints. O(n) on even sets, then
+/// for each constraint the edges that it crosses, and the flips around them. Where the answer is an error, the
+/// constraints are taken out of the mesh, and `constrain` finds out what is wrong; `watch` is not called meanwhile.
 ///
 /// ```
 /// use core::num::NonZeroUsize;

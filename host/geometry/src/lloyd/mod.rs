@@ -109,8 +109,11 @@ pub fn relax_weighted(
     repeat(points, stop, |points| weighted_step(points, clip, density, threads))
 }
 
-/// Does steps of the caller until the end. `step` gives the new place of each point. Its first error ends the
-/// relaxation, so that a step can also look whether somebody wants the work to end.
+/// Repeats a step of the caller until the end. The first error of a step ends the relaxation, so a step may also end
+/// the work because somebody asks for that.
+///
+/// `step` gets the points in an order in which near ones stand near one another, and must give the new place of each,
+/// in the same order. The result has the points in the order of `points` again.
 ///
 /// ```
 /// use core::num::NonZeroUsize;

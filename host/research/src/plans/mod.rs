@@ -58,7 +58,7 @@ pub fn plans(arguments: &PlansArguments) -> Result<(), Failure> {
         let set = Set::new(kind, arguments.n as usize, arguments.seed);
         print(&race(&set, kind, &programs, arguments)?)?;
     }
-    print("all meshes are equal, but for what is said about the hull; in brackets: ours by theirs\n")?;
+    print("all meshes are equal, except for triangles at the hull that a row names; in brackets: ours by theirs\n")?;
     Ok(())
 }
 
@@ -97,7 +97,8 @@ fn race(set: &Set, kind: Kind, programs: &[Program], arguments: &PlansArguments)
     Ok(text)
 }
 
-/// How many triangles of a mesh another one lacks; both are sorted. `None` if the other one has triangles of its own.
+/// The number of triangles of a mesh that another one lacks; both are sorted. `None` if the other one has triangles of
+/// its own.
 fn lost(mesh: &[[u32; 3]], other: &[[u32; 3]]) -> Option<usize> {
     let mut rest = mesh.iter();
     let has_all = other.iter().all(|triangle| rest.any(|own| own == triangle));

@@ -24,8 +24,8 @@ impl Program {
         Ok(Self { name: "cgal", may_lose_hull: false, compiled })
     }
 
-    /// Compiles the program of CDT if its headers are where the compiler looks. It triangulates inside a triangle around
-    /// all points, which it takes away in the end, and the points on the hull may have been joined to that triangle.
+    /// Compiles the program of CDT if its headers are where the compiler looks. CDT triangulates inside a triangle
+    /// around all points, which it takes away in the end, and points on the hull may have been joined to that triangle.
     pub(super) fn cdt() -> Result<Self, String> {
         Ok(Self { name: "cdt", may_lose_hull: true, compiled: Compiled::new(include_str!("cdt.cpp"), &[])? })
     }

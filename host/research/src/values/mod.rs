@@ -1,8 +1,8 @@
 //! `values`: queries a second of each way to give values between points, beside CGAL.
 //!
 //! The contestants take turns in random order, and each is given the same points and places in every round. Their times
-//! are those of the queries alone. On a machine with other work the wall clock says little, so the processor time of all
-//! threads stands beside it.
+//! are those of the queries alone. On a machine with other work the wall clock says little, so the processor time of
+//! all threads stands beside it.
 
 mod cgal;
 mod set;
@@ -46,7 +46,7 @@ pub struct ValuesArguments {
 const METHODS: [(&str, Method); 3] =
     [("linear", Method::Linear), ("laplace", Method::Laplace), ("sibson", Method::Sibson)];
 
-/// What became of the rounds of one contestant: the least seconds by the wall and of processor time, and the values.
+/// The best of the rounds of one contestant: the least seconds by the wall and of processor time, and the values.
 struct Best {
     wall: f64,
     processor: f64,
@@ -151,9 +151,12 @@ fn agreement(ours: &[f64], theirs: &[f64]) -> Result<String, Failure> {
     let largest = inside.iter().map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     let undecided = ours.len() - inside.len();
     let outside = ours.iter().filter(|value| value.is_nan()).count();
+    if inside.is_empty() && outside < ours.len() {
+        return Err("cgal has no value at any place that is inside for us".into());
+    }
     let text = format!(
-        "        ours and cgal's differ by {largest:.1e} at most; {outside} places are outside for us, and {undecided} for \
-         us or cgal\n"
+        "        ours and cgal's differ by {largest:.1e} at most; {outside} places are outside for us, and {undecided} \
+         for us or cgal\n"
     );
     match largest < 1e-6 {
         true => Ok(text),

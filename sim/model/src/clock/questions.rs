@@ -8,44 +8,21 @@
 mod item_queues;
 mod part_queue;
 mod run_port;
+mod signals;
 mod step;
 
 use super::beat::Beat;
 use super::memory::Memory;
-use crate::predicate::Point;
 use item_queues::ItemQueues;
 use part_queue::{Part, PartQueue};
 use run_port::RunPort;
+use signals::Item;
+pub(super) use signals::Signals;
 use std::collections::VecDeque;
 use step::{Followed, Visit};
 
 /// Number of clocks from the request of a visit to the requests that follow it.
 const LOOP: usize = 18;
-
-/// An item of a run.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Item {
-    pub number: u32,
-    pub place: Point,
-}
-
-/// What the rest of the core says at an edge.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Signals {
-    /// A run begins with this opcode.
-    pub begins: Option<u8>,
-    /// The word on offer, if it belongs to the run under way.
-    pub word: Option<u32>,
-    /// Whether the offered beat is taken.
-    pub is_taken: bool,
-    /// Whether the mesh is forgotten.
-    pub clears: bool,
-    pub has_mesh: bool,
-    /// Number of contexts that work.
-    pub contexts: usize,
-    /// The low half of a header.
-    pub signature: u32,
-}
 
 #[derive(Clone, Debug)]
 pub(super) struct Questions {

@@ -34,8 +34,13 @@ impl Step {
 }
 
 /// Outcome and vertices of each item, in the order of their numbers. Where a place lies in several records, or a record
-/// may begin at any of its vertices, the order of the vertices is not fixed.
-fn findings(parts: &[u32]) -> Vec<(u32, [u32; 3])> {
+/// may begin at any of its vertices, the order of the vertices is not fixed. Of points at one place, that one is a
+/// vertex which a context inserted first; so each vertex stands here as the lowest id at its place.
+fn findings(parts: &[u32], arrived: &[u32]) -> Vec<(u32, [u32; 3])> {
+    let lowest = |id: u32| {
+        let same = |&place: &u32| arrived.iter().position(|&other| other == place);
+        arrived.get(id as usize).and_then(same).map_or(id, |first| first as u32)
+    };
     let mut parts: Vec<&[u32]> = parts.chunks(4).collect();
     parts.sort_unstable_by_key(|part| part[0] & 0xff_ffff);
     let numbers: Vec<u32> = parts.iter().map(|part| part[0] & 0xff_ffff).collect();
@@ -43,7 +48,7 @@ fn findings(parts: &[u32]) -> Vec<(u32, [u32; 3])> {
     parts
         .iter()
         .map(|part| {
-            let (outcome, mut vertices) = (part[0] >> 24, [part[1], part[2], part[3]]);
+            let (outcome, mut vertices) = (part[0] >> 24, [part[1], part[2], part[3]].map(lowest));
             match outcome {
                 outcome if outcome == Outcome::Edge as u32 => vertices[..2].sort_unstable(),
                 outcome if outcome == Outcome::Triangle as u32 => vertices.sort_unstable(),
@@ -72,7 +77,7 @@ fn run(pair: &mut Lockstep, config: Config, steps: &[Step], stalls: Stalls, rand
     expected.truncate(count);
     let job = Job { commands, answers: expected.len() };
     let answers = pair.run(&job, stalls, &mut || random.next_u64()).unwrap_or_else(|mismatch| panic!("{mismatch}"));
-    let (mut place, mut seen) = (0, [0; 5]);
+    let (mut place, mut seen, mut arrived) = (0, [0; 5], Vec::new());
     for step in steps {
         assert_eq!(answers[place..place + 2], expected[place..place + 2], "head of an answer");
         let payload = place + 2..place + 2 + answers[place + 1] as usize;
@@ -80,13 +85,20 @@ fn run(pair: &mut Lockstep, config: Config, steps: &[Step], stalls: Stalls, rand
         let (answer, expected) = (&answers[payload.clone()], &expected[payload]);
         match step {
             Step::Locate(_) => {
-                let found = findings(answer);
-                assert_eq!(found, findings(expected));
+                let found = findings(answer, &arrived);
+                assert_eq!(found, findings(expected, &arrived));
                 seen[0] += usize::from(found.is_empty());
                 found.iter().for_each(|(outcome, _)| seen[*outcome as usize] += 1);
             }
             Step::Counters => assert_eq!(answer.len(), COUNTER_WORDS),
-            Step::Clear(_) | Step::Batch | Step::Insert(_) => assert_eq!(answer, expected),
+            Step::Insert(points) => {
+                arrived.extend_from_slice(points);
+                assert_eq!(answer, expected);
+            }
+            Step::Clear(_) | Step::Batch => {
+                arrived.clear();
+                assert_eq!(answer, expected);
+            }
         }
     }
     assert_eq!(place, answers.len());

@@ -188,8 +188,8 @@ const EXPECTED: [&str; 46] = [
     "water3b 25",
 ];
 
-/// Coordinates from the reports 98, 107, 109, 111, 113 and 116 of Stoeoef/spade on GitHub, as lines from point to point.
-/// A point that the report 98 inserts in the end is a line of length zero here.
+/// Coordinates from the reports 98, 107, 109, 111, 113 and 116 of Stoeoef/spade on GitHub, as lines from point to
+/// point. A point that the report 98 inserts in the end is a line of length zero here.
 const REPORTED: [(&str, &[[[f64; 2]; 2]]); 6] = [
     (
         "spade 98",

@@ -37,7 +37,7 @@ pub(crate) struct Forced {
     pub border: Vec<[u32; 2]>,
 }
 
-/// What became of points and constraints.
+/// The mesh of points and constraints, or that of the points alone.
 pub(crate) enum Outcome {
     Forced(Forced),
     /// The canonical mesh without the constraints: there are no triangles, or the plan has no answer.
@@ -68,8 +68,8 @@ struct Curve<'a, K: Kernel> {
 
 /// The mesh of the first `points` places with constraints, in the numbers in which the set is given. If there are no
 /// triangles, or constraints and domain have no mesh, it is the one without constraints, and
-/// [`constrain`](crate::constraints::constrain) finds out what is wrong. `watch` hears of [`Stage::Assemble`] again from
-/// time to time while constraints are forced, so that it can end the work.
+/// [`constrain`](crate::constraints::constrain) finds out what is wrong. `watch` hears of [`Stage::Assemble`] again
+/// from time to time while constraints are forced, so that it can end the work.
 ///
 /// # Errors
 /// As those of [`connect`](crate::cpu::connect).

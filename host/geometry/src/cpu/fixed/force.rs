@@ -35,8 +35,8 @@ impl From<Error> for Stop {
     }
 }
 
-/// Pieces between two looks whether the work goes on. A long constraint takes a tenth of a millisecond, so a look comes
-/// after some milliseconds at most on usual sets, and costs nothing beside the pieces.
+/// The number of pieces after which the watch is asked whether the work goes on. A long constraint takes a tenth of a
+/// millisecond, so on usual sets the watch is asked every few milliseconds, which costs nothing beside the pieces.
 const PIECES_PER_LOOK: usize = 64;
 
 /// A constraint, by the place on the curve at which it is forced.

@@ -82,7 +82,8 @@ struct Links {
 }
 
 /// A side of a triangle or of the outside. The upper 32 bits are the larger of its ends. The lower ones are its number
-/// in the list of all sides, doubled, plus 1 if the side leads to the smaller end. One word is quicker to sort than two.
+/// in the list of all sides, doubled, plus 1 if the side leads to the smaller end. One word is quicker to sort than
+/// two.
 type Side = u64;
 
 /// The larger end of a side.

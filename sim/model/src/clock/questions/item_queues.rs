@@ -2,7 +2,7 @@
 //!
 //! Hardware twin: the block `ItemQueues`.
 
-use super::Item;
+use super::signals::Item;
 use std::collections::VecDeque;
 
 /// Most items that wait for a context.

@@ -3,7 +3,7 @@
 //! Hardware twin: the block `RunPort`.
 
 use super::part_queue::Head;
-use super::{Item, Signals};
+use super::signals::{Item, Signals};
 use crate::predicate::Point;
 use incircle_protocol::{part_item, RunKind, Status};
 
