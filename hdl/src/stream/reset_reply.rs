@@ -1,7 +1,5 @@
 //! The core's side of a reset: holds the core in reset while the bus wants a reset, and replies after eight clocks.
 //!
-//! In a device with a UDP link, the Ethernet port is in the place of the core, and the core in that of the bus.
-//!
 //! 1. `resets` is 1 from the clock after `request` until both `request` and `reply` are 0 again.
 //! 2. The block has no reset of its own: it comes to rest by itself.
 //!

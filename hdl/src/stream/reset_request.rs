@@ -1,8 +1,6 @@
 //! The bus's side of a reset: asks the core's side for a reset, and waits until that side has been in reset
 //! and has left it.
 //!
-//! In a device with a UDP link, the core is in the place of the bus, and the Ethernet port in that of the core.
-//!
 //! 1. `reset` or `asks` begins a reset, also while one is under way. `request` is then 1 for at least 32 clocks and
 //!    until `reply` is 1. The 32 clocks keep a `reply` that is left from an earlier reset from being taken for the
 //!    answer. `resets` is 1 until `reply` is 0 again.

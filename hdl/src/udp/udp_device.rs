@@ -2,12 +2,11 @@
 //! between them, and a FIFO for answers.
 //!
 //! The core gives words several times faster than the cable takes them, and inserts nothing while words wait. So the
-//! FIFO takes the answers of a job, and the core goes on with the next job while the cable carries them. P is the
-//! number of bits of a pointer of the FIFO, which holds `2^(P-1)` entries of one or two words.
+//! FIFO takes the answers of a job, and the core goes on with the next job while the cable carries them. P is the number
+//! of bits of a pointer of the FIFO, which holds `2^(P-1)` entries of one or two words.
 //!
-//! 1. `reset` is needed once, after power-up, for 4 clocks of the core. It may change at any time. The core's side stays
-//!    in reset until the port's side has been in reset for 8 of its own clocks; so a reset ends well on both sides, also
-//!    if the clock of the PHY stands when it begins. As long as that clock stands, the device stays in reset.
+//! 1. `reset` is needed once, after power-up, for 8 clocks of each of the two clocks. It may change at any time: each
+//!    clock has a synchroniser for it.
 //! 2. The addresses of the device are constants.
 //! 3. A reset of the core empties the FIFO. It lasts for the length of a datagram at least, as the FIFO asks.
 //!
@@ -29,7 +28,7 @@ use crate::leaf::{Parameter, Synchroniser, Unpack};
 use crate::prelude::*;
 use crate::serial::types::{Byte, Lamps};
 use crate::serial::CommandProgress;
-use crate::stream::{AsyncFifo, ResetReply, ResetRequest};
+use crate::stream::AsyncFifo;
 use incircle_protocol::Config;
 
 #[derive(LogicBlock, Default)]
@@ -44,8 +43,7 @@ pub struct UdpDevice<const P: usize> {
     pub rx_data: Signal<In, Byte>,
     pub tx_valid: Signal<Out, Bit>,
     pub tx_data: Signal<Out, Byte>,
-    /// Lamps: alive, busy, error, from bit 0 up; see [`UdpLink`]. Busy is lit while a datagram waits as well, and alive is
-    /// dark while the clock of the PHY stands.
+    /// Lamps: alive, busy, error, from bit 0 up; see [`UdpLink`]. Busy is lit while a datagram waits as well.
     pub leds: Signal<Out, Bits<3>>,
     /// Synchronous reset of the core, and its streams, in the clock of the core.
     pub core_reset: Signal<Out, Bit>,
@@ -60,13 +58,8 @@ pub struct UdpDevice<const P: usize> {
     progress: CommandProgress,
     /// The core gave the last word of an answer one clock earlier.
     ended: DFF<Bit>,
-    /// The reset in the core's clock, then the core's side and the port's side of it, and what they say to each other.
-    reset_seen: Synchroniser<Bit>,
-    core_resets: ResetRequest,
-    port_resets: ResetReply,
-    request_seen: Synchroniser<Bit>,
-    reply_seen: Synchroniser<Bit>,
-    beat_seen: Synchroniser<Bit>,
+    port_resets: Synchroniser<Bit>,
+    core_resets: Synchroniser<Bit>,
     station: Parameter<Station>,
     lamps: Signal<Local, Lamps>,
     entry: Signal<Local, AnswerEntry>,
@@ -85,7 +78,6 @@ impl<const P: usize> UdpDevice<P> {
             port: UdpPort::new(),
             link: UdpLink::new(config, link)?,
             answers: AsyncFifo::new(),
-            port_resets: ResetReply::new(),
             station: Parameter::new(parameters.station()),
             ..Self::default()
         })
@@ -96,22 +88,15 @@ impl<const P: usize> Logic for UdpDevice<P> {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, core_clock, ended);
-        clock!(self, core_clock, link, reset_seen, core_resets, reply_seen, beat_seen, progress);
-        clock!(self, port_clock, port_resets, request_seen);
-        self.reset_seen.sent.next = self.reset.val();
-        self.core_resets.reset.next = self.reset_seen.received.val();
-        self.core_resets.asks.next = false;
-        self.request_seen.sent.next = self.core_resets.request.val();
-        self.port_resets.request.next = self.request_seen.received.val();
-        self.reply_seen.sent.next = self.port_resets.reply.val();
-        self.core_resets.reply.next = self.reply_seen.received.val();
-        self.beat_seen.sent.next = self.port_resets.beat.val();
-        self.core_resets.core_beat.next = self.beat_seen.received.val();
+        clock!(self, core_clock, link, core_resets, progress);
+        clock!(self, port_clock, port_resets);
+        self.core_resets.sent.next = self.reset.val();
+        self.port_resets.sent.next = self.reset.val();
         self.port.port_clock.next = self.port_clock.val();
-        self.port.port_reset.next = self.port_resets.resets.val();
+        self.port.port_reset.next = self.port_resets.received.val();
         self.port.core_clock.next = self.core_clock.val();
-        self.port.core_reset.next = self.core_resets.resets.val();
-        self.link.reset.next = self.core_resets.resets.val();
+        self.port.core_reset.next = self.core_resets.received.val();
+        self.link.reset.next = self.core_resets.received.val();
         self.port.station.next = self.station.val();
         self.port.rx_valid.next = self.rx_valid.val();
         self.port.rx_error.next = self.rx_error.val();
@@ -165,7 +150,7 @@ impl<const P: usize> Logic for UdpDevice<P> {
             | self.progress.is_busy.val()
             | (!self.answers.is_fetched.val())
             | (!self.answers.is_empty.val());
-        self.lamps.next.alive = self.link.lamps.val().alive & self.core_resets.core_runs.val();
+        self.lamps.next.alive = self.link.lamps.val().alive;
         self.lamps.next.busy = self.link.lamps.val().busy | self.port.on_the_way.val().to_the_reader;
         self.lamps.next.error = self.link.lamps.val().error;
         self.leds.next = self.lamps.val().into();

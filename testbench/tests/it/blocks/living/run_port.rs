@@ -154,7 +154,7 @@ fn run_port_shows_the_wave_of_its_header() {
     let mut wave = Wave::default();
     for clock in 0..11 {
         let [begins, valid, taken] = [clock == 0, clock >= 1, clock == 5 || clock == 7];
-        let is_over = clock < 3 || clock >= 9;
+        let is_over = !(3..9).contains(&clock);
         for (port, value) in [("begins", begins), ("command_valid", valid), ("taken", taken), ("is_over", is_over)] {
             block.set(port, value);
         }
