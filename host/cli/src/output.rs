@@ -11,7 +11,7 @@ use flate2::write::GzEncoder;
 
 use crate::failure::Failure;
 use crate::interrupt;
-use crate::path::{self, is_standard, Compression};
+use crate::path::{self, check_standard, is_standard, Compression};
 
 /// The most working names that are tried for an output.
 const TRIES: u32 = 100;
@@ -75,9 +75,10 @@ pub struct Written {
 }
 
 impl Output {
-    /// Checks an output before the work: the output must be none of the inputs, its folder must exist and take new
-    /// files, and an existing file must be writable.
+    /// Checks an output before the work: the output must be none of the inputs, of which only one may be standard input;
+    /// its folder must exist and take new files, and an existing file must be writable.
     pub fn prepare(path: &Path, inputs: &[PathBuf]) -> Result<Self, Failure> {
+        check_standard(inputs)?;
         if is_standard(path) {
             return Ok(Self {
                 target: Target::Standard,

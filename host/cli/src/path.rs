@@ -1,8 +1,8 @@
 //! The names of files: what they are called in messages, and which format and packing their extensions name.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use crate::failure::printable;
+use crate::failure::{printable, Failure};
 
 /// The packing of the bytes of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,6 +42,16 @@ fn last_extension(path: &Path) -> &str {
 /// Whether the path is `-`, which stands for standard input or output.
 pub fn is_standard(path: &Path) -> bool {
     path.as_os_str() == "-"
+}
+
+/// Refuses a command that reads standard input for more than one of its files.
+pub fn check_standard<'a>(inputs: impl IntoIterator<Item = &'a PathBuf>) -> Result<(), Failure> {
+    match inputs.into_iter().filter(|path| is_standard(path)).count() {
+        0 | 1 => Ok(()),
+        count => Err(Failure::usage(format!(
+            "standard input can be read only once, but {count} files of this command come from it: give '-' once"
+        ))),
+    }
 }
 
 /// The name of an input file for messages.

@@ -12,7 +12,7 @@ use crate::formats::{csv, node, PlanTable, PointFormat};
 use crate::input::Input;
 use crate::lattice::{Kind, Laid, Numbers};
 use crate::number::Coordinate;
-use crate::path::{extension, name};
+use crate::path::{check_standard, extension, name};
 use crate::planned::Planned;
 use crate::points::PointTable;
 use crate::source;
@@ -64,6 +64,7 @@ pub fn read_set(
     arguments: &PlanArguments,
     quiet: bool,
 ) -> Result<PlannedSet, Failure> {
+    check_standard(paths.iter().chain(&arguments.constraints))?;
     let format = |path: &Path| read.from.or_else(|| PointFormat::of_extension(extension(path)));
     let plan = match paths {
         [path] => match format(path).filter(|format| format.may_constrain()) {
@@ -224,7 +225,7 @@ impl Request {
             return Failure::input(error.to_string());
         };
         if !matches!(laid.kind, Kind::Quantized(_)) {
-            place = place_in(table, ends).unwrap_or(place);
+            place = place_in(table, ends).unwrap_or_else(|| about(table, ends));
         }
         let told = Error::Crossing { constraints, ends, place };
         if self.lacks_grid {
@@ -238,7 +239,22 @@ impl Request {
     }
 }
 
-/// The crossing of two constraints, given by the indices of their ends, in the numbers of the file.
+/// The place of [`place_in`] in doubles, where whole numbers of 128 bits do not hold it. Coordinates are divided by the
+/// largest one first, so that no product overflows or vanishes.
+fn about(table: &PointTable, ends: [[u32; 2]; 2]) -> Place {
+    let doubles = table.doubles();
+    let [a, b, c, d] = [ends[0][0], ends[0][1], ends[1][0], ends[1][1]].map(|index| doubles[index as usize]);
+    let largest = [a, b, c, d].as_flattened().iter().fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()));
+    let [a, b, c, d] = [a, b, c, d].map(|point| point.map(|value| value / largest));
+    let vector = |from: [f64; 2], to: [f64; 2]| [to[0] - from[0], to[1] - from[1]];
+    let cross = |u: [f64; 2], v: [f64; 2]| u[0] * v[1] - u[1] * v[0];
+    let along = vector(a, b);
+    let share = cross(vector(a, c), vector(c, d)) / cross(along, vector(c, d));
+    Place::About([0, 1].map(|axis| (a[axis] + share * along[axis]) * largest))
+}
+
+/// The crossing of two constraints, given by the indices of their ends, in the numbers of the file. `None` if whole
+/// numbers of 128 bits do not hold it.
 fn place_in(table: &PointTable, ends: [[u32; 2]; 2]) -> Option<Place> {
     let [a, b, c, d] = [ends[0][0], ends[0][1], ends[1][0], ends[1][1]]
         .map(|index| [0, 1].map(|axis| table.coordinate(index as usize, axis)));

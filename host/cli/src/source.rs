@@ -6,7 +6,7 @@ use crate::arguments::ReadArguments;
 use crate::failure::Failure;
 use crate::formats::{MeshFormat, PointFormat, Selection};
 use crate::input::Input;
-use crate::path::{extension, is_standard, name};
+use crate::path::{check_standard, extension, is_standard, name};
 use crate::points::PointTable;
 use crate::script::{self, Script};
 
@@ -49,9 +49,7 @@ pub fn format_of_points(path: &Path, arguments: &ReadArguments) -> Result<PointF
 /// # Errors
 /// A file cannot be read, or standard input is named twice.
 pub fn read_set(paths: &[PathBuf], arguments: &ReadArguments, quiet: bool) -> Result<PointTable, Failure> {
-    if paths.iter().filter(|path| is_standard(path)).count() > 1 {
-        return Err(Failure::usage("standard input can be read only once: give '-' once"));
-    }
+    check_standard(paths)?;
     let mut tables = paths.iter().map(|path| read_points(path, arguments, quiet));
     let first = tables.next().unwrap_or_else(|| Ok(PointTable::of_items("point")))?;
     if paths.len() < 2 {

@@ -122,16 +122,15 @@ impl Session<'_> {
         };
         let options = Options { progress: Some(&listener), ..*terms.options };
         let terms = Terms { options: &options, shares_limit: true, ..terms };
-        let solutions = self.triangulate_grids(grids, |part| part, terms, total);
-        match solutions {
-            Err(Error::Cancelled { .. }) if is_late.get() => {
-                check()?;
-                solutions
-            }
-            // The parts are no jobs of the caller, so the error names none.
-            Err(Error::InJob { source, .. }) => Err(*source),
-            solutions => solutions,
+        // The parts are no jobs of the caller, so the error names none.
+        let solutions = self.triangulate_grids(grids, |part| part, terms, total).map_err(|error| match error {
+            Error::InJob { source, .. } => *source,
+            error => error,
+        });
+        if is_late.get() && matches!(solutions, Err(Error::Cancelled { .. })) {
+            check()?;
         }
+        solutions
     }
 }
 

@@ -249,6 +249,10 @@ fn wrong_use_ends_with_two() {
         ("generate uniform -n 5 -o x.ply", "x.ply"),
         ("verify p.csv m.svg", "m.svg"),
         ("verify - - --format csv", "points and mesh cannot both come from standard input"),
+        ("verify - m.csv --constraints -", "standard input can be read only once, but 2 files of this command"),
+        ("triangulate - -o m.ele --constraints -", "standard input can be read only once, but 2 files of this command"),
+        ("interpolate - --at - -o v.csv", "standard input can be read only once, but 2 files of this command"),
+        ("voronoi - --clip-to - -o c.geojson", "standard input can be read only once, but 2 files of this command"),
     ];
     scratch.write("m.svg", "<svg/>");
     for (arguments, part) in one_sentence {

@@ -201,6 +201,19 @@ fn bad_plans_are_refused_with_numbers() {
     with("0,x\n", "", &["row 1, column 2", "'x'"]);
     with("0,2\n1,3\n", "", &["p.csv", "constraint 1 (from point 1 to point 3) crosses constraint 0", "at (2, 2)"]);
     with("0,1\n1,2\n", "--domain even-odd", &["not closed", "point 0", "odd (1)"]);
+    // Whole numbers of 128 bits do not hold the place where these cross.
+    let scratch = Scratch::new();
+    scratch.write("p.csv", "0,0\n1e-37,0\n1e-37,1.3e-37\n0,1e-37\n");
+    scratch.write("e.csv", "0,2\n1,3\n");
+    let run = scratch.run("triangulate p.csv -o m.ele --constraints e.csv");
+    run.fails(
+        3,
+        &[
+            "crosses constraint 0",
+            "at about (0.000000000000000000000000000000000000043478",
+            "0.000000000000000000000000000000000000056521",
+        ],
+    );
     with("0,1\n1,2\n0,2\n", "--domain non-zero", &["2 of its constraints begin at point 0, and 0 end there"]);
     with("0,1\n", "--domain holes", &["the domain is empty: none of the 2 triangles"]);
     let ring = |ring: &str| format!(r#"{{"type":"Polygon","coordinates":[{ring}]}}"#);
