@@ -38,7 +38,8 @@ impl Target {
             }
             Ok(_) => Ok(Self::Special(path.to_owned())),
             Err(error) if error.kind() == ErrorKind::NotFound => {
-                if fs::symlink_metadata(path).is_ok() {
+                // Another process may have made an ordinary file meanwhile.
+                if fs::symlink_metadata(path).is_ok_and(|found| found.is_symlink()) {
                     return Err(Failure::input(format!(
                         "{name} cannot be written: it is a link to a file that does not exist"
                     )));
