@@ -1,4 +1,6 @@
-//! Queries a second of each method on one thread: `cargo bench -p incircle-geometry --bench interpolate -- POINTS`.
+//! Queries a second of each method: `cargo bench -p incircle-geometry --bench interpolate -- POINTS THREADS`. On one
+//! thread, the default, the time is that of the processor; on several it is that of the clock on the wall, so the machine
+//! has to be quiet.
 
 use core::hint::black_box;
 use core::num::NonZeroUsize;
@@ -18,7 +20,7 @@ const QUERIES: usize = 2_000_000;
 
 /// Seconds of processor time of this thread, where the system tells it, so that other work does not count; else of the
 /// clock on the wall.
-fn now(since: Instant) -> f64 {
+fn processor_time(since: Instant) -> f64 {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
     let nanoseconds: Option<f64> = text.split_whitespace().next().and_then(|number| number.parse().ok());
     nanoseconds.map_or_else(|| since.elapsed().as_secs_f64(), |nanoseconds| nanoseconds / 1e9)
@@ -35,6 +37,11 @@ fn doubles(points: &[Point]) -> Vec<[f64; 2]> {
 fn main() {
     let numbers: Vec<usize> = std::env::args().skip(1).filter_map(|argument| argument.parse().ok()).collect();
     let count = numbers.first().copied().unwrap_or(1_000_000);
+    let threads = numbers.get(1).and_then(|&threads| NonZeroUsize::new(threads)).unwrap_or(NonZeroUsize::MIN);
+    let (now, clock): (fn(Instant) -> f64, &str) = match threads.get() {
+        1 => (processor_time, "processor time"),
+        _ => (|since| since.elapsed().as_secs_f64(), "time on the wall"),
+    };
     let mut random = SplitMix64::new(29);
     let points = doubles(&draw(&mut random, count));
     let places = draw(&mut random, QUERIES);
@@ -44,13 +51,13 @@ fn main() {
     let since = Instant::now();
     let begin = now(since);
     let surface = Surface::new(&points, &mesh.triangles, &values).expect("a surface");
-    println!("{count} points, one thread, processor time, best of {RUNS}; surface {:.3} s", now(since) - begin);
+    println!("{count} points, {threads} threads, {clock}, best of {RUNS}; surface {:.3} s", now(since) - begin);
     for (name, places) in [("sorted", doubles(&sorted)), ("random", doubles(&places))] {
         for method in [Method::Linear, Method::Laplace, Method::Sibson] {
             let time = |_| {
                 let since = Instant::now();
                 let begin = now(since);
-                drop(black_box(surface.values(method, Outside::Nan, &places, NonZeroUsize::MIN)));
+                drop(black_box(surface.values(method, Outside::Nan, &places, threads)));
                 now(since) - begin
             };
             let best = (0..RUNS).map(time).fold(f64::INFINITY, f64::min);
