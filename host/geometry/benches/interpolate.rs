@@ -1,6 +1,6 @@
 //! Queries a second of each method: `cargo bench -p incircle-geometry --bench interpolate -- POINTS THREADS`. On one
-//! thread, the default, the time is that of the processor; on several it is that of the clock on the wall, so the machine
-//! has to be quiet.
+//! thread, the default, the time is that of the processor; on several it is that of the clock on the wall, so the
+//! machine has to be quiet.
 
 use core::hint::black_box;
 use core::num::NonZeroUsize;
