@@ -184,19 +184,24 @@ async def phy_clock_that_stops(dut: Any) -> None:
 
 @test
 async def reset_of_one_side(dut: Any) -> None:
-    """While the clock of the PHY stands, a reset is held, as boards do; when the clock runs it ends, and all works."""
+    """A reset while the clock of the PHY stands, which ends before or after that clock runs again, is a whole reset."""
     board = await Board(dut).reset()
-    await board.open()
-    board.stop_phy()
-    dut.reset.value = 1
-    await board.clocks(200)
-    board.start_phy()
-    await board.clocks(20)
-    dut.reset.value = 0
-    await board.clocks(100)
-    board.phy.tx.clear()
-    await board.say(POLL)
-    await board.heard(NO_SESSION)
-    await board.open()
-    points = board.points(min(POINTS, 8))
-    assert await board.job(points) == delaunay(points)
+    for ends_before in (False, True):
+        await board.open()
+        board.stop_phy()
+        dut.reset.value = 1
+        await board.clocks(200)
+        if ends_before:
+            dut.reset.value = 0
+            await board.clocks(200)
+        board.start_phy()
+        await board.clocks(20)
+        dut.reset.value = 0
+        await board.clocks(200)
+        board.phy.tx.clear()
+        await board.say(POLL)
+        await board.heard(NO_SESSION)
+        await board.open()
+        points = board.points(min(POINTS, 8))
+        assert await board.job(points) == delaunay(points), ends_before
+        await board.close()

@@ -2,7 +2,7 @@
 //!
 //! P is the number of bits of a pointer of the FIFO for answers; see [`UdpDevice`].
 //!
-//! 1. `reset` is needed once, after power-up, for 8 clocks of each of the two clocks, and may change at any time.
+//! 1. `reset` is needed once, after power-up, for 4 clocks of the core, and may change at any time; see [`UdpDevice`].
 
 use super::core::Core;
 use crate::commands::{AnswerSink, CommandSource};

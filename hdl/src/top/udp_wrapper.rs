@@ -2,7 +2,7 @@
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
-//! | `core_clock`, `reset` | in | 1 | clock of the core; reset, active high, needed once for 8 clocks of both clocks |
+//! | `core_clock`, `reset` | in | 1 | clock of the core; reset, active high, needed once for 4 clocks |
 //! | `leds` | out | 3 | alive, busy, error, from bit 0 up |
 //! | `rx_clock`, `rx_ctl`, `rxd` | in | 1, 1, 4 | RGMII: clock of the PHY, 125 MHz, and its data at both edges |
 //! | `tx_clock`, `tx_ctl`, `txd` | out | 1, 1, 4 | RGMII: the same to the PHY |

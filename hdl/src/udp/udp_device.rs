@@ -2,11 +2,11 @@
 //! between them, and a FIFO for answers.
 //!
 //! The core gives words several times faster than the cable takes them, and inserts nothing while words wait. So the
-//! FIFO takes the answers of a job, and the core goes on with the next job while the cable carries them. P is the number
-//! of bits of a pointer of the FIFO, which holds `2^(P-1)` entries of one or two words.
+//! FIFO takes the answers of a job, and the core goes on with the next job while the cable carries them. P is the
+//! number of bits of a pointer of the FIFO, which holds `2^(P-1)` entries of one or two words.
 //!
-//! 1. `reset` is needed once, after power-up, for 8 clocks of each of the two clocks. It may change at any time: each
-//!    clock has a synchroniser for it.
+//! 1. `reset` is needed once, after power-up, for 4 clocks of the core. It may change at any time. A reset ends when both
+//!    sides have been in reset, however long the clock of the port stands; see [`ResetHandshake`].
 //! 2. The addresses of the device are constants.
 //! 3. A reset of the core empties the FIFO. It lasts for the length of a datagram at least, as the FIFO asks.
 //!
@@ -18,13 +18,14 @@
 //!                        +------- AsyncFifo <-------+
 //! ```
 
+use super::reset_handshake::ResetHandshake;
 use super::types::{AnswerEntry, ANSWER_ENTRY_BITS};
 use super::udp_link::UdpLink;
 use super::udp_parameters::{UdpError, UdpParameters};
 use crate::commands::{AnswerSink, CommandSource};
 use crate::ethernet::types::Station;
 use crate::ethernet::UdpPort;
-use crate::leaf::{Parameter, Synchroniser, Unpack};
+use crate::leaf::{Parameter, Unpack};
 use crate::prelude::*;
 use crate::serial::types::{Byte, Lamps};
 use crate::serial::CommandProgress;
@@ -58,8 +59,7 @@ pub struct UdpDevice<const P: usize> {
     progress: CommandProgress,
     /// The core gave the last word of an answer one clock earlier.
     ended: DFF<Bit>,
-    port_resets: Synchroniser<Bit>,
-    core_resets: Synchroniser<Bit>,
+    resets: ResetHandshake,
     station: Parameter<Station>,
     lamps: Signal<Local, Lamps>,
     entry: Signal<Local, AnswerEntry>,
@@ -88,15 +88,15 @@ impl<const P: usize> Logic for UdpDevice<P> {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, core_clock, ended);
-        clock!(self, core_clock, link, core_resets, progress);
-        clock!(self, port_clock, port_resets);
-        self.core_resets.sent.next = self.reset.val();
-        self.port_resets.sent.next = self.reset.val();
+        clock!(self, core_clock, link, progress);
+        self.resets.core_clock.next = self.core_clock.val();
+        self.resets.port_clock.next = self.port_clock.val();
+        self.resets.reset.next = self.reset.val();
         self.port.port_clock.next = self.port_clock.val();
-        self.port.port_reset.next = self.port_resets.received.val();
+        self.port.port_reset.next = self.resets.port_resets.val();
         self.port.core_clock.next = self.core_clock.val();
-        self.port.core_reset.next = self.core_resets.received.val();
-        self.link.reset.next = self.core_resets.received.val();
+        self.port.core_reset.next = self.resets.core_resets.val();
+        self.link.reset.next = self.resets.core_resets.val();
         self.port.station.next = self.station.val();
         self.port.rx_valid.next = self.rx_valid.val();
         self.port.rx_error.next = self.rx_error.val();

@@ -5,8 +5,8 @@ use incircle_protocol::{UdpLinkConfig, SMALL};
 use crate::exported::{block, named};
 use incircle_hdl::export::udp_link;
 use incircle_hdl::udp::{
-    AnswerParts, DatagramDigest, DatagramJudge, DatagramMatch, DatagramReader, DatagramReplies, SenderStore,
-    UdpSessionState,
+    AnswerParts, DatagramDigest, DatagramJudge, DatagramMatch, DatagramReader, DatagramReplies, ResetHandshake,
+    SenderStore, UdpSessionState,
 };
 
 /// A UDP link that is quick to simulate: a slow clock and the smallest FIFO. The silence is longer than any answer
@@ -23,6 +23,7 @@ pub(crate) fn blocks() -> Vec<(String, String)> {
         block(DatagramMatch::default(), "udp_datagram_match"),
         block(DatagramReader::default(), "udp_datagram_reader"),
         block(DatagramReplies::default(), "udp_datagram_replies"),
+        block(ResetHandshake::default(), "udp_reset_handshake"),
         block(SenderStore::default(), "udp_sender_store"),
         block(UdpSessionState::default(), "udp_session_state"),
         named("udp_link", udp_link(SMALL, QUICK_UDP_LINK, "udp_link")),

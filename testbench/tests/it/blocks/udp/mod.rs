@@ -6,6 +6,7 @@ mod datagram_judge;
 mod datagram_match;
 mod datagram_reader;
 mod datagram_replies;
+mod reset_handshake;
 mod sender_store;
 mod udp_link;
 mod udp_session_state;

@@ -1,0 +1,92 @@
+//! Resets both sides of a device with two clocks: the core's side leaves its reset after the port's side has been in
+//! reset for 8 of its own clocks, however long the clock of the port stands.
+//!
+//! 1. A `reset` of 4 clocks of the core begins a reset, also at power-up and while another reset is under way.
+//! 2. `core_resets` is 1 until the reset has ended on the port's side. A FIFO between the clocks is therefore empty on
+//!    both sides when the core's side begins to use it.
+//! 3. While `reset` is 1, both sides stay in reset.
+//! 4. The registers have no reset of their own: from any contents they come to rest, or do a whole reset.
+//!
+//! Latency: 4 clocks of the core from `reset` to `core_resets`. With both clocks running, a short reset takes 14 to 16
+//! clocks of the port and 9 to 12 of the core.
+//!
+//! Source: the handshake of four phases, in which each of two flags waits for the other.
+
+use crate::leaf::Synchroniser;
+use crate::prelude::*;
+
+#[derive(LogicBlock, Default)]
+pub struct ResetHandshake {
+    pub core_clock: Signal<In, Clock>,
+    pub port_clock: Signal<In, Clock>,
+    /// Begins a reset; may change at any time.
+    pub reset: Signal<In, Bit>,
+    /// The core's side is in reset; a register of the core's clock.
+    pub core_resets: Signal<Out, Bit>,
+    /// The port's side is in reset; a register of the port's clock.
+    pub port_resets: Signal<Out, Bit>,
+    reset_seen: Synchroniser<Bit>,
+    request_seen: Synchroniser<Bit>,
+    reply_seen: Synchroniser<Bit>,
+    /// A reset was asked for and has not begun: an earlier one has to end first.
+    is_wanted: DFF<Bit>,
+    is_requested: DFF<Bit>,
+    core_is_resetting: DFF<Bit>,
+    port_is_resetting: DFF<Bit>,
+    /// Clocks of the port that the request has lasted.
+    clocks: DFF<Bits<3>>,
+    is_replied: DFF<Bit>,
+    most: Signal<Local, Bits<3>>,
+    one: Signal<Local, Bits<3>>,
+    begins: Signal<Local, Bit>,
+}
+
+impl ResetHandshake {
+    /// Clocks of the port from the request to the reply.
+    pub const PORT_CLOCKS: u32 = 8;
+}
+
+impl Logic for ResetHandshake {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, core_clock, is_wanted, is_requested, core_is_resetting);
+        dff_setup!(self, port_clock, port_is_resetting, clocks, is_replied);
+        clock!(self, core_clock, reset_seen, reply_seen);
+        clock!(self, port_clock, request_seen);
+        self.most.next = 7.into();
+        self.one.next = 1.into();
+        self.reset_seen.sent.next = self.reset.val();
+        self.request_seen.sent.next = self.is_requested.q.val();
+        self.reply_seen.sent.next = self.is_replied.q.val();
+
+        self.begins.next = self.is_wanted.q.val() & (!self.is_requested.q.val()) & (!self.reply_seen.received.val());
+        if self.reset_seen.received.val() & (!self.is_requested.q.val()) {
+            self.is_wanted.d.next = true;
+        }
+        if self.begins.val() {
+            self.is_wanted.d.next = false;
+            self.is_requested.d.next = true;
+        }
+        // A request that ended earlier could leave the port's side without a reset.
+        if self.is_requested.q.val() & self.reply_seen.received.val() & (!self.reset_seen.received.val()) {
+            self.is_requested.d.next = false;
+        }
+        self.core_is_resetting.d.next = self.reset_seen.received.val()
+            | self.is_wanted.q.val()
+            | self.is_requested.q.val()
+            | self.reply_seen.received.val();
+        self.core_resets.next = self.core_is_resetting.q.val();
+
+        self.clocks.d.next = self.clocks.q.val() + self.one.val();
+        if self.clocks.q.val() == self.most.val() {
+            self.clocks.d.next = self.most.val();
+            self.is_replied.d.next = true;
+        }
+        if !self.request_seen.received.val() {
+            self.clocks.d.next = 0.into();
+            self.is_replied.d.next = false;
+        }
+        self.port_is_resetting.d.next = self.request_seen.received.val() | self.is_replied.q.val();
+        self.port_resets.next = self.port_is_resetting.q.val();
+    }
+}
