@@ -2,6 +2,7 @@
 
 use alloc::vec::Vec;
 
+use super::repeats::Repeats;
 use crate::sort::{sort_by_key, Entry, Keyed, Wide};
 
 /// The pieces of constraints: the edges that must be in the mesh. A constraint is cut into pieces at each point on it.
@@ -15,9 +16,9 @@ pub struct Pieces {
 }
 
 impl Pieces {
-    /// Collects edges, each with both ends in rising order and the number of a constraint. O(n) by a radix sort, and
-    /// O(k log k) for each edge of `k` constraints.
-    pub(crate) fn of(parts: Vec<([u32; 2], u32)>) -> Self {
+    /// Collects edges, each with both ends in rising order and the number of a constraint, whose repeats have the same
+    /// edges. O(n) by a radix sort, and O(k log k) for each edge of `k` constraints.
+    pub(crate) fn of(parts: Vec<([u32; 2], u32)>, repeats: &Repeats) -> Self {
         let entry = |([a, b], constraint): ([u32; 2], u32)| Wide::new(u64::from(a) << 32 | u64::from(b), constraint);
         let mut entries: Vec<Wide> = parts.into_iter().map(entry).collect();
         sort_by_key(&mut entries);
@@ -26,6 +27,9 @@ impl Pieces {
         for piece in entries.chunk_by(|one, other| one.key() == other.key()) {
             own.clear();
             own.extend(piece.iter().map(Wide::value));
+            for place in 0..own.len() {
+                own.extend(repeats.of(own[place]).iter().map(|pair| pair[1]));
+            }
             own.sort_unstable();
             own.dedup();
             pieces.edges.push([(piece[0].key() >> 32) as u32, piece[0].key() as u32]);
@@ -40,7 +44,10 @@ impl Pieces {
     #[must_use]
     pub fn renamed(&self, of: &[u32]) -> Self {
         let new = |&constraint: &u32| of.get(constraint as usize).copied().unwrap_or(constraint);
-        Self::of(self.iter().flat_map(|(edge, own)| own.iter().map(move |own| (edge, new(own)))).collect())
+        Self::of(
+            self.iter().flat_map(|(edge, own)| own.iter().map(move |own| (edge, new(own)))).collect(),
+            &Repeats::default(),
+        )
     }
 
     /// The number of pieces.

@@ -2,6 +2,10 @@
 
 use super::mesh::{Fixed, FIXED};
 use crate::cpu::kernel::{Ends, Kernel};
+use crate::cpu::triangulator::Error;
+
+/// The number of freed edges after which the caller is asked whether the work goes on.
+const EDGES_PER_LOOK: usize = 64;
 
 /// The four vertices around an edge from `a` to `b`: its ends, the apex `c` to its left and the apex `d` to its right.
 /// The half-edges to both apexes are those around `a` and those around `b`.
@@ -28,13 +32,22 @@ impl<K: Kernel> Fixed<'_, K> {
 
     /// Frees all fixed edges, and flips edges until the mesh is the canonical one without constraints. Every other edge
     /// is locally Delaunay, so only the freed ones and those around them may have to be flipped.
-    pub(super) fn release(mut self) {
-        for pair in core::mem::take(&mut self.fixed) {
+    ///
+    /// # Errors
+    /// `go_on`, which is called from time to time, ends the work.
+    pub(super) fn release(mut self, go_on: &mut dyn FnMut() -> Result<(), Error>) -> Result<(), Error> {
+        let fixed = core::mem::take(&mut self.fixed);
+        for &pair in &fixed {
             self.halves[pair as usize].end &= !FIXED;
             self.halves[pair as usize ^ 1].end &= !FIXED;
-            self.stack.push(pair);
         }
-        self.repair();
+        // The flips around one edge after the other are done at once, so that the caller is asked between them.
+        for some in fixed.chunks(EDGES_PER_LOOK) {
+            go_on()?;
+            self.stack.extend_from_slice(some);
+            self.repair();
+        }
+        Ok(())
     }
 
     #[inline(always)]

@@ -16,7 +16,7 @@ use super::mesh::{Fixed, Part, FIXED};
 use super::turn::{is_between, Way};
 use crate::cpu::kernel::Kernel;
 use crate::cpu::triangulator::Error;
-use crate::sort::{sort_by_key, Keyed};
+use crate::sort::{Entry, Keyed, Wide};
 
 /// The reason why not all constraints were forced in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,23 +39,9 @@ impl From<Error> for Stop {
 /// millisecond, so on usual sets the watch is asked every few milliseconds, which costs nothing beside the pieces.
 const PIECES_PER_LOOK: usize = 64;
 
-/// A constraint, by the place on the curve at which it is forced.
-#[derive(Clone, Copy, bytemuck::Zeroable)]
-struct Turned {
-    first: u32,
-    constraint: u32,
-}
-
-impl Keyed for Turned {
-    #[inline(always)]
-    fn key(&self) -> u64 {
-        self.first.into()
-    }
-}
-
 impl<K: Kernel> Fixed<'_, K> {
-    /// Forces all constraints in, given by the vertices at their ends, as far as there is room for `most` parts.
-    /// `go_on` is called from time to time.
+    /// Forces all constraints in, given by the vertices at their ends, in the order of [`by_ends`], as far as there is
+    /// room for `most` parts. Those of repeats are counted but not listed. `go_on` is called from time to time.
     ///
     /// # Errors
     /// Two constraints cross at a place that is not a vertex, there are too many parts, or `go_on` ends the work. The
@@ -63,20 +49,18 @@ impl<K: Kernel> Fixed<'_, K> {
     pub(super) fn force_all(
         &mut self,
         ends: &[[u32; 2]],
+        order: &[Wide],
         most: usize,
         go_on: &mut dyn FnMut() -> Result<(), Error>,
     ) -> Result<Vec<Part>, Stop> {
-        let turned = |(constraint, [a, b]): (u32, &[u32; 2])| Turned { first: *a.min(b), constraint };
-        let mut order: Vec<Turned> = (0..).zip(ends).map(turned).collect();
-        sort_by_key(&mut order);
         let mut parts = Vec::with_capacity(ends.len());
-        for Turned { constraint, .. } in order {
+        let mut room = most;
+        for equal in order.chunk_by(|one, other| one.key() == other.key()) {
+            let constraint = equal[0].value();
             let mut rest = ends[constraint as usize];
             while rest[0] != rest[1] {
                 let (edge, left) = self.step(rest)?;
-                if parts.len() == most {
-                    return Err(Stop::TooManyParts);
-                }
+                room = room.checked_sub(equal.len()).ok_or(Stop::TooManyParts)?;
                 parts.push(Part { edge, constraint });
                 if parts.len().is_multiple_of(PIECES_PER_LOOK) {
                     go_on()?;
