@@ -119,20 +119,18 @@ pub(super) fn force_all<S: Site, E: From<Error>>(
 pub(super) fn pieces_on_line<S: Site>(places: &[S], hull: &[u32], ends: &[[u32; 2]]) -> Result<Pieces, Error> {
     let site = |index: u32| places.get(index as usize).ok_or(Error::NoMesh);
     let line: Vec<&S> = hull.iter().map(|&index| site(index)).collect::<Result<_, _>>()?;
-    let mut listing = Listing::new(Repeats::in_order(&by_ends(ends)), ends.len());
-    let is_repeat = listing.repeats.flags(ends.len());
-    let mut spans = Vec::with_capacity(ends.len());
-    for (constraint, &pair) in (0..).zip(ends).filter(|(constraint, _)| !is_repeat[*constraint as usize]) {
+    let (mut spans, mut entries) = (Vec::with_capacity(ends.len()), 0usize);
+    for &pair in ends {
         let mut ranks = [0; 2];
         for (rank, end) in ranks.iter_mut().zip(pair) {
             *rank = line.binary_search(&site(end)?).map_err(|_| Error::NoMesh)?;
         }
         let [low, high] = [ranks[0].min(ranks[1]), ranks[0].max(ranks[1])];
-        listing.count(high - low, constraint)?;
-        spans.push((low, high, constraint));
+        entries = entries.saturating_add(high - low);
+        spans.push([low, high]);
     }
-    for (low, high, constraint) in spans {
-        hull[low..=high].windows(2).for_each(|two| listing.push([two[0], two[1]], constraint));
+    if entries > MOST_PARTS {
+        return Err(Error::TooManyPieces { max: MOST_PARTS });
     }
-    Ok(listing.pieces())
+    Ok(Pieces::along(hull, &spans))
 }

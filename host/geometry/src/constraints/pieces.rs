@@ -1,8 +1,10 @@
 //! The edges of a mesh that constraints fix, with the constraints of each.
 
+use alloc::vec;
 use alloc::vec::Vec;
 
 use super::repeats::Repeats;
+use crate::pages::zeros;
 use crate::sort::{sort_by_key, Entry, Keyed, Wide};
 
 /// The pieces of constraints: the edges that must be in the mesh. A constraint is cut into pieces at each point on it.
@@ -35,6 +37,41 @@ impl Pieces {
             pieces.edges.push([(piece[0].key() >> 32) as u32, piece[0].key() as u32]);
             pieces.constraints.extend_from_slice(&own);
             pieces.ends.push(pieces.constraints.len() as u32);
+        }
+        pieces
+    }
+
+    /// The pieces of constraints along a line of points, given the first and the last place of each on that line. There
+    /// are fewer than 2^32 entries in all lists.
+    pub(crate) fn along(line: &[u32], spans: &[[usize; 2]]) -> Self {
+        // The number of constraints that begin at each place less those that end there, and then that along each piece.
+        let mut counts = vec![0i64; line.len()];
+        for &[low, high] in spans {
+            counts[low] += 1;
+            counts[high] -= 1;
+        }
+        let mut open = 0;
+        for count in &mut counts {
+            open += *count;
+            *count = open;
+        }
+        let edge = |place: usize| [line[place].min(line[place + 1]), line[place].max(line[place + 1])];
+        let mut order: Vec<usize> = (0..line.len()).filter(|&place| counts[place] > 0).collect();
+        order.sort_unstable_by_key(|&place| edge(place));
+        let mut pieces = Self { edges: order.iter().map(|&place| edge(place)).collect(), ..Self::default() };
+        // The place in the list at which the next constraint of each piece is written.
+        let (mut next, mut end) = (vec![0; line.len()], 0);
+        for place in order {
+            next[place] = end;
+            end += counts[place] as usize;
+            pieces.ends.push(end as u32);
+        }
+        pieces.constraints = zeros(end);
+        for (constraint, &[low, high]) in (0..).zip(spans) {
+            for place in &mut next[low..high] {
+                pieces.constraints[*place] = constraint;
+                *place += 1;
+            }
         }
         pieces
     }

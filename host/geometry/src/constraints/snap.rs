@@ -24,7 +24,7 @@ const MOST_CROSSINGS: usize = 1 << 26;
 pub enum SnapError {
     /// The grid cannot be made finer.
     #[error(
-        "constraints cross, and the points need {bits} of 32 bits, which leaves {} spare bits where snapping needs \
+        "constraints cross, and the points need {bits} of 32 bits, which leaves {} spare where snapping needs \
          {SNAP_BITS}: round the points to at most {} bits first (--quantize)", 32 - bits, 32 - SNAP_BITS
     )]
     NoRoom {

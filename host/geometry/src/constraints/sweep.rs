@@ -13,8 +13,9 @@
 //! for the lines between its ends.
 
 use alloc::collections::BinaryHeap;
-use alloc::vec::Vec;
+use alloc::vec::{self, Vec};
 use core::cmp::Reverse;
+use core::iter::Peekable;
 
 use super::pixels::Segment;
 use super::status::Status;
@@ -40,22 +41,14 @@ struct Sweep<'a, T> {
 /// Those of `take`, which end the search.
 pub(super) fn each_crossing<E>(segments: &[Segment], take: impl FnMut(u32, u32) -> Result<(), E>) -> Result<(), E> {
     let lines: Vec<Segment> = segments.iter().map(Segment::from_left).collect();
-    let number = |choose: fn(&Segment) -> bool| {
-        let own = (0u32..).zip(&lines).filter(move |(_, line)| choose(line));
-        own.map(|(number, _)| number).collect::<Vec<u32>>()
-    };
     let [left, right] = [0, 1].map(|end| {
         let lines = &lines;
         move |&number: &u32| lines[number as usize].0[end].x
     });
     let is_wide = |line: &Segment| line.0[0].x < line.0[1].x;
     let is_upright = |line: &Segment| line.0[0].x == line.0[1].x && line.0[0].y < line.0[1].y;
-    let (mut starts, mut ends, mut upright) = (number(is_wide), number(is_wide), number(is_upright));
-    starts.sort_unstable_by_key(left);
-    ends.sort_unstable_by_key(right);
-    upright.sort_unstable_by_key(left);
-    let (mut starts, mut ends, mut upright) =
-        (starts.into_iter().peekable(), ends.into_iter().peekable(), upright.into_iter().peekable());
+    let [mut starts, mut ends] = [numbers(&lines, is_wide, left), numbers(&lines, is_wide, right)];
+    let mut upright = numbers(&lines, is_upright, left);
     let mut sweep = Sweep { lines: &lines, status: Status::new(lines.len()), events: BinaryHeap::new(), take };
     loop {
         // The lines that are left after the last end have no neighbours that cross.
@@ -73,6 +66,18 @@ pub(super) fn each_crossing<E>(segments: &[Segment], take: impl FnMut(u32, u32) 
             sweep.meet(line);
         }
     }
+}
+
+/// The numbers of some lines, in the order of a coordinate.
+fn numbers(
+    lines: &[Segment],
+    choose: impl Fn(&Segment) -> bool,
+    x: impl Fn(&u32) -> u32,
+) -> Peekable<vec::IntoIter<u32>> {
+    let all = (0u32..).zip(lines).filter(|(_, line)| choose(line));
+    let mut own: Vec<u32> = all.map(|(number, _)| number).collect();
+    own.sort_unstable_by_key(x);
+    own.into_iter().peekable()
 }
 
 impl<E, T: FnMut(u32, u32) -> Result<(), E>> Sweep<'_, T> {

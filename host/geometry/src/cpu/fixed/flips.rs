@@ -1,6 +1,6 @@
 //! Flips of free edges, until the mesh is canonical again.
 
-use super::mesh::{Fixed, FIXED};
+use super::mesh::{Fixed, FIXED, VERTEX};
 use crate::cpu::kernel::{Ends, Kernel};
 use crate::cpu::triangulator::Error;
 
@@ -17,8 +17,27 @@ struct Around {
 }
 
 impl<K: Kernel> Fixed<'_, K> {
+    /// Flips inner edges until the mesh is canonical. All inner edges are on the stack.
+    ///
+    /// No other edge has to be looked at. A triangle that a constraint does not cross stays in the mesh: none of its
+    /// edges is crossed, and a point that conflicts with it is not seen from it, with the constraint as without. So the
+    /// edges around the room stay, whatever lies behind them.
+    pub(super) fn repair_inner(&mut self) {
+        while let Some(edge) = self.stack.pop() {
+            let around = self.around(edge);
+            if self.must_flip(&around) {
+                self.flip(edge, &around);
+                for beside in around.from_a.into_iter().chain(around.from_b) {
+                    if self.is_inner(beside) {
+                        self.stack.push(beside);
+                    }
+                }
+            }
+        }
+    }
+
     /// Flips edges until the mesh is canonical. All edges that may have to be flipped are on the stack.
-    pub(super) fn repair(&mut self) {
+    fn repair(&mut self) {
         while let Some(edge) = self.stack.pop() {
             if self.is_fixed(edge) || self.is_outside(edge) || self.is_outside(edge ^ 1) {
                 continue;
@@ -26,6 +45,7 @@ impl<K: Kernel> Fixed<'_, K> {
             let around = self.around(edge);
             if self.must_flip(&around) {
                 self.flip(edge, &around);
+                self.stack.extend(around.from_a.into_iter().chain(around.from_b));
             }
         }
     }
@@ -54,7 +74,7 @@ impl<K: Kernel> Fixed<'_, K> {
     fn around(&self, edge: u32) -> Around {
         let (one, other) = (self.half(edge), self.half(edge ^ 1));
         Around {
-            ends: [other.end, one.end],
+            ends: [other.end & VERTEX, one.end & VERTEX],
             apexes: [one.next, one.previous].map(|half| self.end(half)),
             from_a: [one.next, one.previous],
             from_b: [other.previous, other.next],
@@ -72,7 +92,7 @@ impl<K: Kernel> Fixed<'_, K> {
         K::is_left_and_inside(ends, K::see(ends, b), K::see(ends, d))
     }
 
-    /// Replaces an edge by the other diagonal, and puts the four edges around both triangles on the stack.
+    /// Replaces an edge by the other diagonal. It keeps its marks.
     ///
     /// ```text
     ///      c            c
@@ -84,10 +104,10 @@ impl<K: Kernel> Fixed<'_, K> {
     #[inline(always)]
     fn flip(&mut self, edge: u32, around: &Around) {
         let Around { ends: [a, b], apexes: [c, d], from_a: [ac, ad], from_b: [bc, bd] } = *around;
+        let marks = self.half(edge).end & !VERTEX;
         self.unlink(edge, a);
         self.unlink(edge ^ 1, b);
-        self.insert(edge, d, ac ^ 1, bc ^ 1);
-        self.insert(edge ^ 1, c, bd ^ 1, ad ^ 1);
-        self.stack.extend([ac, ad, bc, bd]);
+        self.insert(edge, d | marks, ac ^ 1, bc ^ 1);
+        self.insert(edge ^ 1, c | marks, bd ^ 1, ad ^ 1);
     }
 }
