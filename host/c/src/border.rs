@@ -2,9 +2,9 @@
 #![allow(unsafe_code)] // pointers of the caller
 
 use std::ffi::{c_char, c_void, CStr};
-use std::hint::black_box;
 
 use incircle::MAX_POINTS;
+use incircle_geometry::pages::has_room;
 
 use crate::status::{Failure, Outcome, INCIRCLE_ARGUMENT, INCIRCLE_BUFFER, INCIRCLE_CAPACITY, INCIRCLE_MEMORY};
 
@@ -117,11 +117,7 @@ pub unsafe fn give<T: Copy>(list: &[T], buffer: *mut T, room: usize, count: *mut
 /// Looks whether there are `bytes` bytes of memory. The library takes memory without a way to refuse, so this is asked
 /// before.
 pub fn look_for_memory(bytes: usize) -> Outcome {
-    let mut room = Vec::<u8>::new();
-    let found = room.try_reserve_exact(bytes);
-    // The compiler may leave out memory that nobody looks at.
-    black_box(room.as_ptr());
-    found.map_err(|_| no_memory(bytes))
+    has_room(bytes).then_some(()).ok_or_else(|| no_memory(bytes))
 }
 
 fn no_memory(bytes: usize) -> Failure {

@@ -34,6 +34,7 @@ mod player;
 mod points;
 mod progress;
 mod proof;
+mod refusal;
 mod report;
 mod script;
 #[cfg(feature = "sim")]

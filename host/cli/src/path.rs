@@ -35,6 +35,26 @@ pub fn extension(path: &Path) -> &str {
     }
 }
 
+/// The name of a file without the extension of its packing: `m.ele` for `m.ele.gz`.
+pub fn unpacked(path: &Path) -> PathBuf {
+    match Compression::of(path) {
+        Compression::None => path.to_owned(),
+        Compression::Gzip | Compression::Zstd => path.with_extension(""),
+    }
+}
+
+/// The file beside one, with another extension for its format and the same for its packing: `m.node.gz` beside
+/// `m.ele.gz`.
+pub fn beside(path: &Path, extension: &str) -> PathBuf {
+    match Compression::of(path) {
+        Compression::None => path.with_extension(extension),
+        Compression::Gzip | Compression::Zstd => {
+            let packing = last_extension(path).to_owned();
+            unpacked(path).with_extension(format!("{extension}.{packing}"))
+        }
+    }
+}
+
 fn last_extension(path: &Path) -> &str {
     path.extension().and_then(|extension| extension.to_str()).unwrap_or_default()
 }
@@ -66,6 +86,14 @@ pub fn name(path: &Path) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn files_beside_packed_ones_are_packed() {
+        let found = |path: &str| beside(Path::new(path), "node");
+        assert_eq!(found("a.b/m.ele"), Path::new("a.b/m.node"));
+        assert_eq!(found("a.b/m.x.ele.gz"), Path::new("a.b/m.x.node.gz"));
+        assert_eq!(found("m.ele.ZST"), Path::new("m.node.ZST"));
+    }
 
     #[test]
     fn the_extension_of_a_packed_file_is_that_of_its_content() {

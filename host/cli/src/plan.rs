@@ -2,25 +2,29 @@
 
 use std::path::{Path, PathBuf};
 
-use incircle::constraints::{constrain, Constrained, Domain, Error, Place, Plan, Snapped, SNAP_BITS};
-use incircle::{Duplicate, Lattice, Mesh, PlanePoint, Step};
+use incircle::constraints::{constrain, Constrained, Domain, Error, Plan, Snapped};
+use incircle::{Duplicate, Mesh, PlanePoint};
 
 use crate::arguments::{PlanArguments, ReadArguments};
 use crate::connections::Connections;
 use crate::failure::Failure;
-use crate::formats::{csv, node, PlanTable, PointFormat};
+use crate::formats::{csv_pairs, node, PlanTable, PointFormat, Ring};
 use crate::input::Input;
-use crate::lattice::{Kind, Laid, Numbers};
-use crate::number::Coordinate;
-use crate::path::{check_standard, extension, name};
+use crate::lattice::{Laid, Numbers};
+use crate::path::{self, check_standard, extension, name};
 use crate::planned::Planned;
 use crate::points::PointTable;
 use crate::source;
 
 /// The constraints, holes and regions that are asked of the mesh of a set.
+#[derive(Clone)]
 pub struct Request {
     /// The constraints. Those that bound nothing stand at the end.
     constraints: Vec<[u32; 2]>,
+    /// The rings of polygons, whose sides come first among the constraints.
+    polygons: Vec<Ring>,
+    /// The file of `--constraints`, and the number of its first constraint. All others come before that one.
+    beside: Option<(String, usize)>,
     /// The number of constraints that bound nothing.
     lines: usize,
     pub domain: Domain,
@@ -31,7 +35,7 @@ pub struct Request {
     /// The constraint of the files that each constraint is a part of; `None` if each is one of these.
     parts: Option<Vec<u32>>,
     /// Whether crossings were to be snapped, but the points lie on no lattice.
-    lacks_grid: bool,
+    pub lacks_grid: bool,
 }
 
 /// A set of points, and the constraints and the domain that are asked of its mesh.
@@ -70,7 +74,7 @@ pub fn read_set(
         [path] => match format(path).filter(|format| format.may_constrain()) {
             Some(format) => {
                 read.selection(format)?;
-                let beside = || read_beside(&path.with_extension("node"), quiet);
+                let beside = || read_beside(&node_of(path), quiet);
                 let plan = Input::open(path, quiet).and_then(|input| format.read_plan(input, &beside));
                 plan.map_err(|failure| failure.in_file(name(path)))?
             }
@@ -78,9 +82,11 @@ pub fn read_set(
         },
         _ => PlanTable::of_points(source::read_set(paths, read, quiet)?, false),
     };
-    let PlanTable { table, points, rings: mut constraints, mut lines, holes, attributes, is_poly, .. } = plan;
+    let PlanTable { table, points, rings: mut constraints, polygons, mut lines, holes, attributes, is_poly, .. } = plan;
+    let mut beside = None;
     if let Some(path) = &arguments.constraints {
-        let own = Input::open(path, quiet).and_then(|input| csv::read_pairs(&input.into_bytes()?, points));
+        let own = Input::open(path, quiet).and_then(|input| csv_pairs::read_pairs(&input.into_bytes()?, points));
+        beside = Some((name(path), constraints.len() + lines.len()));
         lines.extend(own.map_err(|failure| failure.in_file(name(path)))?);
     }
     let default = match (is_poly, constraints.is_empty()) {
@@ -95,6 +101,8 @@ pub fn read_set(
     let domain = arguments.domain.unwrap_or(default);
     let request = is_asked.then_some(Request {
         constraints,
+        polygons,
+        beside,
         lines: free,
         domain,
         holes,
@@ -103,6 +111,16 @@ pub fn read_set(
         lacks_grid: false,
     });
     Ok(PlannedSet { table, points, request })
+}
+
+/// The `.node` file beside a `.poly` file: packed like that one, or else not packed.
+fn node_of(path: &Path) -> PathBuf {
+    let [packed, plain] = [path, &path::unpacked(path)].map(|path| path::beside(path, "node"));
+    if plain.exists() && !packed.exists() {
+        plain
+    } else {
+        packed
+    }
 }
 
 /// Reads a `.node` file, and the id of its first point.
@@ -115,8 +133,17 @@ fn read_beside(path: &Path, quiet: bool) -> Result<(PointTable, u32), Failure> {
 impl Request {
     /// Asks for all triangles of the hull with these constraints.
     pub fn of_constraints(constraints: Vec<[u32; 2]>) -> Self {
-        let attributes = Vec::new();
-        Self { constraints, lines: 0, domain: Domain::All, holes: 0, attributes, parts: None, lacks_grid: false }
+        Self {
+            constraints,
+            polygons: Vec::new(),
+            beside: None,
+            lines: 0,
+            domain: Domain::All,
+            holes: 0,
+            attributes: Vec::new(),
+            parts: None,
+            lacks_grid: false,
+        }
     }
 
     /// The same for a set whose crossings were snapped.
@@ -125,11 +152,9 @@ impl Request {
         Self {
             constraints: snapped.constraints.clone(),
             lines: snapped.of.iter().filter(|&&of| of as usize >= boundary).count(),
-            domain: self.domain,
-            holes: self.holes,
-            attributes: self.attributes.clone(),
             parts: Some(snapped.of.clone()),
             lacks_grid: false,
+            ..self.clone()
         }
     }
 
@@ -141,6 +166,24 @@ impl Request {
     /// The number of the constraint of the files that a constraint is a part of.
     pub fn source(&self, number: usize) -> u32 {
         self.parts.as_ref().and_then(|parts| parts.get(number).copied()).unwrap_or(number as u32)
+    }
+
+    /// The file of `--constraints`, and the number of its first constraint in the files.
+    pub fn beside(&self) -> Option<(&str, usize)> {
+        self.beside.as_ref().map(|(name, first)| (name.as_str(), *first))
+    }
+
+    /// The rings of all polygons: the sides of each, and whether the ring is the outer one of a polygon.
+    pub fn rings(&self) -> impl Iterator<Item = (&[[u32; 2]], bool)> + '_ {
+        let mut begin = 0;
+        self.polygons.iter().map(move |ring| {
+            // Parts are in the order of the constraints that they come from.
+            let end = match &self.parts {
+                Some(parts) => parts.partition_point(|&of| (of as usize) < ring.end),
+                None => ring.end,
+            };
+            (&self.constraints[std::mem::replace(&mut begin, end)..end], ring.is_outer)
+        })
     }
 
     /// The number of holes.
@@ -172,10 +215,16 @@ impl Request {
         }
     }
 
-    /// Forces the constraints into a mesh. The places of holes and regions stand behind the points in `laid`.
-    pub fn force(&self, mesh: &mut Connections, set: &PlannedSet, laid: &Laid<'_>) -> Result<Planned, Failure> {
+    /// Forces the constraints into a mesh. The places of holes and regions stand behind the points in `laid`. `file`
+    /// names the set in messages.
+    pub fn force(
+        &self,
+        mesh: &mut Connections,
+        (set, file): (&PlannedSet, &str),
+        laid: &Laid<'_>,
+    ) -> Result<Planned, Failure> {
         let made = self.force_numbers(&laid.numbers, set.points, mesh);
-        made.map(|made| self.planned(made)).map_err(|error| self.refuse(error, &set.table, laid))
+        made.map(|made| self.planned(made)).map_err(|error| self.refuse(error, (set, file), laid))
     }
 
     /// The regions and pieces that constraints made, with the names and numbers of the file.
@@ -218,69 +267,4 @@ impl Request {
         mesh.triangles.clone_from(&made.triangles);
         Ok(made)
     }
-
-    /// The failure of constraints that have no mesh. The place of a crossing is told in the numbers of the file.
-    pub fn refuse(&self, error: Error, table: &PointTable, laid: &Laid<'_>) -> Failure {
-        let Error::Crossing { constraints, ends, mut place } = error else {
-            return Failure::input(error.to_string());
-        };
-        if !matches!(laid.kind, Kind::Quantized(_)) {
-            place = place_in(table, ends).unwrap_or_else(|| about(table, ends));
-        }
-        let told = Error::Crossing { constraints, ends, place };
-        if self.lacks_grid {
-            return Failure::input(format!(
-                "{told}, or round the points to a grid of at most {} bits first, such as by --quantize fit --coord-bits \
-                 {0}: these points lie on no grid that --crossings snap could make finer",
-                u32::BITS - SNAP_BITS
-            ));
-        }
-        Failure::input(format!("{told}, or let --crossings snap make points of crossings"))
-    }
-}
-
-/// The place of [`place_in`] in doubles, where whole numbers of 128 bits do not hold it. Coordinates are divided by the
-/// largest one first, so that no product overflows or vanishes.
-fn about(table: &PointTable, ends: [[u32; 2]; 2]) -> Place {
-    let doubles = table.doubles();
-    let [a, b, c, d] = [ends[0][0], ends[0][1], ends[1][0], ends[1][1]].map(|index| doubles[index as usize]);
-    let largest = [a, b, c, d].as_flattened().iter().fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()));
-    let [a, b, c, d] = [a, b, c, d].map(|point| point.map(|value| value / largest));
-    let vector = |from: [f64; 2], to: [f64; 2]| [to[0] - from[0], to[1] - from[1]];
-    let cross = |u: [f64; 2], v: [f64; 2]| u[0] * v[1] - u[1] * v[0];
-    let along = vector(a, b);
-    let share = cross(vector(a, c), vector(c, d)) / cross(along, vector(c, d));
-    Place::About([0, 1].map(|axis| (a[axis] + share * along[axis]) * largest))
-}
-
-/// The crossing of two constraints, given by the indices of their ends, in the numbers of the file. `None` if whole
-/// numbers of 128 bits do not hold it.
-fn place_in(table: &PointTable, ends: [[u32; 2]; 2]) -> Option<Place> {
-    let [a, b, c, d] = [ends[0][0], ends[0][1], ends[1][0], ends[1][1]]
-        .map(|index| [0, 1].map(|axis| table.coordinate(index as usize, axis)));
-    let all = [a, b, c, d];
-    let digits = all.iter().flatten().map(|coordinate| match coordinate {
-        Coordinate::Decimal { digits, .. } => Some(*digits),
-        Coordinate::Double(_) => None,
-    });
-    if let Some(digits) = digits.collect::<Option<Vec<u32>>>().and_then(|digits| digits.into_iter().max()) {
-        let steps = |coordinate: Coordinate| match coordinate {
-            Coordinate::Decimal { steps, digits: own } => steps.checked_mul(10i128.checked_pow(digits - own)?),
-            Coordinate::Double(_) => None,
-        };
-        let point = |[x, y]: [Coordinate; 2]| Some([steps(x)?, steps(y)?]);
-        return Place::of_lines([[point(a)?, point(b)?], [point(c)?, point(d)?]], 10i128.checked_pow(digits)?);
-    }
-    let value = |coordinate: Coordinate| match coordinate {
-        Coordinate::Double(value) => Some(value),
-        Coordinate::Decimal { .. } => None,
-    };
-    let point = |[x, y]: [Coordinate; 2]| Some([value(x)?, value(y)?]);
-    let (lattice, grid) = Lattice::of_doubles(&[point(a)?, point(b)?, point(c)?, point(d)?])?;
-    let parts = match lattice.step {
-        Step::Binary { exponent: exponent @ ..=0 } => 2i128.checked_pow(exponent.unsigned_abs())?,
-        _ => 1,
-    };
-    let steps = |place: usize| grid.get(place).map(|&point| lattice.steps(point).map(i128::from));
-    Place::of_lines([[steps(0)?, steps(1)?], [steps(2)?, steps(3)?]], parts)
 }

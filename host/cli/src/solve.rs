@@ -1,6 +1,6 @@
 //! One job on an opened back end.
 
-use incircle::constraints::{Error, Triangulated};
+use incircle::constraints::Triangulated;
 use incircle::{ConstrainedError, Options, PlanePoint, Report, Session, Solution};
 
 use crate::arguments::JobArguments;
@@ -41,11 +41,11 @@ pub fn triangulate(
 }
 
 /// Triangulates the first `points` places on the CPU triangulator, with what is asked of their mesh. `refuse` makes a
-/// failure of constraints that have no mesh.
+/// failure of an error.
 pub fn constrain(
     backend: &mut Backend,
     (request, numbers, points): (&Request, &Numbers<'_>, usize),
-    refuse: impl Fn(Error) -> Failure,
+    refuse: impl Fn(ConstrainedError) -> Failure,
     job: &JobArguments,
     quiet: bool,
 ) -> Result<(Triangulated, Report), Failure> {
@@ -62,11 +62,7 @@ pub fn constrain(
     });
     // The check comes first, because an interrupt may surface as any error.
     interrupt::check()?;
-    found.map_err(|error| match error {
-        ConstrainedError::Plan(error) => refuse(error),
-        ConstrainedError::Job(error) => failure_of(&error),
-        other => Failure::input(other.to_string()),
-    })
+    found.map_err(refuse)
 }
 
 /// Triangulates the first `points` places, whose coordinates are numbers of one type, with what is asked of their mesh.

@@ -202,7 +202,9 @@ pub fn bytes_from(text: &str) -> Result<u64, String> {
 
 /// Parses a number of threads.
 pub fn threads_from(text: &str) -> Result<NonZeroU32, String> {
-    text.parse().map_err(|_| format!("give a whole number from 1 to {}", u32::MAX))
+    text.parse().map_err(|_| {
+        "give a whole number from 1 on, or leave the option out for one thread on each processor".to_owned()
+    })
 }
 
 /// Parses a positive number of seconds.

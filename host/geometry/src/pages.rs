@@ -4,6 +4,7 @@
 //! the processor's table of pages. Pages of 2 MB all fit that table, and the system has far fewer of them to hand out.
 
 use alloc::vec::Vec;
+use core::hint::black_box;
 
 use bytemuck::Zeroable;
 
@@ -17,6 +18,23 @@ pub fn with_room<T>(count: usize) -> Vec<T> {
         advise(&list);
     }
     list
+}
+
+/// Whether `bytes` more bytes of memory can be had. They are given back at once.
+///
+/// This crate takes memory without a way to refuse, and a program that runs out of memory ends. A caller that must not
+/// end asks before a job.
+///
+/// ```
+/// assert!(incircle_geometry::pages::has_room(1 << 10));
+/// assert!(!incircle_geometry::pages::has_room(usize::MAX));
+/// ```
+pub fn has_room(bytes: usize) -> bool {
+    let mut room = Vec::<u8>::new();
+    let has_room = room.try_reserve_exact(bytes).is_ok();
+    // The compiler may leave out memory that nobody looks at.
+    black_box(room.as_ptr());
+    has_room
 }
 
 /// Makes a list of `count` zeros.

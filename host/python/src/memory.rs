@@ -1,8 +1,7 @@
 //! Looking for memory before a job. The library takes memory without a way to refuse, and running out of it would end
 //! the program of the caller.
 
-use std::hint::black_box;
-
+use incircle_geometry::pages::has_room;
 use pyo3::prelude::*;
 
 use crate::error::exception;
@@ -29,11 +28,7 @@ pub const BYTES_OF_A_PLACE: usize = 60;
 /// Raises `OutOfMemoryError` if there is no memory for `count` items of `bytes_of_one` bytes.
 pub fn look_for_memory(py: Python<'_>, count: usize, bytes_of_one: usize) -> PyResult<()> {
     let bytes = count.saturating_mul(bytes_of_one);
-    let mut room = Vec::<u8>::new();
-    let has_room = room.try_reserve_exact(bytes).is_ok();
-    // The compiler may leave out memory that nobody looks at.
-    black_box(room.as_ptr());
-    if has_room {
+    if has_room(bytes) {
         return Ok(());
     }
     let sentence = format!("there is no memory for {bytes} bytes: use fewer points, or free some");

@@ -206,13 +206,13 @@ def test_bad_choices_are_refused(choices, sentence):
 @pytest.mark.parametrize(
     ("choices", "sentence"),
     [
-        ({"holes": [(20, 20)]}, "hole 0 lies outside the hull of the points"),
-        ({"holes": [(4, 4), (9, 1)]}, "hole 1 lies on the constraint from point 1 to point 2"),
+        ({"holes": [(20, 20)]}, "hole 0, counted from 0, lies outside the hull of the points"),
+        ({"holes": [(4, 4), (9, 1)]}, "hole 1, counted from 0, lies on the constraint from point 1 to point 2"),
         ({"holes": [(1, 1), (4, 4)]}, "the domain is empty"),
         ({"holes": [(4.5, 4)]}, "the x of hole 0 is 4.5, which int64 cannot hold"),
         ({"holes": [4, 4]}, r"the holes have the shape \(2,\)"),
         ({"regions": [(float("nan"), 1)]}, "the x of region 0 is NaN, which int64 cannot hold"),
-        ({"domain": "even-odd", "regions": [(4, 4)]}, "region 0 lies in a part of the hull that does not belong"),
+        ({"domain": "even-odd", "regions": [(4, 4)]}, "region 0, counted from 0, lies in a part of the hull"),
     ],
 )
 def test_bad_places_are_refused(choices, sentence):

@@ -6,9 +6,10 @@ use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 
 use incircle_geometry::lattice::Numbers;
+use incircle_geometry::pages::has_room;
 use incircle_geometry::{cpu, Duplicate, Mesh, PlanePoint};
 
-use crate::border::{give, has_memory, points, told, Points};
+use crate::border::{give, points, told, Points};
 
 /// The most bytes a point that a job needs beyond its points, with the half-edges.
 const BYTES_OF_A_JOB: usize = 400;
@@ -19,7 +20,7 @@ const MOST_BITS_OF_INTEGERS: u32 = 16;
 /// Checks that there is memory for the mesh of these points.
 pub fn check_room(points: &Points) -> Result<(), String> {
     let bytes = points.len().saturating_mul(BYTES_OF_A_JOB);
-    if !has_memory(bytes) {
+    if !has_room(bytes) {
         return Err(format!(
             "{} points need up to {bytes} bytes, and the module cannot get them: triangulate fewer points at a time",
             points.len()

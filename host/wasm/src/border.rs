@@ -6,7 +6,6 @@
 
 use std::cell::RefCell;
 use std::fmt::Display;
-use std::hint::black_box;
 
 /// Points in the buffer, as JavaScript writes them.
 pub type Points = Vec<[f64; 2]>;
@@ -33,15 +32,6 @@ fn zeros<T: Clone + Default>(count: usize) -> Option<Vec<T>> {
     list.try_reserve_exact(count).ok()?;
     list.resize(count, T::default());
     Some(list)
-}
-
-/// Whether `bytes` more bytes can be had. They are freed again at once, and stay with the module.
-pub fn has_memory(bytes: usize) -> bool {
-    let mut room = Vec::<u8>::new();
-    let has_room = room.try_reserve_exact(bytes).is_ok();
-    // The compiler may leave out memory that nobody looks at.
-    black_box(room.as_ptr());
-    has_room
 }
 
 /// Makes room for `count` points, and returns the address to which x and y of each are to be written. The address is 0

@@ -5,9 +5,10 @@ use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 
 use incircle_geometry::constraints::{triangulate, Domain, Plan};
+use incircle_geometry::pages::has_room;
 
 use crate::batch::{check_room, flat};
-use crate::border::{give, has_memory, indices, places, points, told};
+use crate::border::{give, indices, places, points, told};
 
 /// The most bytes a point and a constraint that forcing edges into a mesh needs.
 const BYTES_OF_A_PLAN: usize = 600;
@@ -21,7 +22,7 @@ fn check_room_for_plan(points: usize, constraints: usize) -> Result<(), String> 
              give fewer at a time"
         )
     };
-    has_memory(bytes).then_some(()).ok_or_else(text)
+    has_room(bytes).then_some(()).ok_or_else(text)
 }
 
 /// Triangulates the points in the buffer with the pairs of the buffer of indices as edges, and lists the triangles and

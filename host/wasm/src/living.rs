@@ -4,10 +4,11 @@
 use std::cell::RefCell;
 
 use incircle_geometry::living::{Error, Location};
+use incircle_geometry::pages::has_room;
 use incircle_geometry::Triangulation;
 
 use crate::batch::{flat, pairs};
-use crate::border::{give, has_memory, points, told};
+use crate::border::{give, points, told};
 
 type Mesh = Triangulation<[f64; 2]>;
 
@@ -41,7 +42,7 @@ fn with(handle: usize, ask: impl FnOnce(&mut Mesh) -> Result<f64, Failure>) -> R
 /// Looks whether there are `bytes` bytes of memory, because the library takes memory without a way to refuse.
 fn look_for_memory(bytes: usize) -> Result<(), Failure> {
     let text = || Failure(format!("this may need {bytes} bytes more, and the module cannot get them"));
-    has_memory(bytes).then_some(()).ok_or_else(text)
+    has_room(bytes).then_some(()).ok_or_else(text)
 }
 
 /// Looks whether there is the memory for a job on all points of a mesh.

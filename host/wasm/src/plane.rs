@@ -9,9 +9,10 @@ use std::cell::RefCell;
 
 use incircle_geometry::cpu::Triangulator;
 use incircle_geometry::order::hilbert;
+use incircle_geometry::pages::has_room;
 use incircle_geometry::{Mesh, Point, Triangulation};
 
-use crate::border::{give, has_memory, told};
+use crate::border::{give, told};
 use crate::grid::{grid_point, grid_points};
 use crate::light::{place, Light, Place};
 
@@ -44,7 +45,7 @@ thread_local! {
 impl Plane {
     fn triangulate(&mut self, points: &[Point]) -> Result<(), String> {
         let bytes = points.len().saturating_mul(BYTES_OF_A_POINT);
-        if !has_memory(bytes) {
+        if !has_room(bytes) {
             return Err(format!("{} points need up to {bytes} bytes: choose fewer", points.len()));
         }
         self.living = None;
@@ -89,7 +90,7 @@ impl Plane {
     }
 
     fn insert(&mut self, point: Point) -> Result<(), String> {
-        if !has_memory(self.names.len().saturating_mul(BYTES_OF_A_POINT)) {
+        if !has_room(self.names.len().saturating_mul(BYTES_OF_A_POINT)) {
             return Err("there is no memory for another point".to_owned());
         }
         self.change(|plane, living| {

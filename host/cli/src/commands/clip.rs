@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use incircle::voronoi::Clip;
+use incircle::voronoi::{Clip, Error};
 use incircle::Point;
 
 use crate::arguments::{ReadArguments, Rectangle};
@@ -54,7 +54,15 @@ impl Border {
                 Clip::with_holes(outer, &holes.iter().map(hole).collect::<Vec<_>>())
             }
         };
-        clip.map_err(|error| Failure::input(error.to_string()).in_file(&self.from))
+        let told = |error: Error| match error {
+            Error::MisplacedHole { hole } => format!(
+                "hole {} of the clip, counted from 1, lies outside its outer ring or inside another hole: give holes \
+                 that lie side by side within the outer ring",
+                hole + 1
+            ),
+            other => other.to_string(),
+        };
+        clip.map_err(|error| Failure::input(told(error)).in_file(&self.from))
     }
 }
 

@@ -1,21 +1,22 @@
 //! The files beside a mesh whose constraints were snapped: its points as `.node`, and its constraints as `.poly`.
 
 use std::io::{self, Write};
+use std::path::PathBuf;
 
 use crate::arguments::TriangulateArguments;
 use crate::failure::Failure;
 use crate::formats::{node, MeshFormat};
 use crate::output::{Output, Written};
-use crate::path::is_standard;
+use crate::path::{beside, is_standard};
 use crate::plan::PlannedSet;
 
 /// The outputs `.node` and `.poly`, checked before the work; none where the mesh has its points in its own file.
 pub struct PlanFiles(Option<[Output; 2]>);
 
 impl PlanFiles {
-    /// Prepares the files that a mesh in this format needs if its set has new points.
+    /// Prepares the files that a mesh in this format needs if its set has new points. None of them may be an input.
     pub fn prepare(
-        arguments: &TriangulateArguments,
+        (arguments, inputs): (&TriangulateArguments, &[PathBuf]),
         format: MeshFormat,
         set: &PlannedSet,
         has_new: bool,
@@ -35,7 +36,7 @@ impl PlanFiles {
                 "the snapped points are doubles, which a .node file does not hold exactly: give -o a file .obj or .ply",
             ));
         }
-        let prepare = |extension: &str| Output::prepare(&path.with_extension(extension), &arguments.points);
+        let prepare = |extension: &str| Output::prepare(&beside(path, extension), inputs);
         Ok(Self(Some([prepare("node")?, prepare("poly")?])))
     }
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use incircle::constraints::Pieces;
-use incircle::{DeviceAddress, Fleet, Quantize, Report};
+use incircle::{ConstrainedError, DeviceAddress, Fleet, Quantize, Report};
 
 use crate::arguments::{Crossings, TriangulateArguments};
 use crate::backend::{self, Backend, Choice};
@@ -52,7 +52,7 @@ fn run_in_memory(arguments: &TriangulateArguments) -> Result<(), Failure> {
     let how = arguments.grid.quantize.map(|how| (how, chosen.coord_bits()));
     let (set, snapping) = snap(set, how, arguments.plan.crossings).map_err(in_file)?;
     let how = how.filter(|_| snapping.is_none());
-    let plan_files = PlanFiles::prepare(arguments, format, &set, snapping.is_some())?;
+    let plan_files = PlanFiles::prepare((arguments, &inputs(arguments)), format, &set, snapping.is_some())?;
     let table = &set.table;
     format.check_points(table).map_err(in_file)?;
     let places = lattice::lay(table, how).map_err(in_file)?;
@@ -72,7 +72,7 @@ fn run_in_memory(arguments: &TriangulateArguments) -> Result<(), Failure> {
     drop(backend);
     check_traced(trace_part, arguments)?;
     watch.since = Instant::now();
-    force_plan(&set, &places, &mut mesh, &mut watch).map_err(in_file)?;
+    force_plan((&set, &source::set_name(&arguments.points)), &places, &mut mesh, &mut watch)?;
     mesh.planned.iter_mut().for_each(|planned| planned.snapping = snapping);
     report.planned = mesh.planned.as_ref();
     let points = set.has_marks().then(|| table.first(set.points));
@@ -96,13 +96,20 @@ fn snap(
     }
 }
 
-/// Forces the constraints of a set into its mesh, if the set has any that are not in it.
-fn force_plan(set: &PlannedSet, places: &Laid<'_>, mesh: &mut Connections, watch: &mut Watch) -> Result<(), Failure> {
-    if let Some(request) = set.request.as_ref().filter(|_| mesh.planned.is_none()) {
-        mesh.planned = Some(request.force(mesh, set, places)?);
+/// Forces the constraints of a set into its mesh, if the set has any that are not in it, and checks the holes of its
+/// polygons. `file` names the set.
+fn force_plan(
+    (set, file): (&PlannedSet, &str),
+    places: &Laid<'_>,
+    mesh: &mut Connections,
+    watch: &mut Watch,
+) -> Result<(), Failure> {
+    let Some(request) = &set.request else { return Ok(()) };
+    if mesh.planned.is_none() {
+        mesh.planned = Some(request.force(mesh, (set, file), places)?);
         watch.ended("constrain");
     }
-    Ok(())
+    request.check_holes((set, file), places)
 }
 
 /// The report of a run on one back end, or on several if there is none to name.
@@ -175,9 +182,13 @@ fn solve(
             watch.ended("open");
             if let Some(request) = set.request.as_ref().filter(|_| backend.takes_all_numbers()) {
                 let asked = (request, &places.numbers, set.points);
-                let refuse = |error| request.refuse(error, &set.table, places);
-                let solved = solve::constrain(&mut backend, asked, refuse, &arguments.job, arguments.quiet);
-                let (found, about) = solved.map_err(in_file)?;
+                let name = source::set_name(&arguments.points);
+                let refuse = |error| match error {
+                    ConstrainedError::Plan(error) => request.refuse(error, (set, &name), places),
+                    ConstrainedError::Job(error) => in_file(failure_of(&error)),
+                    other => in_file(Failure::input(other.to_string())),
+                };
+                let (found, about) = solve::constrain(&mut backend, asked, refuse, &arguments.job, arguments.quiet)?;
                 let mesh = Connections::of_domain(&found);
                 return Ok((Connections { planned: Some(request.planned(found.made)), ..mesh }, about, Some(backend)));
             }

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use incircle::constraints::Domain;
 use incircle::verify::verify_constrained;
 use incircle::{VerifyError, VerifySummary};
 use serde_json::{json, Value};
@@ -14,7 +15,7 @@ use crate::failure::Failure;
 use crate::lattice::{Laid, Numbers};
 use crate::plan::{self, Request};
 use crate::report::quantization_json;
-use crate::{lattice, path, snapping, source};
+use crate::{lattice, path, refusal, snapping, source};
 
 /// Runs the subcommand. A wrong mesh leads to exit code 1.
 pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
@@ -50,14 +51,30 @@ pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
     let request = set.request.as_ref();
     let kind = if request.is_some() { Kind::Constrained } else { Kind::Canonical };
     let verdict = Verdict { kind, names, json: arguments.json, quiet: arguments.quiet };
-    let checked = read_triangles(arguments, mesh).and_then(|triangles| {
-        let checked = match request {
-            Some(request) => check_planned(&laid.numbers, set.points, request, &triangles),
-            None => check(&laid.numbers, &triangles),
-        };
-        checked.map_err(|error| verdict.rejected(&error.to_string()))
+    let checked = read_triangles(arguments, mesh).and_then(|triangles| match request {
+        Some(request) => {
+            let named = (&set, &*points_name);
+            let checked = check_planned(&laid.numbers, set.points, request, &triangles);
+            let summary = checked.map_err(|error| match refusal::of_plan(error) {
+                Ok(error) => request.refuse(error, named, &laid),
+                Err(error) => verdict.rejected(&format!("{error}{}", hint(arguments, request))),
+            })?;
+            request.check_holes(named, &laid).map(|()| summary)
+        }
+        None => check(&laid.numbers, &triangles).map_err(|error| verdict.rejected(&error.to_string())),
     });
     verdict.tell(checked.map(|summary| seen(&summary, &laid)))
+}
+
+/// What a message adds if the mesh may be that of another domain.
+fn hint(arguments: &VerifyArguments, request: &Request) -> String {
+    match arguments.plan.domain {
+        None if request.domain != Domain::All => format!(
+            " (the domain is '{}', because --domain is not given: give the one with which the mesh was made)",
+            request.domain
+        ),
+        _ => String::new(),
+    }
 }
 
 /// Reads the triangles of the mesh.

@@ -177,37 +177,6 @@ fn triangle_of(values: &Values<'_>, row: usize, is_first: bool) -> Result<Option
     Ok(Some(triangle))
 }
 
-/// Reads pairs of indices of points, of which there are `points`.
-pub fn read_pairs(bytes: &[u8], points: usize) -> Result<Vec<[u32; 2]>, Failure> {
-    let mut rows = CsvRows::new(text::without_mark(bytes)?);
-    let mut pairs = Vec::new();
-    let mut first = true;
-    while let Some((row, values)) = rows.next()? {
-        let header = first && !values.iter().any(text::looks_like_number);
-        first = false;
-        if header {
-            continue;
-        }
-        if values.len() != 2 {
-            let columns = counted(values.len(), "column");
-            return Err(Failure::input(format!("row {row} has {columns}: a constraint is a row of two point indices")));
-        }
-        let mut pair = [0; 2];
-        for (column, end) in pair.iter_mut().enumerate() {
-            *end = text::whole(values.get(column), "a point index", Place::Cell { row, column: column + 1 })?;
-            if *end as usize >= points {
-                let points = counted(points, "point");
-                return Err(Failure::input(format!(
-                    "row {row}, column {}: the point {end} does not exist: the set has {points}, counted from 0",
-                    column + 1
-                )));
-            }
-        }
-        pairs.push(pair);
-    }
-    Ok(pairs)
-}
-
 /// Writes the triangles, without a header.
 pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
     for [a, b, c] in mesh.triangles {

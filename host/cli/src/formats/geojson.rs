@@ -144,11 +144,14 @@ fn add_lines(kind: &str, coordinates: &str, plan: &mut PlanTable, place: Place) 
             plan.add_line(first, || place.to_string())
         }
         "MultiLineString" => each_of(coordinates, place, |line| add_lines("LineString", line, plan, place)),
-        "Polygon" => each_of(coordinates, place, |ring| {
-            let first = plan.table.len();
-            add_positions(ring, plan, place)?;
-            plan.add_ring(first, || place.to_string())
-        }),
+        "Polygon" => {
+            plan.begin_polygon();
+            each_of(coordinates, place, |ring| {
+                let first = plan.table.len();
+                add_positions(ring, plan, place)?;
+                plan.add_ring(first, || place.to_string())
+            })
+        }
         _ => each_of(coordinates, place, |polygon| add_lines("Polygon", polygon, plan, place)),
     }
 }

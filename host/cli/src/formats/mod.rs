@@ -3,6 +3,7 @@
 mod array;
 mod blocks;
 pub mod csv;
+pub mod csv_pairs;
 mod csv_rows;
 pub mod curve;
 pub mod edge;
@@ -41,7 +42,7 @@ use crate::points::PointTable;
 
 pub use mesh_view::MeshView;
 pub use pieces::{Take, TakeTriangle};
-pub use plan::PlanTable;
+pub use plan::{PlanTable, Ring};
 pub use selection::{Bounds, Selection};
 pub use set::SetFormat;
 

@@ -12,6 +12,8 @@ pub struct PlanTable {
     pub points: usize,
     /// The sides of polygons, or all segments of a `.poly` file.
     pub rings: Vec<[u32; 2]>,
+    /// The rings of polygons, in the order of their sides. A `.poly` file has none.
+    pub polygons: Vec<Ring>,
     /// The pieces of lines.
     pub lines: Vec<[u32; 2]>,
     /// The number of holes.
@@ -22,6 +24,17 @@ pub struct PlanTable {
     pub is_poly: bool,
     /// Whether lines and polygons are refused, because somebody wants points.
     only_points: bool,
+    /// Whether the next ring is the outer one of a polygon.
+    begins_polygon: bool,
+}
+
+/// A ring of a polygon.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ring {
+    /// The number of sides of polygons up to the last one of this ring.
+    pub end: usize,
+    /// Whether the ring is the first one of its polygon: all others bound holes.
+    pub is_outer: bool,
 }
 
 impl PlanTable {
@@ -32,8 +45,9 @@ impl PlanTable {
 
     /// A plan of points without constraints.
     pub fn of_points(table: PointTable, only_points: bool) -> Self {
-        let (rings, lines, attributes) = (Vec::new(), Vec::new(), Vec::new());
-        Self { points: table.len(), table, rings, lines, holes: 0, attributes, is_poly: false, only_points }
+        let (rings, polygons, lines, attributes) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let (points, holes, is_poly, begins_polygon) = (table.len(), 0, false, false);
+        Self { points, table, rings, polygons, lines, holes, attributes, is_poly, only_points, begins_polygon }
     }
 
     /// Whether lines and polygons are refused.
@@ -56,6 +70,11 @@ impl PlanTable {
         }
         self.lines.extend(chain(first, self.table.len()));
         Ok(())
+    }
+
+    /// Begins a polygon: the next ring is its outer one.
+    pub fn begin_polygon(&mut self) {
+        self.begins_polygon = true;
     }
 
     /// Makes a ring of the points from the one with this index to the last, which repeats the first.
@@ -81,6 +100,8 @@ impl PlanTable {
             )));
         }
         self.rings.extend(chain(first, self.table.len()));
+        let is_outer = std::mem::take(&mut self.begins_polygon);
+        self.polygons.push(Ring { end: self.rings.len(), is_outer });
         Ok(())
     }
 }

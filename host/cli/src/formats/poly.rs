@@ -2,7 +2,8 @@
 //!
 //! The points are those of a `.node` file: `N 2 attributes markers`, then `id x y …`. If `N` is 0, they stand in the
 //! `.node` file beside. Then follow `N markers` with segments `id a b …`, `N` with holes `id x y`, and perhaps `N` with
-//! regions `id x y attribute …`. Ids count from 0 or 1. Attributes and markers of points and segments are not read.
+//! regions `id x y attribute …`. Ids count from 0 or 1. The attribute of a region is a number, which the mesh gets as it
+//! is written. Attributes and markers of points and segments are not read.
 //!
 //! Source: <https://www.cs.cmu.edu/~quake/triangle.poly.html>.
 
@@ -11,11 +12,14 @@ use crate::formats::node::{read_point, Ids};
 use crate::formats::plan::PlanTable;
 use crate::formats::triangle;
 use crate::memory::Memory;
-use crate::points::{Place, PointTable};
+use crate::points::{number_at, Place, PointTable};
 use crate::text;
 
 const HEADER: triangle::Header =
     triangle::Header { name: ".poly", row: "N 2 attributes markers", items: "points", second: ("dimension", "2") };
+
+/// The number of values before the attribute of a region.
+const ATTRIBUTE: usize = 3;
 
 /// A row with its number, without its comment.
 type Row<'a> = (usize, &'a [u8]);
@@ -51,8 +55,11 @@ pub fn read_plan(
     plan.holes = plan.table.len() - points;
     let regions = section(&mut rows, "regions")?.unwrap_or(0);
     for number in 0..regions {
-        let attribute = read_mark(&mut rows, &mut plan, "regions", [regions, number])?;
-        plan.attributes.push(attribute.unwrap_or_else(|| "0".to_owned()));
+        let (row, attribute) = read_mark(&mut rows, &mut plan, "regions", [regions, number])?;
+        if let Some(attribute) = attribute {
+            number_at(attribute, || Place::Cell { row, column: ATTRIBUTE + 1 })?;
+        }
+        plan.attributes.push(String::from_utf8_lossy(attribute.unwrap_or(b"0")).into_owned());
     }
     if let Some((row, _)) = rows.next() {
         return Err(Failure::input(format!("row {row} stands behind the last section of the file")));
@@ -109,16 +116,15 @@ fn read_segments<'a>(rows: &mut impl Iterator<Item = Row<'a>>, plan: &mut PlanTa
     Ok(())
 }
 
-/// Reads a row `id x y …` of a section, and returns the value behind.
+/// Reads a row `id x y …` of a section. Returns the number of the row, and the value behind.
 fn read_mark<'a>(
     rows: &mut impl Iterator<Item = Row<'a>>,
     plan: &mut PlanTable,
     items: &str,
     [promised, number]: [u32; 2],
-) -> Result<Option<String>, Failure> {
+) -> Result<(usize, Option<&'a [u8]>), Failure> {
     let (row, content) = next(rows, items, promised, number as usize)?;
     let (_, place) = read_point(content, row)?;
     plan.table.push(place, row)?;
-    let attribute = text::words(content).nth(3);
-    Ok(attribute.map(|value| String::from_utf8_lossy(value).into_owned()))
+    Ok((row, text::words(content).nth(ATTRIBUTE)))
 }

@@ -151,6 +151,9 @@ fn read_lines(
         b"MULTIPOLYGON" => b"POLYGON",
         _ => return read_chain(name, tokens, dimensions, plan),
     };
+    if name == b"POLYGON" {
+        plan.begin_polygon();
+    }
     loop {
         if !tokens.take_word("EMPTY") {
             tokens.expect(b"(", "'(' or EMPTY")?;

@@ -312,7 +312,7 @@ impl PointTable {
 }
 
 /// Reads the number at a place. Any finite number is taken, with spaces around it or without.
-fn number_at(value: &[u8], place: impl Fn() -> Place) -> Result<Number, Failure> {
+pub fn number_at(value: &[u8], place: impl Fn() -> Place) -> Result<Number, Failure> {
     let trimmed = value.trim_ascii();
     match number::parse(trimmed) {
         Some(Number::Double(nearest) | Number::Beyond(nearest)) if !nearest.value.is_finite() => {

@@ -100,7 +100,9 @@ fn the_processor_is_the_default() {
     scratch.run("triangulate p.csv -o m.ele --backend cpu --order hilbert").fails(2, &["--order", "--backend model"]);
     scratch.run("triangulate p.csv -o m.ele --backend model --threads 2").fails(2, &["--threads", "--backend cpu"]);
     scratch.run("triangulate p.csv -o m.ele --backend cpu --config tiny").fails(2, &["--config", "--backend clock"]);
-    assert_eq!(scratch.run("triangulate p.csv -o m.ele --threads 0").code, Some(2));
+    let none = scratch.run("triangulate p.csv -o m.ele --threads 0");
+    assert_eq!(none.code, Some(2));
+    assert!(none.stderr.contains("from 1 on, or leave the option out for one thread on each processor"), "{none:?}");
 }
 
 #[test]

@@ -28,6 +28,7 @@ mod commands {
     mod triangulate_large;
     mod verify_large;
     mod voronoi;
+    mod wrong_plans;
 }
 
 mod formats {

@@ -7,7 +7,7 @@ use super::constrained::Constrained;
 use super::crossing::Place;
 use super::domain::{Boundary, Parts};
 use super::error::Error;
-use super::force::{step, Stop};
+use super::listing::{force_all, pieces_on_line, GoOn};
 use super::network::Network;
 use super::pieces::Pieces;
 use crate::cpu::view::view_of_32_bits;
@@ -28,21 +28,25 @@ pub(super) struct MeshLists<'a> {
 }
 
 /// Makes the constrained mesh of the first `points` places.
-pub(super) fn of_numbers(
+///
+/// # Errors
+/// The plan has no mesh, or `go_on` ends the work.
+pub(super) fn of_numbers<E: From<Error>>(
     numbers: &Numbers<'_>,
     points: usize,
     mesh: MeshLists<'_>,
     plan: &Plan<'_, u32>,
-) -> Result<Constrained, Error> {
+    go_on: GoOn<'_, E>,
+) -> Result<Constrained, E> {
     match numbers {
         Numbers::Grid(places) => {
             let whole = |site: Point| Some([site.x.into(), site.y.into()]);
-            let mut made = of_sites(places, points, mesh, plan, whole)?;
+            let mut made = of_sites(places, points, mesh, plan, whole, go_on)?;
             made.twice_area = Some(twice_area(places, &made.triangles));
             Ok(made)
         }
-        Numbers::Whole(places) => of_sites(&filtered(places), points, mesh, plan, |site| Some(site.0)),
-        Numbers::Doubles(places) => of_sites(&filtered(places), points, mesh, plan, |_| None),
+        Numbers::Whole(places) => of_sites(&filtered(places), points, mesh, plan, |site| Some(site.0), go_on),
+        Numbers::Doubles(places) => of_sites(&filtered(places), points, mesh, plan, |_| None, go_on),
     }
 }
 
@@ -77,35 +81,52 @@ pub(super) fn are_in_range(constraints: &[[u32; 2]], points: usize) -> bool {
 }
 
 /// The steps. `whole` gives the coordinates of a site if they are whole numbers.
-fn of_sites<S: Site>(
+fn of_sites<S: Site, E: From<Error>>(
     places: &[S],
     points: usize,
     mesh: MeshLists<'_>,
     plan: &Plan<'_, u32>,
     whole: impl Fn(S) -> Option<[i64; 2]>,
-) -> Result<Constrained, Error> {
+    go_on: GoOn<'_, E>,
+) -> Result<Constrained, E> {
     let ends = ends_of(plan.constraints, points, mesh.duplicates)?;
     let mut marks = plan.holes.iter().chain(plan.regions);
     if places.len() < points || !marks.all(|&place| (place as usize) < places.len()) {
-        return Err(Error::NoMesh);
+        return Err(Error::NoMesh.into());
     }
     if mesh.triangles.is_empty() {
-        return on_line(places, mesh.hull, &ends, plan);
+        return Ok(on_line(places, mesh.hull, &ends, plan)?);
     }
+    go_on()?;
     let mut network = Network::new(places, mesh.triangles, mesh.hull, &ends)?;
-    let pieces = force_all(&mut network, &ends).map_err(|found| {
-        let pairs = |constraint: u32| plan.constraints[constraint as usize];
-        found.error(|pair| pair.map(|vertex| places[vertex as usize]), pairs, &whole)
+    let forced = force_all(&mut network, &ends, go_on)?;
+    let pieces = forced.map_err(|[one, other]| {
+        let constraints = [one, other];
+        let pairs = constraints.map(|constraint| plan.constraints[constraint as usize]);
+        let sites = pairs.map(|pair| pair.map(|vertex| places[vertex as usize]));
+        let place = Place::of(sites.map(|pair| pair.map(&whole)), sites.map(|pair| pair.map(Site::rounded)));
+        Error::Crossing { constraints, ends: pairs, place }
     })?;
-    let boundary = Boundary { pieces: &pieces, ends: &ends, count: plan.boundary(), domain: plan.domain };
+    go_on()?;
+    Ok(taken(&network, mesh.triangles.len(), (&ends, points, pieces), plan)?)
+}
+
+/// Takes the triangles of the domain, of a mesh of `count` triangles in which all constraints are.
+fn taken<S: Site>(
+    network: &Network<'_, S>,
+    count: usize,
+    (ends, points, pieces): (&[[u32; 2]], usize, Pieces),
+    plan: &Plan<'_, u32>,
+) -> Result<Constrained, Error> {
+    let boundary = Boundary { pieces: &pieces, ends, count: plan.boundary(), domain: plan.domain };
     boundary.check(points)?;
-    let parts = if plan.takes_all() { Parts::one(&network) } else { Parts::of(&network, &boundary) };
-    let chosen = parts.chosen(&network, plan)?;
-    let (mut made, regions) = numbered(&network, mesh.triangles.len(), &parts, &chosen);
+    let parts = if plan.takes_all() { Parts::one(network) } else { Parts::of(network, &boundary) };
+    let chosen = parts.chosen(network, plan)?;
+    let (mut made, regions) = numbered(network, count, &parts, &chosen);
     if made.triangles.is_empty() {
-        return Err(Error::Empty { triangles: mesh.triangles.len() });
+        return Err(Error::Empty { triangles: count });
     }
-    for (number, part) in parts.marked(&network, Mark::Region, plan.regions)?.into_iter().enumerate() {
+    for (number, part) in parts.marked(network, Mark::Region, plan.regions)?.into_iter().enumerate() {
         made.marked.push(regions.get(part as usize).copied().flatten().ok_or(Error::RegionOutsideDomain { number })?);
     }
     made.pieces = pieces;
@@ -131,112 +152,16 @@ fn ends_of(constraints: &[[u32; 2]], points: usize, duplicates: &[Duplicate]) ->
     (0..).zip(constraints).map(checked).collect()
 }
 
-/// The reason why not all constraints could be forced into the mesh.
-pub(super) enum Ended {
-    /// The constraints of these two numbers cross; the smaller number comes first.
-    Crossing([u32; 2]),
-    Error(Error),
-}
-
-impl Ended {
-    fn error<S: Site>(
-        self,
-        sites: impl Fn([u32; 2]) -> [S; 2],
-        pairs: impl Fn(u32) -> [u32; 2],
-        whole: impl Fn(S) -> Option<[i64; 2]>,
-    ) -> Error {
-        match self {
-            Self::Crossing(constraints) => {
-                let ends = constraints.map(pairs);
-                let sites = ends.map(sites);
-                let place = Place::of(sites.map(|pair| pair.map(&whole)), sites.map(|pair| pair.map(Site::rounded)));
-                Error::Crossing { constraints, ends, place }
-            }
-            Self::Error(error) => error,
-        }
-    }
-}
-
-/// Entries that the list of the constraints of all pieces may have. They take 3 GiB, so lists stay below 32 bits, too.
-pub(super) const MOST_PARTS: usize = 1 << 28;
-
-/// Checks that the list of parts may become longer.
-fn check_room(parts: usize) -> Result<(), Error> {
-    match parts < MOST_PARTS {
-        true => Ok(()),
-        false => Err(Error::TooManyPieces { max: MOST_PARTS }),
-    }
-}
-
-/// The number of constraints with an end at each vertex.
-struct Crowds(Vec<u32>);
-
-impl Crowds {
-    /// Constraints at a vertex that may all turn around it.
-    const FEW: u32 = 8;
-
-    fn of(ends: &[[u32; 2]], vertices: usize) -> Self {
-        let mut counts = pages::zeros(vertices);
-        ends.as_flattened().iter().for_each(|&end| counts[end as usize] += 1);
-        Self(counts)
-    }
-
-    /// The ends of a constraint, so that it does not begin where very many others do. Finding the way from a vertex
-    /// takes time in proportion to its neighbours, and a vertex with many constraints has as many neighbours.
-    fn turned(&self, [from, to]: [u32; 2]) -> [u32; 2] {
-        let [own, other] = [from, to].map(|end| self.0[end as usize]);
-        if own > Self::FEW && other < own {
-            [to, from]
-        } else {
-            [from, to]
-        }
-    }
-}
-
-/// Forces all constraints into the mesh, in their order.
-fn force_all<S: Site>(network: &mut Network<'_, S>, ends: &[[u32; 2]]) -> Result<Pieces, Ended> {
-    let mut parts: Vec<([u32; 2], u32)> = Vec::with_capacity(ends.len());
-    let crowds = Crowds::of(ends, network.sites.len());
-    for (constraint, &ends) in (0..).zip(ends) {
-        let [mut at, to] = crowds.turned(ends);
-        while at != to {
-            let next = step(network, at, to).map_err(|stop| match stop {
-                Stop::Crossing(edge) => {
-                    let other = parts.iter().find(|(piece, _)| *piece == edge);
-                    // Every fixed edge is a piece.
-                    other.map_or(Ended::Error(Error::NoMesh), |&(_, other)| Ended::Crossing([other, constraint]))
-                }
-                Stop::NoMesh => Ended::Error(Error::NoMesh),
-            })?;
-            check_room(parts.len()).map_err(Ended::Error)?;
-            parts.push(([at.min(next), at.max(next)], constraint));
-            at = next;
-        }
-    }
-    Ok(Pieces::of(parts))
-}
-
 /// The pieces of constraints between points of one line, which has no triangles. `hull` has its points in order.
 fn on_line<S: Site>(places: &[S], hull: &[u32], ends: &[[u32; 2]], plan: &Plan<'_, u32>) -> Result<Constrained, Error> {
-    let site = |index: u32| places.get(index as usize).ok_or(Error::NoMesh);
-    let line: Vec<&S> = hull.iter().map(|&index| site(index)).collect::<Result<_, _>>()?;
-    let mut parts = Vec::new();
-    for (constraint, &pair) in (0..).zip(ends) {
-        let mut ranks = [0; 2];
-        for (rank, end) in ranks.iter_mut().zip(pair) {
-            *rank = line.binary_search(&site(end)?).map_err(|_| Error::NoMesh)?;
-        }
-        check_room(parts.len() + ranks[0].abs_diff(ranks[1]))?;
-        let between = &hull[ranks[0].min(ranks[1])..=ranks[0].max(ranks[1])];
-        parts.extend(between.windows(2).map(|two| ([two[0].min(two[1]), two[0].max(two[1])], constraint)));
-    }
+    let pieces = pieces_on_line(places, hull, ends)?;
     if plan.domain != Domain::All {
         return Err(Error::Empty { triangles: 0 });
     }
     if !plan.regions.is_empty() {
         return Err(Error::Outside { kind: Mark::Region, number: 0 });
     }
-    Ok(Constrained { pieces: Pieces::of(parts), ..Constrained::default() })
+    Ok(Constrained { pieces, ..Constrained::default() })
 }
 
 /// The triangles of the chosen parts in canonical order with their regions, and the region of each part. `count` is

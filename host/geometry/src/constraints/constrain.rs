@@ -43,7 +43,7 @@ use crate::site::Site;
 /// region is outside the hull or on a constraint, the domain is empty, or the mesh is not that of its points.
 pub fn constrain<P: PlanePoint>(mesh: &Mesh<P>, plan: &Plan<'_, P>) -> Result<Constrained, Error> {
     let lists = MeshLists { triangles: &mesh.triangles, hull: &mesh.hull, duplicates: &mesh.duplicates };
-    in_numbers(&mesh.points, plan, |numbers, plan| of_numbers(numbers, mesh.points.len(), lists, plan))
+    in_numbers(&mesh.points, plan, |numbers, plan| of_numbers(numbers, mesh.points.len(), lists, plan, &mut || Ok(())))
 }
 
 /// Does the work in the numbers of the points. Places of holes and regions stand behind the points there, and the place
@@ -109,5 +109,5 @@ pub fn constrain_numbers(
     plan: &Plan<'_, u32>,
 ) -> Result<Constrained, Error> {
     let lists = MeshLists { triangles: &mesh.triangles, hull: &mesh.hull, duplicates: &mesh.duplicates };
-    of_numbers(numbers, points, lists, plan)
+    of_numbers(numbers, points, lists, plan, &mut || Ok(()))
 }

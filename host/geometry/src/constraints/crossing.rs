@@ -81,7 +81,20 @@ impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Exact([x, y]) => write!(f, "({x}, {y})"),
-            Self::About([x, y]) => write!(f, "about ({x}, {y})"),
+            Self::About([x, y]) => write!(f, "about ({}, {})", Shown(*x), Shown(*y)),
+        }
+    }
+}
+
+/// A double as messages show it: with an exponent where its digits would not fit a line.
+struct Shown(f64);
+
+impl fmt::Display for Shown {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            0.0 => f.write_str("0"),
+            value if (1e-7..1e17).contains(&value.abs()) => write!(f, "{value}"),
+            value => write!(f, "{value:e}"),
         }
     }
 }
@@ -166,6 +179,13 @@ mod tests {
         assert_eq!(place.to_string(), "(8/7, 8/7)");
         let lattice = Lattice::of_doubles(&[[-1.5, 0.25], [1.0, 1.0]]).expect("a lattice").0;
         assert_eq!(place.restored(&lattice).to_string(), "(-17/14, 15/28)");
+    }
+
+    #[test]
+    fn large_and_small_places_are_told_with_exponents() {
+        let told = |x: f64, y: f64| Place::About([x, y]).to_string();
+        assert_eq!(told(1e308, -2.5e-300), "about (1e308, -2.5e-300)");
+        assert_eq!(told(-0.0, 123456.5), "about (0, 123456.5)");
     }
 
     #[test]

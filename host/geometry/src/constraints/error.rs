@@ -14,7 +14,7 @@ pub enum Error {
         index: usize,
     },
     /// The place of a hole or region has a coordinate that is infinite or not a number.
-    #[error("{kind} {number} has a coordinate that is infinite or not a number")]
+    #[error("{kind} {number}, counted from 0, has a coordinate that is infinite or not a number")]
     MarkNotFinite {
         /// Whether the place is that of a hole or of a region.
         kind: Mark,
@@ -83,7 +83,7 @@ pub enum Error {
         end: usize,
     },
     /// A hole or a region is given by a place outside the hull of the points.
-    #[error("{kind} {number} lies outside the hull of the points")]
+    #[error("{kind} {number}, counted from 0, lies outside the hull of the points")]
     Outside {
         /// Whether the place is that of a hole or of a region.
         kind: Mark,
@@ -91,7 +91,9 @@ pub enum Error {
         number: usize,
     },
     /// A hole or a region is given by a place on a constraint, so that it is on no side of it.
-    #[error("{kind} {number} lies on the constraint from point {} to point {}", edge[0], edge[1])]
+    #[error(
+        "{kind} {number}, counted from 0, lies on the constraint from point {} to point {}", edge[0], edge[1]
+    )]
     OnConstraint {
         /// Whether the place is that of a hole or of a region.
         kind: Mark,
@@ -101,7 +103,7 @@ pub enum Error {
         edge: [u32; 2],
     },
     /// The place of a region lies in a part of the hull that does not belong to the domain.
-    #[error("region {number} lies in a part of the hull that does not belong to the domain")]
+    #[error("region {number}, counted from 0, lies in a part of the hull that does not belong to the domain")]
     RegionOutsideDomain {
         /// Number of the region.
         number: usize,

@@ -2,6 +2,7 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
+use core::cmp::Ordering;
 
 use crate::point::Point;
 
@@ -34,8 +35,29 @@ impl Segment {
         coordinate(self.0[0]).max(coordinate(self.0[1]))
     }
 
-    fn side(&self, point: Point) -> i128 {
+    /// The segment with its lexicographically smaller end first.
+    pub fn from_left(&self) -> Self {
+        let [a, b] = self.0;
+        Self([a.min(b), a.max(b)])
+    }
+
+    /// The side of the segment on which a point lies: 1 at the left, which is above if the segment runs from left to
+    /// right; -1 at the right; 0 on its line.
+    pub fn side(&self, point: Point) -> i128 {
         cross(vector(self.0[0], self.0[1]), vector(self.0[0], point)).signum()
+    }
+
+    /// `Greater` if this segment is steeper than another. Both run from left to right.
+    pub fn rises_above(&self, other: &Self) -> Ordering {
+        cross(vector(other.0[0], other.0[1]), vector(self.0[0], self.0[1])).cmp(&0)
+    }
+
+    /// The first whole x behind or at the crossing of two segments that cross, and whether the crossing is there.
+    pub fn stop(&self, other: &Self) -> (u32, bool) {
+        let [x, _, whole] = self.place(other);
+        let before = x.div_euclid(whole);
+        let is_at = before * whole == x;
+        ((before + i128::from(!is_at)) as u32, is_at)
     }
 
     /// Whether two segments cross inside both.

@@ -9,6 +9,7 @@
 use alloc::vec::Vec;
 
 use super::pixels::{Hot, Segment};
+use super::sweep::each_crossing;
 use crate::lattice::{Lattice, Step};
 use crate::point::{Point, MAX_POINTS};
 
@@ -23,7 +24,7 @@ const MOST_CROSSINGS: usize = 1 << 26;
 pub enum SnapError {
     /// The grid cannot be made finer.
     #[error(
-        "constraints cross, and the points need {bits} of 32 bits, which leaves {} spare bits where snapping needs \
+        "constraints cross, and the points need {bits} of 32 bits, which leaves {} spare where snapping needs \
          {SNAP_BITS}: round the points to at most {} bits first (--quantize)", 32 - bits, 32 - SNAP_BITS
     )]
     NoRoom {
@@ -104,8 +105,8 @@ impl Snapped {
 /// edges. If the constraints come in another order, the result is the same, except for the order of the constraints and
 /// of their parts.
 ///
-/// O(c log c + p) for `c` constraints, crossings and points, where `p` counts the pairs of constraints that overlap in
-/// x, and the cells of a grid of about `c` cells that the constraints touch.
+/// O(c log c) to find the crossings, for `c` constraints, crossings and points. If there are some, the cells of a grid of
+/// about `c` cells that the constraints touch are looked at, too.
 ///
 /// ```
 /// use incircle_geometry::constraints::snap;
@@ -207,25 +208,16 @@ impl Snapped {
 pub(super) fn crossing_pairs(segments: &[Segment], places: &[Point]) -> Result<Vec<[u32; 2]>, SnapError> {
     let is_place =
         |one: &Segment, other: &Segment| one.crossing(other).is_some_and(|place| places.binary_search(&place).is_ok());
-    let mut order: Vec<u32> = (0..segments.len() as u32).collect();
-    order.sort_unstable_by_key(|&number| segments[number as usize].low(|point| point.x));
-    let mut open: Vec<u32> = Vec::new();
     let mut pairs = Vec::new();
-    for number in order {
-        let own = &segments[number as usize];
-        let left = own.low(|point| point.x);
-        open.retain(|&other| segments[other as usize].high(|point| point.x) >= left);
-        for &other in &open {
-            let other_segment = &segments[other as usize];
-            // Many constraints may go through one point, so those that meet in points are not kept.
-            if own.crosses(other_segment) && !is_place(own, other_segment) {
-                if pairs.len() == MOST_CROSSINGS {
-                    return Err(SnapError::TooManyCrossings);
-                }
-                pairs.push([number, other]);
+    each_crossing(segments, |one, other| {
+        // Many constraints may go through one point, so those that meet in points are not kept.
+        if !is_place(&segments[one as usize], &segments[other as usize]) {
+            if pairs.len() == MOST_CROSSINGS {
+                return Err(SnapError::TooManyCrossings);
             }
+            pairs.push([one, other]);
         }
-        open.push(number);
-    }
+        Ok(())
+    })?;
     Ok(pairs)
 }

@@ -3,12 +3,13 @@
 use alloc::vec::Vec;
 use core::num::NonZeroUsize;
 
-use super::build::{are_in_range, area_inside, of_numbers, MeshLists, MOST_PARTS};
+use super::build::{are_in_range, area_inside, of_numbers, MeshLists};
 use super::constrain::{in_numbers, Restored};
 use super::constrained::Constrained;
 use super::error::Error;
+use super::listing::MOST_PARTS;
 use super::pieces::Pieces;
-use crate::cpu::{self, connect, connect_fixed, Asked, Connectivity, Forced, Outcome, Watch};
+use crate::cpu::{self, connect, connect_fixed, Asked, Connectivity, Forced, Outcome, Stage, Watch};
 use crate::lattice::{Lattice, Numbers};
 use crate::plan::Plan;
 use crate::plane_point::PlanePoint;
@@ -57,7 +58,7 @@ impl Restored for TriangulateError {
 ///
 /// `threads` and `watch` are those of `cpu::triangulate`; one thread forces the constraints. O(n) on even sets, then
 /// for each constraint the edges that it crosses, and the flips around them. Where the answer is an error, the
-/// constraints are taken out of the mesh, and `constrain` finds out what is wrong; `watch` is not called meanwhile.
+/// constraints are taken out of the mesh, and the steps of `constrain` find out what is wrong; `watch` can end this, too.
 ///
 /// ```
 /// use core::num::NonZeroUsize;
@@ -113,13 +114,14 @@ pub fn triangulate_numbers(
     // There are no triangles, or the answer is an error: the steps one by one say which.
     let Connectivity { triangles, hull, duplicates } = mesh;
     let lists = MeshLists { triangles: &triangles, hull: &hull, duplicates: &duplicates };
-    let made = of_numbers(numbers, points, lists, plan)?;
+    let mut go_on = || cpu::tell(watch, Stage::Assemble, 0, points).map_err(TriangulateError::Points);
+    let made = of_numbers(numbers, points, lists, plan, &mut go_on)?;
     Ok(Triangulated { made, hull, duplicates })
 }
 
 fn triangulated(numbers: &Numbers<'_>, forced: Forced) -> Triangulated {
-    let Forced { triangles, regions, region_count, marked, hull, duplicates, parts, border } = forced;
-    let (pieces, twice_area) = (Pieces::of(parts), area_inside(numbers, &border));
+    let Forced { triangles, regions, region_count, marked, hull, duplicates, parts, repeats, border } = forced;
+    let (pieces, twice_area) = (Pieces::of(parts, &repeats), area_inside(numbers, &border));
     let made = Constrained { triangles, regions, region_count, marked, pieces, twice_area };
     Triangulated { made, hull, duplicates }
 }

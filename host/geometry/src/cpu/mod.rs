@@ -65,4 +65,5 @@ pub(crate) use fixed::{connect_fixed, Asked, Forced, Outcome};
 pub(crate) use parallel::in_parallel;
 pub use parts::{Parts, SolvedPart, Unsound};
 pub use small::Triangulator;
+pub(crate) use triangulator::tell;
 pub use triangulator::{connect, threads_for, triangulate, Connectivity, Error, Progress, Stage, Watch};

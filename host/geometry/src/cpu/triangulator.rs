@@ -23,7 +23,6 @@ use crate::mesh::Mesh;
 use crate::pages;
 use crate::plane_point::PlanePoint;
 use crate::point::{Duplicate, Point, MAX_POINTS};
-use crate::site::FilteredSite;
 
 /// Points that justify one more thread.
 const THREAD_POINTS: usize = 16_384;
@@ -171,9 +170,7 @@ fn connect_sites<W: Width>(
 ) -> Result<Connectivity, Error> {
     duplicates.sort_unstable();
     if is_collinear::<Integers<W>>(&sites) {
-        let mut hull = ids;
-        hull.sort_unstable_by_key(|&id| points[id as usize]);
-        return Ok(Connectivity { triangles: Vec::new(), hull, duplicates });
+        return Ok(Connectivity::of_line(&sites, &ids, duplicates));
     }
     let halves = insert::<Integers<W>>(&sites, &sites, threads, watch)?;
     drop(sites);
@@ -192,10 +189,7 @@ fn connect_filtered<C: Coordinate>(
     let FilteredSites { sites, places, ids, mut duplicates } = filtered_sites::sort(points, threads);
     duplicates.sort_unstable();
     if is_collinear::<Filtered<C>>(&sites) {
-        let mut order: Vec<(FilteredSite<C>, u32)> = sites.into_iter().zip(ids).collect();
-        order.sort_unstable();
-        let hull = order.into_iter().map(|(_, id)| id).collect();
-        return Ok(Connectivity { triangles: Vec::new(), hull, duplicates });
+        return Ok(Connectivity::of_line(&sites, &ids, duplicates));
     }
     let halves = insert::<Filtered<C>>(&sites, &places, threads, watch)?;
     drop((sites, places));
@@ -211,7 +205,7 @@ pub(super) fn check(points: usize) -> Result<(), Error> {
 }
 
 /// Reports progress to the watch, which may end the work.
-pub(super) fn tell(watch: Watch<'_>, stage: Stage, done: usize, total: usize) -> Result<(), Error> {
+pub(crate) fn tell(watch: Watch<'_>, stage: Stage, done: usize, total: usize) -> Result<(), Error> {
     let progress = Progress { stage, done, total };
     match watch(progress) {
         ControlFlow::Continue(()) => Ok(()),
@@ -228,6 +222,17 @@ pub struct Connectivity {
     pub hull: Vec<u32>,
     /// The duplicates, as [`Mesh::duplicates`].
     pub duplicates: Vec<Duplicate>,
+}
+
+impl Connectivity {
+    /// The mesh of distinct sites on one line, given the input index of each. There are no triangles, and the hull has
+    /// the sites along the line.
+    pub(super) fn of_line<S: Ord + Copy>(sites: &[S], ids: &[u32], duplicates: Vec<Duplicate>) -> Self {
+        let mut order: Vec<(S, u32)> = sites.iter().copied().zip(ids.iter().copied()).collect();
+        order.sort_unstable();
+        let hull = order.into_iter().map(|(_, id)| id).collect();
+        Self { triangles: Vec::new(), hull, duplicates }
+    }
 }
 
 /// The half-edges of the triangulation of sites that are not all on one line, and what leads into them. Returns `None`

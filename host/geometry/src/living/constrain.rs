@@ -10,6 +10,7 @@ use super::triangulation::Triangulation;
 use super::walk::Place;
 use crate::constraints::crossing;
 use crate::constraints::pieces::Pieces;
+use crate::constraints::repeats::Repeats;
 use crate::lattice::Numbers;
 use crate::plane_point::PlanePoint;
 use crate::site::Site;
@@ -91,7 +92,7 @@ impl<P: PlanePoint> Triangulation<P> {
             let [a, b] = edge.map(|vertex| self.name(vertex));
             ([a.min(b), a.max(b)], constraint)
         });
-        Pieces::of(named.collect())
+        Pieces::of(named.collect(), &Repeats::default())
     }
 
     /// The level that answers about the mesh are taken from.

@@ -7,7 +7,7 @@ use super::edges::{check_inner_edge, check_sides, ends, sides, HullEdges, Side};
 use super::error::VerifyError;
 use super::exact::ExactPoint;
 use super::faces::Faces;
-use super::fixed::{check_closed, pieces, Piece};
+use super::fixed::{check_closed, pieces, Piece, Pieces};
 use super::sites::Sites;
 use super::summary::VerifySummary;
 use super::{check_all_used, check_finite, check_sizes, check_triangles};
@@ -41,7 +41,8 @@ use crate::plane_point::PlanePoint;
 /// ```
 ///
 /// # Errors
-/// The first defect found, with the numbers of its points and triangles.
+/// The first defect found, with the numbers of its points and triangles. It is one of the plan if no triangles would be
+/// right: a boundary that is not closed, a hole outside the hull or on a constraint, or a domain without triangles.
 pub fn verify_constrained<P: PlanePoint>(
     points: &[P],
     triangles: &[[u32; 3]],
@@ -74,9 +75,6 @@ fn check<P: ExactPoint, M>(
     let domain = plan.domain;
     let boundary = plan.constraints.len().saturating_sub(plan.lines);
     let pieces = pieces(&sites, plan.constraints, boundary, holes)?;
-    if matches!(domain, Domain::EvenOdd | Domain::NonZero) {
-        check_closed(&pieces.list, points.len(), domain == Domain::NonZero)?;
-    }
     let mut summary = VerifySummary {
         points: points.len(),
         distinct: sites.distinct.len(),
@@ -88,19 +86,52 @@ fn check<P: ExactPoint, M>(
     };
     if summary.collinear {
         return match triangles.len() {
-            0 => Ok(summary),
+            0 if domain == Domain::All => Ok(summary),
+            0 => Err(VerifyError::EmptyDomain { triangles: 0 }),
             triangles => Err(VerifyError::TrianglesOfCollinearPoints { triangles }),
         };
     }
+    let chosen = chosen(&sites, plan, &pieces, holes, &summary)?;
     check_triangles(&sites, triangles)?;
     if domain == Domain::All {
         check_all_used(&sites, triangles)?;
     } else {
         check_unused(&sites, triangles)?;
     }
-    let chosen = Faces::of(&sites, &pieces).chosen(&pieces, domain)?;
     check_edges(&sites, triangles, &Expected { pieces: &pieces.list, chosen: &chosen, domain }, &mut summary)?;
     Ok(summary)
+}
+
+/// Whether the faces at the left and at the right of each piece belong to the domain.
+///
+/// # Errors
+/// The plan has no mesh: its boundary is not closed, a hole is outside the hull or on a constraint, or the domain is
+/// empty.
+fn chosen<P: ExactPoint, M>(
+    sites: &Sites<'_, P>,
+    plan: &Plan<'_, M>,
+    pieces: &Pieces,
+    holes: &[P],
+    summary: &VerifySummary,
+) -> Result<Vec<[bool; 2]>, VerifyError> {
+    let domain = plan.domain;
+    if matches!(domain, Domain::EvenOdd | Domain::NonZero) {
+        let boundary = plan.constraints.len().saturating_sub(plan.lines);
+        check_closed(sites, &plan.constraints[..boundary], domain == Domain::NonZero)?;
+    }
+    let chosen = Faces::of(sites, pieces).chosen(pieces, domain);
+    // The first hole that is wrong is told.
+    let on = if let Err(VerifyError::MarkOnConstraint { number, .. }) = chosen { number } else { usize::MAX };
+    if let Some(number) = sites.outside(holes).filter(|&number| number < on) {
+        return Err(VerifyError::MarkOutside { kind: Mark::Hole, number });
+    }
+    let chosen = chosen?;
+    // Every face but the unbounded one has a piece at its border.
+    if domain != Domain::All && chosen.iter().all(|sides| *sides == [false; 2]) {
+        let triangles = 2 * summary.distinct - 2 - summary.hull.len();
+        return Err(VerifyError::EmptyDomain { triangles });
+    }
+    Ok(chosen)
 }
 
 /// Checks that no triangle holds a point that is no corner of any triangle.

@@ -180,14 +180,48 @@ pub enum VerifyError {
         /// Number of the constraint in the list by which this was noticed.
         constraint: usize,
     },
-    /// The constraints that bound the domain do not form rings.
-    #[error("the boundary of the domain is not closed at point {point}")]
-    NotClosed {
+    /// The boundary of the domain has an end, so that no mesh is right.
+    #[error(
+        "the boundary of the domain is not closed: the number of its constraints that begin or end at point {point} \
+         is odd ({count})"
+    )]
+    Open {
         /// Input index of the point.
-        point: usize,
+        point: u32,
+        /// Number of constraints of the boundary that begin or end there.
+        count: usize,
+    },
+    /// The constraints around the domain do not form rings that run one way, so that no mesh is right.
+    #[error(
+        "the boundary of the domain is not made of rings: {begin} of its constraints begin at point {point}, and \
+         {end} end there"
+    )]
+    Unbalanced {
+        /// Input index of the point.
+        point: u32,
+        /// Number of constraints of the boundary that begin there.
+        begin: usize,
+        /// Number of constraints of the boundary that end there.
+        end: usize,
+    },
+    /// No triangle belongs to the domain, so that there is no mesh to check.
+    #[error("the domain is empty: none of the {triangles} triangles belongs to it")]
+    EmptyDomain {
+        /// Number of triangles of the hull.
+        triangles: usize,
+    },
+    /// The place of a hole is outside the hull of the points.
+    #[error("{kind} {number}, counted from 0, lies outside the hull of the points")]
+    MarkOutside {
+        /// Whether the place is that of a hole or of a region.
+        kind: Mark,
+        /// Number of the hole in the list.
+        number: usize,
     },
     /// The place of a hole is on a constraint.
-    #[error("{kind} {number} lies on the constraint from point {} to point {}", edge[0], edge[1])]
+    #[error(
+        "{kind} {number}, counted from 0, lies on the constraint from point {} to point {}", edge[0], edge[1]
+    )]
     MarkOnConstraint {
         /// Whether the place is that of a hole or of a region.
         kind: Mark,
@@ -197,7 +231,7 @@ pub enum VerifyError {
         edge: [u32; 2],
     },
     /// The place of a hole has a coordinate that is infinite or not a number.
-    #[error("{kind} {number} has a coordinate that is infinite or not a number")]
+    #[error("{kind} {number}, counted from 0, has a coordinate that is infinite or not a number")]
     MarkNotFinite {
         /// Whether the place is that of a hole or of a region.
         kind: Mark,

@@ -255,21 +255,26 @@ impl<P: ExactPoint> Sweep<'_, P> {
     }
 }
 
-/// Checks that the pieces of the boundary begin as often as they end at each point, or, if it only matters how many
-/// there are, that their number at each point is even.
-pub(super) fn check_closed(pieces: &[Piece], points: usize, is_directed: bool) -> Result<(), VerifyError> {
-    let mut sums = vec![0; points];
-    for piece in pieces {
-        if is_directed {
-            sums[piece.from as usize] += piece.turns;
-            sums[piece.to as usize] -= piece.turns;
-        } else {
-            sums[piece.from as usize] += piece.count;
-            sums[piece.to as usize] += piece.count;
+/// Checks that the constraints of the boundary begin as often as they end at each point, or, if it only matters how many
+/// there are, that their number at each point is even. Pieces then do the same, as each goes from point to point.
+pub(super) fn check_closed<P: ExactPoint>(
+    sites: &Sites<'_, P>,
+    boundary: &[[u32; 2]],
+    is_directed: bool,
+) -> Result<(), VerifyError> {
+    let mut ends = vec![[0usize; 2]; sites.points.len()];
+    for pair in boundary {
+        for (side, &index) in pair.iter().enumerate() {
+            ends[sites.lowest[index as usize] as usize][side] += 1;
         }
     }
-    match sums.iter().position(|sum| if is_directed { *sum != 0 } else { sum % 2 != 0 }) {
-        Some(point) => Err(VerifyError::NotClosed { point }),
-        None => Ok(()),
+    for (point, [begin, end]) in (0..).zip(ends) {
+        if is_directed && begin != end {
+            return Err(VerifyError::Unbalanced { point, begin, end });
+        }
+        if (begin + end) % 2 != 0 {
+            return Err(VerifyError::Open { point, count: begin + end });
+        }
     }
+    Ok(())
 }

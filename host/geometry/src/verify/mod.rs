@@ -25,6 +25,7 @@ mod error;
 mod exact;
 mod faces;
 mod fixed;
+mod inside;
 pub mod local;
 mod sites;
 mod strands;
@@ -35,6 +36,7 @@ use alloc::vec::Vec;
 
 pub use constrained::verify_constrained;
 pub use error::VerifyError;
+pub use inside::lie_inside;
 pub use summary::VerifySummary;
 
 use crate::lattice::Numbers;

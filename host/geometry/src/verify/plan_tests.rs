@@ -89,7 +89,7 @@ fn damaged(random: &mut SplitMix64, triangles: &[[u32; 3]], points: u32) -> Vec<
 #[test]
 fn meshes_of_plans_are_accepted_and_damaged_ones_are_not() {
     let mut random = SplitMix64::new(61);
-    let (mut accepted, mut refused) = (0, 0);
+    let (mut accepted, mut refused, mut empty, mut outside) = (0, 0, 0, 0);
     for round in 0..400 {
         let side = 6 + random.below_u32(9);
         let points: Vec<Point> = random.points((side * side / 2) as usize, side);
@@ -110,11 +110,18 @@ fn meshes_of_plans_are_accepted_and_damaged_ones_are_not() {
                     );
                     continue;
                 }
-                Err(Error::Empty { .. }) => {
-                    verify_constrained(&points, &[], &plan).expect("no triangle is the answer");
+                Err(Error::Empty { triangles }) => {
+                    let found = verify_constrained(&points, &[], &plan);
+                    assert_eq!(found, Err(VerifyError::EmptyDomain { triangles }));
+                    empty += 1;
                     continue;
                 }
-                Err(Error::Outside { .. }) => continue,
+                Err(Error::Outside { kind, number }) => {
+                    let found = verify_constrained(&points, &[], &plan);
+                    assert_eq!(found, Err(VerifyError::MarkOutside { kind, number }));
+                    outside += 1;
+                    continue;
+                }
                 Err(other) => panic!("{other}"),
             };
             let shown = || format!("{domain} {points:?} {constraints:?} {lines} {holes:?}");
@@ -131,6 +138,75 @@ fn meshes_of_plans_are_accepted_and_damaged_ones_are_not() {
         }
     }
     assert!(accepted > 1000 && refused > 5000, "{accepted} {refused}");
+    assert!(empty > 10 && outside > 5, "{empty} {outside}");
+}
+
+#[test]
+fn plans_without_a_mesh_are_refused_whatever_the_triangles_are() {
+    let points = [[0, 0], [8, 0], [8, 8], [0, 8]];
+    let refused = |constraints: &[[u32; 2]], domain: Domain, holes: &[[i32; 2]]| {
+        let plan = Plan { domain, holes, ..Plan::new(constraints) };
+        let all = verify_constrained(&points, &[[0, 1, 2], [0, 2, 3]], &plan);
+        assert_eq!(verify_constrained(&points, &[], &plan), all);
+        let error = all.expect_err("no mesh");
+        // The builder says the same with the same words.
+        let built = constrain(&mesh_of(&points), &plan).expect_err("no mesh");
+        assert_eq!(error.to_string(), built.to_string());
+        error
+    };
+    let open = [[0, 1], [1, 2]];
+    assert_eq!(refused(&open, Domain::EvenOdd, &[]), VerifyError::Open { point: 0, count: 1 });
+    let two = [[0, 1], [1, 2], [0, 2]];
+    assert_eq!(refused(&two, Domain::NonZero, &[]), VerifyError::Unbalanced { point: 0, begin: 2, end: 0 });
+    for domain in [Domain::Holes, Domain::EvenOdd, Domain::NonZero] {
+        assert_eq!(refused(&[], domain, &[]), VerifyError::EmptyDomain { triangles: 2 });
+    }
+    let ring = [[0, 1], [1, 2], [2, 0]];
+    let outside = |number| VerifyError::MarkOutside { kind: Mark::Hole, number };
+    assert_eq!(refused(&ring, Domain::Holes, &[[5, 3], [9, 3]]), outside(1));
+    assert_eq!(refused(&ring, Domain::Holes, &[[9, 3], [4, 4]]), outside(0));
+    let on = VerifyError::MarkOnConstraint { kind: Mark::Hole, number: 0, edge: [0, 2] };
+    assert_eq!(refused(&ring, Domain::Holes, &[[4, 4], [9, 3]]), on);
+}
+
+#[test]
+fn lines_inside_rings_are_told_from_those_outside() {
+    // An L, whose notch is the square from (4, 4) to (8, 8).
+    let points = [
+        [0, 0],
+        [8, 0],
+        [8, 4],
+        [4, 4],
+        [4, 8],
+        [0, 8], // the L
+        [1, 1],
+        [3, 1],
+        [3, 3], // inside
+        [5, 5],
+        [7, 5],
+        [7, 7], // in the notch
+        [8, 2],
+        [9, 9],
+        [4, 6],
+    ];
+    let ring = [[0, 1], [1, 2], [2, 3], [3, 4], [4, 5], [5, 0]];
+    let is_inside = |lines: &[[u32; 2]]| {
+        let found = super::lie_inside(&points, &ring, lines).expect("no crossing");
+        let doubles = points.map(|place| place.map(|value| 0.1 * f64::from(value)));
+        assert_eq!(super::lie_inside(&doubles, &ring, lines), Ok(found));
+        found
+    };
+    assert!(is_inside(&[]) && is_inside(&[[6, 7], [7, 8], [8, 6]]));
+    assert!(!is_inside(&[[9, 10], [10, 11], [11, 9]]));
+    // A hole may touch the ring in points and along a side of it.
+    assert!(is_inside(&[[6, 12], [12, 3], [3, 6]]) && is_inside(&[[0, 1], [1, 8], [8, 0]]));
+    // Both ends are on the ring, but the line between them is not inside.
+    assert!(!is_inside(&[[2, 4], [4, 3], [3, 2]]) && !is_inside(&[[2, 14], [14, 3], [3, 2]]));
+    assert!(!is_inside(&[[6, 3], [3, 13], [13, 2], [2, 6]]));
+    // A ring along the ring is on its border.
+    assert!(is_inside(&ring));
+    // The side of two corners in a row is crossed by a line through a corner, which goes on outside.
+    assert!(!is_inside(&[[8, 3], [3, 11]]));
 }
 
 #[test]

@@ -76,6 +76,31 @@ impl<'a, P: ExactPoint> Sites<'a, P> {
         chain
     }
 
+    /// The first of some places that lies outside the hull of points that are not all on one line. O(n), and O(log n)
+    /// for each place.
+    pub(super) fn outside(&self, places: &[P]) -> Option<usize> {
+        let (Some(&first), Some(&last)) = (self.distinct.first(), self.distinct.last()) else { return Some(0) };
+        if places.is_empty() {
+            return None;
+        }
+        let mut lower = self.chain(self.distinct.iter().copied());
+        lower.push(last);
+        let mut upper = self.chain(self.distinct.iter().rev().copied());
+        upper.push(first);
+        upper.reverse();
+        let is_outside = |place: &P| {
+            let is_before = |&index: &u32| self.at(index).compare(place).is_lt();
+            // The turn from the edge of a chain at this place to the place.
+            let turn = |chain: &[u32]| {
+                let end = chain.partition_point(is_before).clamp(1, chain.len() - 1);
+                P::orient2d(self.at(chain[end - 1]), self.at(chain[end]), *place)
+            };
+            let is_beyond = place.compare(&self.at(first)).is_lt() || place.compare(&self.at(last)).is_gt();
+            is_beyond || turn(&lower).is_lt() || turn(&upper).is_gt()
+        };
+        places.iter().position(is_outside)
+    }
+
     /// The input points with the coordinates of an earlier one, sorted by index.
     pub(super) fn duplicates(&self) -> impl Iterator<Item = Duplicate> + '_ {
         let all = (0..).zip(self.lowest.iter());

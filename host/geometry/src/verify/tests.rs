@@ -167,8 +167,9 @@ fn hull_and_duplicates_are_compared_place_by_place() {
 }
 
 /// Types of the rest of the library that the validator may use, because they carry numbers and decide nothing.
-const TYPES: [&str; 7] = [
+const TYPES: [&str; 8] = [
     "use crate::lattice::Numbers;",
+    "use crate::plan::Domain;",
     "use crate::plan::Mark;",
     "use crate::plan::{Domain, Mark};",
     "use crate::plan::{Domain, Mark, Plan};",

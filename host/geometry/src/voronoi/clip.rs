@@ -64,7 +64,7 @@ impl Clip {
         let edges: Vec<[Point; 2]> = (0..clip.corners.len()).map(|edge| clip.edge(edge)).collect();
         clip.border = Border::of(&edges);
         match (1..clip.ends.len()).find(|&hole| clip.is_misplaced(hole)) {
-            Some(hole) => Err(Error::MisplacedHole { hole }),
+            Some(ring) => Err(Error::MisplacedHole { hole: ring - 1 }),
             None => Ok(clip),
         }
     }

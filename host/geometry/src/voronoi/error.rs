@@ -33,11 +33,11 @@ pub enum Error {
     EmptyClip,
     /// A hole of the clip does not lie inside the outer ring, or lies inside another hole.
     #[error(
-        "hole {hole} of the clip lies outside its outer ring or inside another hole: give holes that lie side by side \
-         within the outer ring"
+        "hole {hole} of the clip, counted from 0, lies outside its outer ring or inside another hole: give holes that \
+         lie side by side within the outer ring"
     )]
     MisplacedHole {
-        /// Number of the hole, counted from 1.
+        /// Number of the hole, counted from 0.
         hole: usize,
     },
     /// The border of the clip crosses or touches itself.

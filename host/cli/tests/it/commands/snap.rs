@@ -65,7 +65,10 @@ fn sets_without_room_are_told_to_quantize() {
     scratch.write("p.csv", "0,0\n99999999,99999999\n0,77777777\n88888888,0\n");
     scratch.write("e.csv", "0,1\n2,3\n");
     let command = "triangulate p.csv -o m.ele --constraints e.csv --crossings snap";
-    scratch.run(command).fails(3, &["the points need 27 of 32 bits", "(--quantize), such as --quantize fit"]);
+    scratch.run(command).fails(
+        3,
+        &["the points need 27 of 32 bits, which leaves 5 spare where", "(--quantize), such as --quantize fit"],
+    );
     scratch.run(&format!("{command} --quantize fit --coord-bits 24")).ok();
     scratch.run("verify m.poly m.ele --domain all").ok();
     scratch.run("verify p.csv m.ele --constraints e.csv --crossings snap --quantize fit --coord-bits 24").ok();
@@ -85,4 +88,16 @@ fn crossings_of_points_without_a_grid_name_the_option_that_makes_one() {
     scratch.run(command).fails(3, &["crosses constraint 0", "--quantize fit --coord-bits 24", "no grid"]);
     assert!(!scratch.files().contains(&"m.ele".to_owned()));
     scratch.run(&format!("{command} --quantize fit --coord-bits 24")).ok();
+}
+
+#[test]
+fn packed_meshes_have_packed_files_beside_them() {
+    let scratch = streets();
+    scratch.run("triangulate p.csv -o j.ele.gz --constraints e.csv --crossings snap").ok();
+    assert_eq!(scratch.files(), ["e.csv", "j.ele.gz", "j.node.gz", "j.poly.gz", "p.csv"]);
+    scratch.run("verify j.poly.gz j.ele.gz --domain all").ok();
+    scratch.run("triangulate p.csv -o j.ele --constraints e.csv --crossings snap").ok();
+    // A packed plan may have its points in a file that is not packed.
+    std::fs::remove_file(scratch.path("j.node.gz")).expect("the file was written");
+    scratch.run("verify j.poly.gz j.ele --domain all").ok();
 }

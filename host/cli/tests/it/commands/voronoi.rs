@@ -157,7 +157,11 @@ fn wrong_input_is_one_sentence_and_no_file() {
         ("p.csv -o c.geojson --clip-to line.csv", 3, &["line.csv: the clip has no area"]),
         ("p.csv -o c.geojson --clip-to point.geojson", 3, &["point.geojson: the type is 'Point'"]),
         ("p.csv -o c.geojson --clip-to hole.geojson", 3, &["hole.geojson: the border of the clip crosses"]),
-        ("p.csv -o c.geojson --clip-to far.geojson", 3, &["far.geojson: hole 1 of the clip lies outside"]),
+        (
+            "p.csv -o c.geojson --clip-to far.geojson",
+            3,
+            &["far.geojson: hole 1 of the clip, counted from 1, lies outside"],
+        ),
         (
             "p.csv -o c.geojson --clip-to text.geojson",
             3,

@@ -59,6 +59,6 @@ fn numbers_beyond_the_points_are_refused() {
     assert_eq!(marks(&places, &[]), error(Mark::Hole));
     assert_eq!(
         marks(&places, &[]).map_err(|error| error.to_string()).unwrap_err(),
-        "hole 1 has a coordinate that is infinite or not a number"
+        "hole 1, counted from 0, has a coordinate that is infinite or not a number"
     );
 }

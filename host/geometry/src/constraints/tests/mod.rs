@@ -3,5 +3,6 @@ mod brute;
 mod canonical;
 mod domains;
 mod hostile;
+mod many;
 mod published;
 mod snap;

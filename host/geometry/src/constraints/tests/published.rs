@@ -7,7 +7,7 @@ use super::brute::Graph;
 use super::canonical::in_both_ways;
 use crate::constraints::{snap, Domain, Error, Place, Plan};
 use crate::point::Point;
-use crate::verify::verify_constrained;
+use crate::verify::{verify_constrained, VerifyError};
 
 /// The rings of a JSON list of rings of points.
 fn rings(json: &str) -> Vec<Vec<[f64; 2]>> {
@@ -47,8 +47,8 @@ fn outcome(name: &str, points: &[[f64; 2]], constraints: &[[u32; 2]]) -> String 
             }
             format!("{name} {one} crosses {other}")
         }
-        Err(Error::Empty { .. }) => {
-            verify_constrained(points, &[], &plan).unwrap_or_else(|error| panic!("{name}: {error}"));
+        Err(Error::Empty { triangles }) => {
+            assert_eq!(verify_constrained(points, &[], &plan), Err(VerifyError::EmptyDomain { triangles }), "{name}");
             format!("{name} empty")
         }
         Err(other) => panic!("{name}: {other}"),

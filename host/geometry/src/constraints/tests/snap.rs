@@ -128,7 +128,7 @@ fn sets_without_room_are_refused_only_if_constraints_cross() {
     assert_eq!(snap(&points, &[[0, 1], [2, 3]]), Err(SnapError::NoRoom { bits: 25 }));
     assert_eq!(
         SnapError::NoRoom { bits: 25 }.to_string(),
-        "constraints cross, and the points need 25 of 32 bits, which leaves 7 spare bits where snapping needs 8: round \
+        "constraints cross, and the points need 25 of 32 bits, which leaves 7 spare where snapping needs 8: round \
          the points to at most 24 bits first (--quantize)"
     );
     let kept = snap(&points, &[[0, 1], [2, 0]]).expect("no crossing");

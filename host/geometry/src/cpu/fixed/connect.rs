@@ -7,6 +7,7 @@ use super::domain::Chosen;
 use super::force::Stop;
 use super::mesh::{Fixed, Part};
 use super::parts::Boundary;
+use crate::constraints::repeats::{by_ends, Repeats};
 use crate::cpu::collect;
 use crate::cpu::edges::Half;
 use crate::cpu::filtered::Filtered;
@@ -27,8 +28,10 @@ pub(crate) struct Forced {
     pub triangles: Vec<[u32; 3]>,
     pub hull: Vec<u32>,
     pub duplicates: Vec<Duplicate>,
-    /// The edges that constraints fix, smaller index first, each with one of its constraints.
+    /// The edges that constraints fix, smaller index first, each with one of its constraints. Constraints that repeat
+    /// another are left out.
     pub parts: Vec<([u32; 2], u32)>,
+    pub repeats: Repeats,
     /// The region of each triangle, the number of regions, and the region at each place that asks for one.
     pub regions: Vec<u32>,
     pub region_count: u32,
@@ -140,7 +143,7 @@ impl<K: Kernel> Curve<'_, K> {
     fn force(mut self, asked: Asked<'_>, threads: usize, watch: Watch<'_>) -> Result<Outcome, Error> {
         self.duplicates.sort_unstable();
         if is_collinear::<K>(self.sites) {
-            return Ok(Outcome::Plain(self.on_line()));
+            return Ok(Outcome::Plain(Connectivity::of_line(self.sites, &self.ids, self.duplicates)));
         }
         let (mut halves, whole) = insert::<K>(self.sites, self.places, threads, watch)?;
         let mut go_on = || tell(watch, Stage::Assemble, 0, self.points);
@@ -148,11 +151,13 @@ impl<K: Kernel> Curve<'_, K> {
         let hull = whole.map_or_else(Vec::new, |whole| collect::hull_of(&mut halves, &self.ids, whole.leftmost()));
         let ends = self.ends(asked.plan.constraints);
         let mut mesh = Fixed::<K>::new(self.sites, &mut halves);
-        let parts = match mesh.force_all(&ends, asked.most, &mut go_on) {
+        let order = by_ends(&ends);
+        let repeats = Repeats::in_order(&order);
+        let parts = match mesh.force_all(&ends, &order, asked.most, &mut go_on) {
             Ok(parts) => parts,
             Err(Stop::Ended(error)) => return Err(error),
             Err(Stop::Crossing | Stop::TooManyParts) => {
-                mesh.release();
+                mesh.release(&mut go_on)?;
                 return Ok(Outcome::Plain(self.plain(halves, hull, threads)));
             }
         };
@@ -163,11 +168,11 @@ impl<K: Kernel> Curve<'_, K> {
             self.whole(halves, &hull, threads)
         } else {
             let (count, domain) = (asked.plan.boundary(), asked.plan.domain);
-            let boundary = Boundary { parts: &parts, ends: &ends, count, domain };
+            let boundary = Boundary { parts: &parts, repeats: &repeats, ends: &ends, count, domain };
             let marks = self.marks.as_ref();
             let chosen = marks.and_then(|[holes, regions]| mesh.take(&self.ids, &boundary, holes, regions));
             let Some(chosen) = chosen else {
-                mesh.release();
+                mesh.release(&mut go_on)?;
                 return Ok(Outcome::Plain(self.plain(halves, hull, threads)));
             };
             chosen
@@ -177,16 +182,9 @@ impl<K: Kernel> Curve<'_, K> {
             border = hull.iter().copied().zip(hull.iter().copied().cycle().skip(1)).map(|(a, b)| [a, b]).collect();
         }
         let duplicates = self.duplicates;
-        let forced = Forced { triangles, hull, duplicates, parts: of_edge, regions, region_count, marked, border };
+        let forced =
+            Forced { triangles, hull, duplicates, parts: of_edge, repeats, regions, region_count, marked, border };
         Ok(Outcome::Forced(forced))
-    }
-
-    /// The mesh of points on one line, which has no triangles.
-    fn on_line(self) -> Connectivity {
-        let mut order: Vec<(K::Site, u32)> = self.sites.iter().copied().zip(self.ids).collect();
-        order.sort_unstable();
-        let hull = order.into_iter().map(|(_, id)| id).collect();
-        Connectivity { triangles: Vec::new(), hull, duplicates: self.duplicates }
     }
 
     /// The mesh without constraints, from half-edges none of which is fixed.

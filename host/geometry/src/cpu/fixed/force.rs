@@ -12,11 +12,11 @@
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 
-use super::mesh::{Fixed, Part, FIXED};
+use super::mesh::{Fixed, Part, FIXED, INNER};
 use super::turn::{is_between, Way};
 use crate::cpu::kernel::Kernel;
 use crate::cpu::triangulator::Error;
-use crate::sort::{sort_by_key, Keyed};
+use crate::sort::{Entry, Keyed, Wide};
 
 /// The reason why not all constraints were forced in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,23 +39,15 @@ impl From<Error> for Stop {
 /// millisecond, so on usual sets the watch is asked every few milliseconds, which costs nothing beside the pieces.
 const PIECES_PER_LOOK: usize = 64;
 
-/// A constraint, by the place on the curve at which it is forced.
-#[derive(Clone, Copy, bytemuck::Zeroable)]
-struct Turned {
-    first: u32,
-    constraint: u32,
-}
-
-impl Keyed for Turned {
-    #[inline(always)]
-    fn key(&self) -> u64 {
-        self.first.into()
-    }
-}
+/// Vertices whose half-edges are fetched at once. They stay in a second-level cache while the constraints that begin at
+/// them are forced.
+const BLOCK: usize = 4096;
+/// The least number of constraints that begin in a block whose half-edges are fetched. Fewer would not make up for it.
+const MANY: usize = 32;
 
 impl<K: Kernel> Fixed<'_, K> {
-    /// Forces all constraints in, given by the vertices at their ends, as far as there is room for `most` parts.
-    /// `go_on` is called from time to time.
+    /// Forces all constraints in, given by the vertices at their ends, in the order of `by_ends`, as far as there is
+    /// room for `most` parts. Those of repeats are counted but not listed. `go_on` is called from time to time.
     ///
     /// # Errors
     /// Two constraints cross at a place that is not a vertex, there are too many parts, or `go_on` ends the work. The
@@ -63,20 +55,27 @@ impl<K: Kernel> Fixed<'_, K> {
     pub(super) fn force_all(
         &mut self,
         ends: &[[u32; 2]],
+        order: &[Wide],
         most: usize,
         go_on: &mut dyn FnMut() -> Result<(), Error>,
     ) -> Result<Vec<Part>, Stop> {
-        let turned = |(constraint, [a, b]): (u32, &[u32; 2])| Turned { first: *a.min(b), constraint };
-        let mut order: Vec<Turned> = (0..).zip(ends).map(turned).collect();
-        sort_by_key(&mut order);
         let mut parts = Vec::with_capacity(ends.len());
-        for Turned { constraint, .. } in order {
+        let (mut room, mut place, mut fetched) = (most, 0, 0);
+        for equal in order.chunk_by(|one, other| one.key() == other.key()) {
+            let constraint = equal[0].value();
+            let first = (equal[0].key() >> u32::BITS) as usize;
+            if first >= fetched {
+                fetched = (first / BLOCK + 1) * BLOCK;
+                let own = order[place..].partition_point(|other| other.key() >> u32::BITS < fetched as u64);
+                if own >= MANY {
+                    self.fetch(fetched - BLOCK..fetched);
+                }
+            }
+            place += equal.len();
             let mut rest = ends[constraint as usize];
             while rest[0] != rest[1] {
                 let (edge, left) = self.step(rest)?;
-                if parts.len() == most {
-                    return Err(Stop::TooManyParts);
-                }
+                room = room.checked_sub(equal.len()).ok_or(Stop::TooManyParts)?;
                 parts.push(Part { edge, constraint });
                 if parts.len().is_multiple_of(PIECES_PER_LOOK) {
                     go_on()?;
@@ -101,7 +100,10 @@ impl<K: Kernel> Fixed<'_, K> {
             Way::Through(first) => {
                 let end = self.cross(first, from, to)?;
                 let edge = self.fill(from, end);
-                self.repair();
+                self.repair_inner();
+                for place in 0..self.crossed.len() {
+                    self.settle(self.crossed[place]);
+                }
                 edge
             }
         };
@@ -149,8 +151,8 @@ impl<K: Kernel> Fixed<'_, K> {
         }
     }
 
-    /// Replaces the edges that were crossed by the fixed edge between both vertices, and by others that fill both
-    /// chains. Returns the fixed edge.
+    /// Replaces the edges that were crossed by the fixed edge between both vertices, and by inner ones that fill both
+    /// chains. Returns the fixed edge. The others are left in the list of edges that were crossed.
     fn fill(&mut self, from: u32, end: u32) -> u32 {
         let mut crossed = core::mem::take(&mut self.crossed);
         for &edge in &crossed {
@@ -165,17 +167,17 @@ impl<K: Kernel> Fixed<'_, K> {
         self.insert(new, end | FIXED, right[0], left[left.len() - 1] ^ 1);
         self.insert(new ^ 1, from | FIXED, left[0], right[right.len() - 1] ^ 1);
         self.fixed.push(new & !1);
-        self.fill_chain(&right, &mut crossed);
-        self.fill_chain(&left, &mut crossed);
+        let rest = self.fill_chain(&right, &crossed);
+        self.fill_chain(&left, rest);
         (self.crossed, self.right, self.left) = (crossed, right, left);
         new
     }
 
-    /// Fills the room between a chain and the fixed edge between its ends. The new edges take these numbers.
-    fn fill_chain(&mut self, chain: &[u32], numbers: &mut Vec<u32>) {
+    /// Fills the room between a chain and the fixed edge between its ends. The new edges take the first of these numbers,
+    /// and the others are returned.
+    fn fill_chain<'n>(&mut self, chain: &[u32], mut numbers: &'n [u32]) -> &'n [u32] {
         let mut open = core::mem::take(&mut self.open);
         open.clear();
-        self.stack.extend_from_slice(chain);
         for (place, &edge) in chain.iter().enumerate() {
             let (mut last, to) = (edge, self.end(edge));
             while let Some(&before) = open.last() {
@@ -188,10 +190,10 @@ impl<K: Kernel> Fixed<'_, K> {
                     break;
                 }
                 // There are as many numbers as edges to be made.
-                let new = numbers.pop().unwrap_or_default();
+                let new = numbers.split_off_first().copied().unwrap_or_default();
                 let back = last ^ 1;
-                self.insert(new, to, before, self.half(before).next);
-                self.insert(new ^ 1, from, self.half(back).previous, back);
+                self.insert(new, to | INNER, before, self.half(before).next);
+                self.insert(new ^ 1, from | INNER, self.half(back).previous, back);
                 self.stack.push(new);
                 open.pop();
                 last = new;
@@ -199,5 +201,6 @@ impl<K: Kernel> Fixed<'_, K> {
             open.push(last);
         }
         self.open = open;
+        numbers
     }
 }

@@ -1,11 +1,13 @@
 //! A mesh of half-edges, some of which are fixed.
 //!
 //! A flag in the `end` of a half-edge, [`FIXED`], says that a constraint fixes the edge. [`GAP`] says that the outside
-//! of the hull lies to the left.
+//! of the hull lies to the left. While a constraint is forced, [`INNER`] says that flips may replace the edge.
 
 use alloc::vec::Vec;
+use core::hint::black_box;
+use core::ops::Range;
 
-use crate::cpu::edges::{is_used, Half, Halves};
+use crate::cpu::edges::{is_used, Half, Halves, HALVES};
 use crate::cpu::kernel::Kernel;
 use crate::pages;
 
@@ -13,8 +15,11 @@ use crate::pages;
 pub(super) const GAP: u32 = <[Half] as Halves>::GAP;
 /// Marks, in the `end` of both halves of an edge, that a constraint fixes the edge. A vertex has a number below 2^29.
 pub(super) const FIXED: u32 = GAP >> 1;
+/// Marks, in the `end` of both halves of an edge, that the edge is new and inside the room of the constraint that is
+/// being forced.
+pub(super) const INNER: u32 = FIXED >> 1;
 /// The bits of `end` that number a vertex.
-pub(super) const VERTEX: u32 = FIXED - 1;
+pub(super) const VERTEX: u32 = INNER - 1;
 
 /// A mesh of half-edges, some of which are fixed: no flip removes them.
 pub(super) struct Fixed<'a, K: Kernel> {
@@ -64,6 +69,15 @@ impl<'a, K: Kernel> Fixed<'a, K> {
         }
     }
 
+    /// Reads the half-edges of some vertices one after the other, so that they are in the cache afterwards. The processor
+    /// sees such a sequence coming, but none of the scattered reads of a constraint.
+    pub(super) fn fetch(&self, vertices: Range<usize>) {
+        let all = self.halves.len();
+        let own = &self.halves[(HALVES * vertices.start).min(all)..(HALVES * vertices.end).min(all)];
+        // Five half-edges are a little less than a line of the cache.
+        black_box(own.iter().step_by(5).fold(0, |sum, half| sum ^ half.end));
+    }
+
     #[inline(always)]
     pub(super) fn half(&self, e: u32) -> Half {
         self.halves[e as usize]
@@ -89,6 +103,19 @@ impl<'a, K: Kernel> Fixed<'a, K> {
     #[inline(always)]
     pub(super) fn is_fixed(&self, e: u32) -> bool {
         self.half(e).end & FIXED != 0
+    }
+
+    /// Whether the edge is new, so that flips may replace it while a constraint is forced.
+    #[inline(always)]
+    pub(super) fn is_inner(&self, e: u32) -> bool {
+        self.half(e).end & INNER != 0
+    }
+
+    /// Takes the mark [`INNER`] away from an edge.
+    #[inline(always)]
+    pub(super) fn settle(&mut self, e: u32) {
+        self.halves[e as usize].end &= !INNER;
+        self.halves[e as usize ^ 1].end &= !INNER;
     }
 
     /// Whether the outside of the hull lies to the left of a half-edge.

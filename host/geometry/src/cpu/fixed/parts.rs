@@ -8,6 +8,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::mesh::{Fixed, Part};
+use crate::constraints::repeats::Repeats;
 use crate::cpu::kernel::Kernel;
 use crate::pages;
 use crate::plan::Domain;
@@ -27,6 +28,8 @@ pub(super) struct Parts {
 #[derive(Clone, Copy)]
 pub(super) struct Boundary<'a> {
     pub(super) parts: &'a [Part],
+    /// The constraints that have the same parts as another.
+    pub(super) repeats: &'a Repeats,
     /// The vertices at the ends of all constraints.
     pub(super) ends: &'a [[u32; 2]],
     /// The number of constraints, from the first on, that bound the domain.
@@ -54,11 +57,17 @@ impl Boundary<'_> {
     fn steps<K: Kernel>(&self, mesh: &Fixed<'_, K>) -> Vec<i32> {
         let rises = |[from, to]: [u32; 2]| mesh.site(from) < mesh.site(to);
         let mut steps = pages::zeros(mesh.halves.len() / 2);
-        for part in self.parts.iter().filter(|part| (part.constraint as usize) < self.count) {
+        // A part goes along its constraint, so both rise or both fall.
+        let step = |constraint: u32, part_rises: bool| match self.domain {
+            _ if constraint as usize >= self.count => 0,
+            Domain::NonZero if rises(self.ends[constraint as usize]) != part_rises => -1,
+            _ => 1,
+        };
+        for part in self.parts {
             let pair = part.edge & !1;
-            let is_along = || rises(self.ends[part.constraint as usize]) == rises([mesh.origin(pair), mesh.end(pair)]);
-            let step = if self.domain != Domain::NonZero || is_along() { 1 } else { -1 };
-            steps[pair as usize / 2] += step;
+            let rises = rises([mesh.origin(pair), mesh.end(pair)]);
+            let own = [part.constraint].into_iter().chain(self.repeats.of(part.constraint).iter().map(|pair| pair[1]));
+            steps[pair as usize / 2] += own.map(|constraint| step(constraint, rises)).sum::<i32>();
         }
         steps
     }

@@ -137,10 +137,7 @@ impl Parts {
         if !self.is_collinear {
             return None;
         }
-        let mut order: Vec<(Site, u32)> = self.sites.iter().copied().zip(self.ids.iter().copied()).collect();
-        order.sort_unstable();
-        let hull = order.into_iter().map(|(_, id)| id).collect();
-        Some(Connectivity { triangles: Vec::new(), hull, duplicates: self.duplicates.clone() })
+        Some(Connectivity::of_line(&self.sites, &self.ids, self.duplicates.clone()))
     }
 
     /// The places of a part's points among all sites.
