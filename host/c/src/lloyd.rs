@@ -33,9 +33,9 @@ const BYTES_OF_A_PIXEL: usize = 20;
 pub struct incircle_relaxation {
     /// The size of this structure in bytes.
     pub size: usize,
-    /// The most steps, 1 or more.
+    /// The most steps, 1 or more. A relaxation ends earlier if no point moves.
     pub iterations: u32,
-    /// 1 to end also when no point moves, or when a state comes again; else 0.
+    /// 1 to end also when a state comes again; else 0.
     pub until_still: u32,
     /// The most threads; 0 for one a processor.
     pub threads: u32,

@@ -7,7 +7,7 @@ use crate::lattice::{Laid, Numbers};
 use crate::number::Coordinate;
 use crate::points::PointTable;
 
-/// Places that are made and asked about at once.
+/// Nodes of a grid that are made and asked about at once.
 const AT_ONCE: usize = 1 << 18;
 
 /// The places at which values are wanted.
@@ -48,17 +48,19 @@ impl ValuePlaces {
         self.grid.as_ref().map_or([place; 2], |grid| grid.sources(place))
     }
 
-    /// Calls `work` with all places in their order, some at once. `of_table` has the coordinates of the table.
+    /// Calls `work` with all places in their order: those of a file at once, and of a grid some at a time. `of_table`
+    /// has the coordinates of the table.
     pub fn each<T: Copy, E>(
         &self,
         of_table: &[[T; 2]],
         mut work: impl FnMut(&[[T; 2]]) -> Result<(), E>,
     ) -> Result<(), E> {
-        let mut some = Vec::with_capacity(AT_ONCE.min(self.len()));
-        for first in (0..self.len()).step_by(AT_ONCE) {
+        let Some(grid) = &self.grid else { return work(of_table) };
+        let mut some = Vec::with_capacity(AT_ONCE.min(grid.len()));
+        for first in (0..grid.len()).step_by(AT_ONCE) {
             some.clear();
-            some.extend((first..self.len().min(first + AT_ONCE)).map(|place| {
-                let [x, y] = self.sources(place);
+            some.extend((first..grid.len().min(first + AT_ONCE)).map(|node| {
+                let [x, y] = grid.sources(node);
                 [of_table[x][0], of_table[y][1]]
             }));
             work(&some)?;

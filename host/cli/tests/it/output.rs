@@ -139,6 +139,19 @@ fn a_full_disk_is_an_error_and_stays_a_device() {
         fails(run).fails(3, &["standard output"]);
         assert_eq!(scratch.files(), ["p.csv", "v.csv"], "{arguments}");
     }
+    // An older file at that place is there again.
+    for format in ["ele", "svg"] {
+        let file = format!("m.{format}");
+        scratch.write(&file, "older");
+        let run = scratch.command(["triangulate", "p.csv", "-o", &file, "--json"]);
+        fails(run).fails(3, &["standard output"]);
+        assert_eq!(scratch.read(&file), "older");
+        assert_eq!(scratch.files(), [&file[..], "p.csv", "v.csv"]);
+        scratch.run(&format!("triangulate p.csv -o {file} --json")).ok();
+        assert_ne!(scratch.read(&file), "older");
+        assert_eq!(scratch.files(), [&file[..], "p.csv", "v.csv"]);
+        std::fs::remove_file(scratch.path(&file)).expect("the file is there");
+    }
     let kind = std::fs::metadata("/dev/full").expect("it is there").file_type();
     assert!(kind.is_char_device());
     scratch.run("triangulate p.csv -o /dev/null --format ele").ok();

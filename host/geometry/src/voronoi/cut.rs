@@ -74,12 +74,32 @@ impl View<'_> {
 #[derive(Clone, Copy)]
 struct Tip {
     place: Place,
+    /// The position of the place on the border, rounded.
+    near: f64,
     chain: usize,
     is_end: bool,
     /// From the place into the chain.
     direction: [i64; 2],
     /// The item of the ring, if the place is one.
     item: Option<usize>,
+}
+
+impl Tip {
+    /// Compares two tips by their order just beside the border between `p` and `q`: by their positions and, at one
+    /// place, by their directions, of which the one that points back along the border comes first.
+    fn compare(&self, other: &Self, p: Point, q: Point) -> Ordering {
+        // A rounded position is off by less than its 2^-51st part.
+        const MARGIN: f64 = 1.0 / (1u64 << 49) as f64;
+        let (ahead, margin) = (self.near - other.near, (self.near.abs() + other.near.abs()) * MARGIN);
+        if ahead > margin {
+            return Ordering::Greater;
+        }
+        if ahead < -margin {
+            return Ordering::Less;
+        }
+        let order = self.place.compare_positions(other.place, p, q);
+        order.then_with(|| cross(self.direction, other.direction).cmp(&0))
+    }
 }
 
 /// Consecutive items of one ring whose corners are strictly nearer to `p`.
@@ -189,18 +209,18 @@ impl Cutter {
                 k.map_or_else(|| view.meet(side, q), |k| items[k].first(view.clip).place)
             };
             let (begin, end) = (place(on(outer), side), place(on(beyond), last));
-            let tip = |place, is_end, direction, item| Tip { place, chain: number, is_end, direction, item };
+            let tip = |place, is_end, direction, item| Tip { place, near: 0.0, chain: number, is_end, direction, item };
             self.begins.push(Bend { place: begin, side });
             self.ends.push(end);
             self.tips.push(tip(begin, false, view.direction(side), on(outer)));
             self.tips.push(tip(end, true, view.direction(last).map(|length| -length), on(beyond)));
         }
         if self.chains.len() > 1 {
-            // At one place, the direction that points back along the border comes first.
-            self.tips.sort_unstable_by(|one, other| {
-                let order = one.place.compare_positions(other.place, view.p, q);
-                order.then_with(|| cross(one.direction, other.direction).cmp(&0))
-            });
+            for tip in &mut self.tips {
+                let [numerator, denominator] = tip.place.position(view.p, q);
+                tip.near = numerator as f64 / denominator as f64;
+            }
+            self.tips.sort_unstable_by(|one, other| one.compare(other, view.p, q));
         }
     }
 
