@@ -1,5 +1,5 @@
-//! The places at which values are wanted: those of a file, or the nodes of a grid, of which only the coordinates of rows
-//! and columns are kept.
+//! The places at which values are wanted: those of a file, or the nodes of a grid, of which only the coordinates of
+//! rows and columns are kept.
 
 use crate::failure::Failure;
 use crate::grid::Grid;

@@ -6,8 +6,8 @@ use crate::lattice::{exponent, scaled};
 /// values that are divided by two to the power that it is given, and the quotient is multiplied by that power.
 ///
 /// Division by a power of two is exact, except for values that are tiny beside the largest one. A mean is never beyond
-/// the smallest and the largest value. If a value is not finite, or the second attempt fails as well, the result is that
-/// of the first.
+/// the smallest and the largest value. If a value is not finite, or the second attempt fails as well, the result is
+/// that of the first.
 #[cold]
 pub(super) fn mean_of_large(first: f64, values: impl Iterator<Item = f64>, mean: impl FnOnce(i32) -> f64) -> f64 {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);

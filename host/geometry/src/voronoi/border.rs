@@ -195,3 +195,36 @@ fn united([a, b]: [[u32; 2]; 2], [c, d]: [[u32; 2]; 2]) -> [[u32; 2]; 2] {
 fn is_right_of([a, b]: [Point; 2], point: Point) -> bool {
     (a.y > point.y) != (b.y > point.y) && (orient2d(a, b, point) > 0) == (b.y > a.y)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::voronoi::tests::{draw_clip, draw_holes, sets};
+    use incircle_testkit::SplitMix64;
+
+    #[test]
+    fn the_tree_answers_like_all_edges() {
+        let mut random = SplitMix64::new(293);
+        let mut answers = [0; 4];
+        for number in 0..sets() {
+            let clip = if number % 2 == 0 { Some(draw_clip(&mut random)) } else { draw_holes(&mut random) };
+            let Some(clip) = clip else { continue };
+            let edges: Vec<[Point; 2]> = (0..clip.corners().len()).map(|edge| clip.edge(edge)).collect();
+            for _ in 0..20 {
+                let point = Point::new(random.below_u32(16), random.below_u32(16));
+                let is_inside = edges.iter().filter(|&&edge| is_right_of(edge, point)).count() % 2 == 1;
+                assert_eq!(clip.contains(point), is_inside, "{point:?} in {:?}", clip.corners());
+                let low = [0; 2].map(|_| random.below(20) as f64 - 2.0);
+                let high = low.map(|value| value + random.below(6) as f64 / 2.0);
+                let touches = edges.iter().any(|&edge| {
+                    let [from, to] = box_of(edge);
+                    (0..2).all(|axis| low[axis] <= to[axis].into() && high[axis] >= from[axis].into())
+                });
+                assert_eq!(clip.may_touch(low, high), touches, "{low:?} to {high:?} in {:?}", clip.corners());
+                answers[usize::from(is_inside)] += 1;
+                answers[2 + usize::from(touches)] += 1;
+            }
+        }
+        assert!(answers.iter().all(|&count| count > 100), "{answers:?}");
+    }
+}

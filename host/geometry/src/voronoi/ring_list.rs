@@ -1,5 +1,5 @@
-//! The rings of a cell while it is cut. Corners of the clip that follow one another are one item, so that a clip of many
-//! corners is cut without a look at each.
+//! The rings of a cell while it is cut. Corners of the clip that follow one another are one item, so that a clip of
+//! many corners is cut without a look at each.
 
 use alloc::vec::Vec;
 use core::cmp::Ordering;
@@ -40,7 +40,8 @@ impl Item {
     }
 }
 
-/// Rings, one behind the other. A run that is all there is of a ring may also stand for several whole rings of the clip.
+/// Rings, one behind the other. A run that is all there is of a ring may also stand for several whole rings of the
+/// clip.
 #[derive(Default)]
 pub(super) struct RingList {
     pub(super) items: Vec<Item>,

@@ -146,7 +146,7 @@ fn wrong_input_is_one_sentence_and_no_file() {
         ),
         ("p.csv --grid 1e-18 -o v.csv", 3, &["--grid '1e-18' is too small for the points, which lie up to 9.900e16"]),
         ("p.csv --contours 0 -o v.geojson", 3, &["--contours '0' is zero: give a positive step, such as 10"]),
-        ("p.csv --contours 0.001 -o v.geojson", 3, &["gives 294001 levels, more than 10000: give a larger step"]),
+        ("p.csv --contours 0.001 -o v.geojson", 3, &["gives 234001 levels, more than 10000: give a larger step"]),
         ("p.csv --contours 1e-15 -o v.geojson", 3, &["--contours '1e-15' is too small for the values, which lie up"]),
         ("few.csv --grid 7 -o v.asc", 3, &["the grid has no node", "smaller --grid"]),
         ("p.csv --contours 1 -o v.csv", 2, &["contours are written as GeoJSON"]),
