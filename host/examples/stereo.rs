@@ -11,6 +11,7 @@
 
 use std::error::Error;
 use std::fmt::Write;
+use std::io::Write as _;
 use std::num::NonZeroUsize;
 
 use incircle::interpolate::{Method, Outside, Surface};
@@ -116,7 +117,6 @@ fn main() -> Result<(), Box<dyn Error>> {
         let data = corners.iter().map(corner).collect::<Vec<_>>().join("L");
         writeln!(svg, "<path d=\"M{data}Z\" fill=\"{}\" stroke=\"#222\" stroke-width=\".3\"/>", colour(mean))?;
     }
-    std::fs::write(output, svg + "</svg>\n")?;
     // The planes at every pixel, beside the truth.
     let pixels: Vec<[usize; 2]> = (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| [x, y])).collect();
     let asked: Vec<[f64; 2]> = pixels.iter().map(|&[x, y]| [x as f64, (HEIGHT - 1 - y) as f64]).collect();
@@ -124,12 +124,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     let known = pixels.iter().zip(&found).filter(|(_, value)| !value.is_nan());
     let errors: Vec<f64> = known.map(|(&[x, y], value)| (value - truth(x, y)).abs()).collect();
     let near = errors.iter().filter(|&&error| error <= 1.0).count();
-    println!(
+    // The picture comes last, so that there is none if the line cannot be printed.
+    writeln!(
+        std::io::stdout(),
         "{} support points, {} planes; {} of {} pixels within 1 of the true disparity",
         points.len(),
         mesh.triangles.len(),
         near,
         errors.len()
-    );
-    Ok(())
+    )?;
+    Ok(std::fs::write(output, svg + "</svg>\n")?)
 }

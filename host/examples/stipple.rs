@@ -10,9 +10,10 @@
 
 use std::error::Error;
 use std::fmt::Write;
+use std::io::Write as _;
 use std::num::NonZeroUsize;
 
-use incircle::lloyd::{relax_weighted, Density, Stop};
+use incircle::lloyd::{relax_weighted, Density, Relaxed, Stop};
 use incircle::voronoi::Clip;
 use incircle::Point;
 use incircle_testkit::SplitMix64;
@@ -96,7 +97,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let stop = Stop { iterations: u32::try_from(iterations)?, when_still: false };
     let threads = std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
     let relaxed = relax_weighted(start, &clip, &density, stop, threads)?;
-    std::fs::write(output, picture(&image, &relaxed.points))?;
-    println!("{count} dots after {} steps; {} moved in the last", relaxed.iterations, relaxed.moved);
-    Ok(())
+    // The picture comes last, so that there is none if the line cannot be printed.
+    let Relaxed { points, iterations, moved, .. } = &relaxed;
+    writeln!(std::io::stdout(), "{count} dots after {iterations} steps; {moved} moved in the last")?;
+    Ok(std::fs::write(output, picture(&image, points))?)
 }

@@ -11,6 +11,7 @@
 
 use std::error::Error;
 use std::fmt::Write;
+use std::io::Write as _;
 
 use incircle::interpolate::Surface;
 
@@ -102,9 +103,10 @@ fn main() -> Result<(), Box<dyn Error>> {
             count += 1;
         }
     }
-    std::fs::write(output, svg + "</svg>\n")?;
-    println!("{} points, {} triangles, {count} contour lines", ground.points.len(), mesh.triangles.len());
-    Ok(())
+    // The picture comes last, so that there is none if the line cannot be printed.
+    let (points, triangles) = (ground.points.len(), mesh.triangles.len());
+    writeln!(std::io::stdout(), "{points} points, {triangles} triangles, {count} contour lines")?;
+    Ok(std::fs::write(output, svg + "</svg>\n")?)
 }
 
 /// The highest height.

@@ -44,16 +44,6 @@ pub enum GridSetError {
         /// Bits that are possible.
         most: u32,
     },
-    /// The rings of a clip have another number of corners than were given.
-    #[error(
-        "the rings of the clip have {have} corners, but the clip has {corners}: give the number of corners of each ring"
-    )]
-    RingCounts {
-        /// The corners of all rings together.
-        have: usize,
-        /// The corners of the clip.
-        corners: usize,
-    },
     /// The rectangle around the points has no area, and no clip was given.
     #[error("the rectangle around the points has no area: give a clip")]
     NoRectangle,
@@ -176,17 +166,7 @@ impl GridSet {
     /// As for [`clip`](Self::clip); the counts do not add up to the number of corners; a hole lies outside the outer
     /// ring or inside another hole.
     pub fn clip_with_holes(&self, counts: &[usize]) -> Result<Clip, GridSetError> {
-        let have = counts.iter().fold(0, |sum: usize, &count| sum.saturating_add(count));
-        if have != self.corners.len() || counts.is_empty() {
-            return Err(GridSetError::RingCounts { have, corners: self.corners.len() });
-        }
-        let mut rest = &self.corners[..];
-        let rings: Vec<Vec<Point>> =
-            counts.iter().filter_map(|&count| rest.split_off(..count)).map(<[_]>::to_vec).collect();
-        match &rings[..] {
-            [outer, holes @ ..] => Ok(Clip::with_holes(outer, holes)?),
-            [] => self.clip(),
-        }
+        Ok(Clip::of_rings(&self.corners, counts)?)
     }
 
     fn around(&self) -> Option<Clip> {

@@ -16,6 +16,7 @@ use incircle_c::{
     incircle_mesh, incircle_mesh_free, incircle_mesh_triangles, incircle_options, incircle_triangulate, INCIRCLE_F64,
     INCIRCLE_OK,
 };
+use incircle_testkit::SplitMix64;
 
 const POINTS: usize = 1_000_000;
 const PAIRS: usize = 15;
@@ -79,16 +80,10 @@ impl Drop for Handle {
     }
 }
 
-/// Random points between 0 and 1, by the generator SplitMix64.
+/// Random points between 0 and 1.
 fn points(count: usize) -> Vec<[f64; 2]> {
-    let mut state = 1_u64;
-    let mut next = || {
-        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut mixed = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((mixed ^ (mixed >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    };
-    (0..count).map(|_| [next(), next()]).collect()
+    let mut random = SplitMix64::new(1);
+    (0..count).map(|_| [random.unit(), random.unit()]).collect()
 }
 
 fn median(mut values: Vec<f64>) -> f64 {

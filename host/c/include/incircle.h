@@ -207,9 +207,9 @@ typedef struct {
 typedef struct {
   // The size of this structure in bytes.
   size_t size;
-  // The most steps, 1 or more.
+  // The most steps, 1 or more. A relaxation ends earlier if no point moves.
   uint32_t iterations;
-  // 1 to end also when no point moves, or when a state comes again; else 0.
+  // 1 to end also when a state comes again; else 0.
   uint32_t until_still;
   // The most threads; 0 for one a processor.
   uint32_t threads;

@@ -5,7 +5,7 @@ use std::ffi::c_void;
 use std::num::NonZeroUsize;
 
 use incircle::lloyd::{relax, relax_weighted, Density, End, Relaxed, Stop};
-use incircle::voronoi::Clip;
+use incircle::voronoi::{self, Clip};
 use incircle::{GridSetError, MAX_POINTS};
 
 use crate::border::{copied, exclusive, give, look_for_memory, shared};
@@ -33,9 +33,9 @@ const BYTES_OF_A_PIXEL: usize = 20;
 pub struct incircle_relaxation {
     /// The size of this structure in bytes.
     pub size: usize,
-    /// The most steps, 1 or more.
+    /// The most steps, 1 or more. A relaxation ends earlier if no point moves.
     pub iterations: u32,
-    /// 1 to end also when no point moves, or when a state comes again; else 0.
+    /// 1 to end also when a state comes again; else 0.
     pub until_still: u32,
     /// The most threads; 0 for one a processor.
     pub threads: u32,
@@ -151,7 +151,8 @@ unsafe fn border_of(choices: &incircle_relaxation) -> Outcome<Border> {
     // SAFETY: the caller promises the counts.
     let border = unsafe { Border::of_rings(clip, ring_counts, ring_count) }?;
     if border.corner_count != corner_count || ring_count == 0 {
-        return Err(GridSetError::RingCounts { have: border.corner_count, corners: corner_count }.into());
+        let counts = voronoi::Error::RingCounts { have: border.corner_count, corners: corner_count };
+        return Err(GridSetError::from(counts).into());
     }
     Ok(border)
 }

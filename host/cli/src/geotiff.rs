@@ -11,7 +11,6 @@ use tiff::encoder::{TiffEncoder, TiffKind};
 use tiff::tags::Tag;
 use tiff::TiffResult;
 
-use crate::failure::Failure;
 use crate::grid::Grid;
 
 /// Bytes of values above which a file is a BigTIFF: the places in others are numbers of 32 bits, and lists follow the
@@ -19,18 +18,6 @@ use crate::grid::Grid;
 const MOST_BYTES: u64 = 4_000_000_000;
 /// The list of GeoTIFF keys: version 1.1.0 with one key, `GTRasterTypeGeoKey`, which is 2: a pixel is a point.
 const KEYS: [u16; 8] = [1, 1, 0, 1, 1025, 0, 1, 2];
-
-/// Refuses a grid without nodes: an image needs a pixel.
-pub fn check(grid: &Grid) -> Result<(), Failure> {
-    let [columns, rows] = grid.counts;
-    if columns == 0 || rows == 0 {
-        return Err(Failure::input(
-            "the grid has no node, because no multiple of the step lies within the box of the points: give a smaller \
-             --grid",
-        ));
-    }
-    Ok(())
-}
 
 /// Writes the values of a grid that has nodes, with rows from the lowest y on.
 pub fn write(values: &[f64], grid: &Grid, out: &mut dyn Write) -> io::Result<()> {

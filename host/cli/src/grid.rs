@@ -1,17 +1,19 @@
 //! The nodes of a grid of places: all multiples of a step within the box of a set of points.
 
-use crate::failure::{quoted, Failure};
+use crate::failure::Failure;
 use crate::memory::Memory;
-use crate::number::{self, Decimal, Number};
+use crate::number::Number;
 use crate::points::PointTable;
+use crate::step::Step;
 
-/// Bytes that a node takes: its coordinates in the file's numbers, on the lattice and as doubles, its value, and that
-/// value again in a file that is made in memory.
-const NODE_BYTES: u64 = 88;
+/// Bytes that a row or a column takes: a place in the numbers of the file, on the lattice and as doubles.
+const LINE_BYTES: f64 = 64.0;
+/// Bytes that a point takes while values are worked out: its triangulation, and the surface.
+const POINT_BYTES: f64 = 440.0;
 
 /// A grid of nodes, row by row from the lowest y, and in a row from the lowest x.
 pub struct Grid {
-    step: Decimal,
+    step: Step,
     /// The lowest node, in steps.
     low: [i64; 2],
     /// Nodes in a row, and rows.
@@ -19,65 +21,79 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// The nodes with this step, as it is written, within the box of the points.
+    /// The nodes with this step, as it is written, within the box of the points. `bytes` is the memory that a node
+    /// takes.
     ///
     /// # Errors
     /// The step is no positive decimal, or the nodes do not fit the memory.
-    pub fn of(step: &str, points: &PointTable, memory: Memory) -> Result<Self, Failure> {
-        let shown = quoted(step.as_bytes());
-        let step = match number::parse(step.trim().as_bytes()) {
-            Some(Number::Decimal(step)) if step.steps > 0 => step,
-            _ => {
-                return Err(Failure::input(format!("--grid {shown} is no step: give a positive decimal, such as 0.5")))
-            }
-        };
+    pub fn of(step: &str, points: &PointTable, bytes: u64, memory: Memory) -> Result<Self, Failure> {
+        let step = Step::read("--grid", step, "0.5")?;
         let doubles = points.doubles();
         let bound = |axis: usize, pick: fn(f64, f64) -> f64| {
             doubles.iter().map(|point| point[axis]).reduce(pick).unwrap_or(0.0)
         };
-        let low = [0, 1].map(|axis| number::multiple_from(bound(axis, f64::min), step));
-        let high = [0, 1].map(|axis| number::multiple_to(bound(axis, f64::max), step));
-        let counts = [0, 1].map(|axis| (high[axis] - low[axis] + 1.0).max(0.0));
-        let most = (memory.bytes() / NODE_BYTES) as f64;
-        let is_far = low.iter().chain(&high).any(|value| value.abs() > 1e15);
-        if is_far || counts[0] * counts[1] > most {
-            return Err(Failure::input(format!(
-                "--grid {shown} has {:.3e} nodes, more than the {most:.3e} that {} MiB of free memory hold: give a \
-                 larger step",
-                counts[0] * counts[1],
+        let multiples = |axis: usize| step.multiples(bound(axis, f64::min), bound(axis, f64::max), "points");
+        let [columns, rows] = [multiples(0)?, multiples(1)?];
+        let counts = [columns, rows].map(|[first, last]| u64::try_from(last - first + 1).unwrap_or(0));
+        let [across, up] = counts.map(|count| count as f64);
+        let needed = across * up * bytes as f64 + (across + up) * LINE_BYTES + doubles.len() as f64 * POINT_BYTES;
+        if needed > memory.bytes() as f64 {
+            return Err(step.refuse(&format!(
+                "gives {across} by {up} nodes, which take {:.0} MiB with the points, more than the {} MiB of free \
+                 memory",
+                needed / f64::from(1 << 20),
                 memory.bytes() >> 20
             )));
         }
-        Ok(Self { step, low: low.map(|value| value as i64), counts: counts.map(|count| count as u64) })
+        Ok(Self { step, low: [columns[0], rows[0]], counts })
     }
 
-    /// The nodes as points.
-    pub fn nodes(&self) -> Result<PointTable, Failure> {
+    /// The nodes of the first row, and behind them the first node of each other row. Together they have all the
+    /// coordinates of the grid.
+    pub fn edge_nodes(&self) -> Result<PointTable, Failure> {
         let mut table = PointTable::of_items("node");
         let at = |axis: usize, place: u64| {
-            let steps = (i128::from(self.low[axis]) + i128::from(place)) * i128::from(self.step.steps);
-            Number::of_decimal(steps, self.step.digits)
+            let steps = (i128::from(self.low[axis]) + i128::from(place)) * i128::from(self.step.decimal.steps);
+            Number::of_decimal(steps, self.step.decimal.digits)
         };
-        for y in (0..self.counts[1]).map(|row| at(1, row)) {
-            for x in (0..self.counts[0]).map(|column| at(0, column)) {
-                table.push_numbers([x, y])?;
-            }
+        let [columns, rows] = self.counts;
+        if self.len() > 0 {
+            (0..columns).try_for_each(|column| table.push_numbers([at(0, column), at(1, 0)]))?;
+            (1..rows).try_for_each(|row| table.push_numbers([at(0, 0), at(1, row)]))?;
         }
         Ok(table)
     }
 
+    /// The number of nodes.
+    pub fn len(&self) -> usize {
+        (self.counts[0] * self.counts[1]) as usize
+    }
+
+    /// The places in the list of [`edge_nodes`](Self::edge_nodes) that have the x and the y of a node.
+    pub fn sources(&self, node: usize) -> [usize; 2] {
+        let columns = self.counts[0] as usize;
+        let (row, column) = (node / columns, node % columns);
+        [column, if row == 0 { 0 } else { columns + row - 1 }]
+    }
+
+    /// Refuses a grid without nodes, for a format that has no such grids.
+    pub fn check_nodes(&self) -> Result<(), Failure> {
+        if self.len() > 0 {
+            return Ok(());
+        }
+        Err(Failure::input(
+            "the grid has no node, because no multiple of the step lies within the box of the points: give a smaller \
+             --grid",
+        ))
+    }
+
     /// The lowest node, and the step, as doubles.
     pub fn origin(&self) -> ([f64; 2], f64) {
-        (self.low.map(|place| self.value(place)), Number::Decimal(self.step).nearest().value)
+        (self.low.map(|place| self.step.times(place)), self.step.times(1))
     }
 
     /// The highest y of a node, as a double.
     pub fn top(&self) -> f64 {
-        self.value(self.low[1] + (self.counts[1].max(1) - 1) as i64)
-    }
-
-    /// A number of steps as the nearest double.
-    fn value(&self, steps: i64) -> f64 {
-        number::nearest(i128::from(steps) * i128::from(self.step.steps), self.step.digits)
+        self.step.times(self.low[1] + (self.counts[1].max(1) - 1) as i64)
     }
 }

@@ -20,6 +20,8 @@ static DONE: AtomicBool = AtomicBool::new(false);
 static TOLD: Mutex<bool> = Mutex::new(false);
 /// The unfinished outputs of the run, which an interrupt removes.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+/// Older files, each under its second name and the name at which an output took its place. An interrupt puts them back.
+static REPLACED: Mutex<Vec<[PathBuf; 2]>> = Mutex::new(Vec::new());
 /// The sentence that says how the run can go on after an interrupt; empty if it cannot.
 static REMEDY: Mutex<String> = Mutex::new(String::new());
 /// Time for a job to end by itself. A slice of a simulated job takes less.
@@ -60,6 +62,9 @@ fn stop() {
     // The last one comes first: a folder is made before the files in it. A folder that is not empty stays.
     for path in unfinished.iter().rev() {
         let _ = std::fs::remove_file(path).or_else(|_| std::fs::remove_dir(path));
+    }
+    for [older, path] in replaced().iter() {
+        let _ = std::fs::rename(older, path);
     }
     tell(&interrupted());
     std::process::exit(Exit::Interrupted as i32);
@@ -114,6 +119,11 @@ pub fn working<T>(work: impl FnOnce() -> T) -> T {
     let result = work();
     WORKING.store(false, Ordering::SeqCst);
     result
+}
+
+/// The older files, each under its second name and its first, locked. Lock the unfinished outputs before.
+pub fn replaced() -> MutexGuard<'static, Vec<[PathBuf; 2]>> {
+    REPLACED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// The unfinished outputs, locked. While the lock is held no interrupt ends the process.

@@ -4,11 +4,12 @@ use std::io::{self, Write};
 
 use incircle::interpolate::Surface;
 
-use crate::failure::{quoted, Failure};
-use crate::number::{self, Coordinate, Decimal, Number};
+use crate::failure::Failure;
+use crate::number::Coordinate;
+use crate::step::Step;
 
 /// The most levels of a run.
-const MOST_LEVELS: f64 = 10_000.0;
+const MOST_LEVELS: i64 = 10_000;
 
 /// A surface, its points in the numbers of the file, and their values.
 pub struct Lines<'a> {
@@ -26,20 +27,14 @@ impl Lines<'_> {
     /// # Errors
     /// The step is no positive decimal, or there are too many levels.
     pub fn levels(&self, step: &str) -> Result<Vec<f64>, Failure> {
-        let shown = quoted(step.as_bytes());
-        let Some(Number::Decimal(step @ Decimal { steps: 1.., .. })) = number::parse(step.trim().as_bytes()) else {
-            return Err(Failure::input(format!("--contours {shown} is no step: give a positive decimal, such as 10")));
-        };
-        let low = number::multiple_from(self.values.iter().copied().fold(f64::INFINITY, f64::min), step);
-        let high = number::multiple_to(self.values.iter().copied().fold(f64::NEG_INFINITY, f64::max), step);
-        if high - low >= MOST_LEVELS || low.abs().max(high.abs()) > 1e15 {
-            return Err(Failure::input(format!(
-                "--contours {shown} gives {:.3e} levels, more than {MOST_LEVELS}: give a larger step",
-                high - low + 1.0
-            )));
+        let step = Step::read("--contours", step, "10")?;
+        let values = self.values.iter().copied();
+        let (low, high) = (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max));
+        let [first, last] = step.multiples(low, high, "values")?;
+        if last - first >= MOST_LEVELS {
+            return Err(step.refuse(&format!("gives {} levels, more than {MOST_LEVELS}", last - first + 1)));
         }
-        let level = |multiple: i64| number::nearest(i128::from(multiple) * i128::from(step.steps), step.digits);
-        Ok((low as i64..=high as i64).map(level).collect())
+        Ok((first..=last).map(|level| step.times(level)).collect())
     }
 
     /// Writes a feature for each line, with its level as the property `value`, and returns their number. A closed line

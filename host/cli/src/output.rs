@@ -161,7 +161,16 @@ impl Written {
         let mut unfinished = interrupt::unfinished();
         interrupt::check()?;
         keep_permissions(part, path);
-        fs::rename(part, path).map_err(|error| cannot_write(&self.name, &error))?;
+        let older = part_named(path, &format!("{}.older", std::process::id()));
+        // Without second names for files, as on some file systems, an older file is not kept.
+        let has_older = fs::hard_link(path, &older).is_ok();
+        if let Err(error) = fs::rename(part, path) {
+            let _ = has_older.then(|| fs::remove_file(older));
+            return Err(cannot_write(&self.name, &error));
+        }
+        if has_older {
+            interrupt::replaced().push([older, path.clone()]);
+        }
         // Until the run is done an interrupt removes the file under its final name.
         unfinished.iter_mut().filter(|kept| *kept == part).for_each(|kept| kept.clone_from(path));
         drop(unfinished);
@@ -180,7 +189,7 @@ impl Drop for Written {
 }
 
 /// Puts all outputs in place, calls `last`, and marks the run as complete. If anything fails, none of the outputs is
-/// left.
+/// left, and the files that they replaced are there again.
 pub fn finish(
     outputs: impl IntoIterator<Item = Written>,
     last: impl FnOnce() -> Result<(), Failure>,
@@ -191,8 +200,8 @@ pub fn finish(
     })
 }
 
-/// Puts all outputs of a step in place and then calls `last`. If anything fails, none of the outputs is left. An
-/// interrupt of a later step leaves them where they are.
+/// Puts all outputs of a step in place and then calls `last`. If anything fails, none of the outputs is left, and the
+/// files that they replaced are there again. An interrupt of a later step leaves the outputs where they are.
 pub fn keep(
     outputs: impl IntoIterator<Item = Written>,
     last: impl FnOnce() -> Result<(), Failure>,
@@ -207,12 +216,22 @@ pub fn keep(
     let result = place_all();
     let mut unfinished = interrupt::unfinished();
     for path in placed {
-        if result.is_err() {
-            let _ = fs::remove_file(&path);
-        }
+        settle(&path, result.is_ok());
         unfinished.retain(|kept| *kept != path);
     }
     result
+}
+
+/// Drops the older file behind an output, or puts it back; if there was none, the output is removed.
+fn settle(path: &Path, is_good: bool) {
+    let mut replaced = interrupt::replaced();
+    let older = replaced.iter().position(|[_, name]| name == path).map(|place| replaced.swap_remove(place));
+    let _ = match (older, is_good) {
+        (Some([older, _]), true) => fs::remove_file(older),
+        (Some([older, path]), false) => fs::rename(older, path),
+        (None, false) => fs::remove_file(path),
+        (None, true) => Ok(()),
+    };
 }
 
 /// Prints text on standard output. A pipe whose reader has closed it is not a failure.

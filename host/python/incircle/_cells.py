@@ -243,9 +243,10 @@ def lloyd(
     points
         Points as for `triangulate`. Together with the clip they must lie on a lattice of up to 23 bits; see `quantize`.
     iterations
-        The most steps: 1 to 4,294,967,295. `None` needs `until_still`, and stands for 100,000.
+        The most steps: 1 to 4,294,967,295. `None` needs `until_still`, and stands for 100,000. A relaxation ends
+        earlier if no point moves.
     until_still
-        Ends also when no point moves, or when a state comes again.
+        Ends also when a state comes again.
     clip
         The region to fill, as for `voronoi`; `None` stands for the rectangle around the points.
     holes

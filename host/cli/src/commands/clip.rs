@@ -43,16 +43,8 @@ impl Border {
     pub fn clip(&self, grid: &[Point]) -> Result<Clip, Failure> {
         let clip = match (&self.counts[..], grid) {
             ([], &[one, other]) => Clip::rectangle(one, other),
-            ([] | [_], _) => Clip::polygon(grid),
-            (&[outer, ref holes @ ..], _) => {
-                let (outer, mut rest) = grid.split_at(outer.min(grid.len()));
-                let hole = |&count: &usize| {
-                    let (hole, others) = rest.split_at(count.min(rest.len()));
-                    rest = others;
-                    hole.to_vec()
-                };
-                Clip::with_holes(outer, &holes.iter().map(hole).collect::<Vec<_>>())
-            }
+            ([], _) => Clip::polygon(grid),
+            (counts, _) => Clip::of_rings(grid, counts),
         };
         let told = |error: Error| match error {
             Error::MisplacedHole { hole } => format!(

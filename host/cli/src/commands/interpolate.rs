@@ -11,14 +11,18 @@ use crate::arguments::{InterpolateArguments, ReadArguments, ValueFormat};
 use crate::commands::interpolate_device;
 use crate::failure::{counted, failure_of, Failure};
 use crate::grid::Grid;
-use crate::lattice::{self, Laid, Numbers};
+use crate::lattice::{self, Laid};
 use crate::lines::Lines;
 use crate::memory::Memory;
 use crate::output::{self, Output};
 use crate::path;
 use crate::points::PointTable;
+use crate::value_places::{coordinates, ValuePlaces};
 use crate::watch::{seconds_json, total, Watch};
 use crate::{geotiff, interrupt, source, value_writer};
+
+/// Bytes that the value of a node takes, and those that it takes again in a file that is made in memory.
+const VALUE_BYTES: u64 = 8;
 
 /// Reads points and places, works out the values, writes them, and prints the report.
 pub fn run(arguments: &InterpolateArguments) -> Result<(), Failure> {
@@ -31,18 +35,15 @@ pub fn run(arguments: &InterpolateArguments) -> Result<(), Failure> {
     let table = source::read_valued_points(&arguments.points, read, arguments.value.as_deref(), quiet)?;
     let values = table.heights().to_vec();
     check_values(&table, &values).map_err(in_file)?;
-    let (places, grid) = places(arguments, &table)?;
-    if let (ValueFormat::Tif, Some(grid)) = (format, &grid) {
-        geotiff::check(grid)?;
-    }
+    let places = places(arguments, format, &table)?;
     watch.ended("load");
     interrupt::check()?;
-    let all = table.into_items().append(places.clone())?;
+    let all = table.into_items().append(places.table().clone())?;
     let laid = lattice::lay(&all, None).map_err(in_file)?;
     watch.ended("quantise");
-    let wanted = Wanted { places: &places, grid: grid.as_ref(), points: values.len() };
+    let wanted = Wanted { places: &places, points: values.len() };
     if let Some(choice) = device {
-        let found = interpolate_device::values(&choice, &laid, &values).map_err(in_file)?;
+        let found = interpolate_device::values(&choice, &laid, &values, &places).map_err(in_file)?;
         watch.ended("interpolate");
         return wanted.write(arguments, &found, format, output, &laid, &mut watch);
     }
@@ -62,17 +63,18 @@ pub fn run(arguments: &InterpolateArguments) -> Result<(), Failure> {
     let threads = arguments.threads.and_then(|threads| usize::try_from(threads.get()).ok());
     let threads = threads.and_then(NonZeroUsize::new).or(std::thread::available_parallelism().ok());
     let (method, outside) = (arguments.method.method(), arguments.outside.outside());
-    let found = surface.values(method, outside, at, threads.unwrap_or(NonZeroUsize::MIN));
+    let mut found = Vec::with_capacity(places.len());
+    places.each(at, |some| {
+        found.extend(surface.values(method, outside, some, threads.unwrap_or(NonZeroUsize::MIN)));
+        interrupt::check()
+    })?;
     watch.ended("interpolate");
     wanted.write(arguments, &found, format, output, &laid, &mut watch)
 }
 
-/// The places at which values are wanted.
+/// The places at which values are wanted, and the number of points with values.
 struct Wanted<'a> {
-    /// The places in the numbers of the file.
-    places: &'a PointTable,
-    grid: Option<&'a Grid>,
-    /// The number of points with values.
+    places: &'a ValuePlaces,
     points: usize,
 }
 
@@ -87,10 +89,12 @@ impl Wanted<'_> {
         laid: &Laid<'_>,
         watch: &mut Watch,
     ) -> Result<(), Failure> {
-        let written = output.write(|out| match (format, self.grid) {
+        let grid = self.places.grid.as_ref();
+        let no_data = if format == ValueFormat::Asc { value_writer::no_data(found)? } else { 0 };
+        let written = output.write(|out| match (format, grid) {
             (ValueFormat::Csv, _) => value_writer::write_csv(self.places, found, out),
             (ValueFormat::Npy, grid) => value_writer::write_npy(found, grid, out),
-            (ValueFormat::Asc, Some(grid)) => value_writer::write_asc(found, grid, out),
+            (ValueFormat::Asc, Some(grid)) => value_writer::write_asc(found, grid, no_data, out),
             (ValueFormat::Tif, Some(grid)) => geotiff::write(found, grid, out),
             (ValueFormat::Asc | ValueFormat::Tif | ValueFormat::Geojson, _) => Ok(()),
         })?;
@@ -188,26 +192,20 @@ fn check_values(table: &PointTable, values: &[f64]) -> Result<(), Failure> {
     Err(Failure::input("the points have no values: give a file with z, or name a column of CSV with --value"))
 }
 
-/// The places at which values are wanted, and their grid if they are one.
-fn places(arguments: &InterpolateArguments, table: &PointTable) -> Result<(PointTable, Option<Grid>), Failure> {
+/// The places at which values are wanted.
+fn places(arguments: &InterpolateArguments, format: ValueFormat, table: &PointTable) -> Result<ValuePlaces, Failure> {
     if let Some(step) = &arguments.grid {
-        let grid = Grid::of(step, table, Memory::free())?;
-        return Ok((grid.nodes()?, Some(grid)));
+        let copies = if format == ValueFormat::Tif { 2 } else { 1 };
+        let grid = Grid::of(step, table, copies * VALUE_BYTES, Memory::free())?;
+        if matches!(format, ValueFormat::Asc | ValueFormat::Tif) {
+            grid.check_nodes()?;
+        }
+        return ValuePlaces::of_grid(grid);
     }
-    match &arguments.at {
-        Some(file) => Ok((source::read_points(file, &ReadArguments::of_whole_file(), arguments.quiet)?, None)),
-        None => Ok((PointTable::of_items("place"), None)),
-    }
-}
-
-/// The coordinates in which values are worked out: those of the lattice, which doubles hold exactly, or else the
-/// nearest doubles.
-fn coordinates(laid: &Laid<'_>, all: &PointTable) -> Vec<[f64; 2]> {
-    match &laid.numbers {
-        Numbers::Grid(grid) => grid.iter().map(|point| [point.x.into(), point.y.into()]).collect(),
-        Numbers::Doubles(doubles) => doubles.to_vec(),
-        Numbers::Whole(_) => all.doubles().into_owned(),
-    }
+    Ok(ValuePlaces::of_table(match &arguments.at {
+        Some(file) => source::read_points(file, &ReadArguments::of_whole_file(), arguments.quiet)?,
+        None => PointTable::of_items("place"),
+    }))
 }
 
 /// The content of the report of values.

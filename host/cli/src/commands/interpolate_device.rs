@@ -10,6 +10,7 @@ use crate::backend::{self, Choice, MODEL_COORD_BITS};
 use crate::failure::{failure_of, Failure};
 use crate::interrupt;
 use crate::lattice::{Laid, Numbers};
+use crate::value_places::ValuePlaces;
 
 /// The back end of the arguments, if it is a device. A device gives neither other methods, nor contours, nor values
 /// outside the hull.
@@ -33,21 +34,34 @@ pub fn choose(arguments: &InterpolateArguments) -> Result<Option<Choice>, Failur
     Ok(Some(choice))
 }
 
-/// The values at all places behind the first points, which have values.
-pub fn values(choice: &Choice, laid: &Laid<'_>, values: &[f64]) -> Result<Vec<f64>, Failure> {
+/// The values at places whose table stands behind the points, which have values.
+pub fn values(choice: &Choice, laid: &Laid<'_>, values: &[f64], places: &ValuePlaces) -> Result<Vec<f64>, Failure> {
     choice.check_lattice(laid)?;
     let Numbers::Grid(grid) = &laid.numbers else {
         let remedy = "give --backend cpu, which takes any numbers";
         return Err(Failure::input(format!("the points and places lie on no lattice of up to 32 bits: {remedy}")));
     };
-    let (points, places) = grid.split_at(values.len());
+    let (points, at) = grid.split_at(values.len());
     if is_on_line(points) {
         return Err(Failure::input(NoTriangle.to_string()));
     }
     let mut backend = backend::open_with_room(choice, Some(points.len()), None, None)?;
-    let found = interrupt::working(|| answer(&mut backend.device, points, values, places));
+    let at: Vec<[u32; 2]> = at.iter().map(|&point| point.into()).collect();
+    let mut found = Vec::with_capacity(places.len());
+    let done = interrupt::working(|| {
+        let mut session = backend.device.session()?;
+        let listener = |_| ControlFlow::Continue(());
+        let mut mesh = session.living_with(&Options::default().progress(&listener))?;
+        mesh.insert_all(points)?;
+        places.each(&at, |some| {
+            let some: Vec<Point> = some.iter().copied().map(Point::from).collect();
+            found.extend(linear_values(&mut mesh, points, values, &some)?);
+            Ok(())
+        })
+    });
     interrupt::check()?;
-    found.map_err(|error| failure_of(&error))
+    done.map_err(|error: incircle::Error| failure_of(&error))?;
+    Ok(found)
 }
 
 /// Whether all points lie on one line, or are fewer than three: then there is no surface, on a device as elsewhere.
@@ -60,17 +74,4 @@ fn is_on_line(points: &[Point]) -> bool {
         let [x, y] = vector(point);
         u * y == v * x
     })
-}
-
-fn answer(
-    device: &mut incircle::Device,
-    points: &[Point],
-    values: &[f64],
-    places: &[Point],
-) -> Result<Vec<f64>, incircle::Error> {
-    let mut session = device.session()?;
-    let listener = |_| ControlFlow::Continue(());
-    let mut mesh = session.living_with(&Options::default().progress(&listener))?;
-    mesh.insert_all(points)?;
-    linear_values(&mut mesh, points, values, places)
 }

@@ -138,17 +138,12 @@ fn tell(
     watch: &Watch,
 ) -> Result<(), Failure> {
     let Relaxed { points, iterations, moved, end } = relaxed;
-    let end = match end {
-        End::Still => "still",
-        End::Cycle => "cycle",
-        End::Iterations => "iterations",
-    };
     if arguments.json {
         let report = json!({
             "points": points.len(),
             "iterations": iterations,
             "moved": moved,
-            "end": end,
+            "end": name_of(*end),
             "density": image.map(|image| json!({ "columns": image.columns, "rows": image.rows() })),
             "lattice": laid.to_json(),
             "quantisation": laid.quantization().map(crate::report::quantization_json),
@@ -163,7 +158,18 @@ fn tell(
         if let Some(image) = image {
             output::note(&format!("density: an image of {} by {} pixels", image.columns, image.rows()));
         }
-        output::note(&format!("{points}, {steps}, {moved} moved in the last; ended by: {end}; {seconds:.3} s"));
+        let still = if *end == End::Still { format!(" in step {iterations}") } else { String::new() };
+        let end = name_of(*end);
+        output::note(&format!("{points}, {steps}, {moved} moved in the last; ended by: {end}{still}; {seconds:.3} s"));
     }
     Ok(())
+}
+
+/// The reason of an end, in reports.
+fn name_of(end: End) -> &'static str {
+    match end {
+        End::Still => "still",
+        End::Cycle => "cycle",
+        End::Iterations => "iterations",
+    }
 }

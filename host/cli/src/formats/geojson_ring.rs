@@ -3,6 +3,7 @@
 
 use crate::failure::{counted, quoted, Failure};
 use crate::formats::json_text;
+use crate::formats::plan::check_ring;
 use crate::memory::Memory;
 use crate::points::PointTable;
 use crate::text;
@@ -74,6 +75,7 @@ fn read_polygon(rings: &str, memory: Memory) -> Result<Rings, Failure> {
                 Err(Failure::input(format!("corner {number} of ring {ring} is {shown}, not two numbers")))
             }
         })?;
+        check_ring(&corners, before, || "the polygon".to_owned())?;
         counts.push(corners.len() - before);
         Ok(())
     })?;

@@ -79,31 +79,37 @@ impl PlanTable {
 
     /// Makes a ring of the points from the one with this index to the last, which repeats the first.
     pub fn add_ring(&mut self, first: usize, what: impl Fn() -> String) -> Result<(), Failure> {
-        let count = self.table.len() - first;
-        if count < 4 {
-            let count = counted(count, "point");
-            return Err(Failure::input(format!(
-                "{} has a ring of {count}: a ring needs four or more, of which the last repeats the first",
-                what()
-            )));
-        }
-        let place = |index: usize| [0, 1].map(|axis| self.table.coordinate(index, axis));
-        let [from, to] = [place(first), place(self.table.len() - 1)];
-        if from != to {
-            return Err(Failure::input(format!(
-                "{} has a ring that is not closed: it begins at ({}, {}) and ends at ({}, {})",
-                what(),
-                from[0],
-                from[1],
-                to[0],
-                to[1]
-            )));
-        }
+        check_ring(&self.table, first, what)?;
         self.rings.extend(chain(first, self.table.len()));
         let is_outer = std::mem::take(&mut self.begins_polygon);
         self.polygons.push(Ring { end: self.rings.len(), is_outer });
         Ok(())
     }
+}
+
+/// Refuses a ring, made of the points from the one with this index to the last, that is too short or not closed.
+pub fn check_ring(table: &PointTable, first: usize, what: impl Fn() -> String) -> Result<(), Failure> {
+    let count = table.len() - first;
+    if count < 4 {
+        let count = counted(count, "point");
+        return Err(Failure::input(format!(
+            "{} has a ring of {count}: a ring needs four or more, of which the last repeats the first",
+            what()
+        )));
+    }
+    let place = |index: usize| [0, 1].map(|axis| table.coordinate(index, axis));
+    let [from, to] = [place(first), place(table.len() - 1)];
+    if from == to {
+        return Ok(());
+    }
+    Err(Failure::input(format!(
+        "{} has a ring that is not closed: it begins at ({}, {}) and ends at ({}, {})",
+        what(),
+        from[0],
+        from[1],
+        to[0],
+        to[1]
+    )))
 }
 
 /// The pairs of consecutive indices from the first to before the end.

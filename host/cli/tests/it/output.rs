@@ -124,10 +124,34 @@ fn a_full_disk_is_an_error_and_stays_a_device() {
     let fails =
         |mut run: std::process::Command| crate::common::Run::of(run.stdout(device()).output().expect("it runs"));
     fails(run).fails(3, &["standard output", "No space left"]);
-    // If the report cannot be printed, the mesh is not left behind either.
-    let run = scratch.command(["triangulate", "p.csv", "-o", "m.ele", "--json"]);
-    fails(run).fails(3, &["standard output"]);
-    assert_eq!(scratch.files(), ["p.csv"]);
+    // If the report cannot be printed, no output is left behind, whatever its format.
+    scratch.write("v.csv", "x,y,z\n0,0,1\n4,0,2\n0,4,3\n");
+    for arguments in [
+        "triangulate p.csv -o m.ele",
+        "triangulate p.csv -o m.svg",
+        "voronoi p.csv -o m.svg",
+        "voronoi p.csv -o m.geojson",
+        "lloyd v.csv -o m.csv --iterations 2",
+        "interpolate v.csv -o m.asc --grid 1",
+        "interpolate v.csv -o m.geojson --contours 1",
+    ] {
+        let run = scratch.command(arguments.split(' ').chain(["--json"]));
+        fails(run).fails(3, &["standard output"]);
+        assert_eq!(scratch.files(), ["p.csv", "v.csv"], "{arguments}");
+    }
+    // An older file at that place is there again.
+    for format in ["ele", "svg"] {
+        let file = format!("m.{format}");
+        scratch.write(&file, "older");
+        let run = scratch.command(["triangulate", "p.csv", "-o", &file, "--json"]);
+        fails(run).fails(3, &["standard output"]);
+        assert_eq!(scratch.read(&file), "older");
+        assert_eq!(scratch.files(), [&file[..], "p.csv", "v.csv"]);
+        scratch.run(&format!("triangulate p.csv -o {file} --json")).ok();
+        assert_ne!(scratch.read(&file), "older");
+        assert_eq!(scratch.files(), [&file[..], "p.csv", "v.csv"]);
+        std::fs::remove_file(scratch.path(&file)).expect("the file is there");
+    }
     let kind = std::fs::metadata("/dev/full").expect("it is there").file_type();
     assert!(kind.is_char_device());
     scratch.run("triangulate p.csv -o /dev/null --format ele").ok();

@@ -52,8 +52,17 @@ fn crossing(record: &Record, k: usize, level: f64) -> Crossing {
     let other = after(k);
     let (from, to) = if record.ids[k] < record.ids[other] { (k, other) } else { (other, k) };
     let (low, high) = (record.values[from], record.values[to]);
-    let share = ((level - low) / (high - low)).clamp(0.0, 1.0);
-    Crossing { edge: [record.ids[from], record.ids[to]], share }
+    Crossing { edge: [record.ids[from], record.ids[to]], share: share(low, high, level).clamp(0.0, 1.0) }
+}
+
+/// The position of a level between two values, which need not be in order.
+fn share(low: f64, high: f64, level: f64) -> f64 {
+    if (high - low).is_finite() {
+        (level - low) / (high - low)
+    } else {
+        // The halves of values have differences within the range of doubles.
+        (level / 2.0 - low / 2.0) / (high / 2.0 - low / 2.0)
+    }
 }
 
 /// The contour lines of a level: open ones first, in the order of the triangles at which they begin.

@@ -8,7 +8,9 @@
 
 use alloc::vec::Vec;
 
+use super::large::mean_of_large;
 use super::record::{after, Record, NONE};
+use crate::lattice::scaled;
 
 /// An edge of the ring as seen from the place, with its first corner and its value.
 #[derive(Clone, Copy)]
@@ -120,19 +122,12 @@ impl Tour {
         if !self.run(records, start, q, false) {
             return f64::NAN;
         }
-        let cotangent = |at: [f64; 2], to: [f64; 2]| {
-            let (to_q, to) = ([-at[0], -at[1]], minus(to, at));
-            dot(to_q, to) / cross(to_q, to).abs()
-        };
-        let (mut sum, mut weights, mut base) = (0.0, 0.0, None);
-        for (k, edge) in self.ring.iter().enumerate() {
-            let next = self.ring[if k + 1 == self.ring.len() { 0 } else { k + 1 }];
-            let weight = cotangent(edge.from, edge.to) + cotangent(next.to, edge.to);
-            let base = *base.get_or_insert(edge.value);
-            sum += weight * (edge.value - base);
-            weights += weight;
+        let value = self.mean_by_cotangents(|value| value);
+        if value.is_finite() {
+            return value;
         }
-        base.unwrap_or(f64::NAN) + sum / weights
+        let values = self.ring.iter().map(|edge| edge.value);
+        mean_of_large(value, values, |shift| self.mean_by_cotangents(|value| scaled(value, -shift)))
     }
 
     /// The mean with the weights of Sibson: the areas that the cell of the place would take.
@@ -142,6 +137,36 @@ impl Tour {
         }
         self.centers.extend_from_within(..self.prefix);
         self.close();
+        let value = self.mean_by_areas(|value| value);
+        if value.is_finite() {
+            return value;
+        }
+        let values = self.ring.iter().map(|edge| edge.value);
+        mean_of_large(value, values, |shift| self.mean_by_areas(|value| scaled(value, -shift)))
+    }
+
+    /// The mean of the changed values, weighted by cotangents.
+    #[inline(always)]
+    fn mean_by_cotangents(&self, change: impl Fn(f64) -> f64) -> f64 {
+        let cotangent = |at: [f64; 2], to: [f64; 2]| {
+            let (to_q, to) = ([-at[0], -at[1]], minus(to, at));
+            dot(to_q, to) / cross(to_q, to).abs()
+        };
+        let (mut sum, mut weights, mut base) = (0.0, 0.0, None);
+        for (k, edge) in self.ring.iter().enumerate() {
+            let next = self.ring[if k + 1 == self.ring.len() { 0 } else { k + 1 }];
+            let weight = cotangent(edge.from, edge.to) + cotangent(next.to, edge.to);
+            let value = change(edge.value);
+            let base = *base.get_or_insert(value);
+            sum += weight * (value - base);
+            weights += weight;
+        }
+        base.unwrap_or(f64::NAN) + sum / weights
+    }
+
+    /// The mean of the changed values, weighted by areas.
+    #[inline(always)]
+    fn mean_by_areas(&self, change: impl Fn(f64) -> f64) -> f64 {
         let (mut sum, mut weights, mut base, mut begin) = (0.0, 0.0, None, self.prefix);
         for (k, edge) in self.ring.iter().enumerate() {
             let next = self.ring[if k + 1 == self.ring.len() { 0 } else { k + 1 }];
@@ -149,8 +174,9 @@ impl Tour {
             let last = center_with_origin(next.from, next.to);
             let weight = area(first, &self.centers[begin..edge.centers_end], last);
             begin = edge.centers_end;
-            let base = *base.get_or_insert(edge.value);
-            sum += weight * (edge.value - base);
+            let value = change(edge.value);
+            let base = *base.get_or_insert(value);
+            sum += weight * (value - base);
             weights += weight;
         }
         base.unwrap_or(f64::NAN) + sum / weights

@@ -48,13 +48,13 @@ pub use density::{Density, DensityError};
 pub use error::Error;
 pub use step::{step, weighted_step};
 
-/// The conditions under which a relaxation ends.
+/// The conditions under which a relaxation ends. It also ends after a step in which no point moved, for all further
+/// steps would do the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stop {
     /// The most steps.
     pub iterations: u32,
-    /// Whether the relaxation also ends after a step in which no point moved, or that led to a state that was there
-    /// before.
+    /// Whether the relaxation also ends after a step that led to a state that was there before.
     pub when_still: bool,
 }
 
@@ -113,7 +113,8 @@ pub fn relax_weighted(
 /// the work because somebody asks for that.
 ///
 /// `step` gets the points in an order in which near ones stand near one another, and must give the new place of each,
-/// in the same order. The result has the points in the order of `points` again.
+/// in the same order. The new places may depend on the old ones alone. The result has the points in the order of
+/// `points` again.
 ///
 /// ```
 /// use core::num::NonZeroUsize;
@@ -152,7 +153,7 @@ pub fn repeat<E>(
         result.iterations += 1;
         result.moved = now.iter().zip(&next).filter(|(one, other)| one != other).count();
         now = next;
-        if stop.when_still && result.moved == 0 {
+        if result.moved == 0 {
             result.end = End::Still;
             break;
         }

@@ -41,10 +41,13 @@ fn points_spread_until_they_are_still() {
         let points = draw(&mut random, 12, 10);
         let clip = square(1023);
         let stop = Stop { iterations: 10_000, when_still: true };
-        let still = relax(points, &clip, stop, threads(1)).expect("cells");
+        let still = relax(points.clone(), &clip, stop, threads(1)).expect("cells");
         assert_ne!(still.end, End::Iterations);
         if still.end == End::Still {
             assert_eq!(still.moved, 0);
+            // A number of steps ends there as well, with the same places.
+            let stop = Stop { iterations: still.iterations + 5, when_still: false };
+            assert_eq!(relax(points, &clip, stop, threads(1)).expect("cells"), still);
             assert_eq!(step(&still.points, &clip, threads(1)).expect("cells"), still.points);
         }
         let nearest = |k: usize| {

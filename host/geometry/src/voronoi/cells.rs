@@ -22,8 +22,9 @@ impl<'a> Cells<'a> {
 
     /// Clips the cell of a point, exactly. A duplicate, or a point that does not exist, has no piece.
     ///
-    /// O(k) for a cell of `k` edges that the border of the clip does not come near, and O(k m) for other cells, with
-    /// `m` corners of the clip. After the first cells nothing is allocated.
+    /// O(k + log m) for a cell of `k` edges that the border of the clip does not come near, with `m` corners of the
+    /// clip. Other cells take O(log m) for each of their edges, and as much for each time that the line of one crosses
+    /// the border of the clip. After the first cells nothing is allocated.
     pub fn cell(&mut self, point: u32) -> ClippedCell<'_> {
         self.clipper.clear();
         let p = self.voronoi.points.get(point as usize).copied().unwrap_or_default();

@@ -1,8 +1,10 @@
 //! The polygon to which cells are clipped.
 
 use alloc::vec::Vec;
+use core::cmp::Ordering;
+use core::ops::Range;
 
-use super::border::Border;
+use super::border::{Bisector, Border};
 use super::corner::{cross, dot, vector};
 use super::error::Error;
 use crate::point::{Point, MAX_COORD_BITS};
@@ -32,7 +34,8 @@ impl Clip {
     }
 
     /// The polygon with these corners, clockwise or counter-clockwise. The first may be repeated at the end, and
-    /// corners may repeat the one before. O(m log m) on most rings of `m` corners, and O(m²) at worst.
+    /// corners may repeat the one before. O(m log m) for `m` corners, and O(m) more for each pair of edges that lie
+    /// near each other beyond those of most rings: O(m²) at worst.
     ///
     /// # Errors
     /// The ring has no area, edges that are not consecutive have a common place, or a coordinate has more than 31 bits.
@@ -55,17 +58,41 @@ impl Clip {
     /// # Errors
     /// As for [`polygon`](Self::polygon), for any of the rings; a hole outside the outer ring, or inside another hole.
     pub fn with_holes(outer: &[Point], holes: &[Vec<Point>]) -> Result<Self, Error> {
-        let mut clip = Self { corners: Vec::new(), ends: Vec::new(), next: Vec::new(), border: Border::of(&[]) };
+        let mut clip = Self { corners: Vec::new(), ends: Vec::new(), next: Vec::new(), border: Border::default() };
         for ring in core::iter::once(outer).chain(holes.iter().map(Vec::as_slice)) {
             clip.add_ring(ring)?;
         }
+        clip.border = Border::of(&clip);
         clip.refuse_crossings()?;
         clip.turn_rings()?;
-        let edges: Vec<[Point; 2]> = (0..clip.corners.len()).map(|edge| clip.edge(edge)).collect();
-        clip.border = Border::of(&edges);
-        match (1..clip.ends.len()).find(|&hole| clip.is_misplaced(hole)) {
-            Some(ring) => Err(Error::MisplacedHole { hole: ring - 1 }),
-            None => Ok(clip),
+        clip.border = Border::of(&clip);
+        clip.refuse_misplaced_holes()?;
+        Ok(clip)
+    }
+
+    /// The polygon whose corners stand one ring behind the other: the outer one, then the holes. `counts` says how many
+    /// corners each ring has.
+    ///
+    /// ```
+    /// use incircle_geometry::voronoi::Clip;
+    /// use incircle_geometry::Point;
+    ///
+    /// let corners = [(0, 0), (9, 0), (9, 9), (0, 9), (1, 1), (3, 1), (1, 3)].map(Point::from);
+    /// assert_eq!(Clip::of_rings(&corners, &[4, 3])?.twice_area(), 2 * 81 - 4);
+    /// # Ok::<(), incircle_geometry::voronoi::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`with_holes`](Self::with_holes); there is no count, or they do not add up to the number of corners.
+    pub fn of_rings(corners: &[Point], counts: &[usize]) -> Result<Self, Error> {
+        let have = counts.iter().fold(0, |sum: usize, &count| sum.saturating_add(count));
+        let mut rest = corners;
+        let mut rings = counts.iter().filter_map(|&count| rest.split_off(..count));
+        match rings.next() {
+            Some(outer) if have == corners.len() => {
+                Self::with_holes(outer, &rings.map(<[_]>::to_vec).collect::<Vec<_>>())
+            }
+            _ => Err(Error::RingCounts { have, corners: corners.len() }),
         }
     }
 
@@ -104,15 +131,28 @@ impl Clip {
         Ok(())
     }
 
-    /// Whether a hole lies outside the outer ring or inside another hole. Rings have no common place, so any corner
-    /// tells.
-    fn is_misplaced(&self, hole: usize) -> bool {
-        let corner = self.corners[self.ends[hole - 1]];
-        let holds = |ring: usize| {
-            let begin = if ring == 0 { 0 } else { self.ends[ring - 1] };
-            is_inside((begin..self.ends[ring]).map(|edge| self.edge(edge)), corner)
+    /// Refuses a hole outside the outer ring or inside another hole. Rings have no common place, so any corner tells.
+    fn refuse_misplaced_holes(&self) -> Result<(), Error> {
+        let ring = |hole: usize| self.ends[hole - 1]..self.ends[hole];
+        // If each hole lies in an odd number of other rings, each lies in the outer one alone: in a chain of nested
+        // rings every second one, beginning with the outermost, lies in an even number, and no hole does.
+        let is_odd = |hole: usize| {
+            let Range { start, end } = ring(hole);
+            self.border.is_inside(self, self.corners[start], start as u32..end as u32)
         };
-        !holds(0) || (1..self.ends.len()).any(|other| other != hole && holds(other))
+        if (1..self.ends.len()).all(is_odd) {
+            return Ok(());
+        }
+        let holds = |edges: Range<usize>, corner: Point| is_inside(edges.map(|edge| self.edge(edge)), corner);
+        let is_misplaced = |hole: usize| {
+            let corner = self.corners[ring(hole).start];
+            let is_in = |other: usize| other != hole && holds(ring(other), corner);
+            !holds(0..self.ends[0], corner) || (1..self.ends.len()).any(is_in)
+        };
+        match (1..self.ends.len()).find(|&hole| is_misplaced(hole)) {
+            Some(ring) => Err(Error::MisplacedHole { hole: ring - 1 }),
+            None => Ok(()),
+        }
     }
 
     /// The corners of all rings: those of the outer ring, counter-clockwise, then those of each hole, clockwise. Edge
@@ -130,6 +170,25 @@ impl Clip {
     /// The two ends of an edge.
     pub(super) fn edge(&self, edge: usize) -> [Point; 2] {
         [self.corners[edge], self.corners[self.next[edge] as usize]]
+    }
+
+    /// The ends of the rings that lie in a range of corners, which has some whole rings or a part of one.
+    pub(super) fn ring_ends(&self, [first, end]: [u32; 2]) -> &[usize] {
+        let place = |corner: u32| self.ends.partition_point(|&other| other <= corner as usize);
+        &self.ends[place(first)..place(end)]
+    }
+
+    /// Whether a ring ends before the corner of this number.
+    pub(super) fn ends_ring(&self, number: u32) -> bool {
+        self.ends.binary_search(&(number as usize)).is_ok()
+    }
+
+    /// The place nearest to the middle of a range of corners at which one ring follows another; `None` if all are of
+    /// one ring.
+    pub(super) fn ring_between(&self, [first, end]: [u32; 2]) -> Option<u32> {
+        let middle = first + (end - first) / 2;
+        let inner = self.ring_ends([first, end - 1]).iter().map(|&place| place as u32);
+        inner.min_by_key(|place| place.abs_diff(middle))
     }
 
     /// Whether an edge belongs to a hole.
@@ -151,16 +210,26 @@ impl Clip {
 
     /// Whether the border may have a place in a box of doubles, which may be infinite.
     pub(crate) fn may_touch(&self, low: [f64; 2], high: [f64; 2]) -> bool {
-        self.border.may_touch(low, high)
+        self.border.may_touch(self, low, high)
     }
 
     /// Whether the polygon contains a point that is not on its border.
     pub(crate) fn contains(&self, point: Point) -> bool {
-        is_inside(self.border.at_height(point.y).map(|edge| self.edge(edge as usize)), point)
+        self.border.is_inside(self, point, 0..0)
+    }
+
+    /// The corners in runs on one side of a line; see [`Border::sides`].
+    pub(super) fn sides(&self, corners: [u32; 2], line: Bisector, add: impl FnMut([u32; 2], Ordering)) {
+        self.border.sides(self, corners, line, add);
     }
 
     /// Refuses rings in which edges that are not consecutive meet, or consecutive ones overlap.
     fn refuse_crossings(&self) -> Result<(), Error> {
+        let meets_later =
+            |edge: usize| self.border.meets_later(self, edge as u32, |other| self.meet(edge, other as usize));
+        if !(0..self.corners.len()).any(meets_later) {
+            return Ok(());
+        }
         let low = |edge: usize| self.edge(edge).map(|end| end.x).into_iter().min().unwrap_or(0);
         let mut order: Vec<usize> = (0..self.corners.len()).collect();
         order.sort_unstable_by_key(|&edge| low(edge));

@@ -16,6 +16,7 @@ use core::cmp::Ordering;
 use super::clip::Clip;
 use super::corner::{cross, vector};
 use super::place::Place;
+use super::ring_list::{Item, RingList};
 use crate::point::Point;
 
 /// The line on which an edge of a clipped cell lies.
@@ -28,7 +29,7 @@ pub enum Side {
 }
 
 /// A corner of a ring, with the edge that begins there.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Bend {
     pub(super) place: Place,
     pub(super) side: Side,
@@ -73,20 +74,40 @@ impl View<'_> {
 #[derive(Clone, Copy)]
 struct Tip {
     place: Place,
+    /// The position of the place on the border, rounded.
+    near: f64,
     chain: usize,
     is_end: bool,
     /// From the place into the chain.
     direction: [i64; 2],
-    /// The corner of the ring, if the place is one.
-    corner: Option<usize>,
+    /// The item of the ring, if the place is one.
+    item: Option<usize>,
 }
 
-/// A run of corners of one ring that are strictly nearer to `p`.
+impl Tip {
+    /// Compares two tips by their order just beside the border between `p` and `q`: by their positions and, at one
+    /// place, by their directions, of which the one that points back along the border comes first.
+    fn compare(&self, other: &Self, p: Point, q: Point) -> Ordering {
+        // A rounded position is off by less than its 2^-51st part.
+        const MARGIN: f64 = 1.0 / (1u64 << 49) as f64;
+        let (ahead, margin) = (self.near - other.near, (self.near.abs() + other.near.abs()) * MARGIN);
+        if ahead > margin {
+            return Ordering::Greater;
+        }
+        if ahead < -margin {
+            return Ordering::Less;
+        }
+        let order = self.place.compare_positions(other.place, p, q);
+        order.then_with(|| cross(self.direction, other.direction).cmp(&0))
+    }
+}
+
+/// Consecutive items of one ring whose corners are strictly nearer to `p`.
 #[derive(Clone, Copy)]
 struct Chain {
     first: usize,
     last: usize,
-    /// The first corner of the ring, and the one behind its last.
+    /// The first item of the ring, and the one behind its last.
     ring: [usize; 2],
 }
 
@@ -111,6 +132,8 @@ impl Chain {
 /// The lists that cuts reuse.
 #[derive(Default)]
 pub(super) struct Cutter {
+    /// The rings, with items on one side of the border, and the side of each item.
+    rings: RingList,
     signs: Vec<Ordering>,
     chains: Vec<Chain>,
     tips: Vec<Tip>,
@@ -122,32 +145,22 @@ pub(super) struct Cutter {
 }
 
 impl Cutter {
-    /// Appends to `out` and `counts` what is left of some rings, of which each has so many corners: the corners, and
-    /// how many each new ring has.
-    pub(super) fn cut(
-        &mut self,
-        rings: (&[Bend], &[usize]),
-        view: View<'_>,
-        q: u32,
-        out: &mut Vec<Bend>,
-        counts: &mut Vec<usize>,
-    ) {
-        let (bends, lengths) = rings;
-        let at = view.points[q as usize];
-        self.signs.clear();
-        self.signs.extend(bends.iter().map(|bend| bend.place.side(view.p, at)));
+    /// Appends to `out` what the border with point `q` leaves of some rings.
+    pub(super) fn cut(&mut self, rings: &RingList, view: View<'_>, q: u32, out: &mut RingList) {
+        self.rings.fill_by_side(rings, view, q, &mut self.signs);
         if !self.signs.contains(&Ordering::Less) {
-            out.extend_from_slice(bends);
-            counts.extend_from_slice(lengths);
+            out.items.extend_from_slice(&rings.items);
+            out.counts.extend_from_slice(&rings.counts);
             return;
         }
         self.chains.clear();
         let mut begin = 0;
-        for &length in lengths {
+        for number in 0..self.rings.counts.len() {
+            let length = self.rings.counts[number];
             let ring = [begin, begin + length];
             if self.stays(ring) {
-                out.extend_from_slice(&bends[begin..begin + length]);
-                counts.push(length);
+                out.items.extend_from_slice(&self.rings.items[begin..begin + length]);
+                out.counts.push(length);
             } else {
                 self.find_chains(ring);
             }
@@ -156,9 +169,9 @@ impl Cutter {
         if self.chains.is_empty() {
             return;
         }
-        self.find_tips(bends, view, at);
-        self.join(bends, q);
-        self.collect(bends, out, counts);
+        self.find_tips(view, view.points[q as usize]);
+        self.join(q);
+        self.collect(out);
     }
 
     /// Whether a ring has no corner beyond the border, and at most one on it.
@@ -183,34 +196,36 @@ impl Cutter {
     }
 
     /// Finds where each chain leaves and reaches the border.
-    fn find_tips(&mut self, bends: &[Bend], view: View<'_>, q: Point) {
+    fn find_tips(&mut self, view: View<'_>, q: Point) {
         self.tips.clear();
         self.begins.clear();
         self.ends.clear();
+        let items = &self.rings.items;
         for (number, chain) in self.chains.iter().enumerate() {
             let (outer, beyond) = (chain.before(chain.first), chain.after(chain.last));
-            let (side, last) = (bends[outer].side, bends[chain.last].side);
-            let is_on = |k: usize| self.signs[k] == Ordering::Equal;
-            let begin = if is_on(outer) { bends[outer].place } else { view.meet(side, q) };
-            let end = if is_on(beyond) { bends[beyond].place } else { view.meet(last, q) };
-            let corner = |k: usize| is_on(k).then_some(k);
-            let tip = |place, is_end, direction, corner| Tip { place, chain: number, is_end, direction, corner };
+            let (side, last) = (items[outer].last_side(), items[chain.last].last_side());
+            let on = |k: usize| (self.signs[k] == Ordering::Equal).then_some(k);
+            let place = |k: Option<usize>, side: Side| {
+                k.map_or_else(|| view.meet(side, q), |k| items[k].first(view.clip).place)
+            };
+            let (begin, end) = (place(on(outer), side), place(on(beyond), last));
+            let tip = |place, is_end, direction, item| Tip { place, near: 0.0, chain: number, is_end, direction, item };
             self.begins.push(Bend { place: begin, side });
             self.ends.push(end);
-            self.tips.push(tip(begin, false, view.direction(side), corner(outer)));
-            self.tips.push(tip(end, true, view.direction(last).map(|length| -length), corner(beyond)));
+            self.tips.push(tip(begin, false, view.direction(side), on(outer)));
+            self.tips.push(tip(end, true, view.direction(last).map(|length| -length), on(beyond)));
         }
         if self.chains.len() > 1 {
-            // At one place, the direction that points back along the border comes first.
-            self.tips.sort_unstable_by(|one, other| {
-                let order = one.place.compare_positions(other.place, view.p, q);
-                order.then_with(|| cross(one.direction, other.direction).cmp(&0))
-            });
+            for tip in &mut self.tips {
+                let [numerator, denominator] = tip.place.position(view.p, q);
+                tip.near = numerator as f64 / denominator as f64;
+            }
+            self.tips.sort_unstable_by(|one, other| one.compare(other, view.p, q));
         }
     }
 
     /// Joins each end with the beginning behind it.
-    fn join(&mut self, bends: &[Bend], q: u32) {
+    fn join(&mut self, q: u32) {
         self.next.clear();
         self.next.resize(self.chains.len(), (0, Side::Neighbor(q)));
         if self.chains.len() == 1 {
@@ -218,15 +233,15 @@ impl Cutter {
         }
         for pair in self.tips.windows(2) {
             if pair[0].is_end && !pair[1].is_end {
-                self.next[pair[0].chain] = (pair[1].chain, self.side_between(bends, pair[0], pair[1], q));
+                self.next[pair[0].chain] = (pair[1].chain, self.side_between(pair[0], pair[1], q));
             }
         }
     }
 
     /// The line on which the edge between two tips lies. Where a ring itself runs along the border and has its inside
     /// on the side of `p`, the edge stays that of the ring: the inside does not reach the other cell.
-    fn side_between(&self, bends: &[Bend], end: Tip, begin: Tip, q: u32) -> Side {
-        let (Some(first), Some(last)) = (end.corner, begin.corner) else { return Side::Neighbor(q) };
+    fn side_between(&self, end: Tip, begin: Tip, q: u32) -> Side {
+        let (Some(first), Some(last)) = (end.item, begin.item) else { return Side::Neighbor(q) };
         let chain = self.chains[end.chain];
         if chain.ring != self.chains[begin.chain].ring {
             return Side::Neighbor(q);
@@ -238,34 +253,34 @@ impl Cutter {
                 return Side::Neighbor(q);
             }
         }
-        bends[first].side
+        self.rings.items[first].last_side()
     }
 
     /// Collects the new rings.
-    fn collect(&mut self, bends: &[Bend], out: &mut Vec<Bend>, counts: &mut Vec<usize>) {
+    fn collect(&mut self, out: &mut RingList) {
         self.done.clear();
         self.done.resize(self.chains.len(), false);
         for first in 0..self.chains.len() {
-            let (mut number, begin) = (first, out.len());
+            let (mut number, begin) = (first, out.items.len());
             while !self.done[number] {
                 self.done[number] = true;
                 let chain = self.chains[number];
-                out.push(self.begins[number]);
+                out.items.push(Item::One(self.begins[number]));
                 let mut k = chain.first;
-                out.push(bends[k]);
+                out.items.push(self.rings.items[k]);
                 while k != chain.last {
                     k = chain.after(k);
-                    out.push(bends[k]);
+                    out.items.push(self.rings.items[k]);
                 }
                 let (next, side) = self.next[number];
                 // An end at the corner at which the next chain begins would make an edge of length zero.
                 if self.ends[number] != self.begins[next].place {
-                    out.push(Bend { place: self.ends[number], side });
+                    out.items.push(Item::One(Bend { place: self.ends[number], side }));
                 }
                 number = next;
             }
-            if out.len() > begin {
-                counts.push(out.len() - begin);
+            if out.items.len() > begin {
+                out.counts.push(out.items.len() - begin);
             }
         }
     }

@@ -31,6 +31,16 @@ pub enum Error {
     /// The clip has fewer than three different corners, or no area.
     #[error("the clip has no area: give two opposite corners of a rectangle, or three corners that turn")]
     EmptyClip,
+    /// The rings of the clip have another number of corners than were given.
+    #[error(
+        "the rings of the clip have {have} corners, but the clip has {corners}: give the number of corners of each ring"
+    )]
+    RingCounts {
+        /// The corners of all rings together.
+        have: usize,
+        /// The corners of the clip.
+        corners: usize,
+    },
     /// A hole of the clip does not lie inside the outer ring, or lies inside another hole.
     #[error(
         "hole {hole} of the clip, counted from 0, lies outside its outer ring or inside another hole: give holes that \

@@ -9,7 +9,7 @@
 //! | the diagram of a mesh | [`Voronoi::of`] | O(n), about 1 µs a point |
 //! | a cell, its neighbours and its corners | [`Voronoi::cell`], [`Voronoi::cells`] | O(1), no allocation |
 //! | a corner exactly, or rounded once | [`Voronoi::vertex`], [`Corner::nearest`] | 20 to 60 ns |
-//! | a cell inside a clip, with its area | [`Cells::cell`] | O(k), or O(k m) where the border of the clip passes |
+//! | a cell inside a clip, with its area | [`Cells::cell`] | O(k), or O(k log m) where the border of the clip passes |
 //!
 //! **Why the diagram is canonical.** A Voronoi vertex is the centre of an empty circle through three or more points.
 //! Two triangles have the same centre only if they have the same empty circle, for the radius is the distance from the
@@ -55,6 +55,7 @@ mod cut;
 mod diagram;
 mod error;
 mod place;
+mod ring_list;
 #[cfg(test)]
 mod tests;
 mod wide;

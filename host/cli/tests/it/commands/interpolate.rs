@@ -118,6 +118,7 @@ fn wrong_input_is_one_sentence_and_no_file() {
     scratch.write("gap.csv", "x,y,z\n0,0,1\n1,0,\n1,1,2\n");
     scratch.write("word.csv", "x,y,z\n0,0,1\n1,0,high\n1,1,2\n");
     scratch.write("flat.csv", "0,0\n1,0\n0,1\n");
+    scratch.write("few.csv", "x,y,z\n1,1,1\n2,1,2\n1,2,3\n");
     scratch.write("flat.xyz", "0 0\n1 0\n0 1\n");
     scratch.write("some.geojson", "{\"type\":\"MultiPoint\",\"coordinates\":[[0,0,1],[1,0],[0,1,2]]}");
     let files = scratch.files();
@@ -133,12 +134,21 @@ fn wrong_input_is_one_sentence_and_no_file() {
         ("p.csv --value width --grid 1 -o v.csv", 3, &["p.csv: there is no column 'width'"]),
         ("p.csv --value 9 --grid 1 -o v.csv", 3, &["there is no column '9'", "a number from 1 to 4"]),
         ("line.csv --grid 1 -o v.csv", 3, &["line.csv: there is no triangle between the points"]),
-        ("p.csv --grid 0 -o v.csv", 3, &["--grid '0' is no step: give a positive decimal"]),
-        ("p.csv --grid -1 -o v.csv", 3, &["--grid '-1' is no step"]),
-        ("p.csv --grid wide -o v.csv", 3, &["--grid 'wide' is no step"]),
-        ("p.csv --grid 0.0000000001 -o v.csv", 3, &["nodes, more than the", "give a larger step"]),
-        ("p.csv --contours 0 -o v.geojson", 3, &["--contours '0' is no step"]),
-        ("p.csv --contours 0.00001 -o v.geojson", 3, &["levels, more than 10000: give a larger step"]),
+        ("p.csv --grid 0 -o v.csv", 3, &["--grid '0' is zero: give a positive step, such as 0.5"]),
+        ("p.csv --grid -1 -o v.csv", 3, &["--grid '-1' is negative: give a positive step"]),
+        ("p.csv --grid wide -o v.csv", 3, &["--grid 'wide' is not a number: give a positive step"]),
+        ("p.csv --grid 1e19 -o v.csv", 3, &["--grid '1e19' has too many digits: give a step"]),
+        ("p.csv --grid inf -o v.csv", 3, &["--grid 'inf' is not finite"]),
+        (
+            "p.csv --grid 0.0000000001 -o v.csv",
+            3,
+            &["--grid '0.0000000001' gives 990000001 by 960000001 nodes", "MiB of free memory: give a larger step"],
+        ),
+        ("p.csv --grid 1e-18 -o v.csv", 3, &["--grid '1e-18' is too small for the points, which lie up to 9.900e16"]),
+        ("p.csv --contours 0 -o v.geojson", 3, &["--contours '0' is zero: give a positive step, such as 10"]),
+        ("p.csv --contours 0.001 -o v.geojson", 3, &["gives 234001 levels, more than 10000: give a larger step"]),
+        ("p.csv --contours 1e-15 -o v.geojson", 3, &["--contours '1e-15' is too small for the values, which lie up"]),
+        ("few.csv --grid 7 -o v.asc", 3, &["the grid has no node", "smaller --grid"]),
         ("p.csv --contours 1 -o v.csv", 2, &["contours are written as GeoJSON"]),
         ("p.csv --at none.csv -o v.csv", 3, &["none.csv"]),
         ("p.csv --at flat.csv -o v.asc", 2, &["an ASCII grid has the values of a grid"]),
@@ -178,6 +188,50 @@ fn a_geotiff_has_the_rows_of_the_grid_and_its_place() {
     scratch.run("interpolate p.csv --grid 7 -o h.tif").fails(3, &["the grid has no node", "smaller --grid"]);
     scratch.run("interpolate p.csv --at p.csv -o h.tiff").fails(2, &["a GeoTIFF has the values of a grid"]);
     assert_eq!(scratch.files(), files);
+}
+
+#[test]
+fn no_value_of_an_ascii_grid_stands_for_a_missing_one() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", "x,y,z\n0,0,-9999\n2,0,1\n0,2,-99999\n");
+    scratch.run("interpolate p.csv --grid 1 -o g.asc --quiet").ok();
+    let text = scratch.read("g.asc");
+    let rows: Vec<&str> = text.lines().skip(5).collect();
+    let expected = ["NODATA_value -999999", "-99999 -999999 -999999", "-54999 -49999 -999999", "-9999 -4999 1"];
+    assert_eq!(rows, expected);
+}
+
+#[test]
+fn means_of_the_largest_values_are_numbers() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", "x,y,z\n0,0,-1.7e308\n4,0,1.7e308\n0,4,1.7e308\n4,4,-1.7e308\n1,2,1.7e308\n");
+    for method in ["linear", "laplace", "sibson"] {
+        scratch.run(&format!("interpolate p.csv --grid 0.5 -o v.csv --method {method} --quiet")).ok();
+        let found = rows(&scratch.read("v.csv"));
+        assert_eq!(found.len(), 81);
+        assert!(found.iter().all(|row| row[2].abs() <= 1.7e308), "{method}: {found:?}");
+    }
+}
+
+/// Grids have the values that the same places have in a file, in every kind of numbers.
+#[test]
+fn nodes_of_a_grid_are_places_like_others() {
+    let scratch = Scratch::new();
+    for (points, step) in [
+        ("0,0,1\n300,7,5\n13,200,9\n-40,90,2\n", "3"),
+        ("0.1,0.2,1\n30.7,7.25,5\n1.3,20,9\n-4,9.5,2\n", "0.37"),
+        ("0.1234567890123,0.2,1\n30.7,7.25,5\n1e-17,20,9\n-4,9.5,2\n", "0.5"),
+        ("0,5000000000,1\n7000000000,0,3\n6,8000000001,5\n", "333333333"),
+    ] {
+        scratch.write("p.csv", format!("x,y,z\n{points}"));
+        scratch.run(&format!("interpolate p.csv --grid {step} -o g.csv --method sibson --quiet")).ok();
+        let grid = scratch.read("g.csv");
+        let places: Vec<&str> = grid.lines().skip(1).filter_map(|row| Some(row.rsplit_once(',')?.0)).collect();
+        assert!(places.len() > 300, "{points}");
+        scratch.write("q.csv", places.join("\n"));
+        scratch.run("interpolate p.csv --at q.csv -o v.csv --method sibson --quiet").ok();
+        assert_eq!(scratch.read("v.csv"), grid, "{points}");
+    }
 }
 
 #[test]

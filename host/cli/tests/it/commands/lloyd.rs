@@ -12,6 +12,11 @@ fn two_points_end_in_the_middles_of_halves() {
     let report: Value = serde_json::from_str(&run.stdout).expect("a report");
     assert_eq!((report["end"].as_str(), report["moved"].as_u64()), (Some("still"), Some(0)));
     assert_eq!(scratch.read("q.csv"), "0.25,1.5\n0.75,1.5\n");
+    // A number of steps ends when nothing moves any more, with the same places.
+    let steps = report["iterations"].as_u64().expect("steps");
+    let run = scratch.run("lloyd p.csv -o r.csv --iterations 1000000 --clip 0,0,1,3").ok();
+    assert!(run.stderr.contains(&format!("{steps} steps, 0 moved in the last; ended by: still in step {steps};")));
+    assert_eq!(scratch.read("r.csv"), scratch.read("q.csv"));
     // Steps of a tenth become finer by powers of two.
     scratch.write("t.csv", "-0.1,0.2\n0.1,0.2\n");
     scratch.run("lloyd t.csv -o q.csv --iterations 1 --clip=-0.1,0,0.1,0.4 --quiet").ok();

@@ -144,9 +144,12 @@ fn wrong_input_is_one_sentence_and_no_file() {
     scratch.write("point.geojson", "{\"type\":\"Point\",\"coordinates\":[1,2]}");
     let ring = "[[0,0],[9,0],[9,9],[0,0]]";
     scratch.write("hole.geojson", format!("{{\"type\":\"Polygon\",\"coordinates\":[{ring},{ring}]}}"));
-    let far = "[[20,20],[29,20],[29,29]]";
+    let far = "[[20,20],[29,20],[29,29],[20,20]]";
     scratch.write("far.geojson", format!("{{\"type\":\"Polygon\",\"coordinates\":[{ring},{far}]}}"));
     scratch.write("text.geojson", format!("{{\"type\":\"Polygon\",\"coordinates\":[{ring},[[1,1],[1]]]}}"));
+    let open = "[[1,1],[2,1.50],[2,2],[1,2]]";
+    scratch.write("open.geojson", format!("{{\"type\":\"Polygon\",\"coordinates\":[{ring},{open}]}}"));
+    scratch.write("short.geojson", "{\"type\":\"Polygon\",\"coordinates\":[[[0,0],[9,0],[0,0]]]}");
     scratch.write("empty.geojson", "{\"type\":\"Polygon\",\"coordinates\":[]}");
     scratch.write("wide.csv", "0,0\n1,4294967296\n0.5,9\n");
     scratch.write("bad.csv", "0,0\n1,x\n");
@@ -167,6 +170,12 @@ fn wrong_input_is_one_sentence_and_no_file() {
             3,
             &["text.geojson: corner 2 of ring 2 is '[1]', not two numbers"],
         ),
+        (
+            "p.csv -o c.geojson --clip-to open.geojson",
+            3,
+            &["open.geojson: the polygon has a ring that is not closed: it begins at (1, 1) and ends at (1, 2)"],
+        ),
+        ("p.csv -o c.geojson --clip-to short.geojson", 3, &["short.geojson: the polygon has a ring of 3 points"]),
         ("p.csv -o c.geojson --clip-to empty.geojson", 3, &["empty.geojson: the polygon has no ring"]),
         ("p.csv -o c.geojson --clip-to none.csv", 3, &["none.csv"]),
         ("line.csv -o c.geojson", 3, &["the rectangle around the points has no area"]),

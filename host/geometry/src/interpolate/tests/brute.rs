@@ -225,3 +225,56 @@ fn of_points_at_one_distance_the_lowest_index_counts() {
     let surface = Surface::new(&places, &mesh.triangles, &[0.0, 1.0, 2.0, 3.0, 4.0]).expect("a surface");
     assert_eq!(surface.value(Method::Linear, Outside::Nearest, [0.0, 0.0]), 0.0);
 }
+
+/// The largest double, as values that no sum can hold.
+const LARGEST: f64 = f64::MAX;
+
+#[test]
+fn means_of_the_largest_values_are_finite() {
+    let mut random = SplitMix64::new(291);
+    let mut checked = 0;
+    for _ in 0..100 {
+        let (points, _) = draw(&mut random);
+        let places = doubles(&points);
+        let mesh = mesh_of(&places);
+        let exponent = random.pick(&[971, 960, 900, -1070]);
+        let factor = crate::lattice::scaled(1.0, exponent);
+        let small: Vec<f64> = places.iter().map(|[x, y]| 2f64.powi(48) * (x - y)).collect();
+        let large: Vec<f64> = small.iter().map(|value| value * factor).collect();
+        let limits: Vec<f64> = points.iter().map(|_| random.pick(&[LARGEST, -LARGEST, LARGEST])).collect();
+        let Ok(of_small) = Surface::new(&places, &mesh.triangles, &small) else { continue };
+        let of_large = Surface::new(&places, &mesh.triangles, &large).expect("a surface");
+        let of_limits = Surface::new(&places, &mesh.triangles, &limits).expect("a surface");
+        for _ in 0..20 {
+            let q = [0; 2].map(|_: i64| random.below(80) as f64 / 4.0);
+            for method in METHODS {
+                let (one, other) = (of_small.value(method, Outside::Nan, q), of_large.value(method, Outside::Nan, q));
+                if one.is_nan() {
+                    continue;
+                }
+                // Differences of up to 2^53 lose nothing beside a power of two, and shares of them little.
+                let scaled_back = other / factor;
+                assert!(
+                    (scaled_back - one).abs() <= 1e-9 * 2f64.powi(53),
+                    "{method:?} {points:?} {q:?}: {one} {other}"
+                );
+                assert!(of_limits.value(method, Outside::Nan, q).is_finite(), "{method:?} {points:?} {limits:?} {q:?}");
+                checked += 1;
+            }
+        }
+    }
+    assert!(checked > 1000, "{checked}");
+    // Between the smallest and the largest double.
+    let points = [[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]];
+    let surface = Surface::new(&points, &[[0, 1, 2]], &[-LARGEST, LARGEST, -LARGEST]).expect("a surface");
+    assert_eq!(surface.value(Method::Linear, Outside::Nan, [2.0, 0.0]), 0.0);
+    let share = surface.value(Method::Linear, Outside::Nan, [3.0, 0.5]) / LARGEST;
+    assert!((share - 0.5).abs() < 1e-15, "{share}");
+    let line = &surface.contours(LARGEST / 2.0)[0];
+    let shares: Vec<f64> = line.crossings.iter().map(|crossing| crossing.share).collect();
+    let is_quarter = |share: &f64| [0.25, 0.75].iter().any(|exact| (share - exact).abs() < 1e-15);
+    assert!(shares.len() == 2 && shares.iter().all(is_quarter), "{shares:?}");
+    // What is not finite stays so.
+    let surface = Surface::new(&points, &[[0, 1, 2]], &[f64::NAN, LARGEST, -LARGEST]).expect("a surface");
+    assert!(surface.value(Method::Linear, Outside::Nan, [1.0, 1.0]).is_nan());
+}

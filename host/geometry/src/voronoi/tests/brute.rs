@@ -11,16 +11,16 @@ use crate::voronoi::{Cells, Clip, ClippedCell, Corner, Error, Voronoi};
 use crate::{cpu, incircle, orient2d, Mesh, Point};
 
 /// Sets of each test, or the number in the environment variable `INCIRCLE_SETS`.
-pub(super) fn sets() -> u64 {
+pub(in crate::voronoi) fn sets() -> u64 {
     std::env::var("INCIRCLE_SETS").ok().and_then(|text| text.parse().ok()).unwrap_or(300)
 }
 
-pub(super) fn mesh_of(points: &[Point]) -> Mesh<Point> {
+pub(in crate::voronoi) fn mesh_of(points: &[Point]) -> Mesh<Point> {
     cpu::triangulate(points.to_vec(), NonZeroUsize::MIN, &mut |_| ControlFlow::Continue(())).expect("a mesh")
 }
 
 /// A few points of a small square, away from the origin.
-pub(super) fn draw(random: &mut SplitMix64) -> Vec<Point> {
+pub(in crate::voronoi) fn draw(random: &mut SplitMix64) -> Vec<Point> {
     let side = random.pick(&[2, 3, 4, 5, 8]);
     let count = 1 + random.below(10);
     (0..count).map(|_| Point::new(3 + random.below_u32(side), 3 + random.below_u32(side))).collect()
@@ -184,7 +184,7 @@ fn check_ring(ring: &[Fraction]) {
 }
 
 /// A ring of random corners that is simple.
-pub(super) fn draw_clip(random: &mut SplitMix64) -> Clip {
+pub(in crate::voronoi) fn draw_clip(random: &mut SplitMix64) -> Clip {
     loop {
         let count = 3 + random.below(6);
         let ring: Vec<Point> = (0..count).map(|_| draw_corner(random)).collect();

@@ -56,7 +56,7 @@ fn cells_in_polygons_with_holes_have_the_areas_of_half_planes() {
 }
 
 /// A polygon with one to three small holes, if the random rings fit together.
-fn draw_holes(random: &mut SplitMix64) -> Option<Clip> {
+pub(in crate::voronoi) fn draw_holes(random: &mut SplitMix64) -> Option<Clip> {
     let outer: Vec<Point> = match random.below(2) {
         0 => [(0, 0), (14, 0), (14, 14), (0, 14)].map(Point::from).to_vec(),
         _ => draw_clip(random).corners().to_vec(),
