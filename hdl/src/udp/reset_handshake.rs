@@ -32,7 +32,6 @@ pub struct ResetHandshake {
     is_wanted: DFF<Bit>,
     is_requested: DFF<Bit>,
     core_is_resetting: DFF<Bit>,
-    port_is_resetting: DFF<Bit>,
     /// Clocks of the port that the request has lasted.
     clocks: DFF<Bits<3>>,
     is_replied: DFF<Bit>,
@@ -50,7 +49,7 @@ impl Logic for ResetHandshake {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, core_clock, is_wanted, is_requested, core_is_resetting);
-        dff_setup!(self, port_clock, port_is_resetting, clocks, is_replied);
+        dff_setup!(self, port_clock, clocks, is_replied);
         clock!(self, core_clock, reset_seen, reply_seen);
         clock!(self, port_clock, request_seen);
         self.most.next = 7.into();
@@ -86,7 +85,7 @@ impl Logic for ResetHandshake {
             self.clocks.d.next = 0.into();
             self.is_replied.d.next = false;
         }
-        self.port_is_resetting.d.next = self.request_seen.received.val() | self.is_replied.q.val();
-        self.port_resets.next = self.port_is_resetting.q.val();
+        // The reply falls one clock after the port's side has left its reset, so the core's side leaves its own later.
+        self.port_resets.next = self.request_seen.received.val();
     }
 }
