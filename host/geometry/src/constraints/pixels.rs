@@ -36,7 +36,7 @@ impl Segment {
     }
 
     /// The segment with its lexicographically smaller end first.
-    pub fn from_left(&self) -> Self {
+    pub fn rightward(&self) -> Self {
         let [a, b] = self.0;
         Self([a.min(b), a.max(b)])
     }

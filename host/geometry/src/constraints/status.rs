@@ -77,7 +77,7 @@ impl Status {
     }
 
     /// The lines from the first one on that is not below something.
-    pub fn from(&self, is_below: impl Fn(u32) -> bool) -> impl Iterator<Item = u32> + '_ {
+    pub fn not_below(&self, is_below: impl Fn(u32) -> bool) -> impl Iterator<Item = u32> + '_ {
         let (rank, place) = self.search(is_below);
         let lines = self.order[rank..].iter().flat_map(|&block| self.blocks[block as usize].iter().copied());
         lines.skip(place)

@@ -40,7 +40,7 @@ struct Sweep<'a, T> {
 /// # Errors
 /// Those of `take`, which end the search.
 pub(super) fn each_crossing<E>(segments: &[Segment], take: impl FnMut(u32, u32) -> Result<(), E>) -> Result<(), E> {
-    let lines: Vec<Segment> = segments.iter().map(Segment::from_left).collect();
+    let lines: Vec<Segment> = segments.iter().map(Segment::rightward).collect();
     let [left, right] = [0, 1].map(|end| {
         let lines = &lines;
         move |&number: &u32| lines[number as usize].0[end].x
@@ -130,7 +130,7 @@ impl<E, T: FnMut(u32, u32) -> Result<(), E>> Sweep<'_, T> {
     /// Finds the crossings of a vertical line.
     fn pass(&mut self, line: u32) -> Result<(), E> {
         let ([low, high], lines) = (self.line(line).0, self.lines);
-        let met = self.status.from(|other| lines[other as usize].side(low) >= 0);
+        let met = self.status.not_below(|other| lines[other as usize].side(low) >= 0);
         for other in met.take_while(|&other| lines[other as usize].side(high) > 0) {
             (self.take)(line, other)?;
         }
