@@ -97,3 +97,25 @@ impl Grid {
         self.step.times(self.low[1] + (self.counts[1].max(1) - 1) as i64)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_grid_that_just_fits_is_taken() {
+        let mut points = PointTable::of_items("point");
+        for [x, y] in [["0", "0"], ["1", "0"], ["0", "1"]] {
+            points.push([x.as_bytes(), y.as_bytes()], 0).expect("numbers");
+        }
+        // 101 rows and columns, and three points.
+        let bytes = 8 * 101 * 101 + 64 * 202 + 440 * 3;
+        let grid =
+            |bytes: u64| Grid::of("0.01", &points, 8, Memory::of_bytes(bytes)).map_err(|failure| failure.message);
+        let fitting = grid(bytes).expect("the nodes fit");
+        assert_eq!((fitting.counts, fitting.len(), fitting.sources(203)), ([101, 101], 10_201, [1, 102]));
+        let nodes = fitting.edge_nodes().expect("numbers");
+        assert_eq!((nodes.len(), nodes.doubles()[100], nodes.doubles()[102]), (201, [1.0, 0.0], [0.0, 0.02]));
+        assert!(grid(bytes - 1).is_err_and(|message| message.contains("gives 101 by 101 nodes, which take")));
+    }
+}
