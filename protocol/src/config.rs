@@ -74,6 +74,8 @@ pub enum ConfigError {
     Contexts(u32),
     /// The number of engines is not one of `ENGINES`.
     Engines(u32),
+    /// The number of engines of a core that answers questions about its mesh is not 1.
+    EnginesForQuestions(u32),
 }
 
 impl core::fmt::Display for ConfigError {
@@ -91,6 +93,9 @@ impl core::fmt::Display for ConfigError {
             Self::Engines(given) => {
                 let [one, two, four] = ENGINES;
                 write!(f, "a chip cannot have {given} engines: choose {one}, {two} or {four}")
+            }
+            Self::EnginesForQuestions(given) => {
+                write!(f, "a core that answers questions cannot have {given} engines: choose a configuration of one")
             }
         }
     }

@@ -1,12 +1,15 @@
 //! A mesh that stands and answers: runs of questions, in all contexts side by side.
 //!
-//! A run comes as words, and its answer leaves as words. In between, each question is a walk through the visit pipeline
-//! of the insertion engine, which rests meanwhile. [`Questions`] draws its blocks.
+//! The words of a run come in, and the words of its answer go out. Each question is a walk through the visit pipeline
+//! of the insertion engine, which inserts nothing meanwhile. [`Questions`] draws its blocks.
 
+mod item_dealer;
 mod item_queues;
 mod part_queue;
 mod question_step;
 mod questions;
+mod queue_counts;
+mod run_answer;
 mod run_gate;
 mod run_port;
 mod standing_view;

@@ -31,12 +31,12 @@ use crate::prelude::*;
 pub struct PartQueue {
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
-    /// The head of an answer.
+    /// The head of an answer, which comes before the first item begins.
     pub head: Signal<In, RunHead>,
     /// An item begins at this edge, which takes a place; only with `has_room`.
     pub begins: Signal<In, Bit>,
     pub has_room: Signal<Out, Bit>,
-    /// A part that comes.
+    /// The part of an item that ends.
     pub came: Signal<In, PartCame>,
     pub response: AnswerSource,
     /// The last word of the last answer has been taken.
@@ -105,7 +105,7 @@ impl Logic for PartQueue {
         self.is_over.next = (!self.head_is_due.q.val()) & (!self.some_are_left.q.val()) & (!self.valid.q.val());
         self.has_room.next = !self.is_full.q.val();
 
-        // A part waits a clock before it joins the others, because what it holds is known late.
+        // The fields of a part settle late in their clock, so a register keeps them before the memory does.
         self.kept.d.next = self.came.val();
         self.part.next = self.kept.q.val().part;
         self.part_bits.next = self.part.val().into();

@@ -1,14 +1,14 @@
-//! What follows a visit of a question on a mesh that stands: another visit, or the end of its item.
+//! Decides what follows a visit of a question: another visit, or the end of the item.
 //!
 //! 1. A walk goes on until it has reached the record that holds the place. That is a triangle with the place on the
 //!    right of no side, or a ghost triangle whose hull edge has the place strictly beyond.
 //! 2. In a triangle, the sides with the place on their line say what the place is: with none, the place lies inside the
 //!    triangle; with one, inside the edge between the other two corners; with two, on the corner opposite the third
 //!    side. The vertices that remain are named in the order of their slots.
-//! 3. From a ghost triangle the search goes on to the ghost triangle before it on the hull, as long as that one sees the
-//!    place too. The answer is the edge of the last one that does, counter-clockwise on the hull. A visit of this search
-//!    has the number 1 as `entry`, and as `cavity_record` the end of the hull edge of the ghost triangle that it came
-//!    from: the start of that edge is a corner of both.
+//! 3. From a ghost triangle the search goes on to the ghost triangle before it on the hull, as long as that one sees
+//!    the place too. The answer is the hull edge of the last ghost triangle that does, counter-clockwise on the hull. A
+//!    visit of this search has 1 as `entry`, and as `cavity_record` the end of the hull edge of the ghost triangle that
+//!    was visited before. The start of that edge is a corner of both ghost triangles, so the visit need not carry it.
 //! 4. Visits of questions turn no record and take no lock.
 //!
 //! Latency: none, the block is combinational.
@@ -20,10 +20,10 @@ use rust_hdl_core::prelude::*;
 
 #[derive(LogicBlock, Default)]
 pub struct QuestionStep {
-    /// The visit that completes, and the signs of its orient2d, for the corners as stored.
+    /// The visit that completes, and the signs of its three orient2d, for the corners as stored.
     pub completion: Signal<In, Completion>,
     pub sides: Signal<In, EdgeFlags>,
-    /// The visit asks for another one.
+    /// Another visit follows, and that visit.
     pub asks: Signal<Out, Bit>,
     pub bundle: Signal<Out, Bundle>,
     /// The walk has reached the record that holds the place.

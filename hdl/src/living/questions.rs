@@ -11,8 +11,8 @@
 //!    pipeline one a clock.
 //! 2. A walk begins where the last walk of its context has ended, or at record 0 if there was none since the last
 //!    `clears`. No record goes away while the mesh stands.
-//! 3. Nothing takes a lock and nothing is written, because no change of the mesh is under way. The user sees to that:
-//!    a run begins only while the insertion engine rests.
+//! 3. Questions take no lock and write no record. The user begins a run only while no insertion is at work, so the mesh
+//!    does not change during a run.
 //!
 //! Latency: none (combinational) from a completed visit to `push`.
 
@@ -34,23 +34,23 @@ use incircle_protocol::Config;
 #[derive(LogicBlock, Default)]
 pub struct Questions {
     pub clock: Signal<In, Clock>,
-    /// Reset drops the run; `clears` forgets where the walks have ended, and comes only between runs.
+    /// Reset drops the run. After `clears`, which comes only between runs, walks begin at record 0 again.
     pub reset: Signal<In, Bit>,
     pub clears: Signal<In, Bit>,
     /// A run begins: its opcode is taken at this edge.
     pub begins: Signal<In, Bit>,
     pub opcode: Signal<In, Bits<8>>,
-    /// The low half of the header: engine and tag. The number of contexts that work. There is a mesh to ask.
+    /// The low half of the header, which has engine and tag; the number of contexts that work; whether there is a mesh.
     pub signature: Signal<In, Bits<16>>,
     pub contexts: Signal<In, ContextId>,
     pub has_mesh: Signal<In, Bit>,
     pub command: CommandSink,
     pub response: AnswerSource,
-    /// A visit of a question that completes, and the signs of its orient2d, for the corners as stored.
+    /// The visit of a question that completes, and the signs of its three orient2d, for the corners as stored.
     pub completion: Signal<In, Completion>,
     pub sides: Signal<In, EdgeFlags>,
     pub push: Signal<Out, Push>,
-    /// The place that a context asks about from now on.
+    /// The place of the item that begins, and its context.
     pub position: Signal<Out, Position>,
     /// A run is under way.
     pub is_active: Signal<Out, Bit>,
@@ -116,7 +116,7 @@ impl Logic for Questions {
         self.queues.ends.next.valid = self.step.ends.val();
         self.queues.ends.next.context = self.visit.val().context;
 
-        // A walk begins where no visit follows the completed one, and if there is room for its part.
+        // The queue of the pipeline takes one visit a clock, so a walk begins only if no other visit follows.
         self.launch.next = self.queues.launch.val();
         self.item.next = self.launch.val().item;
         self.launches.next = self.queues.waits.val() & self.parts.has_room.val() & (!self.step.asks.val());
@@ -143,7 +143,8 @@ impl Logic for Questions {
         self.numbers.write_data.next = self.item.val().number;
         self.numbers.write_enable.next = self.launches.val();
 
-        // The end of an item, and of its walk.
+        // A walk can end before its item does, because outside the hull a search follows. The next walk of the context
+        // begins where the walk has ended, and not where the search has.
         self.numbers.read_address.next = self.visit.val().context;
         self.number.next = self.numbers.read_data.val();
         self.part.next.number = self.number.val();

@@ -1,9 +1,9 @@
-//! Parts the words of runs from those of all other commands, and joins their answers.
+//! Directs the words of runs to the questions and all other words to the rest of the core, and merges the answers.
 //!
-//! 1. A run begins with its opcode, which the gate keeps. Up to the end of the run all words belong to it; all others go
-//!    to the rest of the core. Of the opcodes, 8 (`Locate`) begins a run.
-//! 2. An answer of the rest of the core goes before that of a run, which is given while the rest of the core awaits its
-//!    next command. Only the last beat of an answer can still be on offer then.
+//! 1. A run begins with an opcode word of `Locate` (8). The core does not see that word, nor any other word up to the
+//!    end of the run.
+//! 2. If both sides have a beat on offer, that of the core goes first. It is the last beat of an answer, because a run
+//!    begins only when the core awaits its next command.
 //!
 //! Latency: none, the block is combinational.
 
@@ -17,10 +17,10 @@ pub struct RunGate {
     /// The streams of the core.
     pub command: CommandSink,
     pub response: AnswerSource,
-    /// What the rest of the core says of itself; a run is under way.
+    /// The state of the rest of the core, and whether a run is under way.
     pub standing: Signal<In, Standing>,
     pub is_active: Signal<In, Bit>,
-    /// A run begins with the word on offer, whose opcode this is.
+    /// A run begins with the word on offer, and the opcode of that word.
     pub begins: Signal<Out, Bit>,
     pub opcode: Signal<Out, Bits<8>>,
     /// The streams of the rest of the core, and those of a run.

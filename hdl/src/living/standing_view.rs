@@ -1,7 +1,7 @@
-//! What questions must know of the core that they ask.
+//! Collects the state of the core on which questions depend.
 //!
-//! 1. There is a mesh to ask as soon as the first triangle has a record. A batch has a mesh for each of its jobs, so
-//!    there is none to ask. Nor is there one when the watchdog has reported.
+//! 1. Questions can be asked as soon as the first triangle has a record. They cannot be asked about a batch, which has
+//!    a mesh for each of its jobs, nor after a report of the watchdog.
 //!
 //! Latency: none, the block is combinational.
 

@@ -1,4 +1,4 @@
-//! What passes between the blocks that answer questions.
+//! Signals between the blocks that answer questions.
 
 use crate::engine::types::{ContextId, VertexId, CONTEXT_BITS};
 use crate::predicate::Point;
@@ -6,8 +6,6 @@ use rust_hdl_core::prelude::*;
 
 /// The number of an item in its run, modulo 2^24: the low bits of the first word of a part.
 pub type ItemNumber = Bits<24>;
-/// What a question has found out, the high bits of the first word of a part.
-pub type OutcomeCode = Bits<4>;
 /// Number of bits that number the items which wait for a context: 32 at most. With 16, contexts that meet a run of long
 /// walks hold up the stream of items: `Locate` at 8,000 uniform points takes 6 % more cycles.
 pub const DEPTH_BITS: usize = 5;
@@ -28,7 +26,7 @@ crate::packed! {
 
     /// An item for a context.
     pub struct DealtItem {
-        /// There is an item; without it the rest is arbitrary.
+        /// An item is on offer; if not, the other fields are arbitrary.
         pub valid: bool,
         pub context: ContextId,
         pub item: Item,
@@ -46,7 +44,7 @@ crate::packed! {
         pub context: ContextId,
     }
 
-    /// What a question has found out. Vertices without a meaning are 0.
+    /// The outcome of a question and the vertices that it names. Vertices that it does not name are 0.
     pub struct Finding {
         pub outcome: Bits<4>,
         pub v0: VertexId,
@@ -66,18 +64,18 @@ crate::packed! {
         pub part: Part,
     }
 
-    /// What a core knows of the mesh that it could be asked about.
+    /// The state of a core and of its mesh, as far as questions depend on it.
     pub struct Standing {
         /// The next word is a command.
         pub awaits_command: bool,
         /// The mesh is forgotten at this edge.
         pub clears: bool,
-        /// What answers are signed with: the tag of the last `Clear`, and the number of the engine.
+        /// The tag of the last `Clear` and the number of the engine, which stand in the head of each answer.
         pub tag: Bits<8>,
         pub engine: Bits<8>,
         /// Number of contexts that work.
         pub contexts: Bits<5>,
-        /// There is a mesh to ask.
+        /// The core has a mesh that questions can be asked about.
         pub has_mesh: bool,
     }
 

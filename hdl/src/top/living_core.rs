@@ -40,8 +40,12 @@ impl LivingCore {
     /// The core of a configuration of one engine.
     ///
     /// # Errors
-    /// If a parameter is out of range; the error says which one and what is possible.
+    /// If a parameter is out of range or there are several engines; the error says what is possible.
     pub fn new(config: Config) -> Result<Self, ConfigError> {
+        let config = config.check()?;
+        if config.engines != 1 {
+            return Err(ConfigError::EnginesForQuestions(config.engines));
+        }
         Ok(Self { core: Core::with_questions(config)?, questions: Questions::new(config), ..Self::default() })
     }
 }

@@ -1,7 +1,7 @@
 //! Parameters that no core can be built with are refused with a sentence.
 
-use incircle_hdl::export;
-use incircle_protocol::{Config, SMALL};
+use incircle_hdl::export::{self, ExportError};
+use incircle_protocol::{Config, ConfigError, SMALL};
 
 #[test]
 fn bad_parameters_are_refused_with_their_numbers() {
@@ -18,6 +18,19 @@ fn bad_parameters_are_refused_with_their_numbers() {
         let error = export::core(config, false).unwrap_err().to_string();
         assert!(error.contains(sentence), "{error}");
     }
+}
+
+#[test]
+fn a_core_with_questions_has_one_engine() {
+    let refused = |engines| export::core_with_questions(Config { engines, ..SMALL }, false).unwrap_err();
+    for engines in [2, 4] {
+        let error = refused(engines);
+        assert!(matches!(error, ExportError::Config(ConfigError::EnginesForQuestions(given)) if given == engines));
+        let sentence =
+            format!("a core that answers questions cannot have {engines} engines: choose a configuration of one");
+        assert_eq!(error.to_string(), sentence);
+    }
+    assert!(matches!(refused(3), ExportError::Config(ConfigError::Engines(3))));
 }
 
 #[test]

@@ -1,9 +1,9 @@
 //! Runs of questions about a mesh that stands, clock by clock: the words of a run, the queues of its items, the walks,
 //! and the parts of its answer.
 //!
-//! Hardware twin: the block `Questions`. It has the stages of the visit pipeline to itself, because a run begins only
-//! while the insertion engine rests. So a visit is a place in a delay line here, and its record is read when it
-//! completes: the mesh stands.
+//! Hardware twin: the block `Questions`. During a run no insertion is at work, so all visits in the pipeline are those of
+//! questions, and no record changes. In this model a visit is therefore an entry of a delay line, and its record is read
+//! when the visit completes.
 
 mod item_queues;
 mod part_queue;
@@ -29,7 +29,7 @@ pub(super) struct Questions {
     port: RunPort,
     queues: ItemQueues,
     parts: PartQueue,
-    /// Visits on their way.
+    /// The visits in the pipeline, the oldest first, with `None` for clocks without a visit.
     visits: VecDeque<Option<Visit>>,
     /// The item of each context.
     items: Vec<Item>,

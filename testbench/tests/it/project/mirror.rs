@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 /// Blocks without a test file of their own: the test that runs the block, by its path from `tests/it`,
 /// and why that test is enough.
-const ELSEWHERE: [(&str, &str, &str); 49] = [
+const ELSEWHERE: [(&str, &str, &str); 52] = [
     ("cluster/dual", "cores/chip", "wires between router, slots and collector"),
     ("cluster/engine_slot", "cores/chip", "a core with its queue and a count, at every clock"),
     ("cluster/quad", "cores/chip", "wires between router, slots and collector"),
@@ -43,6 +43,13 @@ const ELSEWHERE: [(&str, &str, &str); 49] = [
     ("commands/payload_words", "blocks/commands/responder", "the payload that only the responder asks for"),
     ("leaf/spill_ring", "blocks/leaf/deep_fifo", "the memory behind the deep buffer"),
     ("leaf/unpack", "blocks/engine/visit/issue", "the fields of a structure as wires, in most blocks"),
+    (
+        "living/item_dealer",
+        "blocks/living/run_port",
+        "the items of a run, at the ports of the block that takes its words",
+    ),
+    ("living/queue_counts", "blocks/living/item_queues", "the counts of the queues, which alone use them"),
+    ("living/run_answer", "blocks/living/run_port", "the head of every answer, also of a run that is refused"),
     ("serial/link_receiver", "blocks/serial/serial_link", "the receiving half of the link, at its pins"),
     ("serial/link_transmitter", "blocks/serial/serial_link", "the sending half of the link, at its pins"),
     ("stream/bus_side", "blocks/stream/stream_link", "the half of the link in the clock of the bus"),

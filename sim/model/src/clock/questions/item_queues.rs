@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 /// Most items that wait for a context.
 const DEPTH: usize = 32;
 
-/// What the queues do at an edge.
+/// The result of an edge.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Done {
     /// Whether the item on offer is taken.
@@ -22,8 +22,9 @@ pub(super) struct ItemQueues {
     /// Whether a context has no item.
     idle: Vec<bool>,
     waiting: Vec<VecDeque<Item>>,
-    /// Items that come out of the memory in this clock and in the next.
+    /// The items that the memory gives in this clock and in the next.
     fetched: [Option<(usize, Item)>; 2],
+    /// The line of items that begin, each with its context.
     beginners: VecDeque<(usize, Item)>,
 }
 

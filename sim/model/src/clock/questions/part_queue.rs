@@ -6,7 +6,7 @@ use crate::clock::beat::Beat;
 use incircle_protocol::{part_head, Outcome};
 use std::collections::VecDeque;
 
-/// Number of parts that may be on their way.
+/// Number of items that may have begun without their parts having left.
 const PLACES: usize = 32;
 
 /// The part of the answer for one item.
@@ -27,14 +27,14 @@ pub(super) struct Head {
 
 #[derive(Clone, Debug, Default)]
 pub(super) struct PartQueue {
-    /// A part that joins the others at this edge.
+    /// The part that joins `parts` at the next edge.
     kept: Option<Part>,
     parts: VecDeque<Part>,
     places: usize,
     head: Option<Head>,
     /// Number of parts that are still to leave.
     left: u32,
-    /// Whether the first beat of a part has been loaded.
+    /// Whether the next beat is the second of its part.
     at_second: bool,
     valid: bool,
     offered: Beat,

@@ -1,6 +1,6 @@
-//! Takes the words of a run, and deals its items to the contexts in turn.
+//! The port that takes the words of a run, and deals its items to the contexts in turn.
 //!
-//! Hardware twin: the block `RunPort`.
+//! Hardware twin: the block `RunPort`, with `ItemDealer` and `RunAnswer` in it.
 
 use super::part_queue::Head;
 use super::signals::{Item, Signals};
@@ -27,7 +27,7 @@ pub(super) struct RunPort {
     left: u32,
     /// The status of a run that is refused.
     refusal: Option<Status>,
-    /// Whether the head of the answer goes out.
+    /// Whether the head of the answer is given in this clock.
     answers: bool,
     held: Option<(usize, Item)>,
     context: usize,
@@ -53,7 +53,7 @@ impl RunPort {
         self.held
     }
 
-    /// The head of the answer, if it goes out now.
+    /// The head of the answer, if it is given in this clock.
     pub(super) fn head(&self, signature: u32) -> Option<Head> {
         let status = self.refusal.map_or(0, |status| status as u32);
         let parts = if self.refusal.is_none() { self.count } else { 0 };

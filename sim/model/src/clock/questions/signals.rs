@@ -9,7 +9,7 @@ pub(super) struct Item {
     pub place: Point,
 }
 
-/// What the rest of the core says at an edge.
+/// The signals of the rest of the core at an edge.
 #[derive(Clone, Copy, Debug)]
 pub(in super::super) struct Signals {
     /// A run begins with this opcode.

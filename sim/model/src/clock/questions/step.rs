@@ -1,4 +1,4 @@
-//! What follows a visit of a question.
+//! The rules by which a visit of a question follows another, or an item ends.
 //!
 //! Hardware twin: the block `QuestionStep`.
 
@@ -7,12 +7,12 @@ use crate::mesh::Record;
 use crate::predicate::{orient2d, Point};
 use incircle_protocol::Outcome;
 
-/// One visit.
+/// A visit of a question.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Visit {
     pub context: usize,
     pub record: u32,
-    /// In the search for the first visible hull edge: the end of the hull edge of the ghost triangle before.
+    /// In the search along the hull: the end of the hull edge of the ghost triangle that was visited before.
     hull_end: Option<u32>,
 }
 
@@ -22,7 +22,7 @@ impl Visit {
     }
 }
 
-/// What follows a visit.
+/// The result of a visit: the next visit, or the end of the item with its outcome and vertices.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Followed {
     Visit(Visit),
@@ -50,7 +50,7 @@ impl Followed {
     }
 }
 
-/// What follows the visit of a record for a place.
+/// Finds what follows the visit of this record for the place `p`.
 pub(super) fn follow(visit: &Visit, record: Record, p: Point, memory: &Memory) -> Followed {
     let r = record.v.map(|v| memory.vertex(v));
     let sides = [orient2d(r[1], r[2], p), orient2d(r[2], r[0], p), orient2d(r[0], r[1], p)];

@@ -1,0 +1,63 @@
+//! The head of the answer to a run.
+//!
+//! 1. An answer has four words for each item (`Locate`). The answer to a run that is refused, with another status than
+//!    0, is its head alone.
+//! 2. A run is too long if the words of its answer cannot be counted in 32 bits.
+//!
+//! Latency: none, the block is combinational.
+
+use super::types::RunHead;
+use crate::commands::types::Word;
+use rust_hdl_core::prelude::*;
+
+#[derive(LogicBlock, Default)]
+pub struct RunAnswer {
+    /// The opcode of the run, the number of its items, its status, and the low half of the header.
+    pub code: Signal<In, Bits<8>>,
+    pub count: Signal<In, Word>,
+    pub status: Signal<In, Bits<3>>,
+    pub signature: Signal<In, Bits<16>>,
+    pub is_too_long: Signal<Out, Bit>,
+    /// The answer begins at this edge.
+    pub gives: Signal<In, Bit>,
+    pub head: Signal<Out, RunHead>,
+    wide_status: Signal<Local, Word>,
+    shifted_status: Signal<Local, Word>,
+    wide_code: Signal<Local, Word>,
+    shifted_code: Signal<Local, Word>,
+    top: Signal<Local, Word>,
+    two: Signal<Local, Word>,
+    top_shift: Signal<Local, Word>,
+    status_shift: Signal<Local, Word>,
+    code_shift: Signal<Local, Word>,
+}
+
+// The kernel holds the numbers as literals, because rust-hdl allows no constants there. A changed protocol fails here.
+const _: () =
+    assert!(incircle_protocol::RunKind::Locate.part_words() == 4, "the numbers of this block follow the protocol");
+
+impl Logic for RunAnswer {
+    #[hdl_gen]
+    fn update(&mut self) {
+        self.two.next = 2.into();
+        self.top_shift.next = 30.into();
+        self.status_shift.next = 16.into();
+        self.code_shift.next = 24.into();
+        self.top.next = self.count.val() >> self.top_shift.val();
+        self.is_too_long.next = self.top.val().any();
+
+        self.wide_code.next = bit_cast::<32, 8>(self.code.val());
+        self.shifted_code.next = self.wide_code.val() << self.code_shift.val();
+        self.wide_status.next = bit_cast::<32, 3>(self.status.val());
+        self.shifted_status.next = self.wide_status.val() << self.status_shift.val();
+        self.head.next.valid = self.gives.val();
+        self.head.next.header =
+            self.shifted_code.val() | self.shifted_status.val() | bit_cast::<32, 16>(self.signature.val());
+        self.head.next.length = self.count.val() << self.two.val();
+        self.head.next.parts = self.count.val();
+        if self.status.val().any() {
+            self.head.next.length = 0.into();
+            self.head.next.parts = 0.into();
+        }
+    }
+}
