@@ -179,19 +179,19 @@ module incircle_stream_top_logic$core(clock,reset,command$valid,command$ready,co
     wire  [10:0] command_port$clearing;
     wire  [16:0] command_port$deal;
     wire  command_port$answers;
-    wire  [71:0] command_port$request;
+    wire  [73:0] command_port$request;
     wire  [47:0] command_port$tally;
     reg  [2:0] command_port$answer;
     wire  [2:0] command_port$activity;
     reg  answer_head$clock;
-    reg  [71:0] answer_head$request;
+    reg  [73:0] answer_head$request;
     reg  [10:0] answer_head$clearing;
     reg  [7:0] answer_head$engine;
     reg  [14:0] answer_head$records;
     reg  answer_head$collinear;
     reg  answer_head$stuck;
     reg  answer_head$some_refused;
-    wire  [66:0] answer_head$head;
+    wire  [68:0] answer_head$head;
     reg  answer_words$clock;
     reg  [7:0] answer_words$opcode;
     reg  [14:0] answer_words$capacity;
@@ -211,8 +211,8 @@ module incircle_stream_top_logic$core(clock,reset,command$valid,command$ready,co
     reg  responder$reset;
     reg  responder$answers;
     reg  responder$sweeps;
-    reg  [71:0] responder$request;
-    reg  [66:0] responder$head;
+    reg  [73:0] responder$request;
+    reg  [68:0] responder$head;
     reg  [31:0] responder$word;
     wire  [6:0] responder$index;
     wire  [6:0] responder$index_ahead;
@@ -455,14 +455,14 @@ module incircle_stream_top_logic$core$answer_head(clock,request,clearing,engine,
     
     // Module arguments
     input wire  clock;
-    input wire  [71:0] request;
+    input wire  [73:0] request;
     input wire  [10:0] clearing;
     input wire  [7:0] engine;
     input wire  [14:0] records;
     input wire  collinear;
     input wire  stuck;
     input wire  some_refused;
-    output reg  [66:0] head;
+    output reg  [68:0] head;
     
     // Stub signals
     reg  [32:0] range_end$d;
@@ -474,6 +474,9 @@ module incircle_stream_top_logic$core$answer_head(clock,request,clearing,engine,
     reg  [31:0] triple$d;
     wire  [31:0] triple$q;
     reg  triple$clock;
+    reg  [18:0] eighths$d;
+    wire  [18:0] eighths$q;
+    reg  eighths$clock;
     reg  counts_none$d;
     wire  counts_none$q;
     reg  counts_none$clock;
@@ -525,7 +528,13 @@ module incircle_stream_top_logic$core$answer_head(clock,request,clearing,engine,
     reg  [7:0] read_code;
     reg  [7:0] packed_code;
     reg  packs;
-    reg  [31:0] rounded;
+    reg  [14:0] few;
+    reg  [18:0] own_words;
+    reg  [18:0] more;
+    reg  [18:0] rounded;
+    reg  [18:0] seven;
+    reg  [18:0] two_places;
+    reg  [18:0] three_places;
     
     // Sub module instances
     incircle_stream_top_logic$core$answer_head$range_end range_end(
@@ -542,6 +551,11 @@ module incircle_stream_top_logic$core$answer_head(clock,request,clearing,engine,
         .d(triple$d),
         .q(triple$q),
         .clock(triple$clock)
+    );
+    incircle_stream_top_logic$core$answer_head$eighths eighths(
+        .d(eighths$d),
+        .q(eighths$q),
+        .clock(eighths$clock)
     );
     incircle_stream_top_logic$core$answer_head$counts_none counts_none(
         .d(counts_none$d),
@@ -599,11 +613,13 @@ module incircle_stream_top_logic$core$answer_head(clock,request,clearing,engine,
         range_end$clock = clock;
         range_bound$clock = clock;
         triple$clock = clock;
+        eighths$clock = clock;
         counts_none$clock = clock;
         insert_status$clock = clock;
         range_end$d = range_end$q;
         range_bound$d = range_bound$q;
         triple$d = triple$q;
+        eighths$d = eighths$q;
         counts_none$d = counts_none$q;
         insert_status$d = insert_status$q;
         is_outside$clock = clock;
@@ -629,12 +645,25 @@ module incircle_stream_top_logic$core$answer_head(clock,request,clearing,engine,
         engine_shift = 32'h8;
         read_code = 32'h4;
         packed_code = 32'h7;
+        seven = 32'h7;
+        two_places = 32'h2;
+        three_places = 32'h3;
         wide_first = ((request[(64'h8)+:(32)]) & 33'h1ffffffff);
         wide_count = ((request[(64'h28)+:(32)]) & 33'h1ffffffff);
         range_end$d = wide_first + wide_count;
         range_bound$d = records;
         double_count = request[(64'h28)+:(32)] << one;
         triple$d = double_count + request[(64'h28)+:(32)];
+        few = ((request[(64'h28)+:(32)]) & 15'h7fff);
+        own_words = ((few) & 19'h7ffff) << three_places;
+        more = ((few) & 19'h7ffff) << two_places;
+        if (request[(64'h48)+:(1)]) begin
+            more = 32'h0;
+            if (request[(64'h49)+:(1)]) begin
+                more = ((few) & 19'h7ffff);
+            end
+        end
+        eighths$d = own_words + more;
         counts_none$d = request[(64'h28)+:(32)] == none;
         insert_status$d = 32'h0;
         if (some_refused) begin
@@ -649,8 +678,8 @@ module incircle_stream_top_logic$core$answer_head(clock,request,clearing,engine,
         wide_bound = ((range_bound$q) & 33'h1ffffffff);
         is_outside$d = range_end$q > wide_bound;
         read_length$d = triple$q;
-        rounded = triple$q + one;
-        packed_length$d = rounded >> one;
+        rounded = eighths$q + seven;
+        packed_length$d = ((rounded >> three_places) & 32'hffffffff);
         reads_none$d = counts_none$q;
         report_status$d = insert_status$q;
         answer_status$d = 32'h0;
@@ -709,6 +738,8 @@ module incircle_stream_top_logic$core$answer_head(clock,request,clearing,engine,
         endcase
         packs = request[(64'h0)+:(8)] == packed_code;
         head[(64'h42)+:(1)] = packs;
+        head[(64'h43)+:(1)] = request[(64'h48)+:(1)];
+        head[(64'h44)+:(1)] = request[(64'h49)+:(1)];
         head[(64'h41)+:(1)] = packs | (request[(64'h0)+:(8)] == read_code);
         head[(64'h20)+:(32)] = answer_length$q;
         head[(64'h40)+:(1)] = has_none$q;
@@ -780,6 +811,25 @@ module incircle_stream_top_logic$core$answer_head$counts_none(d,q,clock);
     end
           
 endmodule // incircle_stream_top_logic$core$answer_head$counts_none
+
+
+module incircle_stream_top_logic$core$answer_head$eighths(d,q,clock);
+    
+    // Module arguments
+    input wire  [18:0] d;
+    output reg  [18:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 19'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_logic$core$answer_head$eighths
 
 
 module incircle_stream_top_logic$core$answer_head$has_none(d,q,clock);
@@ -1008,6 +1058,7 @@ module incircle_stream_top_logic$core$answer_words(clock,opcode,capacity,context
     reg  [31:0] wide_engines;
     reg  [31:0] shifted_engines;
     reg  [31:0] engines_shift;
+    reg  [31:0] features;
     
     // Sub module instances
     incircle_stream_top_logic$core$answer_words$identity identity(
@@ -1037,6 +1088,7 @@ module incircle_stream_top_logic$core$answer_words(clock,opcode,capacity,context
         word = chosen$q;
         place = index[(32'h0)+:(3)];
         engines_shift = 32'h8;
+        features = 32'h20000;
         wide_contexts = ((contexts) & 32'hffffffff);
         wide_engines = ((engines) & 32'hffffffff);
         shifted_engines = wide_engines << engines_shift;
@@ -1073,7 +1125,7 @@ module incircle_stream_top_logic$core$answer_words(clock,opcode,capacity,context
                 end
             default:
                 begin
-                    identity$d = ((ring_capacity) & 32'hffffffff);
+                    identity$d = ((ring_capacity) & 32'hffffffff) | features;
                     report$d = 32'h0;
                 end
         endcase
@@ -1175,7 +1227,7 @@ module incircle_stream_top_logic$core$command_port(clock,reset,capacity,built,co
     output reg  [10:0] clearing;
     output reg  [16:0] deal;
     output reg  answers;
-    output reg  [71:0] request;
+    output reg  [73:0] request;
     output reg  [47:0] tally;
     input wire  [2:0] answer;
     output reg  [2:0] activity;
@@ -1192,8 +1244,8 @@ module incircle_stream_top_logic$core$command_port(clock,reset,capacity,built,co
     reg  [2:0] state$d;
     wire  [2:0] state$q;
     reg  state$clock;
-    reg  [71:0] held$d;
-    wire  [71:0] held$q;
+    reg  [73:0] held$d;
+    wire  [73:0] held$q;
     reg  held$clock;
     reg  none_is_left$d;
     wire  none_is_left$q;
@@ -1339,6 +1391,8 @@ module incircle_stream_top_logic$core$command_port(clock,reset,capacity,built,co
                 begin
                     if (gate$taken[(64'h0)+:(1)]) begin
                         held$d[(64'h0)+:(8)] = code;
+                        held$d[(64'h48)+:(1)] = command$data[32'h3];
+                        held$d[(64'h49)+:(1)] = command$data[32'h2];
                         state$d = CommandState$Answer;
                         if (code == insert_code) begin
                             state$d = CommandState$Count;
@@ -1912,13 +1966,13 @@ endmodule // incircle_stream_top_logic$core$command_port$gate
 module incircle_stream_top_logic$core$command_port$held(d,q,clock);
     
     // Module arguments
-    input wire  [71:0] d;
-    output reg  [71:0] q;
+    input wire  [73:0] d;
+    output reg  [73:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 72'h0;
+       q = 74'h0;
     end
     
     always @(posedge clock) begin
@@ -24232,8 +24286,8 @@ module incircle_stream_top_logic$core$responder(clock,reset,answers,sweeps,reque
     input wire  reset;
     input wire  answers;
     input wire  sweeps;
-    input wire  [71:0] request;
-    input wire  [66:0] head;
+    input wire  [73:0] request;
+    input wire  [68:0] head;
     input wire  [31:0] word;
     output reg  [6:0] index;
     output reg  [6:0] index_ahead;
@@ -24288,6 +24342,8 @@ module incircle_stream_top_logic$core$responder(clock,reset,answers,sweeps,reque
     reg  [14:0] records$first;
     reg  [14:0] records$count;
     reg  records$is_packed;
+    reg  records$has_short_ids;
+    reg  records$has_rests;
     reg  records$runs;
     wire  records$read;
     wire  [14:0] records$read_id;
@@ -24346,6 +24402,8 @@ module incircle_stream_top_logic$core$responder(clock,reset,answers,sweeps,reque
         .first(records$first),
         .count(records$count),
         .is_packed(records$is_packed),
+        .has_short_ids(records$has_short_ids),
+        .has_rests(records$has_rests),
         .runs(records$runs),
         .read(records$read),
         .read_id(records$read_id),
@@ -24390,6 +24448,8 @@ module incircle_stream_top_logic$core$responder(clock,reset,answers,sweeps,reque
         records$first = ((request[(64'h8)+:(32)]) & 15'h7fff);
         records$count = ((request[(64'h28)+:(32)]) & 15'h7fff);
         records$is_packed = head[(64'h42)+:(1)];
+        records$has_short_ids = head[(64'h43)+:(1)];
+        records$has_rests = head[(64'h44)+:(1)];
         records$runs = state$q == AnswerState$Records;
         read = records$read;
         read_id = records$read_id;
@@ -24490,7 +24550,7 @@ module incircle_stream_top_logic$core$responder$offered(d,q,clock);
 endmodule // incircle_stream_top_logic$core$responder$offered
 
 
-module incircle_stream_top_logic$core$responder$records(clock,reset,starts,first,count,is_packed,runs,read,read_id,read_done,record,valid,beat,takes);
+module incircle_stream_top_logic$core$responder$records(clock,reset,starts,first,count,is_packed,has_short_ids,has_rests,runs,read,read_id,read_done,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -24499,6 +24559,8 @@ module incircle_stream_top_logic$core$responder$records(clock,reset,starts,first
     input wire  [14:0] first;
     input wire  [14:0] count;
     input wire  is_packed;
+    input wire  has_short_ids;
+    input wire  has_rests;
     input wire  runs;
     output reg  read;
     output reg  [14:0] read_id;
@@ -24512,6 +24574,12 @@ module incircle_stream_top_logic$core$responder$records(clock,reset,starts,first
     reg  vertices_alone$d;
     wire  vertices_alone$q;
     reg  vertices_alone$clock;
+    reg  ids_are_short$d;
+    wire  ids_are_short$q;
+    reg  ids_are_short$clock;
+    reg  rests_follow$d;
+    wire  rests_follow$q;
+    reg  rests_follow$clock;
     reg  [14:0] record_id$d;
     wire  [14:0] record_id$q;
     reg  record_id$clock;
@@ -24532,6 +24600,8 @@ module incircle_stream_top_logic$core$responder$records(clock,reset,starts,first
     reg  stream$starts;
     reg  [14:0] stream$count;
     reg  stream$vertices_alone;
+    reg  stream$has_short_ids;
+    reg  stream$has_rests;
     wire  stream$has_room;
     reg  stream$comes;
     reg  [90:0] stream$record;
@@ -24555,6 +24625,16 @@ module incircle_stream_top_logic$core$responder$records(clock,reset,starts,first
         .d(vertices_alone$d),
         .q(vertices_alone$q),
         .clock(vertices_alone$clock)
+    );
+    incircle_stream_top_logic$core$responder$records$ids_are_short ids_are_short(
+        .d(ids_are_short$d),
+        .q(ids_are_short$q),
+        .clock(ids_are_short$clock)
+    );
+    incircle_stream_top_logic$core$responder$records$rests_follow rests_follow(
+        .d(rests_follow$d),
+        .q(rests_follow$q),
+        .clock(rests_follow$clock)
     );
     incircle_stream_top_logic$core$responder$records$record_id record_id(
         .d(record_id$d),
@@ -24587,6 +24667,8 @@ module incircle_stream_top_logic$core$responder$records(clock,reset,starts,first
         .starts(stream$starts),
         .count(stream$count),
         .vertices_alone(stream$vertices_alone),
+        .has_short_ids(stream$has_short_ids),
+        .has_rests(stream$has_rests),
         .has_room(stream$has_room),
         .comes(stream$comes),
         .record(stream$record),
@@ -24608,6 +24690,11 @@ module incircle_stream_top_logic$core$responder$records(clock,reset,starts,first
     // Update code
     always @(*) begin
         vertices_alone$clock = clock;
+        ids_are_short$clock = clock;
+        rests_follow$clock = clock;
+        vertices_alone$d = vertices_alone$q;
+        ids_are_short$d = ids_are_short$q;
+        rests_follow$d = rests_follow$q;
         record_id$clock = clock;
         left$clock = clock;
         some_are_left$clock = clock;
@@ -24615,7 +24702,6 @@ module incircle_stream_top_logic$core$responder$records(clock,reset,starts,first
         pauses$clock = clock;
         is_there$clock = clock;
         head$clock = clock;
-        vertices_alone$d = vertices_alone$q;
         record_id$d = record_id$q;
         left$d = left$q;
         some_are_left$d = some_are_left$q;
@@ -24626,6 +24712,8 @@ module incircle_stream_top_logic$core$responder$records(clock,reset,starts,first
         stream$clock = clock;
         one = 32'h1;
         vertices_alone$d = is_packed;
+        ids_are_short$d = has_short_ids;
+        rests_follow$d = has_rests;
         asks = runs & some_are_left$q & stream$has_room & (~pauses$q);
         read = asks;
         read_id = record_id$q;
@@ -24646,6 +24734,8 @@ module incircle_stream_top_logic$core$responder$records(clock,reset,starts,first
         stream$starts = starts;
         stream$count = count;
         stream$vertices_alone = vertices_alone$q;
+        stream$has_short_ids = ids_are_short$q;
+        stream$has_rests = rests_follow$q;
         stream$comes = read_done;
         stream$record = record;
         valid = is_there$q;
@@ -24682,6 +24772,25 @@ module incircle_stream_top_logic$core$responder$records$head(d,q,clock);
     end
           
 endmodule // incircle_stream_top_logic$core$responder$records$head
+
+
+module incircle_stream_top_logic$core$responder$records$ids_are_short(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_logic$core$responder$records$ids_are_short
 
 
 module incircle_stream_top_logic$core$responder$records$is_second(d,q,clock);
@@ -24779,6 +24888,25 @@ module incircle_stream_top_logic$core$responder$records$record_id(d,q,clock);
 endmodule // incircle_stream_top_logic$core$responder$records$record_id
 
 
+module incircle_stream_top_logic$core$responder$records$rests_follow(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_logic$core$responder$records$rests_follow
+
+
 module incircle_stream_top_logic$core$responder$records$some_are_left(d,q,clock);
     
     // Module arguments
@@ -24798,7 +24926,7 @@ module incircle_stream_top_logic$core$responder$records$some_are_left(d,q,clock)
 endmodule // incircle_stream_top_logic$core$responder$records$some_are_left
 
 
-module incircle_stream_top_logic$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_room,comes,record,valid,beat,takes);
+module incircle_stream_top_logic$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_short_ids,has_rests,has_room,comes,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -24806,6 +24934,8 @@ module incircle_stream_top_logic$core$responder$records$stream(clock,reset,start
     input wire  starts;
     input wire  [14:0] count;
     input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  has_rests;
     output reg  has_room;
     input wire  comes;
     input wire  [90:0] record;
@@ -24826,12 +24956,15 @@ module incircle_stream_top_logic$core$responder$records$stream(clock,reset,start
     reg  halves$clock;
     reg  [90:0] halves$record;
     reg  halves$vertices_alone;
+    reg  halves$has_short_ids;
     wire  [95:0] halves$halves;
     reg  packer$clock;
     reg  packer$reset;
     reg  packer$starts;
     reg  [14:0] packer$count;
     reg  packer$vertices_alone;
+    reg  packer$has_short_ids;
+    reg  packer$has_rests;
     reg  packer$comes;
     reg  [95:0] packer$halves;
     wire  packer$valid;
@@ -24871,6 +25004,7 @@ module incircle_stream_top_logic$core$responder$records$stream(clock,reset,start
         .clock(halves$clock),
         .record(halves$record),
         .vertices_alone(halves$vertices_alone),
+        .has_short_ids(halves$has_short_ids),
         .halves(halves$halves)
     );
     incircle_stream_top_logic$core$responder$records$stream$packer packer(
@@ -24879,6 +25013,8 @@ module incircle_stream_top_logic$core$responder$records$stream(clock,reset,start
         .starts(packer$starts),
         .count(packer$count),
         .vertices_alone(packer$vertices_alone),
+        .has_short_ids(packer$has_short_ids),
+        .has_rests(packer$has_rests),
         .comes(packer$comes),
         .halves(packer$halves),
         .valid(packer$valid),
@@ -24917,7 +25053,10 @@ module incircle_stream_top_logic$core$responder$records$stream(clock,reset,start
         has_come$d = comes;
         halves$record = record;
         halves$vertices_alone = vertices_alone;
+        halves$has_short_ids = has_short_ids;
         packer$vertices_alone = vertices_alone;
+        packer$has_short_ids = has_short_ids;
+        packer$has_rests = has_rests;
         packer$comes = has_come$q;
         packer$halves = halves$halves;
         queue$reset = reset;
@@ -24945,12 +25084,13 @@ module incircle_stream_top_logic$core$responder$records$stream(clock,reset,start
 endmodule // incircle_stream_top_logic$core$responder$records$stream
 
 
-module incircle_stream_top_logic$core$responder$records$stream$halves(clock,record,vertices_alone,halves);
+module incircle_stream_top_logic$core$responder$records$stream$halves(clock,record,vertices_alone,has_short_ids,halves);
     
     // Module arguments
     input wire  clock;
     input wire  [90:0] record;
     input wire  vertices_alone;
+    input wire  has_short_ids;
     output reg  [95:0] halves;
     
     // Stub signals
@@ -24972,6 +25112,14 @@ module incircle_stream_top_logic$core$responder$records$stream$halves(clock,reco
     reg  [15:0] lock;
     reg  [15:0] id_bits;
     reg  [15:0] one;
+    reg  [15:0] two;
+    reg  [15:0] four;
+    reg  [15:0] six;
+    reg  [15:0] ten;
+    reg  [15:0] low_ten;
+    reg  [15:0] low_four;
+    reg  [15:0] top_two;
+    reg  [15:0] next_two;
     
     // Sub module instances
     incircle_stream_top_logic$core$responder$records$stream$halves$kept kept(
@@ -24986,6 +25134,14 @@ module incircle_stream_top_logic$core$responder$records$stream$halves(clock,reco
         kept$d = kept$q;
         id_bits = 32'hf;
         one = 32'h1;
+        two = 32'h2;
+        four = 32'h4;
+        six = 32'h6;
+        ten = 32'ha;
+        low_ten = 32'h3ff;
+        low_four = 32'hf;
+        next_two = 32'h3000;
+        top_two = 32'hc000;
         kept$d = record;
         lock = 32'h0;
         if (kept$q[(64'h5a)+:(1)]) begin
@@ -25011,6 +25167,11 @@ module incircle_stream_top_logic$core$responder$records$stream$halves(clock,reco
             halves[(64'h0)+:(16)] = vertex0;
             halves[(64'h10)+:(16)] = vertex1;
             halves[(64'h20)+:(16)] = vertex2;
+            if (has_short_ids) begin
+                halves[(64'h0)+:(16)] = (vertex0 & low_ten) | (vertex1 << ten);
+                halves[(64'h10)+:(16)] = ((vertex1 >> six) & low_four) | ((vertex2 & low_ten) << four) | ((vertex0 << four) & top_two);
+                halves[(64'h20)+:(16)] = ((vertex1 << two) & next_two) | ((vertex2 << four) & top_two);
+            end
         end
     end
     
@@ -25066,7 +25227,7 @@ module incircle_stream_top_logic$core$responder$records$stream$head(bits,value);
 endmodule // incircle_stream_top_logic$core$responder$records$stream$head
 
 
-module incircle_stream_top_logic$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,comes,halves,valid,beat);
+module incircle_stream_top_logic$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,has_short_ids,has_rests,comes,halves,valid,beat);
     
     // Module arguments
     input wire  clock;
@@ -25074,6 +25235,8 @@ module incircle_stream_top_logic$core$responder$records$stream$packer(clock,rese
     input wire  starts;
     input wire  [14:0] count;
     input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  has_rests;
     input wire  comes;
     input wire  [95:0] halves;
     output reg  valid;
@@ -25111,8 +25274,24 @@ module incircle_stream_top_logic$core$responder$records$stream$packer(clock,rese
     reg  all_came$d;
     wire  all_came$q;
     reg  all_came$clock;
+    reg  [15:0] rests$d;
+    wire  [15:0] rests$q;
+    reg  rests$clock;
+    reg  [1:0] in_group$d;
+    wire  [1:0] in_group$q;
+    reg  in_group$clock;
     
     // Local signals
+    reg  [15:0] earlier;
+    reg  [15:0] together;
+    reg  ends_group;
+    reg  is_short;
+    reg  brings_two;
+    reg  [15:0] third;
+    reg  fills_beat;
+    reg  [15:0] four;
+    reg  [1:0] three_places;
+    reg  [1:0] one_place;
     reg  takes;
     reg  [63:0] sent;
     reg  [63:0] sent_bits;
@@ -25160,6 +25339,16 @@ module incircle_stream_top_logic$core$responder$records$stream$packer(clock,rese
         .q(all_came$q),
         .clock(all_came$clock)
     );
+    incircle_stream_top_logic$core$responder$records$stream$packer$rests rests(
+        .d(rests$d),
+        .q(rests$q),
+        .clock(rests$clock)
+    );
+    incircle_stream_top_logic$core$responder$records$stream$packer$in_group in_group(
+        .d(in_group$d),
+        .q(in_group$q),
+        .clock(in_group$clock)
+    );
     
     // Update code
     always @(*) begin
@@ -25176,13 +25365,35 @@ module incircle_stream_top_logic$core$responder$records$stream$packer(clock,rese
         left$clock = clock;
         is_last$clock = clock;
         all_came$clock = clock;
+        rests$clock = clock;
+        in_group$clock = clock;
         left$d = left$q;
         is_last$d = is_last$q;
         all_came$d = all_came$q;
+        rests$d = rests$q;
+        in_group$d = in_group$q;
         one = 32'h1;
         two = 32'h2;
+        four = 32'h4;
+        three_places = 32'h3;
+        one_place = 32'h1;
         valid = is_there$q;
         beat = filled$q;
+        earlier = rests$q >> four;
+        if (~|in_group$q) begin
+            earlier = 32'h0;
+        end
+        together = halves[(64'h20)+:(16)] | earlier;
+        ends_group = is_last$q | (in_group$q == three_places);
+        is_short = vertices_alone & has_short_ids;
+        brings_two = is_short & (~(has_rests & ends_group));
+        third = halves[(64'h20)+:(16)];
+        if (is_short) begin
+            third = together;
+        end
+        if (brings_two) begin
+            third = 32'h0;
+        end
         sent = kept$q;
         kept$d[(64'h10)+:(16)] = 32'h0;
         kept$d[(64'h20)+:(16)] = 32'h0;
@@ -25206,25 +25417,41 @@ module incircle_stream_top_logic$core$responder$records$stream$packer(clock,rese
                         is_there$d = 1'b0;
                         kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                         kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
-                        kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
+                        kept$d[(64'h20)+:(16)] = third;
                         many_are_kept$d = 1'b1;
                         number$d = KeptHalves$Three;
+                        if (brings_two) begin
+                            many_are_kept$d = 1'b0;
+                            number$d = KeptHalves$Two;
+                        end
                     end
                 end
             KeptHalves$One:
                 begin
                     sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
-                    sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
+                    sent[(64'h30)+:(16)] = third;
                     filled$d[(64'h41)+:(1)] = is_last$q;
                     number$d = KeptHalves$Zero;
+                    if (brings_two) begin
+                        is_there$d = 1'b0;
+                        kept$d[(64'h0)+:(16)] = kept$q[(64'h0)+:(16)];
+                        kept$d[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
+                        kept$d[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
+                        many_are_kept$d = 1'b1;
+                        number$d = KeptHalves$Three;
+                    end
                 end
             KeptHalves$Two:
                 begin
                     sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h0)+:(16)] = halves[(64'h20)+:(16)];
+                    kept$d[(64'h0)+:(16)] = third;
                     number$d = KeptHalves$One;
+                    if (brings_two) begin
+                        filled$d[(64'h41)+:(1)] = is_last$q;
+                        number$d = KeptHalves$Zero;
+                    end
                     if (~vertices_alone) begin
                         kept$d[(64'h10)+:(16)] = halves[(64'h30)+:(16)];
                         kept$d[(64'h20)+:(16)] = halves[(64'h40)+:(16)];
@@ -25237,8 +25464,11 @@ module incircle_stream_top_logic$core$responder$records$stream$packer(clock,rese
                 begin
                     sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
                     kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
+                    kept$d[(64'h10)+:(16)] = third;
                     number$d = KeptHalves$Two;
+                    if (brings_two) begin
+                        number$d = KeptHalves$One;
+                    end
                 end
             default:
                 begin
@@ -25249,6 +25479,7 @@ module incircle_stream_top_logic$core$responder$records$stream$packer(clock,rese
                     number$d = KeptHalves$Zero;
                 end
         endcase
+        fills_beat = ((number$q == KeptHalves$One) & (~brings_two)) | ((number$q == KeptHalves$Two) & brings_two);
         sent_bits = sent;
         filled$d[(64'h0)+:(32)] = sent_bits[(32'h0)+:(32)];
         filled$d[(64'h20)+:(32)] = sent_bits[(32'h20)+:(32)];
@@ -25256,7 +25487,9 @@ module incircle_stream_top_logic$core$responder$records$stream$packer(clock,rese
             left$d = left$q - one;
             is_last$d = left$q == two;
             all_came$d = is_last$q;
-            if (is_last$q & (number$q != KeptHalves$One)) begin
+            rests$d = together;
+            in_group$d = in_group$q + one_place;
+            if (is_last$q & (~fills_beat)) begin
                 number$d = KeptHalves$Rest;
             end
         end
@@ -25265,6 +25498,7 @@ module incircle_stream_top_logic$core$responder$records$stream$packer(clock,rese
             kept$d = kept$q;
         end
         if (starts) begin
+            in_group$d = 32'h0;
             left$d = count;
             is_last$d = count == one;
         end
@@ -25313,6 +25547,25 @@ module incircle_stream_top_logic$core$responder$records$stream$packer$filled(d,q
     end
           
 endmodule // incircle_stream_top_logic$core$responder$records$stream$packer$filled
+
+
+module incircle_stream_top_logic$core$responder$records$stream$packer$in_group(d,q,clock);
+    
+    // Module arguments
+    input wire  [1:0] d;
+    output reg  [1:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 2'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_logic$core$responder$records$stream$packer$in_group
 
 
 module incircle_stream_top_logic$core$responder$records$stream$packer$is_last(d,q,clock);
@@ -25434,6 +25687,25 @@ module incircle_stream_top_logic$core$responder$records$stream$packer$number(d,q
     end
           
 endmodule // incircle_stream_top_logic$core$responder$records$stream$packer$number
+
+
+module incircle_stream_top_logic$core$responder$records$stream$packer$rests(d,q,clock);
+    
+    // Module arguments
+    input wire  [15:0] d;
+    output reg  [15:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 16'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_logic$core$responder$records$stream$packer$rests
 
 
 module incircle_stream_top_logic$core$responder$records$stream$queue(clock,reset,push,push_data,pop,valid,data);

@@ -1362,19 +1362,19 @@ module incircle_core_logic$slot0$core(clock,reset,command$valid,command$ready,co
     wire  [10:0] command_port$clearing;
     wire  [16:0] command_port$deal;
     wire  command_port$answers;
-    wire  [71:0] command_port$request;
+    wire  [73:0] command_port$request;
     wire  [47:0] command_port$tally;
     reg  [2:0] command_port$answer;
     wire  [2:0] command_port$activity;
     reg  answer_head$clock;
-    reg  [71:0] answer_head$request;
+    reg  [73:0] answer_head$request;
     reg  [10:0] answer_head$clearing;
     reg  [7:0] answer_head$engine;
     reg  [14:0] answer_head$records;
     reg  answer_head$collinear;
     reg  answer_head$stuck;
     reg  answer_head$some_refused;
-    wire  [66:0] answer_head$head;
+    wire  [68:0] answer_head$head;
     reg  answer_words$clock;
     reg  [7:0] answer_words$opcode;
     reg  [14:0] answer_words$capacity;
@@ -1394,8 +1394,8 @@ module incircle_core_logic$slot0$core(clock,reset,command$valid,command$ready,co
     reg  responder$reset;
     reg  responder$answers;
     reg  responder$sweeps;
-    reg  [71:0] responder$request;
-    reg  [66:0] responder$head;
+    reg  [73:0] responder$request;
+    reg  [68:0] responder$head;
     reg  [31:0] responder$word;
     wire  [6:0] responder$index;
     wire  [6:0] responder$index_ahead;
@@ -1638,14 +1638,14 @@ module incircle_core_logic$slot0$core$answer_head(clock,request,clearing,engine,
     
     // Module arguments
     input wire  clock;
-    input wire  [71:0] request;
+    input wire  [73:0] request;
     input wire  [10:0] clearing;
     input wire  [7:0] engine;
     input wire  [14:0] records;
     input wire  collinear;
     input wire  stuck;
     input wire  some_refused;
-    output reg  [66:0] head;
+    output reg  [68:0] head;
     
     // Stub signals
     reg  [32:0] range_end$d;
@@ -1657,6 +1657,9 @@ module incircle_core_logic$slot0$core$answer_head(clock,request,clearing,engine,
     reg  [31:0] triple$d;
     wire  [31:0] triple$q;
     reg  triple$clock;
+    reg  [18:0] eighths$d;
+    wire  [18:0] eighths$q;
+    reg  eighths$clock;
     reg  counts_none$d;
     wire  counts_none$q;
     reg  counts_none$clock;
@@ -1708,7 +1711,13 @@ module incircle_core_logic$slot0$core$answer_head(clock,request,clearing,engine,
     reg  [7:0] read_code;
     reg  [7:0] packed_code;
     reg  packs;
-    reg  [31:0] rounded;
+    reg  [14:0] few;
+    reg  [18:0] own_words;
+    reg  [18:0] more;
+    reg  [18:0] rounded;
+    reg  [18:0] seven;
+    reg  [18:0] two_places;
+    reg  [18:0] three_places;
     
     // Sub module instances
     incircle_core_logic$slot0$core$answer_head$range_end range_end(
@@ -1725,6 +1734,11 @@ module incircle_core_logic$slot0$core$answer_head(clock,request,clearing,engine,
         .d(triple$d),
         .q(triple$q),
         .clock(triple$clock)
+    );
+    incircle_core_logic$slot0$core$answer_head$eighths eighths(
+        .d(eighths$d),
+        .q(eighths$q),
+        .clock(eighths$clock)
     );
     incircle_core_logic$slot0$core$answer_head$counts_none counts_none(
         .d(counts_none$d),
@@ -1782,11 +1796,13 @@ module incircle_core_logic$slot0$core$answer_head(clock,request,clearing,engine,
         range_end$clock = clock;
         range_bound$clock = clock;
         triple$clock = clock;
+        eighths$clock = clock;
         counts_none$clock = clock;
         insert_status$clock = clock;
         range_end$d = range_end$q;
         range_bound$d = range_bound$q;
         triple$d = triple$q;
+        eighths$d = eighths$q;
         counts_none$d = counts_none$q;
         insert_status$d = insert_status$q;
         is_outside$clock = clock;
@@ -1812,12 +1828,25 @@ module incircle_core_logic$slot0$core$answer_head(clock,request,clearing,engine,
         engine_shift = 32'h8;
         read_code = 32'h4;
         packed_code = 32'h7;
+        seven = 32'h7;
+        two_places = 32'h2;
+        three_places = 32'h3;
         wide_first = ((request[(64'h8)+:(32)]) & 33'h1ffffffff);
         wide_count = ((request[(64'h28)+:(32)]) & 33'h1ffffffff);
         range_end$d = wide_first + wide_count;
         range_bound$d = records;
         double_count = request[(64'h28)+:(32)] << one;
         triple$d = double_count + request[(64'h28)+:(32)];
+        few = ((request[(64'h28)+:(32)]) & 15'h7fff);
+        own_words = ((few) & 19'h7ffff) << three_places;
+        more = ((few) & 19'h7ffff) << two_places;
+        if (request[(64'h48)+:(1)]) begin
+            more = 32'h0;
+            if (request[(64'h49)+:(1)]) begin
+                more = ((few) & 19'h7ffff);
+            end
+        end
+        eighths$d = own_words + more;
         counts_none$d = request[(64'h28)+:(32)] == none;
         insert_status$d = 32'h0;
         if (some_refused) begin
@@ -1832,8 +1861,8 @@ module incircle_core_logic$slot0$core$answer_head(clock,request,clearing,engine,
         wide_bound = ((range_bound$q) & 33'h1ffffffff);
         is_outside$d = range_end$q > wide_bound;
         read_length$d = triple$q;
-        rounded = triple$q + one;
-        packed_length$d = rounded >> one;
+        rounded = eighths$q + seven;
+        packed_length$d = ((rounded >> three_places) & 32'hffffffff);
         reads_none$d = counts_none$q;
         report_status$d = insert_status$q;
         answer_status$d = 32'h0;
@@ -1892,6 +1921,8 @@ module incircle_core_logic$slot0$core$answer_head(clock,request,clearing,engine,
         endcase
         packs = request[(64'h0)+:(8)] == packed_code;
         head[(64'h42)+:(1)] = packs;
+        head[(64'h43)+:(1)] = request[(64'h48)+:(1)];
+        head[(64'h44)+:(1)] = request[(64'h49)+:(1)];
         head[(64'h41)+:(1)] = packs | (request[(64'h0)+:(8)] == read_code);
         head[(64'h20)+:(32)] = answer_length$q;
         head[(64'h40)+:(1)] = has_none$q;
@@ -1963,6 +1994,25 @@ module incircle_core_logic$slot0$core$answer_head$counts_none(d,q,clock);
     end
           
 endmodule // incircle_core_logic$slot0$core$answer_head$counts_none
+
+
+module incircle_core_logic$slot0$core$answer_head$eighths(d,q,clock);
+    
+    // Module arguments
+    input wire  [18:0] d;
+    output reg  [18:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 19'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot0$core$answer_head$eighths
 
 
 module incircle_core_logic$slot0$core$answer_head$has_none(d,q,clock);
@@ -2191,6 +2241,7 @@ module incircle_core_logic$slot0$core$answer_words(clock,opcode,capacity,context
     reg  [31:0] wide_engines;
     reg  [31:0] shifted_engines;
     reg  [31:0] engines_shift;
+    reg  [31:0] features;
     
     // Sub module instances
     incircle_core_logic$slot0$core$answer_words$identity identity(
@@ -2220,6 +2271,7 @@ module incircle_core_logic$slot0$core$answer_words(clock,opcode,capacity,context
         word = chosen$q;
         place = index[(32'h0)+:(3)];
         engines_shift = 32'h8;
+        features = 32'h20000;
         wide_contexts = ((contexts) & 32'hffffffff);
         wide_engines = ((engines) & 32'hffffffff);
         shifted_engines = wide_engines << engines_shift;
@@ -2256,7 +2308,7 @@ module incircle_core_logic$slot0$core$answer_words(clock,opcode,capacity,context
                 end
             default:
                 begin
-                    identity$d = ((ring_capacity) & 32'hffffffff);
+                    identity$d = ((ring_capacity) & 32'hffffffff) | features;
                     report$d = 32'h0;
                 end
         endcase
@@ -2358,7 +2410,7 @@ module incircle_core_logic$slot0$core$command_port(clock,reset,capacity,built,co
     output reg  [10:0] clearing;
     output reg  [16:0] deal;
     output reg  answers;
-    output reg  [71:0] request;
+    output reg  [73:0] request;
     output reg  [47:0] tally;
     input wire  [2:0] answer;
     output reg  [2:0] activity;
@@ -2375,8 +2427,8 @@ module incircle_core_logic$slot0$core$command_port(clock,reset,capacity,built,co
     reg  [2:0] state$d;
     wire  [2:0] state$q;
     reg  state$clock;
-    reg  [71:0] held$d;
-    wire  [71:0] held$q;
+    reg  [73:0] held$d;
+    wire  [73:0] held$q;
     reg  held$clock;
     reg  none_is_left$d;
     wire  none_is_left$q;
@@ -2522,6 +2574,8 @@ module incircle_core_logic$slot0$core$command_port(clock,reset,capacity,built,co
                 begin
                     if (gate$taken[(64'h0)+:(1)]) begin
                         held$d[(64'h0)+:(8)] = code;
+                        held$d[(64'h48)+:(1)] = command$data[32'h3];
+                        held$d[(64'h49)+:(1)] = command$data[32'h2];
                         state$d = CommandState$Answer;
                         if (code == insert_code) begin
                             state$d = CommandState$Count;
@@ -3095,13 +3149,13 @@ endmodule // incircle_core_logic$slot0$core$command_port$gate
 module incircle_core_logic$slot0$core$command_port$held(d,q,clock);
     
     // Module arguments
-    input wire  [71:0] d;
-    output reg  [71:0] q;
+    input wire  [73:0] d;
+    output reg  [73:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 72'h0;
+       q = 74'h0;
     end
     
     always @(posedge clock) begin
@@ -25415,8 +25469,8 @@ module incircle_core_logic$slot0$core$responder(clock,reset,answers,sweeps,reque
     input wire  reset;
     input wire  answers;
     input wire  sweeps;
-    input wire  [71:0] request;
-    input wire  [66:0] head;
+    input wire  [73:0] request;
+    input wire  [68:0] head;
     input wire  [31:0] word;
     output reg  [6:0] index;
     output reg  [6:0] index_ahead;
@@ -25471,6 +25525,8 @@ module incircle_core_logic$slot0$core$responder(clock,reset,answers,sweeps,reque
     reg  [14:0] records$first;
     reg  [14:0] records$count;
     reg  records$is_packed;
+    reg  records$has_short_ids;
+    reg  records$has_rests;
     reg  records$runs;
     wire  records$read;
     wire  [14:0] records$read_id;
@@ -25529,6 +25585,8 @@ module incircle_core_logic$slot0$core$responder(clock,reset,answers,sweeps,reque
         .first(records$first),
         .count(records$count),
         .is_packed(records$is_packed),
+        .has_short_ids(records$has_short_ids),
+        .has_rests(records$has_rests),
         .runs(records$runs),
         .read(records$read),
         .read_id(records$read_id),
@@ -25573,6 +25631,8 @@ module incircle_core_logic$slot0$core$responder(clock,reset,answers,sweeps,reque
         records$first = ((request[(64'h8)+:(32)]) & 15'h7fff);
         records$count = ((request[(64'h28)+:(32)]) & 15'h7fff);
         records$is_packed = head[(64'h42)+:(1)];
+        records$has_short_ids = head[(64'h43)+:(1)];
+        records$has_rests = head[(64'h44)+:(1)];
         records$runs = state$q == AnswerState$Records;
         read = records$read;
         read_id = records$read_id;
@@ -25673,7 +25733,7 @@ module incircle_core_logic$slot0$core$responder$offered(d,q,clock);
 endmodule // incircle_core_logic$slot0$core$responder$offered
 
 
-module incircle_core_logic$slot0$core$responder$records(clock,reset,starts,first,count,is_packed,runs,read,read_id,read_done,record,valid,beat,takes);
+module incircle_core_logic$slot0$core$responder$records(clock,reset,starts,first,count,is_packed,has_short_ids,has_rests,runs,read,read_id,read_done,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -25682,6 +25742,8 @@ module incircle_core_logic$slot0$core$responder$records(clock,reset,starts,first
     input wire  [14:0] first;
     input wire  [14:0] count;
     input wire  is_packed;
+    input wire  has_short_ids;
+    input wire  has_rests;
     input wire  runs;
     output reg  read;
     output reg  [14:0] read_id;
@@ -25695,6 +25757,12 @@ module incircle_core_logic$slot0$core$responder$records(clock,reset,starts,first
     reg  vertices_alone$d;
     wire  vertices_alone$q;
     reg  vertices_alone$clock;
+    reg  ids_are_short$d;
+    wire  ids_are_short$q;
+    reg  ids_are_short$clock;
+    reg  rests_follow$d;
+    wire  rests_follow$q;
+    reg  rests_follow$clock;
     reg  [14:0] record_id$d;
     wire  [14:0] record_id$q;
     reg  record_id$clock;
@@ -25715,6 +25783,8 @@ module incircle_core_logic$slot0$core$responder$records(clock,reset,starts,first
     reg  stream$starts;
     reg  [14:0] stream$count;
     reg  stream$vertices_alone;
+    reg  stream$has_short_ids;
+    reg  stream$has_rests;
     wire  stream$has_room;
     reg  stream$comes;
     reg  [90:0] stream$record;
@@ -25738,6 +25808,16 @@ module incircle_core_logic$slot0$core$responder$records(clock,reset,starts,first
         .d(vertices_alone$d),
         .q(vertices_alone$q),
         .clock(vertices_alone$clock)
+    );
+    incircle_core_logic$slot0$core$responder$records$ids_are_short ids_are_short(
+        .d(ids_are_short$d),
+        .q(ids_are_short$q),
+        .clock(ids_are_short$clock)
+    );
+    incircle_core_logic$slot0$core$responder$records$rests_follow rests_follow(
+        .d(rests_follow$d),
+        .q(rests_follow$q),
+        .clock(rests_follow$clock)
     );
     incircle_core_logic$slot0$core$responder$records$record_id record_id(
         .d(record_id$d),
@@ -25770,6 +25850,8 @@ module incircle_core_logic$slot0$core$responder$records(clock,reset,starts,first
         .starts(stream$starts),
         .count(stream$count),
         .vertices_alone(stream$vertices_alone),
+        .has_short_ids(stream$has_short_ids),
+        .has_rests(stream$has_rests),
         .has_room(stream$has_room),
         .comes(stream$comes),
         .record(stream$record),
@@ -25791,6 +25873,11 @@ module incircle_core_logic$slot0$core$responder$records(clock,reset,starts,first
     // Update code
     always @(*) begin
         vertices_alone$clock = clock;
+        ids_are_short$clock = clock;
+        rests_follow$clock = clock;
+        vertices_alone$d = vertices_alone$q;
+        ids_are_short$d = ids_are_short$q;
+        rests_follow$d = rests_follow$q;
         record_id$clock = clock;
         left$clock = clock;
         some_are_left$clock = clock;
@@ -25798,7 +25885,6 @@ module incircle_core_logic$slot0$core$responder$records(clock,reset,starts,first
         pauses$clock = clock;
         is_there$clock = clock;
         head$clock = clock;
-        vertices_alone$d = vertices_alone$q;
         record_id$d = record_id$q;
         left$d = left$q;
         some_are_left$d = some_are_left$q;
@@ -25809,6 +25895,8 @@ module incircle_core_logic$slot0$core$responder$records(clock,reset,starts,first
         stream$clock = clock;
         one = 32'h1;
         vertices_alone$d = is_packed;
+        ids_are_short$d = has_short_ids;
+        rests_follow$d = has_rests;
         asks = runs & some_are_left$q & stream$has_room & (~pauses$q);
         read = asks;
         read_id = record_id$q;
@@ -25829,6 +25917,8 @@ module incircle_core_logic$slot0$core$responder$records(clock,reset,starts,first
         stream$starts = starts;
         stream$count = count;
         stream$vertices_alone = vertices_alone$q;
+        stream$has_short_ids = ids_are_short$q;
+        stream$has_rests = rests_follow$q;
         stream$comes = read_done;
         stream$record = record;
         valid = is_there$q;
@@ -25865,6 +25955,25 @@ module incircle_core_logic$slot0$core$responder$records$head(d,q,clock);
     end
           
 endmodule // incircle_core_logic$slot0$core$responder$records$head
+
+
+module incircle_core_logic$slot0$core$responder$records$ids_are_short(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot0$core$responder$records$ids_are_short
 
 
 module incircle_core_logic$slot0$core$responder$records$is_second(d,q,clock);
@@ -25962,6 +26071,25 @@ module incircle_core_logic$slot0$core$responder$records$record_id(d,q,clock);
 endmodule // incircle_core_logic$slot0$core$responder$records$record_id
 
 
+module incircle_core_logic$slot0$core$responder$records$rests_follow(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot0$core$responder$records$rests_follow
+
+
 module incircle_core_logic$slot0$core$responder$records$some_are_left(d,q,clock);
     
     // Module arguments
@@ -25981,7 +26109,7 @@ module incircle_core_logic$slot0$core$responder$records$some_are_left(d,q,clock)
 endmodule // incircle_core_logic$slot0$core$responder$records$some_are_left
 
 
-module incircle_core_logic$slot0$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_room,comes,record,valid,beat,takes);
+module incircle_core_logic$slot0$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_short_ids,has_rests,has_room,comes,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -25989,6 +26117,8 @@ module incircle_core_logic$slot0$core$responder$records$stream(clock,reset,start
     input wire  starts;
     input wire  [14:0] count;
     input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  has_rests;
     output reg  has_room;
     input wire  comes;
     input wire  [90:0] record;
@@ -26009,12 +26139,15 @@ module incircle_core_logic$slot0$core$responder$records$stream(clock,reset,start
     reg  halves$clock;
     reg  [90:0] halves$record;
     reg  halves$vertices_alone;
+    reg  halves$has_short_ids;
     wire  [95:0] halves$halves;
     reg  packer$clock;
     reg  packer$reset;
     reg  packer$starts;
     reg  [14:0] packer$count;
     reg  packer$vertices_alone;
+    reg  packer$has_short_ids;
+    reg  packer$has_rests;
     reg  packer$comes;
     reg  [95:0] packer$halves;
     wire  packer$valid;
@@ -26054,6 +26187,7 @@ module incircle_core_logic$slot0$core$responder$records$stream(clock,reset,start
         .clock(halves$clock),
         .record(halves$record),
         .vertices_alone(halves$vertices_alone),
+        .has_short_ids(halves$has_short_ids),
         .halves(halves$halves)
     );
     incircle_core_logic$slot0$core$responder$records$stream$packer packer(
@@ -26062,6 +26196,8 @@ module incircle_core_logic$slot0$core$responder$records$stream(clock,reset,start
         .starts(packer$starts),
         .count(packer$count),
         .vertices_alone(packer$vertices_alone),
+        .has_short_ids(packer$has_short_ids),
+        .has_rests(packer$has_rests),
         .comes(packer$comes),
         .halves(packer$halves),
         .valid(packer$valid),
@@ -26100,7 +26236,10 @@ module incircle_core_logic$slot0$core$responder$records$stream(clock,reset,start
         has_come$d = comes;
         halves$record = record;
         halves$vertices_alone = vertices_alone;
+        halves$has_short_ids = has_short_ids;
         packer$vertices_alone = vertices_alone;
+        packer$has_short_ids = has_short_ids;
+        packer$has_rests = has_rests;
         packer$comes = has_come$q;
         packer$halves = halves$halves;
         queue$reset = reset;
@@ -26128,12 +26267,13 @@ module incircle_core_logic$slot0$core$responder$records$stream(clock,reset,start
 endmodule // incircle_core_logic$slot0$core$responder$records$stream
 
 
-module incircle_core_logic$slot0$core$responder$records$stream$halves(clock,record,vertices_alone,halves);
+module incircle_core_logic$slot0$core$responder$records$stream$halves(clock,record,vertices_alone,has_short_ids,halves);
     
     // Module arguments
     input wire  clock;
     input wire  [90:0] record;
     input wire  vertices_alone;
+    input wire  has_short_ids;
     output reg  [95:0] halves;
     
     // Stub signals
@@ -26155,6 +26295,14 @@ module incircle_core_logic$slot0$core$responder$records$stream$halves(clock,reco
     reg  [15:0] lock;
     reg  [15:0] id_bits;
     reg  [15:0] one;
+    reg  [15:0] two;
+    reg  [15:0] four;
+    reg  [15:0] six;
+    reg  [15:0] ten;
+    reg  [15:0] low_ten;
+    reg  [15:0] low_four;
+    reg  [15:0] top_two;
+    reg  [15:0] next_two;
     
     // Sub module instances
     incircle_core_logic$slot0$core$responder$records$stream$halves$kept kept(
@@ -26169,6 +26317,14 @@ module incircle_core_logic$slot0$core$responder$records$stream$halves(clock,reco
         kept$d = kept$q;
         id_bits = 32'hf;
         one = 32'h1;
+        two = 32'h2;
+        four = 32'h4;
+        six = 32'h6;
+        ten = 32'ha;
+        low_ten = 32'h3ff;
+        low_four = 32'hf;
+        next_two = 32'h3000;
+        top_two = 32'hc000;
         kept$d = record;
         lock = 32'h0;
         if (kept$q[(64'h5a)+:(1)]) begin
@@ -26194,6 +26350,11 @@ module incircle_core_logic$slot0$core$responder$records$stream$halves(clock,reco
             halves[(64'h0)+:(16)] = vertex0;
             halves[(64'h10)+:(16)] = vertex1;
             halves[(64'h20)+:(16)] = vertex2;
+            if (has_short_ids) begin
+                halves[(64'h0)+:(16)] = (vertex0 & low_ten) | (vertex1 << ten);
+                halves[(64'h10)+:(16)] = ((vertex1 >> six) & low_four) | ((vertex2 & low_ten) << four) | ((vertex0 << four) & top_two);
+                halves[(64'h20)+:(16)] = ((vertex1 << two) & next_two) | ((vertex2 << four) & top_two);
+            end
         end
     end
     
@@ -26249,7 +26410,7 @@ module incircle_core_logic$slot0$core$responder$records$stream$head(bits,value);
 endmodule // incircle_core_logic$slot0$core$responder$records$stream$head
 
 
-module incircle_core_logic$slot0$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,comes,halves,valid,beat);
+module incircle_core_logic$slot0$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,has_short_ids,has_rests,comes,halves,valid,beat);
     
     // Module arguments
     input wire  clock;
@@ -26257,6 +26418,8 @@ module incircle_core_logic$slot0$core$responder$records$stream$packer(clock,rese
     input wire  starts;
     input wire  [14:0] count;
     input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  has_rests;
     input wire  comes;
     input wire  [95:0] halves;
     output reg  valid;
@@ -26294,8 +26457,24 @@ module incircle_core_logic$slot0$core$responder$records$stream$packer(clock,rese
     reg  all_came$d;
     wire  all_came$q;
     reg  all_came$clock;
+    reg  [15:0] rests$d;
+    wire  [15:0] rests$q;
+    reg  rests$clock;
+    reg  [1:0] in_group$d;
+    wire  [1:0] in_group$q;
+    reg  in_group$clock;
     
     // Local signals
+    reg  [15:0] earlier;
+    reg  [15:0] together;
+    reg  ends_group;
+    reg  is_short;
+    reg  brings_two;
+    reg  [15:0] third;
+    reg  fills_beat;
+    reg  [15:0] four;
+    reg  [1:0] three_places;
+    reg  [1:0] one_place;
     reg  takes;
     reg  [63:0] sent;
     reg  [63:0] sent_bits;
@@ -26343,6 +26522,16 @@ module incircle_core_logic$slot0$core$responder$records$stream$packer(clock,rese
         .q(all_came$q),
         .clock(all_came$clock)
     );
+    incircle_core_logic$slot0$core$responder$records$stream$packer$rests rests(
+        .d(rests$d),
+        .q(rests$q),
+        .clock(rests$clock)
+    );
+    incircle_core_logic$slot0$core$responder$records$stream$packer$in_group in_group(
+        .d(in_group$d),
+        .q(in_group$q),
+        .clock(in_group$clock)
+    );
     
     // Update code
     always @(*) begin
@@ -26359,13 +26548,35 @@ module incircle_core_logic$slot0$core$responder$records$stream$packer(clock,rese
         left$clock = clock;
         is_last$clock = clock;
         all_came$clock = clock;
+        rests$clock = clock;
+        in_group$clock = clock;
         left$d = left$q;
         is_last$d = is_last$q;
         all_came$d = all_came$q;
+        rests$d = rests$q;
+        in_group$d = in_group$q;
         one = 32'h1;
         two = 32'h2;
+        four = 32'h4;
+        three_places = 32'h3;
+        one_place = 32'h1;
         valid = is_there$q;
         beat = filled$q;
+        earlier = rests$q >> four;
+        if (~|in_group$q) begin
+            earlier = 32'h0;
+        end
+        together = halves[(64'h20)+:(16)] | earlier;
+        ends_group = is_last$q | (in_group$q == three_places);
+        is_short = vertices_alone & has_short_ids;
+        brings_two = is_short & (~(has_rests & ends_group));
+        third = halves[(64'h20)+:(16)];
+        if (is_short) begin
+            third = together;
+        end
+        if (brings_two) begin
+            third = 32'h0;
+        end
         sent = kept$q;
         kept$d[(64'h10)+:(16)] = 32'h0;
         kept$d[(64'h20)+:(16)] = 32'h0;
@@ -26389,25 +26600,41 @@ module incircle_core_logic$slot0$core$responder$records$stream$packer(clock,rese
                         is_there$d = 1'b0;
                         kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                         kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
-                        kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
+                        kept$d[(64'h20)+:(16)] = third;
                         many_are_kept$d = 1'b1;
                         number$d = KeptHalves$Three;
+                        if (brings_two) begin
+                            many_are_kept$d = 1'b0;
+                            number$d = KeptHalves$Two;
+                        end
                     end
                 end
             KeptHalves$One:
                 begin
                     sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
-                    sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
+                    sent[(64'h30)+:(16)] = third;
                     filled$d[(64'h41)+:(1)] = is_last$q;
                     number$d = KeptHalves$Zero;
+                    if (brings_two) begin
+                        is_there$d = 1'b0;
+                        kept$d[(64'h0)+:(16)] = kept$q[(64'h0)+:(16)];
+                        kept$d[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
+                        kept$d[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
+                        many_are_kept$d = 1'b1;
+                        number$d = KeptHalves$Three;
+                    end
                 end
             KeptHalves$Two:
                 begin
                     sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h0)+:(16)] = halves[(64'h20)+:(16)];
+                    kept$d[(64'h0)+:(16)] = third;
                     number$d = KeptHalves$One;
+                    if (brings_two) begin
+                        filled$d[(64'h41)+:(1)] = is_last$q;
+                        number$d = KeptHalves$Zero;
+                    end
                     if (~vertices_alone) begin
                         kept$d[(64'h10)+:(16)] = halves[(64'h30)+:(16)];
                         kept$d[(64'h20)+:(16)] = halves[(64'h40)+:(16)];
@@ -26420,8 +26647,11 @@ module incircle_core_logic$slot0$core$responder$records$stream$packer(clock,rese
                 begin
                     sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
                     kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
+                    kept$d[(64'h10)+:(16)] = third;
                     number$d = KeptHalves$Two;
+                    if (brings_two) begin
+                        number$d = KeptHalves$One;
+                    end
                 end
             default:
                 begin
@@ -26432,6 +26662,7 @@ module incircle_core_logic$slot0$core$responder$records$stream$packer(clock,rese
                     number$d = KeptHalves$Zero;
                 end
         endcase
+        fills_beat = ((number$q == KeptHalves$One) & (~brings_two)) | ((number$q == KeptHalves$Two) & brings_two);
         sent_bits = sent;
         filled$d[(64'h0)+:(32)] = sent_bits[(32'h0)+:(32)];
         filled$d[(64'h20)+:(32)] = sent_bits[(32'h20)+:(32)];
@@ -26439,7 +26670,9 @@ module incircle_core_logic$slot0$core$responder$records$stream$packer(clock,rese
             left$d = left$q - one;
             is_last$d = left$q == two;
             all_came$d = is_last$q;
-            if (is_last$q & (number$q != KeptHalves$One)) begin
+            rests$d = together;
+            in_group$d = in_group$q + one_place;
+            if (is_last$q & (~fills_beat)) begin
                 number$d = KeptHalves$Rest;
             end
         end
@@ -26448,6 +26681,7 @@ module incircle_core_logic$slot0$core$responder$records$stream$packer(clock,rese
             kept$d = kept$q;
         end
         if (starts) begin
+            in_group$d = 32'h0;
             left$d = count;
             is_last$d = count == one;
         end
@@ -26496,6 +26730,25 @@ module incircle_core_logic$slot0$core$responder$records$stream$packer$filled(d,q
     end
           
 endmodule // incircle_core_logic$slot0$core$responder$records$stream$packer$filled
+
+
+module incircle_core_logic$slot0$core$responder$records$stream$packer$in_group(d,q,clock);
+    
+    // Module arguments
+    input wire  [1:0] d;
+    output reg  [1:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 2'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot0$core$responder$records$stream$packer$in_group
 
 
 module incircle_core_logic$slot0$core$responder$records$stream$packer$is_last(d,q,clock);
@@ -26617,6 +26870,25 @@ module incircle_core_logic$slot0$core$responder$records$stream$packer$number(d,q
     end
           
 endmodule // incircle_core_logic$slot0$core$responder$records$stream$packer$number
+
+
+module incircle_core_logic$slot0$core$responder$records$stream$packer$rests(d,q,clock);
+    
+    // Module arguments
+    input wire  [15:0] d;
+    output reg  [15:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 16'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot0$core$responder$records$stream$packer$rests
 
 
 module incircle_core_logic$slot0$core$responder$records$stream$queue(clock,reset,push,push_data,pop,valid,data);
@@ -27678,19 +27950,19 @@ module incircle_core_logic$slot1$core(clock,reset,command$valid,command$ready,co
     wire  [10:0] command_port$clearing;
     wire  [16:0] command_port$deal;
     wire  command_port$answers;
-    wire  [71:0] command_port$request;
+    wire  [73:0] command_port$request;
     wire  [47:0] command_port$tally;
     reg  [2:0] command_port$answer;
     wire  [2:0] command_port$activity;
     reg  answer_head$clock;
-    reg  [71:0] answer_head$request;
+    reg  [73:0] answer_head$request;
     reg  [10:0] answer_head$clearing;
     reg  [7:0] answer_head$engine;
     reg  [14:0] answer_head$records;
     reg  answer_head$collinear;
     reg  answer_head$stuck;
     reg  answer_head$some_refused;
-    wire  [66:0] answer_head$head;
+    wire  [68:0] answer_head$head;
     reg  answer_words$clock;
     reg  [7:0] answer_words$opcode;
     reg  [14:0] answer_words$capacity;
@@ -27710,8 +27982,8 @@ module incircle_core_logic$slot1$core(clock,reset,command$valid,command$ready,co
     reg  responder$reset;
     reg  responder$answers;
     reg  responder$sweeps;
-    reg  [71:0] responder$request;
-    reg  [66:0] responder$head;
+    reg  [73:0] responder$request;
+    reg  [68:0] responder$head;
     reg  [31:0] responder$word;
     wire  [6:0] responder$index;
     wire  [6:0] responder$index_ahead;
@@ -27954,14 +28226,14 @@ module incircle_core_logic$slot1$core$answer_head(clock,request,clearing,engine,
     
     // Module arguments
     input wire  clock;
-    input wire  [71:0] request;
+    input wire  [73:0] request;
     input wire  [10:0] clearing;
     input wire  [7:0] engine;
     input wire  [14:0] records;
     input wire  collinear;
     input wire  stuck;
     input wire  some_refused;
-    output reg  [66:0] head;
+    output reg  [68:0] head;
     
     // Stub signals
     reg  [32:0] range_end$d;
@@ -27973,6 +28245,9 @@ module incircle_core_logic$slot1$core$answer_head(clock,request,clearing,engine,
     reg  [31:0] triple$d;
     wire  [31:0] triple$q;
     reg  triple$clock;
+    reg  [18:0] eighths$d;
+    wire  [18:0] eighths$q;
+    reg  eighths$clock;
     reg  counts_none$d;
     wire  counts_none$q;
     reg  counts_none$clock;
@@ -28024,7 +28299,13 @@ module incircle_core_logic$slot1$core$answer_head(clock,request,clearing,engine,
     reg  [7:0] read_code;
     reg  [7:0] packed_code;
     reg  packs;
-    reg  [31:0] rounded;
+    reg  [14:0] few;
+    reg  [18:0] own_words;
+    reg  [18:0] more;
+    reg  [18:0] rounded;
+    reg  [18:0] seven;
+    reg  [18:0] two_places;
+    reg  [18:0] three_places;
     
     // Sub module instances
     incircle_core_logic$slot1$core$answer_head$range_end range_end(
@@ -28041,6 +28322,11 @@ module incircle_core_logic$slot1$core$answer_head(clock,request,clearing,engine,
         .d(triple$d),
         .q(triple$q),
         .clock(triple$clock)
+    );
+    incircle_core_logic$slot1$core$answer_head$eighths eighths(
+        .d(eighths$d),
+        .q(eighths$q),
+        .clock(eighths$clock)
     );
     incircle_core_logic$slot1$core$answer_head$counts_none counts_none(
         .d(counts_none$d),
@@ -28098,11 +28384,13 @@ module incircle_core_logic$slot1$core$answer_head(clock,request,clearing,engine,
         range_end$clock = clock;
         range_bound$clock = clock;
         triple$clock = clock;
+        eighths$clock = clock;
         counts_none$clock = clock;
         insert_status$clock = clock;
         range_end$d = range_end$q;
         range_bound$d = range_bound$q;
         triple$d = triple$q;
+        eighths$d = eighths$q;
         counts_none$d = counts_none$q;
         insert_status$d = insert_status$q;
         is_outside$clock = clock;
@@ -28128,12 +28416,25 @@ module incircle_core_logic$slot1$core$answer_head(clock,request,clearing,engine,
         engine_shift = 32'h8;
         read_code = 32'h4;
         packed_code = 32'h7;
+        seven = 32'h7;
+        two_places = 32'h2;
+        three_places = 32'h3;
         wide_first = ((request[(64'h8)+:(32)]) & 33'h1ffffffff);
         wide_count = ((request[(64'h28)+:(32)]) & 33'h1ffffffff);
         range_end$d = wide_first + wide_count;
         range_bound$d = records;
         double_count = request[(64'h28)+:(32)] << one;
         triple$d = double_count + request[(64'h28)+:(32)];
+        few = ((request[(64'h28)+:(32)]) & 15'h7fff);
+        own_words = ((few) & 19'h7ffff) << three_places;
+        more = ((few) & 19'h7ffff) << two_places;
+        if (request[(64'h48)+:(1)]) begin
+            more = 32'h0;
+            if (request[(64'h49)+:(1)]) begin
+                more = ((few) & 19'h7ffff);
+            end
+        end
+        eighths$d = own_words + more;
         counts_none$d = request[(64'h28)+:(32)] == none;
         insert_status$d = 32'h0;
         if (some_refused) begin
@@ -28148,8 +28449,8 @@ module incircle_core_logic$slot1$core$answer_head(clock,request,clearing,engine,
         wide_bound = ((range_bound$q) & 33'h1ffffffff);
         is_outside$d = range_end$q > wide_bound;
         read_length$d = triple$q;
-        rounded = triple$q + one;
-        packed_length$d = rounded >> one;
+        rounded = eighths$q + seven;
+        packed_length$d = ((rounded >> three_places) & 32'hffffffff);
         reads_none$d = counts_none$q;
         report_status$d = insert_status$q;
         answer_status$d = 32'h0;
@@ -28208,6 +28509,8 @@ module incircle_core_logic$slot1$core$answer_head(clock,request,clearing,engine,
         endcase
         packs = request[(64'h0)+:(8)] == packed_code;
         head[(64'h42)+:(1)] = packs;
+        head[(64'h43)+:(1)] = request[(64'h48)+:(1)];
+        head[(64'h44)+:(1)] = request[(64'h49)+:(1)];
         head[(64'h41)+:(1)] = packs | (request[(64'h0)+:(8)] == read_code);
         head[(64'h20)+:(32)] = answer_length$q;
         head[(64'h40)+:(1)] = has_none$q;
@@ -28279,6 +28582,25 @@ module incircle_core_logic$slot1$core$answer_head$counts_none(d,q,clock);
     end
           
 endmodule // incircle_core_logic$slot1$core$answer_head$counts_none
+
+
+module incircle_core_logic$slot1$core$answer_head$eighths(d,q,clock);
+    
+    // Module arguments
+    input wire  [18:0] d;
+    output reg  [18:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 19'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot1$core$answer_head$eighths
 
 
 module incircle_core_logic$slot1$core$answer_head$has_none(d,q,clock);
@@ -28507,6 +28829,7 @@ module incircle_core_logic$slot1$core$answer_words(clock,opcode,capacity,context
     reg  [31:0] wide_engines;
     reg  [31:0] shifted_engines;
     reg  [31:0] engines_shift;
+    reg  [31:0] features;
     
     // Sub module instances
     incircle_core_logic$slot1$core$answer_words$identity identity(
@@ -28536,6 +28859,7 @@ module incircle_core_logic$slot1$core$answer_words(clock,opcode,capacity,context
         word = chosen$q;
         place = index[(32'h0)+:(3)];
         engines_shift = 32'h8;
+        features = 32'h20000;
         wide_contexts = ((contexts) & 32'hffffffff);
         wide_engines = ((engines) & 32'hffffffff);
         shifted_engines = wide_engines << engines_shift;
@@ -28572,7 +28896,7 @@ module incircle_core_logic$slot1$core$answer_words(clock,opcode,capacity,context
                 end
             default:
                 begin
-                    identity$d = ((ring_capacity) & 32'hffffffff);
+                    identity$d = ((ring_capacity) & 32'hffffffff) | features;
                     report$d = 32'h0;
                 end
         endcase
@@ -28674,7 +28998,7 @@ module incircle_core_logic$slot1$core$command_port(clock,reset,capacity,built,co
     output reg  [10:0] clearing;
     output reg  [16:0] deal;
     output reg  answers;
-    output reg  [71:0] request;
+    output reg  [73:0] request;
     output reg  [47:0] tally;
     input wire  [2:0] answer;
     output reg  [2:0] activity;
@@ -28691,8 +29015,8 @@ module incircle_core_logic$slot1$core$command_port(clock,reset,capacity,built,co
     reg  [2:0] state$d;
     wire  [2:0] state$q;
     reg  state$clock;
-    reg  [71:0] held$d;
-    wire  [71:0] held$q;
+    reg  [73:0] held$d;
+    wire  [73:0] held$q;
     reg  held$clock;
     reg  none_is_left$d;
     wire  none_is_left$q;
@@ -28838,6 +29162,8 @@ module incircle_core_logic$slot1$core$command_port(clock,reset,capacity,built,co
                 begin
                     if (gate$taken[(64'h0)+:(1)]) begin
                         held$d[(64'h0)+:(8)] = code;
+                        held$d[(64'h48)+:(1)] = command$data[32'h3];
+                        held$d[(64'h49)+:(1)] = command$data[32'h2];
                         state$d = CommandState$Answer;
                         if (code == insert_code) begin
                             state$d = CommandState$Count;
@@ -29411,13 +29737,13 @@ endmodule // incircle_core_logic$slot1$core$command_port$gate
 module incircle_core_logic$slot1$core$command_port$held(d,q,clock);
     
     // Module arguments
-    input wire  [71:0] d;
-    output reg  [71:0] q;
+    input wire  [73:0] d;
+    output reg  [73:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 72'h0;
+       q = 74'h0;
     end
     
     always @(posedge clock) begin
@@ -51731,8 +52057,8 @@ module incircle_core_logic$slot1$core$responder(clock,reset,answers,sweeps,reque
     input wire  reset;
     input wire  answers;
     input wire  sweeps;
-    input wire  [71:0] request;
-    input wire  [66:0] head;
+    input wire  [73:0] request;
+    input wire  [68:0] head;
     input wire  [31:0] word;
     output reg  [6:0] index;
     output reg  [6:0] index_ahead;
@@ -51787,6 +52113,8 @@ module incircle_core_logic$slot1$core$responder(clock,reset,answers,sweeps,reque
     reg  [14:0] records$first;
     reg  [14:0] records$count;
     reg  records$is_packed;
+    reg  records$has_short_ids;
+    reg  records$has_rests;
     reg  records$runs;
     wire  records$read;
     wire  [14:0] records$read_id;
@@ -51845,6 +52173,8 @@ module incircle_core_logic$slot1$core$responder(clock,reset,answers,sweeps,reque
         .first(records$first),
         .count(records$count),
         .is_packed(records$is_packed),
+        .has_short_ids(records$has_short_ids),
+        .has_rests(records$has_rests),
         .runs(records$runs),
         .read(records$read),
         .read_id(records$read_id),
@@ -51889,6 +52219,8 @@ module incircle_core_logic$slot1$core$responder(clock,reset,answers,sweeps,reque
         records$first = ((request[(64'h8)+:(32)]) & 15'h7fff);
         records$count = ((request[(64'h28)+:(32)]) & 15'h7fff);
         records$is_packed = head[(64'h42)+:(1)];
+        records$has_short_ids = head[(64'h43)+:(1)];
+        records$has_rests = head[(64'h44)+:(1)];
         records$runs = state$q == AnswerState$Records;
         read = records$read;
         read_id = records$read_id;
@@ -51989,7 +52321,7 @@ module incircle_core_logic$slot1$core$responder$offered(d,q,clock);
 endmodule // incircle_core_logic$slot1$core$responder$offered
 
 
-module incircle_core_logic$slot1$core$responder$records(clock,reset,starts,first,count,is_packed,runs,read,read_id,read_done,record,valid,beat,takes);
+module incircle_core_logic$slot1$core$responder$records(clock,reset,starts,first,count,is_packed,has_short_ids,has_rests,runs,read,read_id,read_done,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -51998,6 +52330,8 @@ module incircle_core_logic$slot1$core$responder$records(clock,reset,starts,first
     input wire  [14:0] first;
     input wire  [14:0] count;
     input wire  is_packed;
+    input wire  has_short_ids;
+    input wire  has_rests;
     input wire  runs;
     output reg  read;
     output reg  [14:0] read_id;
@@ -52011,6 +52345,12 @@ module incircle_core_logic$slot1$core$responder$records(clock,reset,starts,first
     reg  vertices_alone$d;
     wire  vertices_alone$q;
     reg  vertices_alone$clock;
+    reg  ids_are_short$d;
+    wire  ids_are_short$q;
+    reg  ids_are_short$clock;
+    reg  rests_follow$d;
+    wire  rests_follow$q;
+    reg  rests_follow$clock;
     reg  [14:0] record_id$d;
     wire  [14:0] record_id$q;
     reg  record_id$clock;
@@ -52031,6 +52371,8 @@ module incircle_core_logic$slot1$core$responder$records(clock,reset,starts,first
     reg  stream$starts;
     reg  [14:0] stream$count;
     reg  stream$vertices_alone;
+    reg  stream$has_short_ids;
+    reg  stream$has_rests;
     wire  stream$has_room;
     reg  stream$comes;
     reg  [90:0] stream$record;
@@ -52054,6 +52396,16 @@ module incircle_core_logic$slot1$core$responder$records(clock,reset,starts,first
         .d(vertices_alone$d),
         .q(vertices_alone$q),
         .clock(vertices_alone$clock)
+    );
+    incircle_core_logic$slot1$core$responder$records$ids_are_short ids_are_short(
+        .d(ids_are_short$d),
+        .q(ids_are_short$q),
+        .clock(ids_are_short$clock)
+    );
+    incircle_core_logic$slot1$core$responder$records$rests_follow rests_follow(
+        .d(rests_follow$d),
+        .q(rests_follow$q),
+        .clock(rests_follow$clock)
     );
     incircle_core_logic$slot1$core$responder$records$record_id record_id(
         .d(record_id$d),
@@ -52086,6 +52438,8 @@ module incircle_core_logic$slot1$core$responder$records(clock,reset,starts,first
         .starts(stream$starts),
         .count(stream$count),
         .vertices_alone(stream$vertices_alone),
+        .has_short_ids(stream$has_short_ids),
+        .has_rests(stream$has_rests),
         .has_room(stream$has_room),
         .comes(stream$comes),
         .record(stream$record),
@@ -52107,6 +52461,11 @@ module incircle_core_logic$slot1$core$responder$records(clock,reset,starts,first
     // Update code
     always @(*) begin
         vertices_alone$clock = clock;
+        ids_are_short$clock = clock;
+        rests_follow$clock = clock;
+        vertices_alone$d = vertices_alone$q;
+        ids_are_short$d = ids_are_short$q;
+        rests_follow$d = rests_follow$q;
         record_id$clock = clock;
         left$clock = clock;
         some_are_left$clock = clock;
@@ -52114,7 +52473,6 @@ module incircle_core_logic$slot1$core$responder$records(clock,reset,starts,first
         pauses$clock = clock;
         is_there$clock = clock;
         head$clock = clock;
-        vertices_alone$d = vertices_alone$q;
         record_id$d = record_id$q;
         left$d = left$q;
         some_are_left$d = some_are_left$q;
@@ -52125,6 +52483,8 @@ module incircle_core_logic$slot1$core$responder$records(clock,reset,starts,first
         stream$clock = clock;
         one = 32'h1;
         vertices_alone$d = is_packed;
+        ids_are_short$d = has_short_ids;
+        rests_follow$d = has_rests;
         asks = runs & some_are_left$q & stream$has_room & (~pauses$q);
         read = asks;
         read_id = record_id$q;
@@ -52145,6 +52505,8 @@ module incircle_core_logic$slot1$core$responder$records(clock,reset,starts,first
         stream$starts = starts;
         stream$count = count;
         stream$vertices_alone = vertices_alone$q;
+        stream$has_short_ids = ids_are_short$q;
+        stream$has_rests = rests_follow$q;
         stream$comes = read_done;
         stream$record = record;
         valid = is_there$q;
@@ -52181,6 +52543,25 @@ module incircle_core_logic$slot1$core$responder$records$head(d,q,clock);
     end
           
 endmodule // incircle_core_logic$slot1$core$responder$records$head
+
+
+module incircle_core_logic$slot1$core$responder$records$ids_are_short(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot1$core$responder$records$ids_are_short
 
 
 module incircle_core_logic$slot1$core$responder$records$is_second(d,q,clock);
@@ -52278,6 +52659,25 @@ module incircle_core_logic$slot1$core$responder$records$record_id(d,q,clock);
 endmodule // incircle_core_logic$slot1$core$responder$records$record_id
 
 
+module incircle_core_logic$slot1$core$responder$records$rests_follow(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot1$core$responder$records$rests_follow
+
+
 module incircle_core_logic$slot1$core$responder$records$some_are_left(d,q,clock);
     
     // Module arguments
@@ -52297,7 +52697,7 @@ module incircle_core_logic$slot1$core$responder$records$some_are_left(d,q,clock)
 endmodule // incircle_core_logic$slot1$core$responder$records$some_are_left
 
 
-module incircle_core_logic$slot1$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_room,comes,record,valid,beat,takes);
+module incircle_core_logic$slot1$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_short_ids,has_rests,has_room,comes,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -52305,6 +52705,8 @@ module incircle_core_logic$slot1$core$responder$records$stream(clock,reset,start
     input wire  starts;
     input wire  [14:0] count;
     input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  has_rests;
     output reg  has_room;
     input wire  comes;
     input wire  [90:0] record;
@@ -52325,12 +52727,15 @@ module incircle_core_logic$slot1$core$responder$records$stream(clock,reset,start
     reg  halves$clock;
     reg  [90:0] halves$record;
     reg  halves$vertices_alone;
+    reg  halves$has_short_ids;
     wire  [95:0] halves$halves;
     reg  packer$clock;
     reg  packer$reset;
     reg  packer$starts;
     reg  [14:0] packer$count;
     reg  packer$vertices_alone;
+    reg  packer$has_short_ids;
+    reg  packer$has_rests;
     reg  packer$comes;
     reg  [95:0] packer$halves;
     wire  packer$valid;
@@ -52370,6 +52775,7 @@ module incircle_core_logic$slot1$core$responder$records$stream(clock,reset,start
         .clock(halves$clock),
         .record(halves$record),
         .vertices_alone(halves$vertices_alone),
+        .has_short_ids(halves$has_short_ids),
         .halves(halves$halves)
     );
     incircle_core_logic$slot1$core$responder$records$stream$packer packer(
@@ -52378,6 +52784,8 @@ module incircle_core_logic$slot1$core$responder$records$stream(clock,reset,start
         .starts(packer$starts),
         .count(packer$count),
         .vertices_alone(packer$vertices_alone),
+        .has_short_ids(packer$has_short_ids),
+        .has_rests(packer$has_rests),
         .comes(packer$comes),
         .halves(packer$halves),
         .valid(packer$valid),
@@ -52416,7 +52824,10 @@ module incircle_core_logic$slot1$core$responder$records$stream(clock,reset,start
         has_come$d = comes;
         halves$record = record;
         halves$vertices_alone = vertices_alone;
+        halves$has_short_ids = has_short_ids;
         packer$vertices_alone = vertices_alone;
+        packer$has_short_ids = has_short_ids;
+        packer$has_rests = has_rests;
         packer$comes = has_come$q;
         packer$halves = halves$halves;
         queue$reset = reset;
@@ -52444,12 +52855,13 @@ module incircle_core_logic$slot1$core$responder$records$stream(clock,reset,start
 endmodule // incircle_core_logic$slot1$core$responder$records$stream
 
 
-module incircle_core_logic$slot1$core$responder$records$stream$halves(clock,record,vertices_alone,halves);
+module incircle_core_logic$slot1$core$responder$records$stream$halves(clock,record,vertices_alone,has_short_ids,halves);
     
     // Module arguments
     input wire  clock;
     input wire  [90:0] record;
     input wire  vertices_alone;
+    input wire  has_short_ids;
     output reg  [95:0] halves;
     
     // Stub signals
@@ -52471,6 +52883,14 @@ module incircle_core_logic$slot1$core$responder$records$stream$halves(clock,reco
     reg  [15:0] lock;
     reg  [15:0] id_bits;
     reg  [15:0] one;
+    reg  [15:0] two;
+    reg  [15:0] four;
+    reg  [15:0] six;
+    reg  [15:0] ten;
+    reg  [15:0] low_ten;
+    reg  [15:0] low_four;
+    reg  [15:0] top_two;
+    reg  [15:0] next_two;
     
     // Sub module instances
     incircle_core_logic$slot1$core$responder$records$stream$halves$kept kept(
@@ -52485,6 +52905,14 @@ module incircle_core_logic$slot1$core$responder$records$stream$halves(clock,reco
         kept$d = kept$q;
         id_bits = 32'hf;
         one = 32'h1;
+        two = 32'h2;
+        four = 32'h4;
+        six = 32'h6;
+        ten = 32'ha;
+        low_ten = 32'h3ff;
+        low_four = 32'hf;
+        next_two = 32'h3000;
+        top_two = 32'hc000;
         kept$d = record;
         lock = 32'h0;
         if (kept$q[(64'h5a)+:(1)]) begin
@@ -52510,6 +52938,11 @@ module incircle_core_logic$slot1$core$responder$records$stream$halves(clock,reco
             halves[(64'h0)+:(16)] = vertex0;
             halves[(64'h10)+:(16)] = vertex1;
             halves[(64'h20)+:(16)] = vertex2;
+            if (has_short_ids) begin
+                halves[(64'h0)+:(16)] = (vertex0 & low_ten) | (vertex1 << ten);
+                halves[(64'h10)+:(16)] = ((vertex1 >> six) & low_four) | ((vertex2 & low_ten) << four) | ((vertex0 << four) & top_two);
+                halves[(64'h20)+:(16)] = ((vertex1 << two) & next_two) | ((vertex2 << four) & top_two);
+            end
         end
     end
     
@@ -52565,7 +52998,7 @@ module incircle_core_logic$slot1$core$responder$records$stream$head(bits,value);
 endmodule // incircle_core_logic$slot1$core$responder$records$stream$head
 
 
-module incircle_core_logic$slot1$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,comes,halves,valid,beat);
+module incircle_core_logic$slot1$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,has_short_ids,has_rests,comes,halves,valid,beat);
     
     // Module arguments
     input wire  clock;
@@ -52573,6 +53006,8 @@ module incircle_core_logic$slot1$core$responder$records$stream$packer(clock,rese
     input wire  starts;
     input wire  [14:0] count;
     input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  has_rests;
     input wire  comes;
     input wire  [95:0] halves;
     output reg  valid;
@@ -52610,8 +53045,24 @@ module incircle_core_logic$slot1$core$responder$records$stream$packer(clock,rese
     reg  all_came$d;
     wire  all_came$q;
     reg  all_came$clock;
+    reg  [15:0] rests$d;
+    wire  [15:0] rests$q;
+    reg  rests$clock;
+    reg  [1:0] in_group$d;
+    wire  [1:0] in_group$q;
+    reg  in_group$clock;
     
     // Local signals
+    reg  [15:0] earlier;
+    reg  [15:0] together;
+    reg  ends_group;
+    reg  is_short;
+    reg  brings_two;
+    reg  [15:0] third;
+    reg  fills_beat;
+    reg  [15:0] four;
+    reg  [1:0] three_places;
+    reg  [1:0] one_place;
     reg  takes;
     reg  [63:0] sent;
     reg  [63:0] sent_bits;
@@ -52659,6 +53110,16 @@ module incircle_core_logic$slot1$core$responder$records$stream$packer(clock,rese
         .q(all_came$q),
         .clock(all_came$clock)
     );
+    incircle_core_logic$slot1$core$responder$records$stream$packer$rests rests(
+        .d(rests$d),
+        .q(rests$q),
+        .clock(rests$clock)
+    );
+    incircle_core_logic$slot1$core$responder$records$stream$packer$in_group in_group(
+        .d(in_group$d),
+        .q(in_group$q),
+        .clock(in_group$clock)
+    );
     
     // Update code
     always @(*) begin
@@ -52675,13 +53136,35 @@ module incircle_core_logic$slot1$core$responder$records$stream$packer(clock,rese
         left$clock = clock;
         is_last$clock = clock;
         all_came$clock = clock;
+        rests$clock = clock;
+        in_group$clock = clock;
         left$d = left$q;
         is_last$d = is_last$q;
         all_came$d = all_came$q;
+        rests$d = rests$q;
+        in_group$d = in_group$q;
         one = 32'h1;
         two = 32'h2;
+        four = 32'h4;
+        three_places = 32'h3;
+        one_place = 32'h1;
         valid = is_there$q;
         beat = filled$q;
+        earlier = rests$q >> four;
+        if (~|in_group$q) begin
+            earlier = 32'h0;
+        end
+        together = halves[(64'h20)+:(16)] | earlier;
+        ends_group = is_last$q | (in_group$q == three_places);
+        is_short = vertices_alone & has_short_ids;
+        brings_two = is_short & (~(has_rests & ends_group));
+        third = halves[(64'h20)+:(16)];
+        if (is_short) begin
+            third = together;
+        end
+        if (brings_two) begin
+            third = 32'h0;
+        end
         sent = kept$q;
         kept$d[(64'h10)+:(16)] = 32'h0;
         kept$d[(64'h20)+:(16)] = 32'h0;
@@ -52705,25 +53188,41 @@ module incircle_core_logic$slot1$core$responder$records$stream$packer(clock,rese
                         is_there$d = 1'b0;
                         kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                         kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
-                        kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
+                        kept$d[(64'h20)+:(16)] = third;
                         many_are_kept$d = 1'b1;
                         number$d = KeptHalves$Three;
+                        if (brings_two) begin
+                            many_are_kept$d = 1'b0;
+                            number$d = KeptHalves$Two;
+                        end
                     end
                 end
             KeptHalves$One:
                 begin
                     sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
-                    sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
+                    sent[(64'h30)+:(16)] = third;
                     filled$d[(64'h41)+:(1)] = is_last$q;
                     number$d = KeptHalves$Zero;
+                    if (brings_two) begin
+                        is_there$d = 1'b0;
+                        kept$d[(64'h0)+:(16)] = kept$q[(64'h0)+:(16)];
+                        kept$d[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
+                        kept$d[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
+                        many_are_kept$d = 1'b1;
+                        number$d = KeptHalves$Three;
+                    end
                 end
             KeptHalves$Two:
                 begin
                     sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h0)+:(16)] = halves[(64'h20)+:(16)];
+                    kept$d[(64'h0)+:(16)] = third;
                     number$d = KeptHalves$One;
+                    if (brings_two) begin
+                        filled$d[(64'h41)+:(1)] = is_last$q;
+                        number$d = KeptHalves$Zero;
+                    end
                     if (~vertices_alone) begin
                         kept$d[(64'h10)+:(16)] = halves[(64'h30)+:(16)];
                         kept$d[(64'h20)+:(16)] = halves[(64'h40)+:(16)];
@@ -52736,8 +53235,11 @@ module incircle_core_logic$slot1$core$responder$records$stream$packer(clock,rese
                 begin
                     sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
                     kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
+                    kept$d[(64'h10)+:(16)] = third;
                     number$d = KeptHalves$Two;
+                    if (brings_two) begin
+                        number$d = KeptHalves$One;
+                    end
                 end
             default:
                 begin
@@ -52748,6 +53250,7 @@ module incircle_core_logic$slot1$core$responder$records$stream$packer(clock,rese
                     number$d = KeptHalves$Zero;
                 end
         endcase
+        fills_beat = ((number$q == KeptHalves$One) & (~brings_two)) | ((number$q == KeptHalves$Two) & brings_two);
         sent_bits = sent;
         filled$d[(64'h0)+:(32)] = sent_bits[(32'h0)+:(32)];
         filled$d[(64'h20)+:(32)] = sent_bits[(32'h20)+:(32)];
@@ -52755,7 +53258,9 @@ module incircle_core_logic$slot1$core$responder$records$stream$packer(clock,rese
             left$d = left$q - one;
             is_last$d = left$q == two;
             all_came$d = is_last$q;
-            if (is_last$q & (number$q != KeptHalves$One)) begin
+            rests$d = together;
+            in_group$d = in_group$q + one_place;
+            if (is_last$q & (~fills_beat)) begin
                 number$d = KeptHalves$Rest;
             end
         end
@@ -52764,6 +53269,7 @@ module incircle_core_logic$slot1$core$responder$records$stream$packer(clock,rese
             kept$d = kept$q;
         end
         if (starts) begin
+            in_group$d = 32'h0;
             left$d = count;
             is_last$d = count == one;
         end
@@ -52812,6 +53318,25 @@ module incircle_core_logic$slot1$core$responder$records$stream$packer$filled(d,q
     end
           
 endmodule // incircle_core_logic$slot1$core$responder$records$stream$packer$filled
+
+
+module incircle_core_logic$slot1$core$responder$records$stream$packer$in_group(d,q,clock);
+    
+    // Module arguments
+    input wire  [1:0] d;
+    output reg  [1:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 2'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot1$core$responder$records$stream$packer$in_group
 
 
 module incircle_core_logic$slot1$core$responder$records$stream$packer$is_last(d,q,clock);
@@ -52933,6 +53458,25 @@ module incircle_core_logic$slot1$core$responder$records$stream$packer$number(d,q
     end
           
 endmodule // incircle_core_logic$slot1$core$responder$records$stream$packer$number
+
+
+module incircle_core_logic$slot1$core$responder$records$stream$packer$rests(d,q,clock);
+    
+    // Module arguments
+    input wire  [15:0] d;
+    output reg  [15:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 16'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot1$core$responder$records$stream$packer$rests
 
 
 module incircle_core_logic$slot1$core$responder$records$stream$queue(clock,reset,push,push_data,pop,valid,data);
@@ -53994,19 +54538,19 @@ module incircle_core_logic$slot2$core(clock,reset,command$valid,command$ready,co
     wire  [10:0] command_port$clearing;
     wire  [16:0] command_port$deal;
     wire  command_port$answers;
-    wire  [71:0] command_port$request;
+    wire  [73:0] command_port$request;
     wire  [47:0] command_port$tally;
     reg  [2:0] command_port$answer;
     wire  [2:0] command_port$activity;
     reg  answer_head$clock;
-    reg  [71:0] answer_head$request;
+    reg  [73:0] answer_head$request;
     reg  [10:0] answer_head$clearing;
     reg  [7:0] answer_head$engine;
     reg  [14:0] answer_head$records;
     reg  answer_head$collinear;
     reg  answer_head$stuck;
     reg  answer_head$some_refused;
-    wire  [66:0] answer_head$head;
+    wire  [68:0] answer_head$head;
     reg  answer_words$clock;
     reg  [7:0] answer_words$opcode;
     reg  [14:0] answer_words$capacity;
@@ -54026,8 +54570,8 @@ module incircle_core_logic$slot2$core(clock,reset,command$valid,command$ready,co
     reg  responder$reset;
     reg  responder$answers;
     reg  responder$sweeps;
-    reg  [71:0] responder$request;
-    reg  [66:0] responder$head;
+    reg  [73:0] responder$request;
+    reg  [68:0] responder$head;
     reg  [31:0] responder$word;
     wire  [6:0] responder$index;
     wire  [6:0] responder$index_ahead;
@@ -54270,14 +54814,14 @@ module incircle_core_logic$slot2$core$answer_head(clock,request,clearing,engine,
     
     // Module arguments
     input wire  clock;
-    input wire  [71:0] request;
+    input wire  [73:0] request;
     input wire  [10:0] clearing;
     input wire  [7:0] engine;
     input wire  [14:0] records;
     input wire  collinear;
     input wire  stuck;
     input wire  some_refused;
-    output reg  [66:0] head;
+    output reg  [68:0] head;
     
     // Stub signals
     reg  [32:0] range_end$d;
@@ -54289,6 +54833,9 @@ module incircle_core_logic$slot2$core$answer_head(clock,request,clearing,engine,
     reg  [31:0] triple$d;
     wire  [31:0] triple$q;
     reg  triple$clock;
+    reg  [18:0] eighths$d;
+    wire  [18:0] eighths$q;
+    reg  eighths$clock;
     reg  counts_none$d;
     wire  counts_none$q;
     reg  counts_none$clock;
@@ -54340,7 +54887,13 @@ module incircle_core_logic$slot2$core$answer_head(clock,request,clearing,engine,
     reg  [7:0] read_code;
     reg  [7:0] packed_code;
     reg  packs;
-    reg  [31:0] rounded;
+    reg  [14:0] few;
+    reg  [18:0] own_words;
+    reg  [18:0] more;
+    reg  [18:0] rounded;
+    reg  [18:0] seven;
+    reg  [18:0] two_places;
+    reg  [18:0] three_places;
     
     // Sub module instances
     incircle_core_logic$slot2$core$answer_head$range_end range_end(
@@ -54357,6 +54910,11 @@ module incircle_core_logic$slot2$core$answer_head(clock,request,clearing,engine,
         .d(triple$d),
         .q(triple$q),
         .clock(triple$clock)
+    );
+    incircle_core_logic$slot2$core$answer_head$eighths eighths(
+        .d(eighths$d),
+        .q(eighths$q),
+        .clock(eighths$clock)
     );
     incircle_core_logic$slot2$core$answer_head$counts_none counts_none(
         .d(counts_none$d),
@@ -54414,11 +54972,13 @@ module incircle_core_logic$slot2$core$answer_head(clock,request,clearing,engine,
         range_end$clock = clock;
         range_bound$clock = clock;
         triple$clock = clock;
+        eighths$clock = clock;
         counts_none$clock = clock;
         insert_status$clock = clock;
         range_end$d = range_end$q;
         range_bound$d = range_bound$q;
         triple$d = triple$q;
+        eighths$d = eighths$q;
         counts_none$d = counts_none$q;
         insert_status$d = insert_status$q;
         is_outside$clock = clock;
@@ -54444,12 +55004,25 @@ module incircle_core_logic$slot2$core$answer_head(clock,request,clearing,engine,
         engine_shift = 32'h8;
         read_code = 32'h4;
         packed_code = 32'h7;
+        seven = 32'h7;
+        two_places = 32'h2;
+        three_places = 32'h3;
         wide_first = ((request[(64'h8)+:(32)]) & 33'h1ffffffff);
         wide_count = ((request[(64'h28)+:(32)]) & 33'h1ffffffff);
         range_end$d = wide_first + wide_count;
         range_bound$d = records;
         double_count = request[(64'h28)+:(32)] << one;
         triple$d = double_count + request[(64'h28)+:(32)];
+        few = ((request[(64'h28)+:(32)]) & 15'h7fff);
+        own_words = ((few) & 19'h7ffff) << three_places;
+        more = ((few) & 19'h7ffff) << two_places;
+        if (request[(64'h48)+:(1)]) begin
+            more = 32'h0;
+            if (request[(64'h49)+:(1)]) begin
+                more = ((few) & 19'h7ffff);
+            end
+        end
+        eighths$d = own_words + more;
         counts_none$d = request[(64'h28)+:(32)] == none;
         insert_status$d = 32'h0;
         if (some_refused) begin
@@ -54464,8 +55037,8 @@ module incircle_core_logic$slot2$core$answer_head(clock,request,clearing,engine,
         wide_bound = ((range_bound$q) & 33'h1ffffffff);
         is_outside$d = range_end$q > wide_bound;
         read_length$d = triple$q;
-        rounded = triple$q + one;
-        packed_length$d = rounded >> one;
+        rounded = eighths$q + seven;
+        packed_length$d = ((rounded >> three_places) & 32'hffffffff);
         reads_none$d = counts_none$q;
         report_status$d = insert_status$q;
         answer_status$d = 32'h0;
@@ -54524,6 +55097,8 @@ module incircle_core_logic$slot2$core$answer_head(clock,request,clearing,engine,
         endcase
         packs = request[(64'h0)+:(8)] == packed_code;
         head[(64'h42)+:(1)] = packs;
+        head[(64'h43)+:(1)] = request[(64'h48)+:(1)];
+        head[(64'h44)+:(1)] = request[(64'h49)+:(1)];
         head[(64'h41)+:(1)] = packs | (request[(64'h0)+:(8)] == read_code);
         head[(64'h20)+:(32)] = answer_length$q;
         head[(64'h40)+:(1)] = has_none$q;
@@ -54595,6 +55170,25 @@ module incircle_core_logic$slot2$core$answer_head$counts_none(d,q,clock);
     end
           
 endmodule // incircle_core_logic$slot2$core$answer_head$counts_none
+
+
+module incircle_core_logic$slot2$core$answer_head$eighths(d,q,clock);
+    
+    // Module arguments
+    input wire  [18:0] d;
+    output reg  [18:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 19'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot2$core$answer_head$eighths
 
 
 module incircle_core_logic$slot2$core$answer_head$has_none(d,q,clock);
@@ -54823,6 +55417,7 @@ module incircle_core_logic$slot2$core$answer_words(clock,opcode,capacity,context
     reg  [31:0] wide_engines;
     reg  [31:0] shifted_engines;
     reg  [31:0] engines_shift;
+    reg  [31:0] features;
     
     // Sub module instances
     incircle_core_logic$slot2$core$answer_words$identity identity(
@@ -54852,6 +55447,7 @@ module incircle_core_logic$slot2$core$answer_words(clock,opcode,capacity,context
         word = chosen$q;
         place = index[(32'h0)+:(3)];
         engines_shift = 32'h8;
+        features = 32'h20000;
         wide_contexts = ((contexts) & 32'hffffffff);
         wide_engines = ((engines) & 32'hffffffff);
         shifted_engines = wide_engines << engines_shift;
@@ -54888,7 +55484,7 @@ module incircle_core_logic$slot2$core$answer_words(clock,opcode,capacity,context
                 end
             default:
                 begin
-                    identity$d = ((ring_capacity) & 32'hffffffff);
+                    identity$d = ((ring_capacity) & 32'hffffffff) | features;
                     report$d = 32'h0;
                 end
         endcase
@@ -54990,7 +55586,7 @@ module incircle_core_logic$slot2$core$command_port(clock,reset,capacity,built,co
     output reg  [10:0] clearing;
     output reg  [16:0] deal;
     output reg  answers;
-    output reg  [71:0] request;
+    output reg  [73:0] request;
     output reg  [47:0] tally;
     input wire  [2:0] answer;
     output reg  [2:0] activity;
@@ -55007,8 +55603,8 @@ module incircle_core_logic$slot2$core$command_port(clock,reset,capacity,built,co
     reg  [2:0] state$d;
     wire  [2:0] state$q;
     reg  state$clock;
-    reg  [71:0] held$d;
-    wire  [71:0] held$q;
+    reg  [73:0] held$d;
+    wire  [73:0] held$q;
     reg  held$clock;
     reg  none_is_left$d;
     wire  none_is_left$q;
@@ -55154,6 +55750,8 @@ module incircle_core_logic$slot2$core$command_port(clock,reset,capacity,built,co
                 begin
                     if (gate$taken[(64'h0)+:(1)]) begin
                         held$d[(64'h0)+:(8)] = code;
+                        held$d[(64'h48)+:(1)] = command$data[32'h3];
+                        held$d[(64'h49)+:(1)] = command$data[32'h2];
                         state$d = CommandState$Answer;
                         if (code == insert_code) begin
                             state$d = CommandState$Count;
@@ -55727,13 +56325,13 @@ endmodule // incircle_core_logic$slot2$core$command_port$gate
 module incircle_core_logic$slot2$core$command_port$held(d,q,clock);
     
     // Module arguments
-    input wire  [71:0] d;
-    output reg  [71:0] q;
+    input wire  [73:0] d;
+    output reg  [73:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 72'h0;
+       q = 74'h0;
     end
     
     always @(posedge clock) begin
@@ -78047,8 +78645,8 @@ module incircle_core_logic$slot2$core$responder(clock,reset,answers,sweeps,reque
     input wire  reset;
     input wire  answers;
     input wire  sweeps;
-    input wire  [71:0] request;
-    input wire  [66:0] head;
+    input wire  [73:0] request;
+    input wire  [68:0] head;
     input wire  [31:0] word;
     output reg  [6:0] index;
     output reg  [6:0] index_ahead;
@@ -78103,6 +78701,8 @@ module incircle_core_logic$slot2$core$responder(clock,reset,answers,sweeps,reque
     reg  [14:0] records$first;
     reg  [14:0] records$count;
     reg  records$is_packed;
+    reg  records$has_short_ids;
+    reg  records$has_rests;
     reg  records$runs;
     wire  records$read;
     wire  [14:0] records$read_id;
@@ -78161,6 +78761,8 @@ module incircle_core_logic$slot2$core$responder(clock,reset,answers,sweeps,reque
         .first(records$first),
         .count(records$count),
         .is_packed(records$is_packed),
+        .has_short_ids(records$has_short_ids),
+        .has_rests(records$has_rests),
         .runs(records$runs),
         .read(records$read),
         .read_id(records$read_id),
@@ -78205,6 +78807,8 @@ module incircle_core_logic$slot2$core$responder(clock,reset,answers,sweeps,reque
         records$first = ((request[(64'h8)+:(32)]) & 15'h7fff);
         records$count = ((request[(64'h28)+:(32)]) & 15'h7fff);
         records$is_packed = head[(64'h42)+:(1)];
+        records$has_short_ids = head[(64'h43)+:(1)];
+        records$has_rests = head[(64'h44)+:(1)];
         records$runs = state$q == AnswerState$Records;
         read = records$read;
         read_id = records$read_id;
@@ -78305,7 +78909,7 @@ module incircle_core_logic$slot2$core$responder$offered(d,q,clock);
 endmodule // incircle_core_logic$slot2$core$responder$offered
 
 
-module incircle_core_logic$slot2$core$responder$records(clock,reset,starts,first,count,is_packed,runs,read,read_id,read_done,record,valid,beat,takes);
+module incircle_core_logic$slot2$core$responder$records(clock,reset,starts,first,count,is_packed,has_short_ids,has_rests,runs,read,read_id,read_done,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -78314,6 +78918,8 @@ module incircle_core_logic$slot2$core$responder$records(clock,reset,starts,first
     input wire  [14:0] first;
     input wire  [14:0] count;
     input wire  is_packed;
+    input wire  has_short_ids;
+    input wire  has_rests;
     input wire  runs;
     output reg  read;
     output reg  [14:0] read_id;
@@ -78327,6 +78933,12 @@ module incircle_core_logic$slot2$core$responder$records(clock,reset,starts,first
     reg  vertices_alone$d;
     wire  vertices_alone$q;
     reg  vertices_alone$clock;
+    reg  ids_are_short$d;
+    wire  ids_are_short$q;
+    reg  ids_are_short$clock;
+    reg  rests_follow$d;
+    wire  rests_follow$q;
+    reg  rests_follow$clock;
     reg  [14:0] record_id$d;
     wire  [14:0] record_id$q;
     reg  record_id$clock;
@@ -78347,6 +78959,8 @@ module incircle_core_logic$slot2$core$responder$records(clock,reset,starts,first
     reg  stream$starts;
     reg  [14:0] stream$count;
     reg  stream$vertices_alone;
+    reg  stream$has_short_ids;
+    reg  stream$has_rests;
     wire  stream$has_room;
     reg  stream$comes;
     reg  [90:0] stream$record;
@@ -78370,6 +78984,16 @@ module incircle_core_logic$slot2$core$responder$records(clock,reset,starts,first
         .d(vertices_alone$d),
         .q(vertices_alone$q),
         .clock(vertices_alone$clock)
+    );
+    incircle_core_logic$slot2$core$responder$records$ids_are_short ids_are_short(
+        .d(ids_are_short$d),
+        .q(ids_are_short$q),
+        .clock(ids_are_short$clock)
+    );
+    incircle_core_logic$slot2$core$responder$records$rests_follow rests_follow(
+        .d(rests_follow$d),
+        .q(rests_follow$q),
+        .clock(rests_follow$clock)
     );
     incircle_core_logic$slot2$core$responder$records$record_id record_id(
         .d(record_id$d),
@@ -78402,6 +79026,8 @@ module incircle_core_logic$slot2$core$responder$records(clock,reset,starts,first
         .starts(stream$starts),
         .count(stream$count),
         .vertices_alone(stream$vertices_alone),
+        .has_short_ids(stream$has_short_ids),
+        .has_rests(stream$has_rests),
         .has_room(stream$has_room),
         .comes(stream$comes),
         .record(stream$record),
@@ -78423,6 +79049,11 @@ module incircle_core_logic$slot2$core$responder$records(clock,reset,starts,first
     // Update code
     always @(*) begin
         vertices_alone$clock = clock;
+        ids_are_short$clock = clock;
+        rests_follow$clock = clock;
+        vertices_alone$d = vertices_alone$q;
+        ids_are_short$d = ids_are_short$q;
+        rests_follow$d = rests_follow$q;
         record_id$clock = clock;
         left$clock = clock;
         some_are_left$clock = clock;
@@ -78430,7 +79061,6 @@ module incircle_core_logic$slot2$core$responder$records(clock,reset,starts,first
         pauses$clock = clock;
         is_there$clock = clock;
         head$clock = clock;
-        vertices_alone$d = vertices_alone$q;
         record_id$d = record_id$q;
         left$d = left$q;
         some_are_left$d = some_are_left$q;
@@ -78441,6 +79071,8 @@ module incircle_core_logic$slot2$core$responder$records(clock,reset,starts,first
         stream$clock = clock;
         one = 32'h1;
         vertices_alone$d = is_packed;
+        ids_are_short$d = has_short_ids;
+        rests_follow$d = has_rests;
         asks = runs & some_are_left$q & stream$has_room & (~pauses$q);
         read = asks;
         read_id = record_id$q;
@@ -78461,6 +79093,8 @@ module incircle_core_logic$slot2$core$responder$records(clock,reset,starts,first
         stream$starts = starts;
         stream$count = count;
         stream$vertices_alone = vertices_alone$q;
+        stream$has_short_ids = ids_are_short$q;
+        stream$has_rests = rests_follow$q;
         stream$comes = read_done;
         stream$record = record;
         valid = is_there$q;
@@ -78497,6 +79131,25 @@ module incircle_core_logic$slot2$core$responder$records$head(d,q,clock);
     end
           
 endmodule // incircle_core_logic$slot2$core$responder$records$head
+
+
+module incircle_core_logic$slot2$core$responder$records$ids_are_short(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot2$core$responder$records$ids_are_short
 
 
 module incircle_core_logic$slot2$core$responder$records$is_second(d,q,clock);
@@ -78594,6 +79247,25 @@ module incircle_core_logic$slot2$core$responder$records$record_id(d,q,clock);
 endmodule // incircle_core_logic$slot2$core$responder$records$record_id
 
 
+module incircle_core_logic$slot2$core$responder$records$rests_follow(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot2$core$responder$records$rests_follow
+
+
 module incircle_core_logic$slot2$core$responder$records$some_are_left(d,q,clock);
     
     // Module arguments
@@ -78613,7 +79285,7 @@ module incircle_core_logic$slot2$core$responder$records$some_are_left(d,q,clock)
 endmodule // incircle_core_logic$slot2$core$responder$records$some_are_left
 
 
-module incircle_core_logic$slot2$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_room,comes,record,valid,beat,takes);
+module incircle_core_logic$slot2$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_short_ids,has_rests,has_room,comes,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -78621,6 +79293,8 @@ module incircle_core_logic$slot2$core$responder$records$stream(clock,reset,start
     input wire  starts;
     input wire  [14:0] count;
     input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  has_rests;
     output reg  has_room;
     input wire  comes;
     input wire  [90:0] record;
@@ -78641,12 +79315,15 @@ module incircle_core_logic$slot2$core$responder$records$stream(clock,reset,start
     reg  halves$clock;
     reg  [90:0] halves$record;
     reg  halves$vertices_alone;
+    reg  halves$has_short_ids;
     wire  [95:0] halves$halves;
     reg  packer$clock;
     reg  packer$reset;
     reg  packer$starts;
     reg  [14:0] packer$count;
     reg  packer$vertices_alone;
+    reg  packer$has_short_ids;
+    reg  packer$has_rests;
     reg  packer$comes;
     reg  [95:0] packer$halves;
     wire  packer$valid;
@@ -78686,6 +79363,7 @@ module incircle_core_logic$slot2$core$responder$records$stream(clock,reset,start
         .clock(halves$clock),
         .record(halves$record),
         .vertices_alone(halves$vertices_alone),
+        .has_short_ids(halves$has_short_ids),
         .halves(halves$halves)
     );
     incircle_core_logic$slot2$core$responder$records$stream$packer packer(
@@ -78694,6 +79372,8 @@ module incircle_core_logic$slot2$core$responder$records$stream(clock,reset,start
         .starts(packer$starts),
         .count(packer$count),
         .vertices_alone(packer$vertices_alone),
+        .has_short_ids(packer$has_short_ids),
+        .has_rests(packer$has_rests),
         .comes(packer$comes),
         .halves(packer$halves),
         .valid(packer$valid),
@@ -78732,7 +79412,10 @@ module incircle_core_logic$slot2$core$responder$records$stream(clock,reset,start
         has_come$d = comes;
         halves$record = record;
         halves$vertices_alone = vertices_alone;
+        halves$has_short_ids = has_short_ids;
         packer$vertices_alone = vertices_alone;
+        packer$has_short_ids = has_short_ids;
+        packer$has_rests = has_rests;
         packer$comes = has_come$q;
         packer$halves = halves$halves;
         queue$reset = reset;
@@ -78760,12 +79443,13 @@ module incircle_core_logic$slot2$core$responder$records$stream(clock,reset,start
 endmodule // incircle_core_logic$slot2$core$responder$records$stream
 
 
-module incircle_core_logic$slot2$core$responder$records$stream$halves(clock,record,vertices_alone,halves);
+module incircle_core_logic$slot2$core$responder$records$stream$halves(clock,record,vertices_alone,has_short_ids,halves);
     
     // Module arguments
     input wire  clock;
     input wire  [90:0] record;
     input wire  vertices_alone;
+    input wire  has_short_ids;
     output reg  [95:0] halves;
     
     // Stub signals
@@ -78787,6 +79471,14 @@ module incircle_core_logic$slot2$core$responder$records$stream$halves(clock,reco
     reg  [15:0] lock;
     reg  [15:0] id_bits;
     reg  [15:0] one;
+    reg  [15:0] two;
+    reg  [15:0] four;
+    reg  [15:0] six;
+    reg  [15:0] ten;
+    reg  [15:0] low_ten;
+    reg  [15:0] low_four;
+    reg  [15:0] top_two;
+    reg  [15:0] next_two;
     
     // Sub module instances
     incircle_core_logic$slot2$core$responder$records$stream$halves$kept kept(
@@ -78801,6 +79493,14 @@ module incircle_core_logic$slot2$core$responder$records$stream$halves(clock,reco
         kept$d = kept$q;
         id_bits = 32'hf;
         one = 32'h1;
+        two = 32'h2;
+        four = 32'h4;
+        six = 32'h6;
+        ten = 32'ha;
+        low_ten = 32'h3ff;
+        low_four = 32'hf;
+        next_two = 32'h3000;
+        top_two = 32'hc000;
         kept$d = record;
         lock = 32'h0;
         if (kept$q[(64'h5a)+:(1)]) begin
@@ -78826,6 +79526,11 @@ module incircle_core_logic$slot2$core$responder$records$stream$halves(clock,reco
             halves[(64'h0)+:(16)] = vertex0;
             halves[(64'h10)+:(16)] = vertex1;
             halves[(64'h20)+:(16)] = vertex2;
+            if (has_short_ids) begin
+                halves[(64'h0)+:(16)] = (vertex0 & low_ten) | (vertex1 << ten);
+                halves[(64'h10)+:(16)] = ((vertex1 >> six) & low_four) | ((vertex2 & low_ten) << four) | ((vertex0 << four) & top_two);
+                halves[(64'h20)+:(16)] = ((vertex1 << two) & next_two) | ((vertex2 << four) & top_two);
+            end
         end
     end
     
@@ -78881,7 +79586,7 @@ module incircle_core_logic$slot2$core$responder$records$stream$head(bits,value);
 endmodule // incircle_core_logic$slot2$core$responder$records$stream$head
 
 
-module incircle_core_logic$slot2$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,comes,halves,valid,beat);
+module incircle_core_logic$slot2$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,has_short_ids,has_rests,comes,halves,valid,beat);
     
     // Module arguments
     input wire  clock;
@@ -78889,6 +79594,8 @@ module incircle_core_logic$slot2$core$responder$records$stream$packer(clock,rese
     input wire  starts;
     input wire  [14:0] count;
     input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  has_rests;
     input wire  comes;
     input wire  [95:0] halves;
     output reg  valid;
@@ -78926,8 +79633,24 @@ module incircle_core_logic$slot2$core$responder$records$stream$packer(clock,rese
     reg  all_came$d;
     wire  all_came$q;
     reg  all_came$clock;
+    reg  [15:0] rests$d;
+    wire  [15:0] rests$q;
+    reg  rests$clock;
+    reg  [1:0] in_group$d;
+    wire  [1:0] in_group$q;
+    reg  in_group$clock;
     
     // Local signals
+    reg  [15:0] earlier;
+    reg  [15:0] together;
+    reg  ends_group;
+    reg  is_short;
+    reg  brings_two;
+    reg  [15:0] third;
+    reg  fills_beat;
+    reg  [15:0] four;
+    reg  [1:0] three_places;
+    reg  [1:0] one_place;
     reg  takes;
     reg  [63:0] sent;
     reg  [63:0] sent_bits;
@@ -78975,6 +79698,16 @@ module incircle_core_logic$slot2$core$responder$records$stream$packer(clock,rese
         .q(all_came$q),
         .clock(all_came$clock)
     );
+    incircle_core_logic$slot2$core$responder$records$stream$packer$rests rests(
+        .d(rests$d),
+        .q(rests$q),
+        .clock(rests$clock)
+    );
+    incircle_core_logic$slot2$core$responder$records$stream$packer$in_group in_group(
+        .d(in_group$d),
+        .q(in_group$q),
+        .clock(in_group$clock)
+    );
     
     // Update code
     always @(*) begin
@@ -78991,13 +79724,35 @@ module incircle_core_logic$slot2$core$responder$records$stream$packer(clock,rese
         left$clock = clock;
         is_last$clock = clock;
         all_came$clock = clock;
+        rests$clock = clock;
+        in_group$clock = clock;
         left$d = left$q;
         is_last$d = is_last$q;
         all_came$d = all_came$q;
+        rests$d = rests$q;
+        in_group$d = in_group$q;
         one = 32'h1;
         two = 32'h2;
+        four = 32'h4;
+        three_places = 32'h3;
+        one_place = 32'h1;
         valid = is_there$q;
         beat = filled$q;
+        earlier = rests$q >> four;
+        if (~|in_group$q) begin
+            earlier = 32'h0;
+        end
+        together = halves[(64'h20)+:(16)] | earlier;
+        ends_group = is_last$q | (in_group$q == three_places);
+        is_short = vertices_alone & has_short_ids;
+        brings_two = is_short & (~(has_rests & ends_group));
+        third = halves[(64'h20)+:(16)];
+        if (is_short) begin
+            third = together;
+        end
+        if (brings_two) begin
+            third = 32'h0;
+        end
         sent = kept$q;
         kept$d[(64'h10)+:(16)] = 32'h0;
         kept$d[(64'h20)+:(16)] = 32'h0;
@@ -79021,25 +79776,41 @@ module incircle_core_logic$slot2$core$responder$records$stream$packer(clock,rese
                         is_there$d = 1'b0;
                         kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                         kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
-                        kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
+                        kept$d[(64'h20)+:(16)] = third;
                         many_are_kept$d = 1'b1;
                         number$d = KeptHalves$Three;
+                        if (brings_two) begin
+                            many_are_kept$d = 1'b0;
+                            number$d = KeptHalves$Two;
+                        end
                     end
                 end
             KeptHalves$One:
                 begin
                     sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
-                    sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
+                    sent[(64'h30)+:(16)] = third;
                     filled$d[(64'h41)+:(1)] = is_last$q;
                     number$d = KeptHalves$Zero;
+                    if (brings_two) begin
+                        is_there$d = 1'b0;
+                        kept$d[(64'h0)+:(16)] = kept$q[(64'h0)+:(16)];
+                        kept$d[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
+                        kept$d[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
+                        many_are_kept$d = 1'b1;
+                        number$d = KeptHalves$Three;
+                    end
                 end
             KeptHalves$Two:
                 begin
                     sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h0)+:(16)] = halves[(64'h20)+:(16)];
+                    kept$d[(64'h0)+:(16)] = third;
                     number$d = KeptHalves$One;
+                    if (brings_two) begin
+                        filled$d[(64'h41)+:(1)] = is_last$q;
+                        number$d = KeptHalves$Zero;
+                    end
                     if (~vertices_alone) begin
                         kept$d[(64'h10)+:(16)] = halves[(64'h30)+:(16)];
                         kept$d[(64'h20)+:(16)] = halves[(64'h40)+:(16)];
@@ -79052,8 +79823,11 @@ module incircle_core_logic$slot2$core$responder$records$stream$packer(clock,rese
                 begin
                     sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
                     kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
+                    kept$d[(64'h10)+:(16)] = third;
                     number$d = KeptHalves$Two;
+                    if (brings_two) begin
+                        number$d = KeptHalves$One;
+                    end
                 end
             default:
                 begin
@@ -79064,6 +79838,7 @@ module incircle_core_logic$slot2$core$responder$records$stream$packer(clock,rese
                     number$d = KeptHalves$Zero;
                 end
         endcase
+        fills_beat = ((number$q == KeptHalves$One) & (~brings_two)) | ((number$q == KeptHalves$Two) & brings_two);
         sent_bits = sent;
         filled$d[(64'h0)+:(32)] = sent_bits[(32'h0)+:(32)];
         filled$d[(64'h20)+:(32)] = sent_bits[(32'h20)+:(32)];
@@ -79071,7 +79846,9 @@ module incircle_core_logic$slot2$core$responder$records$stream$packer(clock,rese
             left$d = left$q - one;
             is_last$d = left$q == two;
             all_came$d = is_last$q;
-            if (is_last$q & (number$q != KeptHalves$One)) begin
+            rests$d = together;
+            in_group$d = in_group$q + one_place;
+            if (is_last$q & (~fills_beat)) begin
                 number$d = KeptHalves$Rest;
             end
         end
@@ -79080,6 +79857,7 @@ module incircle_core_logic$slot2$core$responder$records$stream$packer(clock,rese
             kept$d = kept$q;
         end
         if (starts) begin
+            in_group$d = 32'h0;
             left$d = count;
             is_last$d = count == one;
         end
@@ -79128,6 +79906,25 @@ module incircle_core_logic$slot2$core$responder$records$stream$packer$filled(d,q
     end
           
 endmodule // incircle_core_logic$slot2$core$responder$records$stream$packer$filled
+
+
+module incircle_core_logic$slot2$core$responder$records$stream$packer$in_group(d,q,clock);
+    
+    // Module arguments
+    input wire  [1:0] d;
+    output reg  [1:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 2'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot2$core$responder$records$stream$packer$in_group
 
 
 module incircle_core_logic$slot2$core$responder$records$stream$packer$is_last(d,q,clock);
@@ -79249,6 +80046,25 @@ module incircle_core_logic$slot2$core$responder$records$stream$packer$number(d,q
     end
           
 endmodule // incircle_core_logic$slot2$core$responder$records$stream$packer$number
+
+
+module incircle_core_logic$slot2$core$responder$records$stream$packer$rests(d,q,clock);
+    
+    // Module arguments
+    input wire  [15:0] d;
+    output reg  [15:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 16'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot2$core$responder$records$stream$packer$rests
 
 
 module incircle_core_logic$slot2$core$responder$records$stream$queue(clock,reset,push,push_data,pop,valid,data);
@@ -80310,19 +81126,19 @@ module incircle_core_logic$slot3$core(clock,reset,command$valid,command$ready,co
     wire  [10:0] command_port$clearing;
     wire  [16:0] command_port$deal;
     wire  command_port$answers;
-    wire  [71:0] command_port$request;
+    wire  [73:0] command_port$request;
     wire  [47:0] command_port$tally;
     reg  [2:0] command_port$answer;
     wire  [2:0] command_port$activity;
     reg  answer_head$clock;
-    reg  [71:0] answer_head$request;
+    reg  [73:0] answer_head$request;
     reg  [10:0] answer_head$clearing;
     reg  [7:0] answer_head$engine;
     reg  [14:0] answer_head$records;
     reg  answer_head$collinear;
     reg  answer_head$stuck;
     reg  answer_head$some_refused;
-    wire  [66:0] answer_head$head;
+    wire  [68:0] answer_head$head;
     reg  answer_words$clock;
     reg  [7:0] answer_words$opcode;
     reg  [14:0] answer_words$capacity;
@@ -80342,8 +81158,8 @@ module incircle_core_logic$slot3$core(clock,reset,command$valid,command$ready,co
     reg  responder$reset;
     reg  responder$answers;
     reg  responder$sweeps;
-    reg  [71:0] responder$request;
-    reg  [66:0] responder$head;
+    reg  [73:0] responder$request;
+    reg  [68:0] responder$head;
     reg  [31:0] responder$word;
     wire  [6:0] responder$index;
     wire  [6:0] responder$index_ahead;
@@ -80586,14 +81402,14 @@ module incircle_core_logic$slot3$core$answer_head(clock,request,clearing,engine,
     
     // Module arguments
     input wire  clock;
-    input wire  [71:0] request;
+    input wire  [73:0] request;
     input wire  [10:0] clearing;
     input wire  [7:0] engine;
     input wire  [14:0] records;
     input wire  collinear;
     input wire  stuck;
     input wire  some_refused;
-    output reg  [66:0] head;
+    output reg  [68:0] head;
     
     // Stub signals
     reg  [32:0] range_end$d;
@@ -80605,6 +81421,9 @@ module incircle_core_logic$slot3$core$answer_head(clock,request,clearing,engine,
     reg  [31:0] triple$d;
     wire  [31:0] triple$q;
     reg  triple$clock;
+    reg  [18:0] eighths$d;
+    wire  [18:0] eighths$q;
+    reg  eighths$clock;
     reg  counts_none$d;
     wire  counts_none$q;
     reg  counts_none$clock;
@@ -80656,7 +81475,13 @@ module incircle_core_logic$slot3$core$answer_head(clock,request,clearing,engine,
     reg  [7:0] read_code;
     reg  [7:0] packed_code;
     reg  packs;
-    reg  [31:0] rounded;
+    reg  [14:0] few;
+    reg  [18:0] own_words;
+    reg  [18:0] more;
+    reg  [18:0] rounded;
+    reg  [18:0] seven;
+    reg  [18:0] two_places;
+    reg  [18:0] three_places;
     
     // Sub module instances
     incircle_core_logic$slot3$core$answer_head$range_end range_end(
@@ -80673,6 +81498,11 @@ module incircle_core_logic$slot3$core$answer_head(clock,request,clearing,engine,
         .d(triple$d),
         .q(triple$q),
         .clock(triple$clock)
+    );
+    incircle_core_logic$slot3$core$answer_head$eighths eighths(
+        .d(eighths$d),
+        .q(eighths$q),
+        .clock(eighths$clock)
     );
     incircle_core_logic$slot3$core$answer_head$counts_none counts_none(
         .d(counts_none$d),
@@ -80730,11 +81560,13 @@ module incircle_core_logic$slot3$core$answer_head(clock,request,clearing,engine,
         range_end$clock = clock;
         range_bound$clock = clock;
         triple$clock = clock;
+        eighths$clock = clock;
         counts_none$clock = clock;
         insert_status$clock = clock;
         range_end$d = range_end$q;
         range_bound$d = range_bound$q;
         triple$d = triple$q;
+        eighths$d = eighths$q;
         counts_none$d = counts_none$q;
         insert_status$d = insert_status$q;
         is_outside$clock = clock;
@@ -80760,12 +81592,25 @@ module incircle_core_logic$slot3$core$answer_head(clock,request,clearing,engine,
         engine_shift = 32'h8;
         read_code = 32'h4;
         packed_code = 32'h7;
+        seven = 32'h7;
+        two_places = 32'h2;
+        three_places = 32'h3;
         wide_first = ((request[(64'h8)+:(32)]) & 33'h1ffffffff);
         wide_count = ((request[(64'h28)+:(32)]) & 33'h1ffffffff);
         range_end$d = wide_first + wide_count;
         range_bound$d = records;
         double_count = request[(64'h28)+:(32)] << one;
         triple$d = double_count + request[(64'h28)+:(32)];
+        few = ((request[(64'h28)+:(32)]) & 15'h7fff);
+        own_words = ((few) & 19'h7ffff) << three_places;
+        more = ((few) & 19'h7ffff) << two_places;
+        if (request[(64'h48)+:(1)]) begin
+            more = 32'h0;
+            if (request[(64'h49)+:(1)]) begin
+                more = ((few) & 19'h7ffff);
+            end
+        end
+        eighths$d = own_words + more;
         counts_none$d = request[(64'h28)+:(32)] == none;
         insert_status$d = 32'h0;
         if (some_refused) begin
@@ -80780,8 +81625,8 @@ module incircle_core_logic$slot3$core$answer_head(clock,request,clearing,engine,
         wide_bound = ((range_bound$q) & 33'h1ffffffff);
         is_outside$d = range_end$q > wide_bound;
         read_length$d = triple$q;
-        rounded = triple$q + one;
-        packed_length$d = rounded >> one;
+        rounded = eighths$q + seven;
+        packed_length$d = ((rounded >> three_places) & 32'hffffffff);
         reads_none$d = counts_none$q;
         report_status$d = insert_status$q;
         answer_status$d = 32'h0;
@@ -80840,6 +81685,8 @@ module incircle_core_logic$slot3$core$answer_head(clock,request,clearing,engine,
         endcase
         packs = request[(64'h0)+:(8)] == packed_code;
         head[(64'h42)+:(1)] = packs;
+        head[(64'h43)+:(1)] = request[(64'h48)+:(1)];
+        head[(64'h44)+:(1)] = request[(64'h49)+:(1)];
         head[(64'h41)+:(1)] = packs | (request[(64'h0)+:(8)] == read_code);
         head[(64'h20)+:(32)] = answer_length$q;
         head[(64'h40)+:(1)] = has_none$q;
@@ -80911,6 +81758,25 @@ module incircle_core_logic$slot3$core$answer_head$counts_none(d,q,clock);
     end
           
 endmodule // incircle_core_logic$slot3$core$answer_head$counts_none
+
+
+module incircle_core_logic$slot3$core$answer_head$eighths(d,q,clock);
+    
+    // Module arguments
+    input wire  [18:0] d;
+    output reg  [18:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 19'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot3$core$answer_head$eighths
 
 
 module incircle_core_logic$slot3$core$answer_head$has_none(d,q,clock);
@@ -81139,6 +82005,7 @@ module incircle_core_logic$slot3$core$answer_words(clock,opcode,capacity,context
     reg  [31:0] wide_engines;
     reg  [31:0] shifted_engines;
     reg  [31:0] engines_shift;
+    reg  [31:0] features;
     
     // Sub module instances
     incircle_core_logic$slot3$core$answer_words$identity identity(
@@ -81168,6 +82035,7 @@ module incircle_core_logic$slot3$core$answer_words(clock,opcode,capacity,context
         word = chosen$q;
         place = index[(32'h0)+:(3)];
         engines_shift = 32'h8;
+        features = 32'h20000;
         wide_contexts = ((contexts) & 32'hffffffff);
         wide_engines = ((engines) & 32'hffffffff);
         shifted_engines = wide_engines << engines_shift;
@@ -81204,7 +82072,7 @@ module incircle_core_logic$slot3$core$answer_words(clock,opcode,capacity,context
                 end
             default:
                 begin
-                    identity$d = ((ring_capacity) & 32'hffffffff);
+                    identity$d = ((ring_capacity) & 32'hffffffff) | features;
                     report$d = 32'h0;
                 end
         endcase
@@ -81306,7 +82174,7 @@ module incircle_core_logic$slot3$core$command_port(clock,reset,capacity,built,co
     output reg  [10:0] clearing;
     output reg  [16:0] deal;
     output reg  answers;
-    output reg  [71:0] request;
+    output reg  [73:0] request;
     output reg  [47:0] tally;
     input wire  [2:0] answer;
     output reg  [2:0] activity;
@@ -81323,8 +82191,8 @@ module incircle_core_logic$slot3$core$command_port(clock,reset,capacity,built,co
     reg  [2:0] state$d;
     wire  [2:0] state$q;
     reg  state$clock;
-    reg  [71:0] held$d;
-    wire  [71:0] held$q;
+    reg  [73:0] held$d;
+    wire  [73:0] held$q;
     reg  held$clock;
     reg  none_is_left$d;
     wire  none_is_left$q;
@@ -81470,6 +82338,8 @@ module incircle_core_logic$slot3$core$command_port(clock,reset,capacity,built,co
                 begin
                     if (gate$taken[(64'h0)+:(1)]) begin
                         held$d[(64'h0)+:(8)] = code;
+                        held$d[(64'h48)+:(1)] = command$data[32'h3];
+                        held$d[(64'h49)+:(1)] = command$data[32'h2];
                         state$d = CommandState$Answer;
                         if (code == insert_code) begin
                             state$d = CommandState$Count;
@@ -82043,13 +82913,13 @@ endmodule // incircle_core_logic$slot3$core$command_port$gate
 module incircle_core_logic$slot3$core$command_port$held(d,q,clock);
     
     // Module arguments
-    input wire  [71:0] d;
-    output reg  [71:0] q;
+    input wire  [73:0] d;
+    output reg  [73:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 72'h0;
+       q = 74'h0;
     end
     
     always @(posedge clock) begin
@@ -104363,8 +105233,8 @@ module incircle_core_logic$slot3$core$responder(clock,reset,answers,sweeps,reque
     input wire  reset;
     input wire  answers;
     input wire  sweeps;
-    input wire  [71:0] request;
-    input wire  [66:0] head;
+    input wire  [73:0] request;
+    input wire  [68:0] head;
     input wire  [31:0] word;
     output reg  [6:0] index;
     output reg  [6:0] index_ahead;
@@ -104419,6 +105289,8 @@ module incircle_core_logic$slot3$core$responder(clock,reset,answers,sweeps,reque
     reg  [14:0] records$first;
     reg  [14:0] records$count;
     reg  records$is_packed;
+    reg  records$has_short_ids;
+    reg  records$has_rests;
     reg  records$runs;
     wire  records$read;
     wire  [14:0] records$read_id;
@@ -104477,6 +105349,8 @@ module incircle_core_logic$slot3$core$responder(clock,reset,answers,sweeps,reque
         .first(records$first),
         .count(records$count),
         .is_packed(records$is_packed),
+        .has_short_ids(records$has_short_ids),
+        .has_rests(records$has_rests),
         .runs(records$runs),
         .read(records$read),
         .read_id(records$read_id),
@@ -104521,6 +105395,8 @@ module incircle_core_logic$slot3$core$responder(clock,reset,answers,sweeps,reque
         records$first = ((request[(64'h8)+:(32)]) & 15'h7fff);
         records$count = ((request[(64'h28)+:(32)]) & 15'h7fff);
         records$is_packed = head[(64'h42)+:(1)];
+        records$has_short_ids = head[(64'h43)+:(1)];
+        records$has_rests = head[(64'h44)+:(1)];
         records$runs = state$q == AnswerState$Records;
         read = records$read;
         read_id = records$read_id;
@@ -104621,7 +105497,7 @@ module incircle_core_logic$slot3$core$responder$offered(d,q,clock);
 endmodule // incircle_core_logic$slot3$core$responder$offered
 
 
-module incircle_core_logic$slot3$core$responder$records(clock,reset,starts,first,count,is_packed,runs,read,read_id,read_done,record,valid,beat,takes);
+module incircle_core_logic$slot3$core$responder$records(clock,reset,starts,first,count,is_packed,has_short_ids,has_rests,runs,read,read_id,read_done,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -104630,6 +105506,8 @@ module incircle_core_logic$slot3$core$responder$records(clock,reset,starts,first
     input wire  [14:0] first;
     input wire  [14:0] count;
     input wire  is_packed;
+    input wire  has_short_ids;
+    input wire  has_rests;
     input wire  runs;
     output reg  read;
     output reg  [14:0] read_id;
@@ -104643,6 +105521,12 @@ module incircle_core_logic$slot3$core$responder$records(clock,reset,starts,first
     reg  vertices_alone$d;
     wire  vertices_alone$q;
     reg  vertices_alone$clock;
+    reg  ids_are_short$d;
+    wire  ids_are_short$q;
+    reg  ids_are_short$clock;
+    reg  rests_follow$d;
+    wire  rests_follow$q;
+    reg  rests_follow$clock;
     reg  [14:0] record_id$d;
     wire  [14:0] record_id$q;
     reg  record_id$clock;
@@ -104663,6 +105547,8 @@ module incircle_core_logic$slot3$core$responder$records(clock,reset,starts,first
     reg  stream$starts;
     reg  [14:0] stream$count;
     reg  stream$vertices_alone;
+    reg  stream$has_short_ids;
+    reg  stream$has_rests;
     wire  stream$has_room;
     reg  stream$comes;
     reg  [90:0] stream$record;
@@ -104686,6 +105572,16 @@ module incircle_core_logic$slot3$core$responder$records(clock,reset,starts,first
         .d(vertices_alone$d),
         .q(vertices_alone$q),
         .clock(vertices_alone$clock)
+    );
+    incircle_core_logic$slot3$core$responder$records$ids_are_short ids_are_short(
+        .d(ids_are_short$d),
+        .q(ids_are_short$q),
+        .clock(ids_are_short$clock)
+    );
+    incircle_core_logic$slot3$core$responder$records$rests_follow rests_follow(
+        .d(rests_follow$d),
+        .q(rests_follow$q),
+        .clock(rests_follow$clock)
     );
     incircle_core_logic$slot3$core$responder$records$record_id record_id(
         .d(record_id$d),
@@ -104718,6 +105614,8 @@ module incircle_core_logic$slot3$core$responder$records(clock,reset,starts,first
         .starts(stream$starts),
         .count(stream$count),
         .vertices_alone(stream$vertices_alone),
+        .has_short_ids(stream$has_short_ids),
+        .has_rests(stream$has_rests),
         .has_room(stream$has_room),
         .comes(stream$comes),
         .record(stream$record),
@@ -104739,6 +105637,11 @@ module incircle_core_logic$slot3$core$responder$records(clock,reset,starts,first
     // Update code
     always @(*) begin
         vertices_alone$clock = clock;
+        ids_are_short$clock = clock;
+        rests_follow$clock = clock;
+        vertices_alone$d = vertices_alone$q;
+        ids_are_short$d = ids_are_short$q;
+        rests_follow$d = rests_follow$q;
         record_id$clock = clock;
         left$clock = clock;
         some_are_left$clock = clock;
@@ -104746,7 +105649,6 @@ module incircle_core_logic$slot3$core$responder$records(clock,reset,starts,first
         pauses$clock = clock;
         is_there$clock = clock;
         head$clock = clock;
-        vertices_alone$d = vertices_alone$q;
         record_id$d = record_id$q;
         left$d = left$q;
         some_are_left$d = some_are_left$q;
@@ -104757,6 +105659,8 @@ module incircle_core_logic$slot3$core$responder$records(clock,reset,starts,first
         stream$clock = clock;
         one = 32'h1;
         vertices_alone$d = is_packed;
+        ids_are_short$d = has_short_ids;
+        rests_follow$d = has_rests;
         asks = runs & some_are_left$q & stream$has_room & (~pauses$q);
         read = asks;
         read_id = record_id$q;
@@ -104777,6 +105681,8 @@ module incircle_core_logic$slot3$core$responder$records(clock,reset,starts,first
         stream$starts = starts;
         stream$count = count;
         stream$vertices_alone = vertices_alone$q;
+        stream$has_short_ids = ids_are_short$q;
+        stream$has_rests = rests_follow$q;
         stream$comes = read_done;
         stream$record = record;
         valid = is_there$q;
@@ -104813,6 +105719,25 @@ module incircle_core_logic$slot3$core$responder$records$head(d,q,clock);
     end
           
 endmodule // incircle_core_logic$slot3$core$responder$records$head
+
+
+module incircle_core_logic$slot3$core$responder$records$ids_are_short(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot3$core$responder$records$ids_are_short
 
 
 module incircle_core_logic$slot3$core$responder$records$is_second(d,q,clock);
@@ -104910,6 +105835,25 @@ module incircle_core_logic$slot3$core$responder$records$record_id(d,q,clock);
 endmodule // incircle_core_logic$slot3$core$responder$records$record_id
 
 
+module incircle_core_logic$slot3$core$responder$records$rests_follow(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot3$core$responder$records$rests_follow
+
+
 module incircle_core_logic$slot3$core$responder$records$some_are_left(d,q,clock);
     
     // Module arguments
@@ -104929,7 +105873,7 @@ module incircle_core_logic$slot3$core$responder$records$some_are_left(d,q,clock)
 endmodule // incircle_core_logic$slot3$core$responder$records$some_are_left
 
 
-module incircle_core_logic$slot3$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_room,comes,record,valid,beat,takes);
+module incircle_core_logic$slot3$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_short_ids,has_rests,has_room,comes,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -104937,6 +105881,8 @@ module incircle_core_logic$slot3$core$responder$records$stream(clock,reset,start
     input wire  starts;
     input wire  [14:0] count;
     input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  has_rests;
     output reg  has_room;
     input wire  comes;
     input wire  [90:0] record;
@@ -104957,12 +105903,15 @@ module incircle_core_logic$slot3$core$responder$records$stream(clock,reset,start
     reg  halves$clock;
     reg  [90:0] halves$record;
     reg  halves$vertices_alone;
+    reg  halves$has_short_ids;
     wire  [95:0] halves$halves;
     reg  packer$clock;
     reg  packer$reset;
     reg  packer$starts;
     reg  [14:0] packer$count;
     reg  packer$vertices_alone;
+    reg  packer$has_short_ids;
+    reg  packer$has_rests;
     reg  packer$comes;
     reg  [95:0] packer$halves;
     wire  packer$valid;
@@ -105002,6 +105951,7 @@ module incircle_core_logic$slot3$core$responder$records$stream(clock,reset,start
         .clock(halves$clock),
         .record(halves$record),
         .vertices_alone(halves$vertices_alone),
+        .has_short_ids(halves$has_short_ids),
         .halves(halves$halves)
     );
     incircle_core_logic$slot3$core$responder$records$stream$packer packer(
@@ -105010,6 +105960,8 @@ module incircle_core_logic$slot3$core$responder$records$stream(clock,reset,start
         .starts(packer$starts),
         .count(packer$count),
         .vertices_alone(packer$vertices_alone),
+        .has_short_ids(packer$has_short_ids),
+        .has_rests(packer$has_rests),
         .comes(packer$comes),
         .halves(packer$halves),
         .valid(packer$valid),
@@ -105048,7 +106000,10 @@ module incircle_core_logic$slot3$core$responder$records$stream(clock,reset,start
         has_come$d = comes;
         halves$record = record;
         halves$vertices_alone = vertices_alone;
+        halves$has_short_ids = has_short_ids;
         packer$vertices_alone = vertices_alone;
+        packer$has_short_ids = has_short_ids;
+        packer$has_rests = has_rests;
         packer$comes = has_come$q;
         packer$halves = halves$halves;
         queue$reset = reset;
@@ -105076,12 +106031,13 @@ module incircle_core_logic$slot3$core$responder$records$stream(clock,reset,start
 endmodule // incircle_core_logic$slot3$core$responder$records$stream
 
 
-module incircle_core_logic$slot3$core$responder$records$stream$halves(clock,record,vertices_alone,halves);
+module incircle_core_logic$slot3$core$responder$records$stream$halves(clock,record,vertices_alone,has_short_ids,halves);
     
     // Module arguments
     input wire  clock;
     input wire  [90:0] record;
     input wire  vertices_alone;
+    input wire  has_short_ids;
     output reg  [95:0] halves;
     
     // Stub signals
@@ -105103,6 +106059,14 @@ module incircle_core_logic$slot3$core$responder$records$stream$halves(clock,reco
     reg  [15:0] lock;
     reg  [15:0] id_bits;
     reg  [15:0] one;
+    reg  [15:0] two;
+    reg  [15:0] four;
+    reg  [15:0] six;
+    reg  [15:0] ten;
+    reg  [15:0] low_ten;
+    reg  [15:0] low_four;
+    reg  [15:0] top_two;
+    reg  [15:0] next_two;
     
     // Sub module instances
     incircle_core_logic$slot3$core$responder$records$stream$halves$kept kept(
@@ -105117,6 +106081,14 @@ module incircle_core_logic$slot3$core$responder$records$stream$halves(clock,reco
         kept$d = kept$q;
         id_bits = 32'hf;
         one = 32'h1;
+        two = 32'h2;
+        four = 32'h4;
+        six = 32'h6;
+        ten = 32'ha;
+        low_ten = 32'h3ff;
+        low_four = 32'hf;
+        next_two = 32'h3000;
+        top_two = 32'hc000;
         kept$d = record;
         lock = 32'h0;
         if (kept$q[(64'h5a)+:(1)]) begin
@@ -105142,6 +106114,11 @@ module incircle_core_logic$slot3$core$responder$records$stream$halves(clock,reco
             halves[(64'h0)+:(16)] = vertex0;
             halves[(64'h10)+:(16)] = vertex1;
             halves[(64'h20)+:(16)] = vertex2;
+            if (has_short_ids) begin
+                halves[(64'h0)+:(16)] = (vertex0 & low_ten) | (vertex1 << ten);
+                halves[(64'h10)+:(16)] = ((vertex1 >> six) & low_four) | ((vertex2 & low_ten) << four) | ((vertex0 << four) & top_two);
+                halves[(64'h20)+:(16)] = ((vertex1 << two) & next_two) | ((vertex2 << four) & top_two);
+            end
         end
     end
     
@@ -105197,7 +106174,7 @@ module incircle_core_logic$slot3$core$responder$records$stream$head(bits,value);
 endmodule // incircle_core_logic$slot3$core$responder$records$stream$head
 
 
-module incircle_core_logic$slot3$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,comes,halves,valid,beat);
+module incircle_core_logic$slot3$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,has_short_ids,has_rests,comes,halves,valid,beat);
     
     // Module arguments
     input wire  clock;
@@ -105205,6 +106182,8 @@ module incircle_core_logic$slot3$core$responder$records$stream$packer(clock,rese
     input wire  starts;
     input wire  [14:0] count;
     input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  has_rests;
     input wire  comes;
     input wire  [95:0] halves;
     output reg  valid;
@@ -105242,8 +106221,24 @@ module incircle_core_logic$slot3$core$responder$records$stream$packer(clock,rese
     reg  all_came$d;
     wire  all_came$q;
     reg  all_came$clock;
+    reg  [15:0] rests$d;
+    wire  [15:0] rests$q;
+    reg  rests$clock;
+    reg  [1:0] in_group$d;
+    wire  [1:0] in_group$q;
+    reg  in_group$clock;
     
     // Local signals
+    reg  [15:0] earlier;
+    reg  [15:0] together;
+    reg  ends_group;
+    reg  is_short;
+    reg  brings_two;
+    reg  [15:0] third;
+    reg  fills_beat;
+    reg  [15:0] four;
+    reg  [1:0] three_places;
+    reg  [1:0] one_place;
     reg  takes;
     reg  [63:0] sent;
     reg  [63:0] sent_bits;
@@ -105291,6 +106286,16 @@ module incircle_core_logic$slot3$core$responder$records$stream$packer(clock,rese
         .q(all_came$q),
         .clock(all_came$clock)
     );
+    incircle_core_logic$slot3$core$responder$records$stream$packer$rests rests(
+        .d(rests$d),
+        .q(rests$q),
+        .clock(rests$clock)
+    );
+    incircle_core_logic$slot3$core$responder$records$stream$packer$in_group in_group(
+        .d(in_group$d),
+        .q(in_group$q),
+        .clock(in_group$clock)
+    );
     
     // Update code
     always @(*) begin
@@ -105307,13 +106312,35 @@ module incircle_core_logic$slot3$core$responder$records$stream$packer(clock,rese
         left$clock = clock;
         is_last$clock = clock;
         all_came$clock = clock;
+        rests$clock = clock;
+        in_group$clock = clock;
         left$d = left$q;
         is_last$d = is_last$q;
         all_came$d = all_came$q;
+        rests$d = rests$q;
+        in_group$d = in_group$q;
         one = 32'h1;
         two = 32'h2;
+        four = 32'h4;
+        three_places = 32'h3;
+        one_place = 32'h1;
         valid = is_there$q;
         beat = filled$q;
+        earlier = rests$q >> four;
+        if (~|in_group$q) begin
+            earlier = 32'h0;
+        end
+        together = halves[(64'h20)+:(16)] | earlier;
+        ends_group = is_last$q | (in_group$q == three_places);
+        is_short = vertices_alone & has_short_ids;
+        brings_two = is_short & (~(has_rests & ends_group));
+        third = halves[(64'h20)+:(16)];
+        if (is_short) begin
+            third = together;
+        end
+        if (brings_two) begin
+            third = 32'h0;
+        end
         sent = kept$q;
         kept$d[(64'h10)+:(16)] = 32'h0;
         kept$d[(64'h20)+:(16)] = 32'h0;
@@ -105337,25 +106364,41 @@ module incircle_core_logic$slot3$core$responder$records$stream$packer(clock,rese
                         is_there$d = 1'b0;
                         kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                         kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
-                        kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
+                        kept$d[(64'h20)+:(16)] = third;
                         many_are_kept$d = 1'b1;
                         number$d = KeptHalves$Three;
+                        if (brings_two) begin
+                            many_are_kept$d = 1'b0;
+                            number$d = KeptHalves$Two;
+                        end
                     end
                 end
             KeptHalves$One:
                 begin
                     sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
-                    sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
+                    sent[(64'h30)+:(16)] = third;
                     filled$d[(64'h41)+:(1)] = is_last$q;
                     number$d = KeptHalves$Zero;
+                    if (brings_two) begin
+                        is_there$d = 1'b0;
+                        kept$d[(64'h0)+:(16)] = kept$q[(64'h0)+:(16)];
+                        kept$d[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
+                        kept$d[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
+                        many_are_kept$d = 1'b1;
+                        number$d = KeptHalves$Three;
+                    end
                 end
             KeptHalves$Two:
                 begin
                     sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h0)+:(16)] = halves[(64'h20)+:(16)];
+                    kept$d[(64'h0)+:(16)] = third;
                     number$d = KeptHalves$One;
+                    if (brings_two) begin
+                        filled$d[(64'h41)+:(1)] = is_last$q;
+                        number$d = KeptHalves$Zero;
+                    end
                     if (~vertices_alone) begin
                         kept$d[(64'h10)+:(16)] = halves[(64'h30)+:(16)];
                         kept$d[(64'h20)+:(16)] = halves[(64'h40)+:(16)];
@@ -105368,8 +106411,11 @@ module incircle_core_logic$slot3$core$responder$records$stream$packer(clock,rese
                 begin
                     sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
                     kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
+                    kept$d[(64'h10)+:(16)] = third;
                     number$d = KeptHalves$Two;
+                    if (brings_two) begin
+                        number$d = KeptHalves$One;
+                    end
                 end
             default:
                 begin
@@ -105380,6 +106426,7 @@ module incircle_core_logic$slot3$core$responder$records$stream$packer(clock,rese
                     number$d = KeptHalves$Zero;
                 end
         endcase
+        fills_beat = ((number$q == KeptHalves$One) & (~brings_two)) | ((number$q == KeptHalves$Two) & brings_two);
         sent_bits = sent;
         filled$d[(64'h0)+:(32)] = sent_bits[(32'h0)+:(32)];
         filled$d[(64'h20)+:(32)] = sent_bits[(32'h20)+:(32)];
@@ -105387,7 +106434,9 @@ module incircle_core_logic$slot3$core$responder$records$stream$packer(clock,rese
             left$d = left$q - one;
             is_last$d = left$q == two;
             all_came$d = is_last$q;
-            if (is_last$q & (number$q != KeptHalves$One)) begin
+            rests$d = together;
+            in_group$d = in_group$q + one_place;
+            if (is_last$q & (~fills_beat)) begin
                 number$d = KeptHalves$Rest;
             end
         end
@@ -105396,6 +106445,7 @@ module incircle_core_logic$slot3$core$responder$records$stream$packer(clock,rese
             kept$d = kept$q;
         end
         if (starts) begin
+            in_group$d = 32'h0;
             left$d = count;
             is_last$d = count == one;
         end
@@ -105444,6 +106494,25 @@ module incircle_core_logic$slot3$core$responder$records$stream$packer$filled(d,q
     end
           
 endmodule // incircle_core_logic$slot3$core$responder$records$stream$packer$filled
+
+
+module incircle_core_logic$slot3$core$responder$records$stream$packer$in_group(d,q,clock);
+    
+    // Module arguments
+    input wire  [1:0] d;
+    output reg  [1:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 2'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot3$core$responder$records$stream$packer$in_group
 
 
 module incircle_core_logic$slot3$core$responder$records$stream$packer$is_last(d,q,clock);
@@ -105565,6 +106634,25 @@ module incircle_core_logic$slot3$core$responder$records$stream$packer$number(d,q
     end
           
 endmodule // incircle_core_logic$slot3$core$responder$records$stream$packer$number
+
+
+module incircle_core_logic$slot3$core$responder$records$stream$packer$rests(d,q,clock);
+    
+    // Module arguments
+    input wire  [15:0] d;
+    output reg  [15:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 16'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot3$core$responder$records$stream$packer$rests
 
 
 module incircle_core_logic$slot3$core$responder$records$stream$queue(clock,reset,push,push_data,pop,valid,data);

@@ -5675,19 +5675,19 @@ module incircle_stream_top_engines$slot0$core(clock,reset,command$valid,command$
     wire  [10:0] command_port$clearing;
     wire  [16:0] command_port$deal;
     wire  command_port$answers;
-    wire  [71:0] command_port$request;
+    wire  [73:0] command_port$request;
     wire  [47:0] command_port$tally;
     reg  [2:0] command_port$answer;
     wire  [2:0] command_port$activity;
     reg  answer_head$clock;
-    reg  [71:0] answer_head$request;
+    reg  [73:0] answer_head$request;
     reg  [10:0] answer_head$clearing;
     reg  [7:0] answer_head$engine;
     reg  [14:0] answer_head$records;
     reg  answer_head$collinear;
     reg  answer_head$stuck;
     reg  answer_head$some_refused;
-    wire  [66:0] answer_head$head;
+    wire  [68:0] answer_head$head;
     reg  answer_words$clock;
     reg  [7:0] answer_words$opcode;
     reg  [14:0] answer_words$capacity;
@@ -5707,8 +5707,8 @@ module incircle_stream_top_engines$slot0$core(clock,reset,command$valid,command$
     reg  responder$reset;
     reg  responder$answers;
     reg  responder$sweeps;
-    reg  [71:0] responder$request;
-    reg  [66:0] responder$head;
+    reg  [73:0] responder$request;
+    reg  [68:0] responder$head;
     reg  [31:0] responder$word;
     wire  [6:0] responder$index;
     wire  [6:0] responder$index_ahead;
@@ -5951,14 +5951,14 @@ module incircle_stream_top_engines$slot0$core$answer_head(clock,request,clearing
     
     // Module arguments
     input wire  clock;
-    input wire  [71:0] request;
+    input wire  [73:0] request;
     input wire  [10:0] clearing;
     input wire  [7:0] engine;
     input wire  [14:0] records;
     input wire  collinear;
     input wire  stuck;
     input wire  some_refused;
-    output reg  [66:0] head;
+    output reg  [68:0] head;
     
     // Stub signals
     reg  [32:0] range_end$d;
@@ -5970,6 +5970,9 @@ module incircle_stream_top_engines$slot0$core$answer_head(clock,request,clearing
     reg  [31:0] triple$d;
     wire  [31:0] triple$q;
     reg  triple$clock;
+    reg  [18:0] eighths$d;
+    wire  [18:0] eighths$q;
+    reg  eighths$clock;
     reg  counts_none$d;
     wire  counts_none$q;
     reg  counts_none$clock;
@@ -6021,7 +6024,13 @@ module incircle_stream_top_engines$slot0$core$answer_head(clock,request,clearing
     reg  [7:0] read_code;
     reg  [7:0] packed_code;
     reg  packs;
-    reg  [31:0] rounded;
+    reg  [14:0] few;
+    reg  [18:0] own_words;
+    reg  [18:0] more;
+    reg  [18:0] rounded;
+    reg  [18:0] seven;
+    reg  [18:0] two_places;
+    reg  [18:0] three_places;
     
     // Sub module instances
     incircle_stream_top_engines$slot0$core$answer_head$range_end range_end(
@@ -6038,6 +6047,11 @@ module incircle_stream_top_engines$slot0$core$answer_head(clock,request,clearing
         .d(triple$d),
         .q(triple$q),
         .clock(triple$clock)
+    );
+    incircle_stream_top_engines$slot0$core$answer_head$eighths eighths(
+        .d(eighths$d),
+        .q(eighths$q),
+        .clock(eighths$clock)
     );
     incircle_stream_top_engines$slot0$core$answer_head$counts_none counts_none(
         .d(counts_none$d),
@@ -6095,11 +6109,13 @@ module incircle_stream_top_engines$slot0$core$answer_head(clock,request,clearing
         range_end$clock = clock;
         range_bound$clock = clock;
         triple$clock = clock;
+        eighths$clock = clock;
         counts_none$clock = clock;
         insert_status$clock = clock;
         range_end$d = range_end$q;
         range_bound$d = range_bound$q;
         triple$d = triple$q;
+        eighths$d = eighths$q;
         counts_none$d = counts_none$q;
         insert_status$d = insert_status$q;
         is_outside$clock = clock;
@@ -6125,12 +6141,25 @@ module incircle_stream_top_engines$slot0$core$answer_head(clock,request,clearing
         engine_shift = 32'h8;
         read_code = 32'h4;
         packed_code = 32'h7;
+        seven = 32'h7;
+        two_places = 32'h2;
+        three_places = 32'h3;
         wide_first = ((request[(64'h8)+:(32)]) & 33'h1ffffffff);
         wide_count = ((request[(64'h28)+:(32)]) & 33'h1ffffffff);
         range_end$d = wide_first + wide_count;
         range_bound$d = records;
         double_count = request[(64'h28)+:(32)] << one;
         triple$d = double_count + request[(64'h28)+:(32)];
+        few = ((request[(64'h28)+:(32)]) & 15'h7fff);
+        own_words = ((few) & 19'h7ffff) << three_places;
+        more = ((few) & 19'h7ffff) << two_places;
+        if (request[(64'h48)+:(1)]) begin
+            more = 32'h0;
+            if (request[(64'h49)+:(1)]) begin
+                more = ((few) & 19'h7ffff);
+            end
+        end
+        eighths$d = own_words + more;
         counts_none$d = request[(64'h28)+:(32)] == none;
         insert_status$d = 32'h0;
         if (some_refused) begin
@@ -6145,8 +6174,8 @@ module incircle_stream_top_engines$slot0$core$answer_head(clock,request,clearing
         wide_bound = ((range_bound$q) & 33'h1ffffffff);
         is_outside$d = range_end$q > wide_bound;
         read_length$d = triple$q;
-        rounded = triple$q + one;
-        packed_length$d = rounded >> one;
+        rounded = eighths$q + seven;
+        packed_length$d = ((rounded >> three_places) & 32'hffffffff);
         reads_none$d = counts_none$q;
         report_status$d = insert_status$q;
         answer_status$d = 32'h0;
@@ -6205,6 +6234,8 @@ module incircle_stream_top_engines$slot0$core$answer_head(clock,request,clearing
         endcase
         packs = request[(64'h0)+:(8)] == packed_code;
         head[(64'h42)+:(1)] = packs;
+        head[(64'h43)+:(1)] = request[(64'h48)+:(1)];
+        head[(64'h44)+:(1)] = request[(64'h49)+:(1)];
         head[(64'h41)+:(1)] = packs | (request[(64'h0)+:(8)] == read_code);
         head[(64'h20)+:(32)] = answer_length$q;
         head[(64'h40)+:(1)] = has_none$q;
@@ -6276,6 +6307,25 @@ module incircle_stream_top_engines$slot0$core$answer_head$counts_none(d,q,clock)
     end
           
 endmodule // incircle_stream_top_engines$slot0$core$answer_head$counts_none
+
+
+module incircle_stream_top_engines$slot0$core$answer_head$eighths(d,q,clock);
+    
+    // Module arguments
+    input wire  [18:0] d;
+    output reg  [18:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 19'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$core$answer_head$eighths
 
 
 module incircle_stream_top_engines$slot0$core$answer_head$has_none(d,q,clock);
@@ -6504,6 +6554,7 @@ module incircle_stream_top_engines$slot0$core$answer_words(clock,opcode,capacity
     reg  [31:0] wide_engines;
     reg  [31:0] shifted_engines;
     reg  [31:0] engines_shift;
+    reg  [31:0] features;
     
     // Sub module instances
     incircle_stream_top_engines$slot0$core$answer_words$identity identity(
@@ -6533,6 +6584,7 @@ module incircle_stream_top_engines$slot0$core$answer_words(clock,opcode,capacity
         word = chosen$q;
         place = index[(32'h0)+:(3)];
         engines_shift = 32'h8;
+        features = 32'h20000;
         wide_contexts = ((contexts) & 32'hffffffff);
         wide_engines = ((engines) & 32'hffffffff);
         shifted_engines = wide_engines << engines_shift;
@@ -6569,7 +6621,7 @@ module incircle_stream_top_engines$slot0$core$answer_words(clock,opcode,capacity
                 end
             default:
                 begin
-                    identity$d = ((ring_capacity) & 32'hffffffff);
+                    identity$d = ((ring_capacity) & 32'hffffffff) | features;
                     report$d = 32'h0;
                 end
         endcase
@@ -6671,7 +6723,7 @@ module incircle_stream_top_engines$slot0$core$command_port(clock,reset,capacity,
     output reg  [10:0] clearing;
     output reg  [16:0] deal;
     output reg  answers;
-    output reg  [71:0] request;
+    output reg  [73:0] request;
     output reg  [47:0] tally;
     input wire  [2:0] answer;
     output reg  [2:0] activity;
@@ -6688,8 +6740,8 @@ module incircle_stream_top_engines$slot0$core$command_port(clock,reset,capacity,
     reg  [2:0] state$d;
     wire  [2:0] state$q;
     reg  state$clock;
-    reg  [71:0] held$d;
-    wire  [71:0] held$q;
+    reg  [73:0] held$d;
+    wire  [73:0] held$q;
     reg  held$clock;
     reg  none_is_left$d;
     wire  none_is_left$q;
@@ -6835,6 +6887,8 @@ module incircle_stream_top_engines$slot0$core$command_port(clock,reset,capacity,
                 begin
                     if (gate$taken[(64'h0)+:(1)]) begin
                         held$d[(64'h0)+:(8)] = code;
+                        held$d[(64'h48)+:(1)] = command$data[32'h3];
+                        held$d[(64'h49)+:(1)] = command$data[32'h2];
                         state$d = CommandState$Answer;
                         if (code == insert_code) begin
                             state$d = CommandState$Count;
@@ -7408,13 +7462,13 @@ endmodule // incircle_stream_top_engines$slot0$core$command_port$gate
 module incircle_stream_top_engines$slot0$core$command_port$held(d,q,clock);
     
     // Module arguments
-    input wire  [71:0] d;
-    output reg  [71:0] q;
+    input wire  [73:0] d;
+    output reg  [73:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 72'h0;
+       q = 74'h0;
     end
     
     always @(posedge clock) begin
@@ -29728,8 +29782,8 @@ module incircle_stream_top_engines$slot0$core$responder(clock,reset,answers,swee
     input wire  reset;
     input wire  answers;
     input wire  sweeps;
-    input wire  [71:0] request;
-    input wire  [66:0] head;
+    input wire  [73:0] request;
+    input wire  [68:0] head;
     input wire  [31:0] word;
     output reg  [6:0] index;
     output reg  [6:0] index_ahead;
@@ -29784,6 +29838,8 @@ module incircle_stream_top_engines$slot0$core$responder(clock,reset,answers,swee
     reg  [14:0] records$first;
     reg  [14:0] records$count;
     reg  records$is_packed;
+    reg  records$has_short_ids;
+    reg  records$has_rests;
     reg  records$runs;
     wire  records$read;
     wire  [14:0] records$read_id;
@@ -29842,6 +29898,8 @@ module incircle_stream_top_engines$slot0$core$responder(clock,reset,answers,swee
         .first(records$first),
         .count(records$count),
         .is_packed(records$is_packed),
+        .has_short_ids(records$has_short_ids),
+        .has_rests(records$has_rests),
         .runs(records$runs),
         .read(records$read),
         .read_id(records$read_id),
@@ -29886,6 +29944,8 @@ module incircle_stream_top_engines$slot0$core$responder(clock,reset,answers,swee
         records$first = ((request[(64'h8)+:(32)]) & 15'h7fff);
         records$count = ((request[(64'h28)+:(32)]) & 15'h7fff);
         records$is_packed = head[(64'h42)+:(1)];
+        records$has_short_ids = head[(64'h43)+:(1)];
+        records$has_rests = head[(64'h44)+:(1)];
         records$runs = state$q == AnswerState$Records;
         read = records$read;
         read_id = records$read_id;
@@ -29986,7 +30046,7 @@ module incircle_stream_top_engines$slot0$core$responder$offered(d,q,clock);
 endmodule // incircle_stream_top_engines$slot0$core$responder$offered
 
 
-module incircle_stream_top_engines$slot0$core$responder$records(clock,reset,starts,first,count,is_packed,runs,read,read_id,read_done,record,valid,beat,takes);
+module incircle_stream_top_engines$slot0$core$responder$records(clock,reset,starts,first,count,is_packed,has_short_ids,has_rests,runs,read,read_id,read_done,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -29995,6 +30055,8 @@ module incircle_stream_top_engines$slot0$core$responder$records(clock,reset,star
     input wire  [14:0] first;
     input wire  [14:0] count;
     input wire  is_packed;
+    input wire  has_short_ids;
+    input wire  has_rests;
     input wire  runs;
     output reg  read;
     output reg  [14:0] read_id;
@@ -30008,6 +30070,12 @@ module incircle_stream_top_engines$slot0$core$responder$records(clock,reset,star
     reg  vertices_alone$d;
     wire  vertices_alone$q;
     reg  vertices_alone$clock;
+    reg  ids_are_short$d;
+    wire  ids_are_short$q;
+    reg  ids_are_short$clock;
+    reg  rests_follow$d;
+    wire  rests_follow$q;
+    reg  rests_follow$clock;
     reg  [14:0] record_id$d;
     wire  [14:0] record_id$q;
     reg  record_id$clock;
@@ -30028,6 +30096,8 @@ module incircle_stream_top_engines$slot0$core$responder$records(clock,reset,star
     reg  stream$starts;
     reg  [14:0] stream$count;
     reg  stream$vertices_alone;
+    reg  stream$has_short_ids;
+    reg  stream$has_rests;
     wire  stream$has_room;
     reg  stream$comes;
     reg  [90:0] stream$record;
@@ -30051,6 +30121,16 @@ module incircle_stream_top_engines$slot0$core$responder$records(clock,reset,star
         .d(vertices_alone$d),
         .q(vertices_alone$q),
         .clock(vertices_alone$clock)
+    );
+    incircle_stream_top_engines$slot0$core$responder$records$ids_are_short ids_are_short(
+        .d(ids_are_short$d),
+        .q(ids_are_short$q),
+        .clock(ids_are_short$clock)
+    );
+    incircle_stream_top_engines$slot0$core$responder$records$rests_follow rests_follow(
+        .d(rests_follow$d),
+        .q(rests_follow$q),
+        .clock(rests_follow$clock)
     );
     incircle_stream_top_engines$slot0$core$responder$records$record_id record_id(
         .d(record_id$d),
@@ -30083,6 +30163,8 @@ module incircle_stream_top_engines$slot0$core$responder$records(clock,reset,star
         .starts(stream$starts),
         .count(stream$count),
         .vertices_alone(stream$vertices_alone),
+        .has_short_ids(stream$has_short_ids),
+        .has_rests(stream$has_rests),
         .has_room(stream$has_room),
         .comes(stream$comes),
         .record(stream$record),
@@ -30104,6 +30186,11 @@ module incircle_stream_top_engines$slot0$core$responder$records(clock,reset,star
     // Update code
     always @(*) begin
         vertices_alone$clock = clock;
+        ids_are_short$clock = clock;
+        rests_follow$clock = clock;
+        vertices_alone$d = vertices_alone$q;
+        ids_are_short$d = ids_are_short$q;
+        rests_follow$d = rests_follow$q;
         record_id$clock = clock;
         left$clock = clock;
         some_are_left$clock = clock;
@@ -30111,7 +30198,6 @@ module incircle_stream_top_engines$slot0$core$responder$records(clock,reset,star
         pauses$clock = clock;
         is_there$clock = clock;
         head$clock = clock;
-        vertices_alone$d = vertices_alone$q;
         record_id$d = record_id$q;
         left$d = left$q;
         some_are_left$d = some_are_left$q;
@@ -30122,6 +30208,8 @@ module incircle_stream_top_engines$slot0$core$responder$records(clock,reset,star
         stream$clock = clock;
         one = 32'h1;
         vertices_alone$d = is_packed;
+        ids_are_short$d = has_short_ids;
+        rests_follow$d = has_rests;
         asks = runs & some_are_left$q & stream$has_room & (~pauses$q);
         read = asks;
         read_id = record_id$q;
@@ -30142,6 +30230,8 @@ module incircle_stream_top_engines$slot0$core$responder$records(clock,reset,star
         stream$starts = starts;
         stream$count = count;
         stream$vertices_alone = vertices_alone$q;
+        stream$has_short_ids = ids_are_short$q;
+        stream$has_rests = rests_follow$q;
         stream$comes = read_done;
         stream$record = record;
         valid = is_there$q;
@@ -30178,6 +30268,25 @@ module incircle_stream_top_engines$slot0$core$responder$records$head(d,q,clock);
     end
           
 endmodule // incircle_stream_top_engines$slot0$core$responder$records$head
+
+
+module incircle_stream_top_engines$slot0$core$responder$records$ids_are_short(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$core$responder$records$ids_are_short
 
 
 module incircle_stream_top_engines$slot0$core$responder$records$is_second(d,q,clock);
@@ -30275,6 +30384,25 @@ module incircle_stream_top_engines$slot0$core$responder$records$record_id(d,q,cl
 endmodule // incircle_stream_top_engines$slot0$core$responder$records$record_id
 
 
+module incircle_stream_top_engines$slot0$core$responder$records$rests_follow(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$core$responder$records$rests_follow
+
+
 module incircle_stream_top_engines$slot0$core$responder$records$some_are_left(d,q,clock);
     
     // Module arguments
@@ -30294,7 +30422,7 @@ module incircle_stream_top_engines$slot0$core$responder$records$some_are_left(d,
 endmodule // incircle_stream_top_engines$slot0$core$responder$records$some_are_left
 
 
-module incircle_stream_top_engines$slot0$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_room,comes,record,valid,beat,takes);
+module incircle_stream_top_engines$slot0$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_short_ids,has_rests,has_room,comes,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -30302,6 +30430,8 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream(clock,res
     input wire  starts;
     input wire  [14:0] count;
     input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  has_rests;
     output reg  has_room;
     input wire  comes;
     input wire  [90:0] record;
@@ -30322,12 +30452,15 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream(clock,res
     reg  halves$clock;
     reg  [90:0] halves$record;
     reg  halves$vertices_alone;
+    reg  halves$has_short_ids;
     wire  [95:0] halves$halves;
     reg  packer$clock;
     reg  packer$reset;
     reg  packer$starts;
     reg  [14:0] packer$count;
     reg  packer$vertices_alone;
+    reg  packer$has_short_ids;
+    reg  packer$has_rests;
     reg  packer$comes;
     reg  [95:0] packer$halves;
     wire  packer$valid;
@@ -30367,6 +30500,7 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream(clock,res
         .clock(halves$clock),
         .record(halves$record),
         .vertices_alone(halves$vertices_alone),
+        .has_short_ids(halves$has_short_ids),
         .halves(halves$halves)
     );
     incircle_stream_top_engines$slot0$core$responder$records$stream$packer packer(
@@ -30375,6 +30509,8 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream(clock,res
         .starts(packer$starts),
         .count(packer$count),
         .vertices_alone(packer$vertices_alone),
+        .has_short_ids(packer$has_short_ids),
+        .has_rests(packer$has_rests),
         .comes(packer$comes),
         .halves(packer$halves),
         .valid(packer$valid),
@@ -30413,7 +30549,10 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream(clock,res
         has_come$d = comes;
         halves$record = record;
         halves$vertices_alone = vertices_alone;
+        halves$has_short_ids = has_short_ids;
         packer$vertices_alone = vertices_alone;
+        packer$has_short_ids = has_short_ids;
+        packer$has_rests = has_rests;
         packer$comes = has_come$q;
         packer$halves = halves$halves;
         queue$reset = reset;
@@ -30441,12 +30580,13 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream(clock,res
 endmodule // incircle_stream_top_engines$slot0$core$responder$records$stream
 
 
-module incircle_stream_top_engines$slot0$core$responder$records$stream$halves(clock,record,vertices_alone,halves);
+module incircle_stream_top_engines$slot0$core$responder$records$stream$halves(clock,record,vertices_alone,has_short_ids,halves);
     
     // Module arguments
     input wire  clock;
     input wire  [90:0] record;
     input wire  vertices_alone;
+    input wire  has_short_ids;
     output reg  [95:0] halves;
     
     // Stub signals
@@ -30468,6 +30608,14 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$halves(cl
     reg  [15:0] lock;
     reg  [15:0] id_bits;
     reg  [15:0] one;
+    reg  [15:0] two;
+    reg  [15:0] four;
+    reg  [15:0] six;
+    reg  [15:0] ten;
+    reg  [15:0] low_ten;
+    reg  [15:0] low_four;
+    reg  [15:0] top_two;
+    reg  [15:0] next_two;
     
     // Sub module instances
     incircle_stream_top_engines$slot0$core$responder$records$stream$halves$kept kept(
@@ -30482,6 +30630,14 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$halves(cl
         kept$d = kept$q;
         id_bits = 32'hf;
         one = 32'h1;
+        two = 32'h2;
+        four = 32'h4;
+        six = 32'h6;
+        ten = 32'ha;
+        low_ten = 32'h3ff;
+        low_four = 32'hf;
+        next_two = 32'h3000;
+        top_two = 32'hc000;
         kept$d = record;
         lock = 32'h0;
         if (kept$q[(64'h5a)+:(1)]) begin
@@ -30507,6 +30663,11 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$halves(cl
             halves[(64'h0)+:(16)] = vertex0;
             halves[(64'h10)+:(16)] = vertex1;
             halves[(64'h20)+:(16)] = vertex2;
+            if (has_short_ids) begin
+                halves[(64'h0)+:(16)] = (vertex0 & low_ten) | (vertex1 << ten);
+                halves[(64'h10)+:(16)] = ((vertex1 >> six) & low_four) | ((vertex2 & low_ten) << four) | ((vertex0 << four) & top_two);
+                halves[(64'h20)+:(16)] = ((vertex1 << two) & next_two) | ((vertex2 << four) & top_two);
+            end
         end
     end
     
@@ -30562,7 +30723,7 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$head(bits
 endmodule // incircle_stream_top_engines$slot0$core$responder$records$stream$head
 
 
-module incircle_stream_top_engines$slot0$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,comes,halves,valid,beat);
+module incircle_stream_top_engines$slot0$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,has_short_ids,has_rests,comes,halves,valid,beat);
     
     // Module arguments
     input wire  clock;
@@ -30570,6 +30731,8 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$packer(cl
     input wire  starts;
     input wire  [14:0] count;
     input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  has_rests;
     input wire  comes;
     input wire  [95:0] halves;
     output reg  valid;
@@ -30607,8 +30770,24 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$packer(cl
     reg  all_came$d;
     wire  all_came$q;
     reg  all_came$clock;
+    reg  [15:0] rests$d;
+    wire  [15:0] rests$q;
+    reg  rests$clock;
+    reg  [1:0] in_group$d;
+    wire  [1:0] in_group$q;
+    reg  in_group$clock;
     
     // Local signals
+    reg  [15:0] earlier;
+    reg  [15:0] together;
+    reg  ends_group;
+    reg  is_short;
+    reg  brings_two;
+    reg  [15:0] third;
+    reg  fills_beat;
+    reg  [15:0] four;
+    reg  [1:0] three_places;
+    reg  [1:0] one_place;
     reg  takes;
     reg  [63:0] sent;
     reg  [63:0] sent_bits;
@@ -30656,6 +30835,16 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$packer(cl
         .q(all_came$q),
         .clock(all_came$clock)
     );
+    incircle_stream_top_engines$slot0$core$responder$records$stream$packer$rests rests(
+        .d(rests$d),
+        .q(rests$q),
+        .clock(rests$clock)
+    );
+    incircle_stream_top_engines$slot0$core$responder$records$stream$packer$in_group in_group(
+        .d(in_group$d),
+        .q(in_group$q),
+        .clock(in_group$clock)
+    );
     
     // Update code
     always @(*) begin
@@ -30672,13 +30861,35 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$packer(cl
         left$clock = clock;
         is_last$clock = clock;
         all_came$clock = clock;
+        rests$clock = clock;
+        in_group$clock = clock;
         left$d = left$q;
         is_last$d = is_last$q;
         all_came$d = all_came$q;
+        rests$d = rests$q;
+        in_group$d = in_group$q;
         one = 32'h1;
         two = 32'h2;
+        four = 32'h4;
+        three_places = 32'h3;
+        one_place = 32'h1;
         valid = is_there$q;
         beat = filled$q;
+        earlier = rests$q >> four;
+        if (~|in_group$q) begin
+            earlier = 32'h0;
+        end
+        together = halves[(64'h20)+:(16)] | earlier;
+        ends_group = is_last$q | (in_group$q == three_places);
+        is_short = vertices_alone & has_short_ids;
+        brings_two = is_short & (~(has_rests & ends_group));
+        third = halves[(64'h20)+:(16)];
+        if (is_short) begin
+            third = together;
+        end
+        if (brings_two) begin
+            third = 32'h0;
+        end
         sent = kept$q;
         kept$d[(64'h10)+:(16)] = 32'h0;
         kept$d[(64'h20)+:(16)] = 32'h0;
@@ -30702,25 +30913,41 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$packer(cl
                         is_there$d = 1'b0;
                         kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                         kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
-                        kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
+                        kept$d[(64'h20)+:(16)] = third;
                         many_are_kept$d = 1'b1;
                         number$d = KeptHalves$Three;
+                        if (brings_two) begin
+                            many_are_kept$d = 1'b0;
+                            number$d = KeptHalves$Two;
+                        end
                     end
                 end
             KeptHalves$One:
                 begin
                     sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
-                    sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
+                    sent[(64'h30)+:(16)] = third;
                     filled$d[(64'h41)+:(1)] = is_last$q;
                     number$d = KeptHalves$Zero;
+                    if (brings_two) begin
+                        is_there$d = 1'b0;
+                        kept$d[(64'h0)+:(16)] = kept$q[(64'h0)+:(16)];
+                        kept$d[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
+                        kept$d[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
+                        many_are_kept$d = 1'b1;
+                        number$d = KeptHalves$Three;
+                    end
                 end
             KeptHalves$Two:
                 begin
                     sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h0)+:(16)] = halves[(64'h20)+:(16)];
+                    kept$d[(64'h0)+:(16)] = third;
                     number$d = KeptHalves$One;
+                    if (brings_two) begin
+                        filled$d[(64'h41)+:(1)] = is_last$q;
+                        number$d = KeptHalves$Zero;
+                    end
                     if (~vertices_alone) begin
                         kept$d[(64'h10)+:(16)] = halves[(64'h30)+:(16)];
                         kept$d[(64'h20)+:(16)] = halves[(64'h40)+:(16)];
@@ -30733,8 +30960,11 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$packer(cl
                 begin
                     sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
                     kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
+                    kept$d[(64'h10)+:(16)] = third;
                     number$d = KeptHalves$Two;
+                    if (brings_two) begin
+                        number$d = KeptHalves$One;
+                    end
                 end
             default:
                 begin
@@ -30745,6 +30975,7 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$packer(cl
                     number$d = KeptHalves$Zero;
                 end
         endcase
+        fills_beat = ((number$q == KeptHalves$One) & (~brings_two)) | ((number$q == KeptHalves$Two) & brings_two);
         sent_bits = sent;
         filled$d[(64'h0)+:(32)] = sent_bits[(32'h0)+:(32)];
         filled$d[(64'h20)+:(32)] = sent_bits[(32'h20)+:(32)];
@@ -30752,7 +30983,9 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$packer(cl
             left$d = left$q - one;
             is_last$d = left$q == two;
             all_came$d = is_last$q;
-            if (is_last$q & (number$q != KeptHalves$One)) begin
+            rests$d = together;
+            in_group$d = in_group$q + one_place;
+            if (is_last$q & (~fills_beat)) begin
                 number$d = KeptHalves$Rest;
             end
         end
@@ -30761,6 +30994,7 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$packer(cl
             kept$d = kept$q;
         end
         if (starts) begin
+            in_group$d = 32'h0;
             left$d = count;
             is_last$d = count == one;
         end
@@ -30809,6 +31043,25 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$packer$fi
     end
           
 endmodule // incircle_stream_top_engines$slot0$core$responder$records$stream$packer$filled
+
+
+module incircle_stream_top_engines$slot0$core$responder$records$stream$packer$in_group(d,q,clock);
+    
+    // Module arguments
+    input wire  [1:0] d;
+    output reg  [1:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 2'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$core$responder$records$stream$packer$in_group
 
 
 module incircle_stream_top_engines$slot0$core$responder$records$stream$packer$is_last(d,q,clock);
@@ -30930,6 +31183,25 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$packer$nu
     end
           
 endmodule // incircle_stream_top_engines$slot0$core$responder$records$stream$packer$number
+
+
+module incircle_stream_top_engines$slot0$core$responder$records$stream$packer$rests(d,q,clock);
+    
+    // Module arguments
+    input wire  [15:0] d;
+    output reg  [15:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 16'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$core$responder$records$stream$packer$rests
 
 
 module incircle_stream_top_engines$slot0$core$responder$records$stream$queue(clock,reset,push,push_data,pop,valid,data);
@@ -31991,19 +32263,19 @@ module incircle_stream_top_engines$slot1$core(clock,reset,command$valid,command$
     wire  [10:0] command_port$clearing;
     wire  [16:0] command_port$deal;
     wire  command_port$answers;
-    wire  [71:0] command_port$request;
+    wire  [73:0] command_port$request;
     wire  [47:0] command_port$tally;
     reg  [2:0] command_port$answer;
     wire  [2:0] command_port$activity;
     reg  answer_head$clock;
-    reg  [71:0] answer_head$request;
+    reg  [73:0] answer_head$request;
     reg  [10:0] answer_head$clearing;
     reg  [7:0] answer_head$engine;
     reg  [14:0] answer_head$records;
     reg  answer_head$collinear;
     reg  answer_head$stuck;
     reg  answer_head$some_refused;
-    wire  [66:0] answer_head$head;
+    wire  [68:0] answer_head$head;
     reg  answer_words$clock;
     reg  [7:0] answer_words$opcode;
     reg  [14:0] answer_words$capacity;
@@ -32023,8 +32295,8 @@ module incircle_stream_top_engines$slot1$core(clock,reset,command$valid,command$
     reg  responder$reset;
     reg  responder$answers;
     reg  responder$sweeps;
-    reg  [71:0] responder$request;
-    reg  [66:0] responder$head;
+    reg  [73:0] responder$request;
+    reg  [68:0] responder$head;
     reg  [31:0] responder$word;
     wire  [6:0] responder$index;
     wire  [6:0] responder$index_ahead;
@@ -32267,14 +32539,14 @@ module incircle_stream_top_engines$slot1$core$answer_head(clock,request,clearing
     
     // Module arguments
     input wire  clock;
-    input wire  [71:0] request;
+    input wire  [73:0] request;
     input wire  [10:0] clearing;
     input wire  [7:0] engine;
     input wire  [14:0] records;
     input wire  collinear;
     input wire  stuck;
     input wire  some_refused;
-    output reg  [66:0] head;
+    output reg  [68:0] head;
     
     // Stub signals
     reg  [32:0] range_end$d;
@@ -32286,6 +32558,9 @@ module incircle_stream_top_engines$slot1$core$answer_head(clock,request,clearing
     reg  [31:0] triple$d;
     wire  [31:0] triple$q;
     reg  triple$clock;
+    reg  [18:0] eighths$d;
+    wire  [18:0] eighths$q;
+    reg  eighths$clock;
     reg  counts_none$d;
     wire  counts_none$q;
     reg  counts_none$clock;
@@ -32337,7 +32612,13 @@ module incircle_stream_top_engines$slot1$core$answer_head(clock,request,clearing
     reg  [7:0] read_code;
     reg  [7:0] packed_code;
     reg  packs;
-    reg  [31:0] rounded;
+    reg  [14:0] few;
+    reg  [18:0] own_words;
+    reg  [18:0] more;
+    reg  [18:0] rounded;
+    reg  [18:0] seven;
+    reg  [18:0] two_places;
+    reg  [18:0] three_places;
     
     // Sub module instances
     incircle_stream_top_engines$slot1$core$answer_head$range_end range_end(
@@ -32354,6 +32635,11 @@ module incircle_stream_top_engines$slot1$core$answer_head(clock,request,clearing
         .d(triple$d),
         .q(triple$q),
         .clock(triple$clock)
+    );
+    incircle_stream_top_engines$slot1$core$answer_head$eighths eighths(
+        .d(eighths$d),
+        .q(eighths$q),
+        .clock(eighths$clock)
     );
     incircle_stream_top_engines$slot1$core$answer_head$counts_none counts_none(
         .d(counts_none$d),
@@ -32411,11 +32697,13 @@ module incircle_stream_top_engines$slot1$core$answer_head(clock,request,clearing
         range_end$clock = clock;
         range_bound$clock = clock;
         triple$clock = clock;
+        eighths$clock = clock;
         counts_none$clock = clock;
         insert_status$clock = clock;
         range_end$d = range_end$q;
         range_bound$d = range_bound$q;
         triple$d = triple$q;
+        eighths$d = eighths$q;
         counts_none$d = counts_none$q;
         insert_status$d = insert_status$q;
         is_outside$clock = clock;
@@ -32441,12 +32729,25 @@ module incircle_stream_top_engines$slot1$core$answer_head(clock,request,clearing
         engine_shift = 32'h8;
         read_code = 32'h4;
         packed_code = 32'h7;
+        seven = 32'h7;
+        two_places = 32'h2;
+        three_places = 32'h3;
         wide_first = ((request[(64'h8)+:(32)]) & 33'h1ffffffff);
         wide_count = ((request[(64'h28)+:(32)]) & 33'h1ffffffff);
         range_end$d = wide_first + wide_count;
         range_bound$d = records;
         double_count = request[(64'h28)+:(32)] << one;
         triple$d = double_count + request[(64'h28)+:(32)];
+        few = ((request[(64'h28)+:(32)]) & 15'h7fff);
+        own_words = ((few) & 19'h7ffff) << three_places;
+        more = ((few) & 19'h7ffff) << two_places;
+        if (request[(64'h48)+:(1)]) begin
+            more = 32'h0;
+            if (request[(64'h49)+:(1)]) begin
+                more = ((few) & 19'h7ffff);
+            end
+        end
+        eighths$d = own_words + more;
         counts_none$d = request[(64'h28)+:(32)] == none;
         insert_status$d = 32'h0;
         if (some_refused) begin
@@ -32461,8 +32762,8 @@ module incircle_stream_top_engines$slot1$core$answer_head(clock,request,clearing
         wide_bound = ((range_bound$q) & 33'h1ffffffff);
         is_outside$d = range_end$q > wide_bound;
         read_length$d = triple$q;
-        rounded = triple$q + one;
-        packed_length$d = rounded >> one;
+        rounded = eighths$q + seven;
+        packed_length$d = ((rounded >> three_places) & 32'hffffffff);
         reads_none$d = counts_none$q;
         report_status$d = insert_status$q;
         answer_status$d = 32'h0;
@@ -32521,6 +32822,8 @@ module incircle_stream_top_engines$slot1$core$answer_head(clock,request,clearing
         endcase
         packs = request[(64'h0)+:(8)] == packed_code;
         head[(64'h42)+:(1)] = packs;
+        head[(64'h43)+:(1)] = request[(64'h48)+:(1)];
+        head[(64'h44)+:(1)] = request[(64'h49)+:(1)];
         head[(64'h41)+:(1)] = packs | (request[(64'h0)+:(8)] == read_code);
         head[(64'h20)+:(32)] = answer_length$q;
         head[(64'h40)+:(1)] = has_none$q;
@@ -32592,6 +32895,25 @@ module incircle_stream_top_engines$slot1$core$answer_head$counts_none(d,q,clock)
     end
           
 endmodule // incircle_stream_top_engines$slot1$core$answer_head$counts_none
+
+
+module incircle_stream_top_engines$slot1$core$answer_head$eighths(d,q,clock);
+    
+    // Module arguments
+    input wire  [18:0] d;
+    output reg  [18:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 19'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$core$answer_head$eighths
 
 
 module incircle_stream_top_engines$slot1$core$answer_head$has_none(d,q,clock);
@@ -32820,6 +33142,7 @@ module incircle_stream_top_engines$slot1$core$answer_words(clock,opcode,capacity
     reg  [31:0] wide_engines;
     reg  [31:0] shifted_engines;
     reg  [31:0] engines_shift;
+    reg  [31:0] features;
     
     // Sub module instances
     incircle_stream_top_engines$slot1$core$answer_words$identity identity(
@@ -32849,6 +33172,7 @@ module incircle_stream_top_engines$slot1$core$answer_words(clock,opcode,capacity
         word = chosen$q;
         place = index[(32'h0)+:(3)];
         engines_shift = 32'h8;
+        features = 32'h20000;
         wide_contexts = ((contexts) & 32'hffffffff);
         wide_engines = ((engines) & 32'hffffffff);
         shifted_engines = wide_engines << engines_shift;
@@ -32885,7 +33209,7 @@ module incircle_stream_top_engines$slot1$core$answer_words(clock,opcode,capacity
                 end
             default:
                 begin
-                    identity$d = ((ring_capacity) & 32'hffffffff);
+                    identity$d = ((ring_capacity) & 32'hffffffff) | features;
                     report$d = 32'h0;
                 end
         endcase
@@ -32987,7 +33311,7 @@ module incircle_stream_top_engines$slot1$core$command_port(clock,reset,capacity,
     output reg  [10:0] clearing;
     output reg  [16:0] deal;
     output reg  answers;
-    output reg  [71:0] request;
+    output reg  [73:0] request;
     output reg  [47:0] tally;
     input wire  [2:0] answer;
     output reg  [2:0] activity;
@@ -33004,8 +33328,8 @@ module incircle_stream_top_engines$slot1$core$command_port(clock,reset,capacity,
     reg  [2:0] state$d;
     wire  [2:0] state$q;
     reg  state$clock;
-    reg  [71:0] held$d;
-    wire  [71:0] held$q;
+    reg  [73:0] held$d;
+    wire  [73:0] held$q;
     reg  held$clock;
     reg  none_is_left$d;
     wire  none_is_left$q;
@@ -33151,6 +33475,8 @@ module incircle_stream_top_engines$slot1$core$command_port(clock,reset,capacity,
                 begin
                     if (gate$taken[(64'h0)+:(1)]) begin
                         held$d[(64'h0)+:(8)] = code;
+                        held$d[(64'h48)+:(1)] = command$data[32'h3];
+                        held$d[(64'h49)+:(1)] = command$data[32'h2];
                         state$d = CommandState$Answer;
                         if (code == insert_code) begin
                             state$d = CommandState$Count;
@@ -33724,13 +34050,13 @@ endmodule // incircle_stream_top_engines$slot1$core$command_port$gate
 module incircle_stream_top_engines$slot1$core$command_port$held(d,q,clock);
     
     // Module arguments
-    input wire  [71:0] d;
-    output reg  [71:0] q;
+    input wire  [73:0] d;
+    output reg  [73:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 72'h0;
+       q = 74'h0;
     end
     
     always @(posedge clock) begin
@@ -56044,8 +56370,8 @@ module incircle_stream_top_engines$slot1$core$responder(clock,reset,answers,swee
     input wire  reset;
     input wire  answers;
     input wire  sweeps;
-    input wire  [71:0] request;
-    input wire  [66:0] head;
+    input wire  [73:0] request;
+    input wire  [68:0] head;
     input wire  [31:0] word;
     output reg  [6:0] index;
     output reg  [6:0] index_ahead;
@@ -56100,6 +56426,8 @@ module incircle_stream_top_engines$slot1$core$responder(clock,reset,answers,swee
     reg  [14:0] records$first;
     reg  [14:0] records$count;
     reg  records$is_packed;
+    reg  records$has_short_ids;
+    reg  records$has_rests;
     reg  records$runs;
     wire  records$read;
     wire  [14:0] records$read_id;
@@ -56158,6 +56486,8 @@ module incircle_stream_top_engines$slot1$core$responder(clock,reset,answers,swee
         .first(records$first),
         .count(records$count),
         .is_packed(records$is_packed),
+        .has_short_ids(records$has_short_ids),
+        .has_rests(records$has_rests),
         .runs(records$runs),
         .read(records$read),
         .read_id(records$read_id),
@@ -56202,6 +56532,8 @@ module incircle_stream_top_engines$slot1$core$responder(clock,reset,answers,swee
         records$first = ((request[(64'h8)+:(32)]) & 15'h7fff);
         records$count = ((request[(64'h28)+:(32)]) & 15'h7fff);
         records$is_packed = head[(64'h42)+:(1)];
+        records$has_short_ids = head[(64'h43)+:(1)];
+        records$has_rests = head[(64'h44)+:(1)];
         records$runs = state$q == AnswerState$Records;
         read = records$read;
         read_id = records$read_id;
@@ -56302,7 +56634,7 @@ module incircle_stream_top_engines$slot1$core$responder$offered(d,q,clock);
 endmodule // incircle_stream_top_engines$slot1$core$responder$offered
 
 
-module incircle_stream_top_engines$slot1$core$responder$records(clock,reset,starts,first,count,is_packed,runs,read,read_id,read_done,record,valid,beat,takes);
+module incircle_stream_top_engines$slot1$core$responder$records(clock,reset,starts,first,count,is_packed,has_short_ids,has_rests,runs,read,read_id,read_done,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -56311,6 +56643,8 @@ module incircle_stream_top_engines$slot1$core$responder$records(clock,reset,star
     input wire  [14:0] first;
     input wire  [14:0] count;
     input wire  is_packed;
+    input wire  has_short_ids;
+    input wire  has_rests;
     input wire  runs;
     output reg  read;
     output reg  [14:0] read_id;
@@ -56324,6 +56658,12 @@ module incircle_stream_top_engines$slot1$core$responder$records(clock,reset,star
     reg  vertices_alone$d;
     wire  vertices_alone$q;
     reg  vertices_alone$clock;
+    reg  ids_are_short$d;
+    wire  ids_are_short$q;
+    reg  ids_are_short$clock;
+    reg  rests_follow$d;
+    wire  rests_follow$q;
+    reg  rests_follow$clock;
     reg  [14:0] record_id$d;
     wire  [14:0] record_id$q;
     reg  record_id$clock;
@@ -56344,6 +56684,8 @@ module incircle_stream_top_engines$slot1$core$responder$records(clock,reset,star
     reg  stream$starts;
     reg  [14:0] stream$count;
     reg  stream$vertices_alone;
+    reg  stream$has_short_ids;
+    reg  stream$has_rests;
     wire  stream$has_room;
     reg  stream$comes;
     reg  [90:0] stream$record;
@@ -56367,6 +56709,16 @@ module incircle_stream_top_engines$slot1$core$responder$records(clock,reset,star
         .d(vertices_alone$d),
         .q(vertices_alone$q),
         .clock(vertices_alone$clock)
+    );
+    incircle_stream_top_engines$slot1$core$responder$records$ids_are_short ids_are_short(
+        .d(ids_are_short$d),
+        .q(ids_are_short$q),
+        .clock(ids_are_short$clock)
+    );
+    incircle_stream_top_engines$slot1$core$responder$records$rests_follow rests_follow(
+        .d(rests_follow$d),
+        .q(rests_follow$q),
+        .clock(rests_follow$clock)
     );
     incircle_stream_top_engines$slot1$core$responder$records$record_id record_id(
         .d(record_id$d),
@@ -56399,6 +56751,8 @@ module incircle_stream_top_engines$slot1$core$responder$records(clock,reset,star
         .starts(stream$starts),
         .count(stream$count),
         .vertices_alone(stream$vertices_alone),
+        .has_short_ids(stream$has_short_ids),
+        .has_rests(stream$has_rests),
         .has_room(stream$has_room),
         .comes(stream$comes),
         .record(stream$record),
@@ -56420,6 +56774,11 @@ module incircle_stream_top_engines$slot1$core$responder$records(clock,reset,star
     // Update code
     always @(*) begin
         vertices_alone$clock = clock;
+        ids_are_short$clock = clock;
+        rests_follow$clock = clock;
+        vertices_alone$d = vertices_alone$q;
+        ids_are_short$d = ids_are_short$q;
+        rests_follow$d = rests_follow$q;
         record_id$clock = clock;
         left$clock = clock;
         some_are_left$clock = clock;
@@ -56427,7 +56786,6 @@ module incircle_stream_top_engines$slot1$core$responder$records(clock,reset,star
         pauses$clock = clock;
         is_there$clock = clock;
         head$clock = clock;
-        vertices_alone$d = vertices_alone$q;
         record_id$d = record_id$q;
         left$d = left$q;
         some_are_left$d = some_are_left$q;
@@ -56438,6 +56796,8 @@ module incircle_stream_top_engines$slot1$core$responder$records(clock,reset,star
         stream$clock = clock;
         one = 32'h1;
         vertices_alone$d = is_packed;
+        ids_are_short$d = has_short_ids;
+        rests_follow$d = has_rests;
         asks = runs & some_are_left$q & stream$has_room & (~pauses$q);
         read = asks;
         read_id = record_id$q;
@@ -56458,6 +56818,8 @@ module incircle_stream_top_engines$slot1$core$responder$records(clock,reset,star
         stream$starts = starts;
         stream$count = count;
         stream$vertices_alone = vertices_alone$q;
+        stream$has_short_ids = ids_are_short$q;
+        stream$has_rests = rests_follow$q;
         stream$comes = read_done;
         stream$record = record;
         valid = is_there$q;
@@ -56494,6 +56856,25 @@ module incircle_stream_top_engines$slot1$core$responder$records$head(d,q,clock);
     end
           
 endmodule // incircle_stream_top_engines$slot1$core$responder$records$head
+
+
+module incircle_stream_top_engines$slot1$core$responder$records$ids_are_short(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$core$responder$records$ids_are_short
 
 
 module incircle_stream_top_engines$slot1$core$responder$records$is_second(d,q,clock);
@@ -56591,6 +56972,25 @@ module incircle_stream_top_engines$slot1$core$responder$records$record_id(d,q,cl
 endmodule // incircle_stream_top_engines$slot1$core$responder$records$record_id
 
 
+module incircle_stream_top_engines$slot1$core$responder$records$rests_follow(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$core$responder$records$rests_follow
+
+
 module incircle_stream_top_engines$slot1$core$responder$records$some_are_left(d,q,clock);
     
     // Module arguments
@@ -56610,7 +57010,7 @@ module incircle_stream_top_engines$slot1$core$responder$records$some_are_left(d,
 endmodule // incircle_stream_top_engines$slot1$core$responder$records$some_are_left
 
 
-module incircle_stream_top_engines$slot1$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_room,comes,record,valid,beat,takes);
+module incircle_stream_top_engines$slot1$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_short_ids,has_rests,has_room,comes,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -56618,6 +57018,8 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream(clock,res
     input wire  starts;
     input wire  [14:0] count;
     input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  has_rests;
     output reg  has_room;
     input wire  comes;
     input wire  [90:0] record;
@@ -56638,12 +57040,15 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream(clock,res
     reg  halves$clock;
     reg  [90:0] halves$record;
     reg  halves$vertices_alone;
+    reg  halves$has_short_ids;
     wire  [95:0] halves$halves;
     reg  packer$clock;
     reg  packer$reset;
     reg  packer$starts;
     reg  [14:0] packer$count;
     reg  packer$vertices_alone;
+    reg  packer$has_short_ids;
+    reg  packer$has_rests;
     reg  packer$comes;
     reg  [95:0] packer$halves;
     wire  packer$valid;
@@ -56683,6 +57088,7 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream(clock,res
         .clock(halves$clock),
         .record(halves$record),
         .vertices_alone(halves$vertices_alone),
+        .has_short_ids(halves$has_short_ids),
         .halves(halves$halves)
     );
     incircle_stream_top_engines$slot1$core$responder$records$stream$packer packer(
@@ -56691,6 +57097,8 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream(clock,res
         .starts(packer$starts),
         .count(packer$count),
         .vertices_alone(packer$vertices_alone),
+        .has_short_ids(packer$has_short_ids),
+        .has_rests(packer$has_rests),
         .comes(packer$comes),
         .halves(packer$halves),
         .valid(packer$valid),
@@ -56729,7 +57137,10 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream(clock,res
         has_come$d = comes;
         halves$record = record;
         halves$vertices_alone = vertices_alone;
+        halves$has_short_ids = has_short_ids;
         packer$vertices_alone = vertices_alone;
+        packer$has_short_ids = has_short_ids;
+        packer$has_rests = has_rests;
         packer$comes = has_come$q;
         packer$halves = halves$halves;
         queue$reset = reset;
@@ -56757,12 +57168,13 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream(clock,res
 endmodule // incircle_stream_top_engines$slot1$core$responder$records$stream
 
 
-module incircle_stream_top_engines$slot1$core$responder$records$stream$halves(clock,record,vertices_alone,halves);
+module incircle_stream_top_engines$slot1$core$responder$records$stream$halves(clock,record,vertices_alone,has_short_ids,halves);
     
     // Module arguments
     input wire  clock;
     input wire  [90:0] record;
     input wire  vertices_alone;
+    input wire  has_short_ids;
     output reg  [95:0] halves;
     
     // Stub signals
@@ -56784,6 +57196,14 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$halves(cl
     reg  [15:0] lock;
     reg  [15:0] id_bits;
     reg  [15:0] one;
+    reg  [15:0] two;
+    reg  [15:0] four;
+    reg  [15:0] six;
+    reg  [15:0] ten;
+    reg  [15:0] low_ten;
+    reg  [15:0] low_four;
+    reg  [15:0] top_two;
+    reg  [15:0] next_two;
     
     // Sub module instances
     incircle_stream_top_engines$slot1$core$responder$records$stream$halves$kept kept(
@@ -56798,6 +57218,14 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$halves(cl
         kept$d = kept$q;
         id_bits = 32'hf;
         one = 32'h1;
+        two = 32'h2;
+        four = 32'h4;
+        six = 32'h6;
+        ten = 32'ha;
+        low_ten = 32'h3ff;
+        low_four = 32'hf;
+        next_two = 32'h3000;
+        top_two = 32'hc000;
         kept$d = record;
         lock = 32'h0;
         if (kept$q[(64'h5a)+:(1)]) begin
@@ -56823,6 +57251,11 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$halves(cl
             halves[(64'h0)+:(16)] = vertex0;
             halves[(64'h10)+:(16)] = vertex1;
             halves[(64'h20)+:(16)] = vertex2;
+            if (has_short_ids) begin
+                halves[(64'h0)+:(16)] = (vertex0 & low_ten) | (vertex1 << ten);
+                halves[(64'h10)+:(16)] = ((vertex1 >> six) & low_four) | ((vertex2 & low_ten) << four) | ((vertex0 << four) & top_two);
+                halves[(64'h20)+:(16)] = ((vertex1 << two) & next_two) | ((vertex2 << four) & top_two);
+            end
         end
     end
     
@@ -56878,7 +57311,7 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$head(bits
 endmodule // incircle_stream_top_engines$slot1$core$responder$records$stream$head
 
 
-module incircle_stream_top_engines$slot1$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,comes,halves,valid,beat);
+module incircle_stream_top_engines$slot1$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,has_short_ids,has_rests,comes,halves,valid,beat);
     
     // Module arguments
     input wire  clock;
@@ -56886,6 +57319,8 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$packer(cl
     input wire  starts;
     input wire  [14:0] count;
     input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  has_rests;
     input wire  comes;
     input wire  [95:0] halves;
     output reg  valid;
@@ -56923,8 +57358,24 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$packer(cl
     reg  all_came$d;
     wire  all_came$q;
     reg  all_came$clock;
+    reg  [15:0] rests$d;
+    wire  [15:0] rests$q;
+    reg  rests$clock;
+    reg  [1:0] in_group$d;
+    wire  [1:0] in_group$q;
+    reg  in_group$clock;
     
     // Local signals
+    reg  [15:0] earlier;
+    reg  [15:0] together;
+    reg  ends_group;
+    reg  is_short;
+    reg  brings_two;
+    reg  [15:0] third;
+    reg  fills_beat;
+    reg  [15:0] four;
+    reg  [1:0] three_places;
+    reg  [1:0] one_place;
     reg  takes;
     reg  [63:0] sent;
     reg  [63:0] sent_bits;
@@ -56972,6 +57423,16 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$packer(cl
         .q(all_came$q),
         .clock(all_came$clock)
     );
+    incircle_stream_top_engines$slot1$core$responder$records$stream$packer$rests rests(
+        .d(rests$d),
+        .q(rests$q),
+        .clock(rests$clock)
+    );
+    incircle_stream_top_engines$slot1$core$responder$records$stream$packer$in_group in_group(
+        .d(in_group$d),
+        .q(in_group$q),
+        .clock(in_group$clock)
+    );
     
     // Update code
     always @(*) begin
@@ -56988,13 +57449,35 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$packer(cl
         left$clock = clock;
         is_last$clock = clock;
         all_came$clock = clock;
+        rests$clock = clock;
+        in_group$clock = clock;
         left$d = left$q;
         is_last$d = is_last$q;
         all_came$d = all_came$q;
+        rests$d = rests$q;
+        in_group$d = in_group$q;
         one = 32'h1;
         two = 32'h2;
+        four = 32'h4;
+        three_places = 32'h3;
+        one_place = 32'h1;
         valid = is_there$q;
         beat = filled$q;
+        earlier = rests$q >> four;
+        if (~|in_group$q) begin
+            earlier = 32'h0;
+        end
+        together = halves[(64'h20)+:(16)] | earlier;
+        ends_group = is_last$q | (in_group$q == three_places);
+        is_short = vertices_alone & has_short_ids;
+        brings_two = is_short & (~(has_rests & ends_group));
+        third = halves[(64'h20)+:(16)];
+        if (is_short) begin
+            third = together;
+        end
+        if (brings_two) begin
+            third = 32'h0;
+        end
         sent = kept$q;
         kept$d[(64'h10)+:(16)] = 32'h0;
         kept$d[(64'h20)+:(16)] = 32'h0;
@@ -57018,25 +57501,41 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$packer(cl
                         is_there$d = 1'b0;
                         kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                         kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
-                        kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
+                        kept$d[(64'h20)+:(16)] = third;
                         many_are_kept$d = 1'b1;
                         number$d = KeptHalves$Three;
+                        if (brings_two) begin
+                            many_are_kept$d = 1'b0;
+                            number$d = KeptHalves$Two;
+                        end
                     end
                 end
             KeptHalves$One:
                 begin
                     sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
-                    sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
+                    sent[(64'h30)+:(16)] = third;
                     filled$d[(64'h41)+:(1)] = is_last$q;
                     number$d = KeptHalves$Zero;
+                    if (brings_two) begin
+                        is_there$d = 1'b0;
+                        kept$d[(64'h0)+:(16)] = kept$q[(64'h0)+:(16)];
+                        kept$d[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
+                        kept$d[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
+                        many_are_kept$d = 1'b1;
+                        number$d = KeptHalves$Three;
+                    end
                 end
             KeptHalves$Two:
                 begin
                     sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h0)+:(16)] = halves[(64'h20)+:(16)];
+                    kept$d[(64'h0)+:(16)] = third;
                     number$d = KeptHalves$One;
+                    if (brings_two) begin
+                        filled$d[(64'h41)+:(1)] = is_last$q;
+                        number$d = KeptHalves$Zero;
+                    end
                     if (~vertices_alone) begin
                         kept$d[(64'h10)+:(16)] = halves[(64'h30)+:(16)];
                         kept$d[(64'h20)+:(16)] = halves[(64'h40)+:(16)];
@@ -57049,8 +57548,11 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$packer(cl
                 begin
                     sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
                     kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
+                    kept$d[(64'h10)+:(16)] = third;
                     number$d = KeptHalves$Two;
+                    if (brings_two) begin
+                        number$d = KeptHalves$One;
+                    end
                 end
             default:
                 begin
@@ -57061,6 +57563,7 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$packer(cl
                     number$d = KeptHalves$Zero;
                 end
         endcase
+        fills_beat = ((number$q == KeptHalves$One) & (~brings_two)) | ((number$q == KeptHalves$Two) & brings_two);
         sent_bits = sent;
         filled$d[(64'h0)+:(32)] = sent_bits[(32'h0)+:(32)];
         filled$d[(64'h20)+:(32)] = sent_bits[(32'h20)+:(32)];
@@ -57068,7 +57571,9 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$packer(cl
             left$d = left$q - one;
             is_last$d = left$q == two;
             all_came$d = is_last$q;
-            if (is_last$q & (number$q != KeptHalves$One)) begin
+            rests$d = together;
+            in_group$d = in_group$q + one_place;
+            if (is_last$q & (~fills_beat)) begin
                 number$d = KeptHalves$Rest;
             end
         end
@@ -57077,6 +57582,7 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$packer(cl
             kept$d = kept$q;
         end
         if (starts) begin
+            in_group$d = 32'h0;
             left$d = count;
             is_last$d = count == one;
         end
@@ -57125,6 +57631,25 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$packer$fi
     end
           
 endmodule // incircle_stream_top_engines$slot1$core$responder$records$stream$packer$filled
+
+
+module incircle_stream_top_engines$slot1$core$responder$records$stream$packer$in_group(d,q,clock);
+    
+    // Module arguments
+    input wire  [1:0] d;
+    output reg  [1:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 2'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$core$responder$records$stream$packer$in_group
 
 
 module incircle_stream_top_engines$slot1$core$responder$records$stream$packer$is_last(d,q,clock);
@@ -57246,6 +57771,25 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$packer$nu
     end
           
 endmodule // incircle_stream_top_engines$slot1$core$responder$records$stream$packer$number
+
+
+module incircle_stream_top_engines$slot1$core$responder$records$stream$packer$rests(d,q,clock);
+    
+    // Module arguments
+    input wire  [15:0] d;
+    output reg  [15:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 16'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$core$responder$records$stream$packer$rests
 
 
 module incircle_stream_top_engines$slot1$core$responder$records$stream$queue(clock,reset,push,push_data,pop,valid,data);
@@ -58307,19 +58851,19 @@ module incircle_stream_top_engines$slot2$core(clock,reset,command$valid,command$
     wire  [10:0] command_port$clearing;
     wire  [16:0] command_port$deal;
     wire  command_port$answers;
-    wire  [71:0] command_port$request;
+    wire  [73:0] command_port$request;
     wire  [47:0] command_port$tally;
     reg  [2:0] command_port$answer;
     wire  [2:0] command_port$activity;
     reg  answer_head$clock;
-    reg  [71:0] answer_head$request;
+    reg  [73:0] answer_head$request;
     reg  [10:0] answer_head$clearing;
     reg  [7:0] answer_head$engine;
     reg  [14:0] answer_head$records;
     reg  answer_head$collinear;
     reg  answer_head$stuck;
     reg  answer_head$some_refused;
-    wire  [66:0] answer_head$head;
+    wire  [68:0] answer_head$head;
     reg  answer_words$clock;
     reg  [7:0] answer_words$opcode;
     reg  [14:0] answer_words$capacity;
@@ -58339,8 +58883,8 @@ module incircle_stream_top_engines$slot2$core(clock,reset,command$valid,command$
     reg  responder$reset;
     reg  responder$answers;
     reg  responder$sweeps;
-    reg  [71:0] responder$request;
-    reg  [66:0] responder$head;
+    reg  [73:0] responder$request;
+    reg  [68:0] responder$head;
     reg  [31:0] responder$word;
     wire  [6:0] responder$index;
     wire  [6:0] responder$index_ahead;
@@ -58583,14 +59127,14 @@ module incircle_stream_top_engines$slot2$core$answer_head(clock,request,clearing
     
     // Module arguments
     input wire  clock;
-    input wire  [71:0] request;
+    input wire  [73:0] request;
     input wire  [10:0] clearing;
     input wire  [7:0] engine;
     input wire  [14:0] records;
     input wire  collinear;
     input wire  stuck;
     input wire  some_refused;
-    output reg  [66:0] head;
+    output reg  [68:0] head;
     
     // Stub signals
     reg  [32:0] range_end$d;
@@ -58602,6 +59146,9 @@ module incircle_stream_top_engines$slot2$core$answer_head(clock,request,clearing
     reg  [31:0] triple$d;
     wire  [31:0] triple$q;
     reg  triple$clock;
+    reg  [18:0] eighths$d;
+    wire  [18:0] eighths$q;
+    reg  eighths$clock;
     reg  counts_none$d;
     wire  counts_none$q;
     reg  counts_none$clock;
@@ -58653,7 +59200,13 @@ module incircle_stream_top_engines$slot2$core$answer_head(clock,request,clearing
     reg  [7:0] read_code;
     reg  [7:0] packed_code;
     reg  packs;
-    reg  [31:0] rounded;
+    reg  [14:0] few;
+    reg  [18:0] own_words;
+    reg  [18:0] more;
+    reg  [18:0] rounded;
+    reg  [18:0] seven;
+    reg  [18:0] two_places;
+    reg  [18:0] three_places;
     
     // Sub module instances
     incircle_stream_top_engines$slot2$core$answer_head$range_end range_end(
@@ -58670,6 +59223,11 @@ module incircle_stream_top_engines$slot2$core$answer_head(clock,request,clearing
         .d(triple$d),
         .q(triple$q),
         .clock(triple$clock)
+    );
+    incircle_stream_top_engines$slot2$core$answer_head$eighths eighths(
+        .d(eighths$d),
+        .q(eighths$q),
+        .clock(eighths$clock)
     );
     incircle_stream_top_engines$slot2$core$answer_head$counts_none counts_none(
         .d(counts_none$d),
@@ -58727,11 +59285,13 @@ module incircle_stream_top_engines$slot2$core$answer_head(clock,request,clearing
         range_end$clock = clock;
         range_bound$clock = clock;
         triple$clock = clock;
+        eighths$clock = clock;
         counts_none$clock = clock;
         insert_status$clock = clock;
         range_end$d = range_end$q;
         range_bound$d = range_bound$q;
         triple$d = triple$q;
+        eighths$d = eighths$q;
         counts_none$d = counts_none$q;
         insert_status$d = insert_status$q;
         is_outside$clock = clock;
@@ -58757,12 +59317,25 @@ module incircle_stream_top_engines$slot2$core$answer_head(clock,request,clearing
         engine_shift = 32'h8;
         read_code = 32'h4;
         packed_code = 32'h7;
+        seven = 32'h7;
+        two_places = 32'h2;
+        three_places = 32'h3;
         wide_first = ((request[(64'h8)+:(32)]) & 33'h1ffffffff);
         wide_count = ((request[(64'h28)+:(32)]) & 33'h1ffffffff);
         range_end$d = wide_first + wide_count;
         range_bound$d = records;
         double_count = request[(64'h28)+:(32)] << one;
         triple$d = double_count + request[(64'h28)+:(32)];
+        few = ((request[(64'h28)+:(32)]) & 15'h7fff);
+        own_words = ((few) & 19'h7ffff) << three_places;
+        more = ((few) & 19'h7ffff) << two_places;
+        if (request[(64'h48)+:(1)]) begin
+            more = 32'h0;
+            if (request[(64'h49)+:(1)]) begin
+                more = ((few) & 19'h7ffff);
+            end
+        end
+        eighths$d = own_words + more;
         counts_none$d = request[(64'h28)+:(32)] == none;
         insert_status$d = 32'h0;
         if (some_refused) begin
@@ -58777,8 +59350,8 @@ module incircle_stream_top_engines$slot2$core$answer_head(clock,request,clearing
         wide_bound = ((range_bound$q) & 33'h1ffffffff);
         is_outside$d = range_end$q > wide_bound;
         read_length$d = triple$q;
-        rounded = triple$q + one;
-        packed_length$d = rounded >> one;
+        rounded = eighths$q + seven;
+        packed_length$d = ((rounded >> three_places) & 32'hffffffff);
         reads_none$d = counts_none$q;
         report_status$d = insert_status$q;
         answer_status$d = 32'h0;
@@ -58837,6 +59410,8 @@ module incircle_stream_top_engines$slot2$core$answer_head(clock,request,clearing
         endcase
         packs = request[(64'h0)+:(8)] == packed_code;
         head[(64'h42)+:(1)] = packs;
+        head[(64'h43)+:(1)] = request[(64'h48)+:(1)];
+        head[(64'h44)+:(1)] = request[(64'h49)+:(1)];
         head[(64'h41)+:(1)] = packs | (request[(64'h0)+:(8)] == read_code);
         head[(64'h20)+:(32)] = answer_length$q;
         head[(64'h40)+:(1)] = has_none$q;
@@ -58908,6 +59483,25 @@ module incircle_stream_top_engines$slot2$core$answer_head$counts_none(d,q,clock)
     end
           
 endmodule // incircle_stream_top_engines$slot2$core$answer_head$counts_none
+
+
+module incircle_stream_top_engines$slot2$core$answer_head$eighths(d,q,clock);
+    
+    // Module arguments
+    input wire  [18:0] d;
+    output reg  [18:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 19'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$core$answer_head$eighths
 
 
 module incircle_stream_top_engines$slot2$core$answer_head$has_none(d,q,clock);
@@ -59136,6 +59730,7 @@ module incircle_stream_top_engines$slot2$core$answer_words(clock,opcode,capacity
     reg  [31:0] wide_engines;
     reg  [31:0] shifted_engines;
     reg  [31:0] engines_shift;
+    reg  [31:0] features;
     
     // Sub module instances
     incircle_stream_top_engines$slot2$core$answer_words$identity identity(
@@ -59165,6 +59760,7 @@ module incircle_stream_top_engines$slot2$core$answer_words(clock,opcode,capacity
         word = chosen$q;
         place = index[(32'h0)+:(3)];
         engines_shift = 32'h8;
+        features = 32'h20000;
         wide_contexts = ((contexts) & 32'hffffffff);
         wide_engines = ((engines) & 32'hffffffff);
         shifted_engines = wide_engines << engines_shift;
@@ -59201,7 +59797,7 @@ module incircle_stream_top_engines$slot2$core$answer_words(clock,opcode,capacity
                 end
             default:
                 begin
-                    identity$d = ((ring_capacity) & 32'hffffffff);
+                    identity$d = ((ring_capacity) & 32'hffffffff) | features;
                     report$d = 32'h0;
                 end
         endcase
@@ -59303,7 +59899,7 @@ module incircle_stream_top_engines$slot2$core$command_port(clock,reset,capacity,
     output reg  [10:0] clearing;
     output reg  [16:0] deal;
     output reg  answers;
-    output reg  [71:0] request;
+    output reg  [73:0] request;
     output reg  [47:0] tally;
     input wire  [2:0] answer;
     output reg  [2:0] activity;
@@ -59320,8 +59916,8 @@ module incircle_stream_top_engines$slot2$core$command_port(clock,reset,capacity,
     reg  [2:0] state$d;
     wire  [2:0] state$q;
     reg  state$clock;
-    reg  [71:0] held$d;
-    wire  [71:0] held$q;
+    reg  [73:0] held$d;
+    wire  [73:0] held$q;
     reg  held$clock;
     reg  none_is_left$d;
     wire  none_is_left$q;
@@ -59467,6 +60063,8 @@ module incircle_stream_top_engines$slot2$core$command_port(clock,reset,capacity,
                 begin
                     if (gate$taken[(64'h0)+:(1)]) begin
                         held$d[(64'h0)+:(8)] = code;
+                        held$d[(64'h48)+:(1)] = command$data[32'h3];
+                        held$d[(64'h49)+:(1)] = command$data[32'h2];
                         state$d = CommandState$Answer;
                         if (code == insert_code) begin
                             state$d = CommandState$Count;
@@ -60040,13 +60638,13 @@ endmodule // incircle_stream_top_engines$slot2$core$command_port$gate
 module incircle_stream_top_engines$slot2$core$command_port$held(d,q,clock);
     
     // Module arguments
-    input wire  [71:0] d;
-    output reg  [71:0] q;
+    input wire  [73:0] d;
+    output reg  [73:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 72'h0;
+       q = 74'h0;
     end
     
     always @(posedge clock) begin
@@ -82360,8 +82958,8 @@ module incircle_stream_top_engines$slot2$core$responder(clock,reset,answers,swee
     input wire  reset;
     input wire  answers;
     input wire  sweeps;
-    input wire  [71:0] request;
-    input wire  [66:0] head;
+    input wire  [73:0] request;
+    input wire  [68:0] head;
     input wire  [31:0] word;
     output reg  [6:0] index;
     output reg  [6:0] index_ahead;
@@ -82416,6 +83014,8 @@ module incircle_stream_top_engines$slot2$core$responder(clock,reset,answers,swee
     reg  [14:0] records$first;
     reg  [14:0] records$count;
     reg  records$is_packed;
+    reg  records$has_short_ids;
+    reg  records$has_rests;
     reg  records$runs;
     wire  records$read;
     wire  [14:0] records$read_id;
@@ -82474,6 +83074,8 @@ module incircle_stream_top_engines$slot2$core$responder(clock,reset,answers,swee
         .first(records$first),
         .count(records$count),
         .is_packed(records$is_packed),
+        .has_short_ids(records$has_short_ids),
+        .has_rests(records$has_rests),
         .runs(records$runs),
         .read(records$read),
         .read_id(records$read_id),
@@ -82518,6 +83120,8 @@ module incircle_stream_top_engines$slot2$core$responder(clock,reset,answers,swee
         records$first = ((request[(64'h8)+:(32)]) & 15'h7fff);
         records$count = ((request[(64'h28)+:(32)]) & 15'h7fff);
         records$is_packed = head[(64'h42)+:(1)];
+        records$has_short_ids = head[(64'h43)+:(1)];
+        records$has_rests = head[(64'h44)+:(1)];
         records$runs = state$q == AnswerState$Records;
         read = records$read;
         read_id = records$read_id;
@@ -82618,7 +83222,7 @@ module incircle_stream_top_engines$slot2$core$responder$offered(d,q,clock);
 endmodule // incircle_stream_top_engines$slot2$core$responder$offered
 
 
-module incircle_stream_top_engines$slot2$core$responder$records(clock,reset,starts,first,count,is_packed,runs,read,read_id,read_done,record,valid,beat,takes);
+module incircle_stream_top_engines$slot2$core$responder$records(clock,reset,starts,first,count,is_packed,has_short_ids,has_rests,runs,read,read_id,read_done,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -82627,6 +83231,8 @@ module incircle_stream_top_engines$slot2$core$responder$records(clock,reset,star
     input wire  [14:0] first;
     input wire  [14:0] count;
     input wire  is_packed;
+    input wire  has_short_ids;
+    input wire  has_rests;
     input wire  runs;
     output reg  read;
     output reg  [14:0] read_id;
@@ -82640,6 +83246,12 @@ module incircle_stream_top_engines$slot2$core$responder$records(clock,reset,star
     reg  vertices_alone$d;
     wire  vertices_alone$q;
     reg  vertices_alone$clock;
+    reg  ids_are_short$d;
+    wire  ids_are_short$q;
+    reg  ids_are_short$clock;
+    reg  rests_follow$d;
+    wire  rests_follow$q;
+    reg  rests_follow$clock;
     reg  [14:0] record_id$d;
     wire  [14:0] record_id$q;
     reg  record_id$clock;
@@ -82660,6 +83272,8 @@ module incircle_stream_top_engines$slot2$core$responder$records(clock,reset,star
     reg  stream$starts;
     reg  [14:0] stream$count;
     reg  stream$vertices_alone;
+    reg  stream$has_short_ids;
+    reg  stream$has_rests;
     wire  stream$has_room;
     reg  stream$comes;
     reg  [90:0] stream$record;
@@ -82683,6 +83297,16 @@ module incircle_stream_top_engines$slot2$core$responder$records(clock,reset,star
         .d(vertices_alone$d),
         .q(vertices_alone$q),
         .clock(vertices_alone$clock)
+    );
+    incircle_stream_top_engines$slot2$core$responder$records$ids_are_short ids_are_short(
+        .d(ids_are_short$d),
+        .q(ids_are_short$q),
+        .clock(ids_are_short$clock)
+    );
+    incircle_stream_top_engines$slot2$core$responder$records$rests_follow rests_follow(
+        .d(rests_follow$d),
+        .q(rests_follow$q),
+        .clock(rests_follow$clock)
     );
     incircle_stream_top_engines$slot2$core$responder$records$record_id record_id(
         .d(record_id$d),
@@ -82715,6 +83339,8 @@ module incircle_stream_top_engines$slot2$core$responder$records(clock,reset,star
         .starts(stream$starts),
         .count(stream$count),
         .vertices_alone(stream$vertices_alone),
+        .has_short_ids(stream$has_short_ids),
+        .has_rests(stream$has_rests),
         .has_room(stream$has_room),
         .comes(stream$comes),
         .record(stream$record),
@@ -82736,6 +83362,11 @@ module incircle_stream_top_engines$slot2$core$responder$records(clock,reset,star
     // Update code
     always @(*) begin
         vertices_alone$clock = clock;
+        ids_are_short$clock = clock;
+        rests_follow$clock = clock;
+        vertices_alone$d = vertices_alone$q;
+        ids_are_short$d = ids_are_short$q;
+        rests_follow$d = rests_follow$q;
         record_id$clock = clock;
         left$clock = clock;
         some_are_left$clock = clock;
@@ -82743,7 +83374,6 @@ module incircle_stream_top_engines$slot2$core$responder$records(clock,reset,star
         pauses$clock = clock;
         is_there$clock = clock;
         head$clock = clock;
-        vertices_alone$d = vertices_alone$q;
         record_id$d = record_id$q;
         left$d = left$q;
         some_are_left$d = some_are_left$q;
@@ -82754,6 +83384,8 @@ module incircle_stream_top_engines$slot2$core$responder$records(clock,reset,star
         stream$clock = clock;
         one = 32'h1;
         vertices_alone$d = is_packed;
+        ids_are_short$d = has_short_ids;
+        rests_follow$d = has_rests;
         asks = runs & some_are_left$q & stream$has_room & (~pauses$q);
         read = asks;
         read_id = record_id$q;
@@ -82774,6 +83406,8 @@ module incircle_stream_top_engines$slot2$core$responder$records(clock,reset,star
         stream$starts = starts;
         stream$count = count;
         stream$vertices_alone = vertices_alone$q;
+        stream$has_short_ids = ids_are_short$q;
+        stream$has_rests = rests_follow$q;
         stream$comes = read_done;
         stream$record = record;
         valid = is_there$q;
@@ -82810,6 +83444,25 @@ module incircle_stream_top_engines$slot2$core$responder$records$head(d,q,clock);
     end
           
 endmodule // incircle_stream_top_engines$slot2$core$responder$records$head
+
+
+module incircle_stream_top_engines$slot2$core$responder$records$ids_are_short(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$core$responder$records$ids_are_short
 
 
 module incircle_stream_top_engines$slot2$core$responder$records$is_second(d,q,clock);
@@ -82907,6 +83560,25 @@ module incircle_stream_top_engines$slot2$core$responder$records$record_id(d,q,cl
 endmodule // incircle_stream_top_engines$slot2$core$responder$records$record_id
 
 
+module incircle_stream_top_engines$slot2$core$responder$records$rests_follow(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$core$responder$records$rests_follow
+
+
 module incircle_stream_top_engines$slot2$core$responder$records$some_are_left(d,q,clock);
     
     // Module arguments
@@ -82926,7 +83598,7 @@ module incircle_stream_top_engines$slot2$core$responder$records$some_are_left(d,
 endmodule // incircle_stream_top_engines$slot2$core$responder$records$some_are_left
 
 
-module incircle_stream_top_engines$slot2$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_room,comes,record,valid,beat,takes);
+module incircle_stream_top_engines$slot2$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_short_ids,has_rests,has_room,comes,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -82934,6 +83606,8 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream(clock,res
     input wire  starts;
     input wire  [14:0] count;
     input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  has_rests;
     output reg  has_room;
     input wire  comes;
     input wire  [90:0] record;
@@ -82954,12 +83628,15 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream(clock,res
     reg  halves$clock;
     reg  [90:0] halves$record;
     reg  halves$vertices_alone;
+    reg  halves$has_short_ids;
     wire  [95:0] halves$halves;
     reg  packer$clock;
     reg  packer$reset;
     reg  packer$starts;
     reg  [14:0] packer$count;
     reg  packer$vertices_alone;
+    reg  packer$has_short_ids;
+    reg  packer$has_rests;
     reg  packer$comes;
     reg  [95:0] packer$halves;
     wire  packer$valid;
@@ -82999,6 +83676,7 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream(clock,res
         .clock(halves$clock),
         .record(halves$record),
         .vertices_alone(halves$vertices_alone),
+        .has_short_ids(halves$has_short_ids),
         .halves(halves$halves)
     );
     incircle_stream_top_engines$slot2$core$responder$records$stream$packer packer(
@@ -83007,6 +83685,8 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream(clock,res
         .starts(packer$starts),
         .count(packer$count),
         .vertices_alone(packer$vertices_alone),
+        .has_short_ids(packer$has_short_ids),
+        .has_rests(packer$has_rests),
         .comes(packer$comes),
         .halves(packer$halves),
         .valid(packer$valid),
@@ -83045,7 +83725,10 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream(clock,res
         has_come$d = comes;
         halves$record = record;
         halves$vertices_alone = vertices_alone;
+        halves$has_short_ids = has_short_ids;
         packer$vertices_alone = vertices_alone;
+        packer$has_short_ids = has_short_ids;
+        packer$has_rests = has_rests;
         packer$comes = has_come$q;
         packer$halves = halves$halves;
         queue$reset = reset;
@@ -83073,12 +83756,13 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream(clock,res
 endmodule // incircle_stream_top_engines$slot2$core$responder$records$stream
 
 
-module incircle_stream_top_engines$slot2$core$responder$records$stream$halves(clock,record,vertices_alone,halves);
+module incircle_stream_top_engines$slot2$core$responder$records$stream$halves(clock,record,vertices_alone,has_short_ids,halves);
     
     // Module arguments
     input wire  clock;
     input wire  [90:0] record;
     input wire  vertices_alone;
+    input wire  has_short_ids;
     output reg  [95:0] halves;
     
     // Stub signals
@@ -83100,6 +83784,14 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$halves(cl
     reg  [15:0] lock;
     reg  [15:0] id_bits;
     reg  [15:0] one;
+    reg  [15:0] two;
+    reg  [15:0] four;
+    reg  [15:0] six;
+    reg  [15:0] ten;
+    reg  [15:0] low_ten;
+    reg  [15:0] low_four;
+    reg  [15:0] top_two;
+    reg  [15:0] next_two;
     
     // Sub module instances
     incircle_stream_top_engines$slot2$core$responder$records$stream$halves$kept kept(
@@ -83114,6 +83806,14 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$halves(cl
         kept$d = kept$q;
         id_bits = 32'hf;
         one = 32'h1;
+        two = 32'h2;
+        four = 32'h4;
+        six = 32'h6;
+        ten = 32'ha;
+        low_ten = 32'h3ff;
+        low_four = 32'hf;
+        next_two = 32'h3000;
+        top_two = 32'hc000;
         kept$d = record;
         lock = 32'h0;
         if (kept$q[(64'h5a)+:(1)]) begin
@@ -83139,6 +83839,11 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$halves(cl
             halves[(64'h0)+:(16)] = vertex0;
             halves[(64'h10)+:(16)] = vertex1;
             halves[(64'h20)+:(16)] = vertex2;
+            if (has_short_ids) begin
+                halves[(64'h0)+:(16)] = (vertex0 & low_ten) | (vertex1 << ten);
+                halves[(64'h10)+:(16)] = ((vertex1 >> six) & low_four) | ((vertex2 & low_ten) << four) | ((vertex0 << four) & top_two);
+                halves[(64'h20)+:(16)] = ((vertex1 << two) & next_two) | ((vertex2 << four) & top_two);
+            end
         end
     end
     
@@ -83194,7 +83899,7 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$head(bits
 endmodule // incircle_stream_top_engines$slot2$core$responder$records$stream$head
 
 
-module incircle_stream_top_engines$slot2$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,comes,halves,valid,beat);
+module incircle_stream_top_engines$slot2$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,has_short_ids,has_rests,comes,halves,valid,beat);
     
     // Module arguments
     input wire  clock;
@@ -83202,6 +83907,8 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$packer(cl
     input wire  starts;
     input wire  [14:0] count;
     input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  has_rests;
     input wire  comes;
     input wire  [95:0] halves;
     output reg  valid;
@@ -83239,8 +83946,24 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$packer(cl
     reg  all_came$d;
     wire  all_came$q;
     reg  all_came$clock;
+    reg  [15:0] rests$d;
+    wire  [15:0] rests$q;
+    reg  rests$clock;
+    reg  [1:0] in_group$d;
+    wire  [1:0] in_group$q;
+    reg  in_group$clock;
     
     // Local signals
+    reg  [15:0] earlier;
+    reg  [15:0] together;
+    reg  ends_group;
+    reg  is_short;
+    reg  brings_two;
+    reg  [15:0] third;
+    reg  fills_beat;
+    reg  [15:0] four;
+    reg  [1:0] three_places;
+    reg  [1:0] one_place;
     reg  takes;
     reg  [63:0] sent;
     reg  [63:0] sent_bits;
@@ -83288,6 +84011,16 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$packer(cl
         .q(all_came$q),
         .clock(all_came$clock)
     );
+    incircle_stream_top_engines$slot2$core$responder$records$stream$packer$rests rests(
+        .d(rests$d),
+        .q(rests$q),
+        .clock(rests$clock)
+    );
+    incircle_stream_top_engines$slot2$core$responder$records$stream$packer$in_group in_group(
+        .d(in_group$d),
+        .q(in_group$q),
+        .clock(in_group$clock)
+    );
     
     // Update code
     always @(*) begin
@@ -83304,13 +84037,35 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$packer(cl
         left$clock = clock;
         is_last$clock = clock;
         all_came$clock = clock;
+        rests$clock = clock;
+        in_group$clock = clock;
         left$d = left$q;
         is_last$d = is_last$q;
         all_came$d = all_came$q;
+        rests$d = rests$q;
+        in_group$d = in_group$q;
         one = 32'h1;
         two = 32'h2;
+        four = 32'h4;
+        three_places = 32'h3;
+        one_place = 32'h1;
         valid = is_there$q;
         beat = filled$q;
+        earlier = rests$q >> four;
+        if (~|in_group$q) begin
+            earlier = 32'h0;
+        end
+        together = halves[(64'h20)+:(16)] | earlier;
+        ends_group = is_last$q | (in_group$q == three_places);
+        is_short = vertices_alone & has_short_ids;
+        brings_two = is_short & (~(has_rests & ends_group));
+        third = halves[(64'h20)+:(16)];
+        if (is_short) begin
+            third = together;
+        end
+        if (brings_two) begin
+            third = 32'h0;
+        end
         sent = kept$q;
         kept$d[(64'h10)+:(16)] = 32'h0;
         kept$d[(64'h20)+:(16)] = 32'h0;
@@ -83334,25 +84089,41 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$packer(cl
                         is_there$d = 1'b0;
                         kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                         kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
-                        kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
+                        kept$d[(64'h20)+:(16)] = third;
                         many_are_kept$d = 1'b1;
                         number$d = KeptHalves$Three;
+                        if (brings_two) begin
+                            many_are_kept$d = 1'b0;
+                            number$d = KeptHalves$Two;
+                        end
                     end
                 end
             KeptHalves$One:
                 begin
                     sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
-                    sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
+                    sent[(64'h30)+:(16)] = third;
                     filled$d[(64'h41)+:(1)] = is_last$q;
                     number$d = KeptHalves$Zero;
+                    if (brings_two) begin
+                        is_there$d = 1'b0;
+                        kept$d[(64'h0)+:(16)] = kept$q[(64'h0)+:(16)];
+                        kept$d[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
+                        kept$d[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
+                        many_are_kept$d = 1'b1;
+                        number$d = KeptHalves$Three;
+                    end
                 end
             KeptHalves$Two:
                 begin
                     sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h0)+:(16)] = halves[(64'h20)+:(16)];
+                    kept$d[(64'h0)+:(16)] = third;
                     number$d = KeptHalves$One;
+                    if (brings_two) begin
+                        filled$d[(64'h41)+:(1)] = is_last$q;
+                        number$d = KeptHalves$Zero;
+                    end
                     if (~vertices_alone) begin
                         kept$d[(64'h10)+:(16)] = halves[(64'h30)+:(16)];
                         kept$d[(64'h20)+:(16)] = halves[(64'h40)+:(16)];
@@ -83365,8 +84136,11 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$packer(cl
                 begin
                     sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
                     kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
+                    kept$d[(64'h10)+:(16)] = third;
                     number$d = KeptHalves$Two;
+                    if (brings_two) begin
+                        number$d = KeptHalves$One;
+                    end
                 end
             default:
                 begin
@@ -83377,6 +84151,7 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$packer(cl
                     number$d = KeptHalves$Zero;
                 end
         endcase
+        fills_beat = ((number$q == KeptHalves$One) & (~brings_two)) | ((number$q == KeptHalves$Two) & brings_two);
         sent_bits = sent;
         filled$d[(64'h0)+:(32)] = sent_bits[(32'h0)+:(32)];
         filled$d[(64'h20)+:(32)] = sent_bits[(32'h20)+:(32)];
@@ -83384,7 +84159,9 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$packer(cl
             left$d = left$q - one;
             is_last$d = left$q == two;
             all_came$d = is_last$q;
-            if (is_last$q & (number$q != KeptHalves$One)) begin
+            rests$d = together;
+            in_group$d = in_group$q + one_place;
+            if (is_last$q & (~fills_beat)) begin
                 number$d = KeptHalves$Rest;
             end
         end
@@ -83393,6 +84170,7 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$packer(cl
             kept$d = kept$q;
         end
         if (starts) begin
+            in_group$d = 32'h0;
             left$d = count;
             is_last$d = count == one;
         end
@@ -83441,6 +84219,25 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$packer$fi
     end
           
 endmodule // incircle_stream_top_engines$slot2$core$responder$records$stream$packer$filled
+
+
+module incircle_stream_top_engines$slot2$core$responder$records$stream$packer$in_group(d,q,clock);
+    
+    // Module arguments
+    input wire  [1:0] d;
+    output reg  [1:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 2'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$core$responder$records$stream$packer$in_group
 
 
 module incircle_stream_top_engines$slot2$core$responder$records$stream$packer$is_last(d,q,clock);
@@ -83562,6 +84359,25 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$packer$nu
     end
           
 endmodule // incircle_stream_top_engines$slot2$core$responder$records$stream$packer$number
+
+
+module incircle_stream_top_engines$slot2$core$responder$records$stream$packer$rests(d,q,clock);
+    
+    // Module arguments
+    input wire  [15:0] d;
+    output reg  [15:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 16'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$core$responder$records$stream$packer$rests
 
 
 module incircle_stream_top_engines$slot2$core$responder$records$stream$queue(clock,reset,push,push_data,pop,valid,data);
@@ -84623,19 +85439,19 @@ module incircle_stream_top_engines$slot3$core(clock,reset,command$valid,command$
     wire  [10:0] command_port$clearing;
     wire  [16:0] command_port$deal;
     wire  command_port$answers;
-    wire  [71:0] command_port$request;
+    wire  [73:0] command_port$request;
     wire  [47:0] command_port$tally;
     reg  [2:0] command_port$answer;
     wire  [2:0] command_port$activity;
     reg  answer_head$clock;
-    reg  [71:0] answer_head$request;
+    reg  [73:0] answer_head$request;
     reg  [10:0] answer_head$clearing;
     reg  [7:0] answer_head$engine;
     reg  [14:0] answer_head$records;
     reg  answer_head$collinear;
     reg  answer_head$stuck;
     reg  answer_head$some_refused;
-    wire  [66:0] answer_head$head;
+    wire  [68:0] answer_head$head;
     reg  answer_words$clock;
     reg  [7:0] answer_words$opcode;
     reg  [14:0] answer_words$capacity;
@@ -84655,8 +85471,8 @@ module incircle_stream_top_engines$slot3$core(clock,reset,command$valid,command$
     reg  responder$reset;
     reg  responder$answers;
     reg  responder$sweeps;
-    reg  [71:0] responder$request;
-    reg  [66:0] responder$head;
+    reg  [73:0] responder$request;
+    reg  [68:0] responder$head;
     reg  [31:0] responder$word;
     wire  [6:0] responder$index;
     wire  [6:0] responder$index_ahead;
@@ -84899,14 +85715,14 @@ module incircle_stream_top_engines$slot3$core$answer_head(clock,request,clearing
     
     // Module arguments
     input wire  clock;
-    input wire  [71:0] request;
+    input wire  [73:0] request;
     input wire  [10:0] clearing;
     input wire  [7:0] engine;
     input wire  [14:0] records;
     input wire  collinear;
     input wire  stuck;
     input wire  some_refused;
-    output reg  [66:0] head;
+    output reg  [68:0] head;
     
     // Stub signals
     reg  [32:0] range_end$d;
@@ -84918,6 +85734,9 @@ module incircle_stream_top_engines$slot3$core$answer_head(clock,request,clearing
     reg  [31:0] triple$d;
     wire  [31:0] triple$q;
     reg  triple$clock;
+    reg  [18:0] eighths$d;
+    wire  [18:0] eighths$q;
+    reg  eighths$clock;
     reg  counts_none$d;
     wire  counts_none$q;
     reg  counts_none$clock;
@@ -84969,7 +85788,13 @@ module incircle_stream_top_engines$slot3$core$answer_head(clock,request,clearing
     reg  [7:0] read_code;
     reg  [7:0] packed_code;
     reg  packs;
-    reg  [31:0] rounded;
+    reg  [14:0] few;
+    reg  [18:0] own_words;
+    reg  [18:0] more;
+    reg  [18:0] rounded;
+    reg  [18:0] seven;
+    reg  [18:0] two_places;
+    reg  [18:0] three_places;
     
     // Sub module instances
     incircle_stream_top_engines$slot3$core$answer_head$range_end range_end(
@@ -84986,6 +85811,11 @@ module incircle_stream_top_engines$slot3$core$answer_head(clock,request,clearing
         .d(triple$d),
         .q(triple$q),
         .clock(triple$clock)
+    );
+    incircle_stream_top_engines$slot3$core$answer_head$eighths eighths(
+        .d(eighths$d),
+        .q(eighths$q),
+        .clock(eighths$clock)
     );
     incircle_stream_top_engines$slot3$core$answer_head$counts_none counts_none(
         .d(counts_none$d),
@@ -85043,11 +85873,13 @@ module incircle_stream_top_engines$slot3$core$answer_head(clock,request,clearing
         range_end$clock = clock;
         range_bound$clock = clock;
         triple$clock = clock;
+        eighths$clock = clock;
         counts_none$clock = clock;
         insert_status$clock = clock;
         range_end$d = range_end$q;
         range_bound$d = range_bound$q;
         triple$d = triple$q;
+        eighths$d = eighths$q;
         counts_none$d = counts_none$q;
         insert_status$d = insert_status$q;
         is_outside$clock = clock;
@@ -85073,12 +85905,25 @@ module incircle_stream_top_engines$slot3$core$answer_head(clock,request,clearing
         engine_shift = 32'h8;
         read_code = 32'h4;
         packed_code = 32'h7;
+        seven = 32'h7;
+        two_places = 32'h2;
+        three_places = 32'h3;
         wide_first = ((request[(64'h8)+:(32)]) & 33'h1ffffffff);
         wide_count = ((request[(64'h28)+:(32)]) & 33'h1ffffffff);
         range_end$d = wide_first + wide_count;
         range_bound$d = records;
         double_count = request[(64'h28)+:(32)] << one;
         triple$d = double_count + request[(64'h28)+:(32)];
+        few = ((request[(64'h28)+:(32)]) & 15'h7fff);
+        own_words = ((few) & 19'h7ffff) << three_places;
+        more = ((few) & 19'h7ffff) << two_places;
+        if (request[(64'h48)+:(1)]) begin
+            more = 32'h0;
+            if (request[(64'h49)+:(1)]) begin
+                more = ((few) & 19'h7ffff);
+            end
+        end
+        eighths$d = own_words + more;
         counts_none$d = request[(64'h28)+:(32)] == none;
         insert_status$d = 32'h0;
         if (some_refused) begin
@@ -85093,8 +85938,8 @@ module incircle_stream_top_engines$slot3$core$answer_head(clock,request,clearing
         wide_bound = ((range_bound$q) & 33'h1ffffffff);
         is_outside$d = range_end$q > wide_bound;
         read_length$d = triple$q;
-        rounded = triple$q + one;
-        packed_length$d = rounded >> one;
+        rounded = eighths$q + seven;
+        packed_length$d = ((rounded >> three_places) & 32'hffffffff);
         reads_none$d = counts_none$q;
         report_status$d = insert_status$q;
         answer_status$d = 32'h0;
@@ -85153,6 +85998,8 @@ module incircle_stream_top_engines$slot3$core$answer_head(clock,request,clearing
         endcase
         packs = request[(64'h0)+:(8)] == packed_code;
         head[(64'h42)+:(1)] = packs;
+        head[(64'h43)+:(1)] = request[(64'h48)+:(1)];
+        head[(64'h44)+:(1)] = request[(64'h49)+:(1)];
         head[(64'h41)+:(1)] = packs | (request[(64'h0)+:(8)] == read_code);
         head[(64'h20)+:(32)] = answer_length$q;
         head[(64'h40)+:(1)] = has_none$q;
@@ -85224,6 +86071,25 @@ module incircle_stream_top_engines$slot3$core$answer_head$counts_none(d,q,clock)
     end
           
 endmodule // incircle_stream_top_engines$slot3$core$answer_head$counts_none
+
+
+module incircle_stream_top_engines$slot3$core$answer_head$eighths(d,q,clock);
+    
+    // Module arguments
+    input wire  [18:0] d;
+    output reg  [18:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 19'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$core$answer_head$eighths
 
 
 module incircle_stream_top_engines$slot3$core$answer_head$has_none(d,q,clock);
@@ -85452,6 +86318,7 @@ module incircle_stream_top_engines$slot3$core$answer_words(clock,opcode,capacity
     reg  [31:0] wide_engines;
     reg  [31:0] shifted_engines;
     reg  [31:0] engines_shift;
+    reg  [31:0] features;
     
     // Sub module instances
     incircle_stream_top_engines$slot3$core$answer_words$identity identity(
@@ -85481,6 +86348,7 @@ module incircle_stream_top_engines$slot3$core$answer_words(clock,opcode,capacity
         word = chosen$q;
         place = index[(32'h0)+:(3)];
         engines_shift = 32'h8;
+        features = 32'h20000;
         wide_contexts = ((contexts) & 32'hffffffff);
         wide_engines = ((engines) & 32'hffffffff);
         shifted_engines = wide_engines << engines_shift;
@@ -85517,7 +86385,7 @@ module incircle_stream_top_engines$slot3$core$answer_words(clock,opcode,capacity
                 end
             default:
                 begin
-                    identity$d = ((ring_capacity) & 32'hffffffff);
+                    identity$d = ((ring_capacity) & 32'hffffffff) | features;
                     report$d = 32'h0;
                 end
         endcase
@@ -85619,7 +86487,7 @@ module incircle_stream_top_engines$slot3$core$command_port(clock,reset,capacity,
     output reg  [10:0] clearing;
     output reg  [16:0] deal;
     output reg  answers;
-    output reg  [71:0] request;
+    output reg  [73:0] request;
     output reg  [47:0] tally;
     input wire  [2:0] answer;
     output reg  [2:0] activity;
@@ -85636,8 +86504,8 @@ module incircle_stream_top_engines$slot3$core$command_port(clock,reset,capacity,
     reg  [2:0] state$d;
     wire  [2:0] state$q;
     reg  state$clock;
-    reg  [71:0] held$d;
-    wire  [71:0] held$q;
+    reg  [73:0] held$d;
+    wire  [73:0] held$q;
     reg  held$clock;
     reg  none_is_left$d;
     wire  none_is_left$q;
@@ -85783,6 +86651,8 @@ module incircle_stream_top_engines$slot3$core$command_port(clock,reset,capacity,
                 begin
                     if (gate$taken[(64'h0)+:(1)]) begin
                         held$d[(64'h0)+:(8)] = code;
+                        held$d[(64'h48)+:(1)] = command$data[32'h3];
+                        held$d[(64'h49)+:(1)] = command$data[32'h2];
                         state$d = CommandState$Answer;
                         if (code == insert_code) begin
                             state$d = CommandState$Count;
@@ -86356,13 +87226,13 @@ endmodule // incircle_stream_top_engines$slot3$core$command_port$gate
 module incircle_stream_top_engines$slot3$core$command_port$held(d,q,clock);
     
     // Module arguments
-    input wire  [71:0] d;
-    output reg  [71:0] q;
+    input wire  [73:0] d;
+    output reg  [73:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 72'h0;
+       q = 74'h0;
     end
     
     always @(posedge clock) begin
@@ -108676,8 +109546,8 @@ module incircle_stream_top_engines$slot3$core$responder(clock,reset,answers,swee
     input wire  reset;
     input wire  answers;
     input wire  sweeps;
-    input wire  [71:0] request;
-    input wire  [66:0] head;
+    input wire  [73:0] request;
+    input wire  [68:0] head;
     input wire  [31:0] word;
     output reg  [6:0] index;
     output reg  [6:0] index_ahead;
@@ -108732,6 +109602,8 @@ module incircle_stream_top_engines$slot3$core$responder(clock,reset,answers,swee
     reg  [14:0] records$first;
     reg  [14:0] records$count;
     reg  records$is_packed;
+    reg  records$has_short_ids;
+    reg  records$has_rests;
     reg  records$runs;
     wire  records$read;
     wire  [14:0] records$read_id;
@@ -108790,6 +109662,8 @@ module incircle_stream_top_engines$slot3$core$responder(clock,reset,answers,swee
         .first(records$first),
         .count(records$count),
         .is_packed(records$is_packed),
+        .has_short_ids(records$has_short_ids),
+        .has_rests(records$has_rests),
         .runs(records$runs),
         .read(records$read),
         .read_id(records$read_id),
@@ -108834,6 +109708,8 @@ module incircle_stream_top_engines$slot3$core$responder(clock,reset,answers,swee
         records$first = ((request[(64'h8)+:(32)]) & 15'h7fff);
         records$count = ((request[(64'h28)+:(32)]) & 15'h7fff);
         records$is_packed = head[(64'h42)+:(1)];
+        records$has_short_ids = head[(64'h43)+:(1)];
+        records$has_rests = head[(64'h44)+:(1)];
         records$runs = state$q == AnswerState$Records;
         read = records$read;
         read_id = records$read_id;
@@ -108934,7 +109810,7 @@ module incircle_stream_top_engines$slot3$core$responder$offered(d,q,clock);
 endmodule // incircle_stream_top_engines$slot3$core$responder$offered
 
 
-module incircle_stream_top_engines$slot3$core$responder$records(clock,reset,starts,first,count,is_packed,runs,read,read_id,read_done,record,valid,beat,takes);
+module incircle_stream_top_engines$slot3$core$responder$records(clock,reset,starts,first,count,is_packed,has_short_ids,has_rests,runs,read,read_id,read_done,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -108943,6 +109819,8 @@ module incircle_stream_top_engines$slot3$core$responder$records(clock,reset,star
     input wire  [14:0] first;
     input wire  [14:0] count;
     input wire  is_packed;
+    input wire  has_short_ids;
+    input wire  has_rests;
     input wire  runs;
     output reg  read;
     output reg  [14:0] read_id;
@@ -108956,6 +109834,12 @@ module incircle_stream_top_engines$slot3$core$responder$records(clock,reset,star
     reg  vertices_alone$d;
     wire  vertices_alone$q;
     reg  vertices_alone$clock;
+    reg  ids_are_short$d;
+    wire  ids_are_short$q;
+    reg  ids_are_short$clock;
+    reg  rests_follow$d;
+    wire  rests_follow$q;
+    reg  rests_follow$clock;
     reg  [14:0] record_id$d;
     wire  [14:0] record_id$q;
     reg  record_id$clock;
@@ -108976,6 +109860,8 @@ module incircle_stream_top_engines$slot3$core$responder$records(clock,reset,star
     reg  stream$starts;
     reg  [14:0] stream$count;
     reg  stream$vertices_alone;
+    reg  stream$has_short_ids;
+    reg  stream$has_rests;
     wire  stream$has_room;
     reg  stream$comes;
     reg  [90:0] stream$record;
@@ -108999,6 +109885,16 @@ module incircle_stream_top_engines$slot3$core$responder$records(clock,reset,star
         .d(vertices_alone$d),
         .q(vertices_alone$q),
         .clock(vertices_alone$clock)
+    );
+    incircle_stream_top_engines$slot3$core$responder$records$ids_are_short ids_are_short(
+        .d(ids_are_short$d),
+        .q(ids_are_short$q),
+        .clock(ids_are_short$clock)
+    );
+    incircle_stream_top_engines$slot3$core$responder$records$rests_follow rests_follow(
+        .d(rests_follow$d),
+        .q(rests_follow$q),
+        .clock(rests_follow$clock)
     );
     incircle_stream_top_engines$slot3$core$responder$records$record_id record_id(
         .d(record_id$d),
@@ -109031,6 +109927,8 @@ module incircle_stream_top_engines$slot3$core$responder$records(clock,reset,star
         .starts(stream$starts),
         .count(stream$count),
         .vertices_alone(stream$vertices_alone),
+        .has_short_ids(stream$has_short_ids),
+        .has_rests(stream$has_rests),
         .has_room(stream$has_room),
         .comes(stream$comes),
         .record(stream$record),
@@ -109052,6 +109950,11 @@ module incircle_stream_top_engines$slot3$core$responder$records(clock,reset,star
     // Update code
     always @(*) begin
         vertices_alone$clock = clock;
+        ids_are_short$clock = clock;
+        rests_follow$clock = clock;
+        vertices_alone$d = vertices_alone$q;
+        ids_are_short$d = ids_are_short$q;
+        rests_follow$d = rests_follow$q;
         record_id$clock = clock;
         left$clock = clock;
         some_are_left$clock = clock;
@@ -109059,7 +109962,6 @@ module incircle_stream_top_engines$slot3$core$responder$records(clock,reset,star
         pauses$clock = clock;
         is_there$clock = clock;
         head$clock = clock;
-        vertices_alone$d = vertices_alone$q;
         record_id$d = record_id$q;
         left$d = left$q;
         some_are_left$d = some_are_left$q;
@@ -109070,6 +109972,8 @@ module incircle_stream_top_engines$slot3$core$responder$records(clock,reset,star
         stream$clock = clock;
         one = 32'h1;
         vertices_alone$d = is_packed;
+        ids_are_short$d = has_short_ids;
+        rests_follow$d = has_rests;
         asks = runs & some_are_left$q & stream$has_room & (~pauses$q);
         read = asks;
         read_id = record_id$q;
@@ -109090,6 +109994,8 @@ module incircle_stream_top_engines$slot3$core$responder$records(clock,reset,star
         stream$starts = starts;
         stream$count = count;
         stream$vertices_alone = vertices_alone$q;
+        stream$has_short_ids = ids_are_short$q;
+        stream$has_rests = rests_follow$q;
         stream$comes = read_done;
         stream$record = record;
         valid = is_there$q;
@@ -109126,6 +110032,25 @@ module incircle_stream_top_engines$slot3$core$responder$records$head(d,q,clock);
     end
           
 endmodule // incircle_stream_top_engines$slot3$core$responder$records$head
+
+
+module incircle_stream_top_engines$slot3$core$responder$records$ids_are_short(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$core$responder$records$ids_are_short
 
 
 module incircle_stream_top_engines$slot3$core$responder$records$is_second(d,q,clock);
@@ -109223,6 +110148,25 @@ module incircle_stream_top_engines$slot3$core$responder$records$record_id(d,q,cl
 endmodule // incircle_stream_top_engines$slot3$core$responder$records$record_id
 
 
+module incircle_stream_top_engines$slot3$core$responder$records$rests_follow(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$core$responder$records$rests_follow
+
+
 module incircle_stream_top_engines$slot3$core$responder$records$some_are_left(d,q,clock);
     
     // Module arguments
@@ -109242,7 +110186,7 @@ module incircle_stream_top_engines$slot3$core$responder$records$some_are_left(d,
 endmodule // incircle_stream_top_engines$slot3$core$responder$records$some_are_left
 
 
-module incircle_stream_top_engines$slot3$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_room,comes,record,valid,beat,takes);
+module incircle_stream_top_engines$slot3$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_short_ids,has_rests,has_room,comes,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -109250,6 +110194,8 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream(clock,res
     input wire  starts;
     input wire  [14:0] count;
     input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  has_rests;
     output reg  has_room;
     input wire  comes;
     input wire  [90:0] record;
@@ -109270,12 +110216,15 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream(clock,res
     reg  halves$clock;
     reg  [90:0] halves$record;
     reg  halves$vertices_alone;
+    reg  halves$has_short_ids;
     wire  [95:0] halves$halves;
     reg  packer$clock;
     reg  packer$reset;
     reg  packer$starts;
     reg  [14:0] packer$count;
     reg  packer$vertices_alone;
+    reg  packer$has_short_ids;
+    reg  packer$has_rests;
     reg  packer$comes;
     reg  [95:0] packer$halves;
     wire  packer$valid;
@@ -109315,6 +110264,7 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream(clock,res
         .clock(halves$clock),
         .record(halves$record),
         .vertices_alone(halves$vertices_alone),
+        .has_short_ids(halves$has_short_ids),
         .halves(halves$halves)
     );
     incircle_stream_top_engines$slot3$core$responder$records$stream$packer packer(
@@ -109323,6 +110273,8 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream(clock,res
         .starts(packer$starts),
         .count(packer$count),
         .vertices_alone(packer$vertices_alone),
+        .has_short_ids(packer$has_short_ids),
+        .has_rests(packer$has_rests),
         .comes(packer$comes),
         .halves(packer$halves),
         .valid(packer$valid),
@@ -109361,7 +110313,10 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream(clock,res
         has_come$d = comes;
         halves$record = record;
         halves$vertices_alone = vertices_alone;
+        halves$has_short_ids = has_short_ids;
         packer$vertices_alone = vertices_alone;
+        packer$has_short_ids = has_short_ids;
+        packer$has_rests = has_rests;
         packer$comes = has_come$q;
         packer$halves = halves$halves;
         queue$reset = reset;
@@ -109389,12 +110344,13 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream(clock,res
 endmodule // incircle_stream_top_engines$slot3$core$responder$records$stream
 
 
-module incircle_stream_top_engines$slot3$core$responder$records$stream$halves(clock,record,vertices_alone,halves);
+module incircle_stream_top_engines$slot3$core$responder$records$stream$halves(clock,record,vertices_alone,has_short_ids,halves);
     
     // Module arguments
     input wire  clock;
     input wire  [90:0] record;
     input wire  vertices_alone;
+    input wire  has_short_ids;
     output reg  [95:0] halves;
     
     // Stub signals
@@ -109416,6 +110372,14 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$halves(cl
     reg  [15:0] lock;
     reg  [15:0] id_bits;
     reg  [15:0] one;
+    reg  [15:0] two;
+    reg  [15:0] four;
+    reg  [15:0] six;
+    reg  [15:0] ten;
+    reg  [15:0] low_ten;
+    reg  [15:0] low_four;
+    reg  [15:0] top_two;
+    reg  [15:0] next_two;
     
     // Sub module instances
     incircle_stream_top_engines$slot3$core$responder$records$stream$halves$kept kept(
@@ -109430,6 +110394,14 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$halves(cl
         kept$d = kept$q;
         id_bits = 32'hf;
         one = 32'h1;
+        two = 32'h2;
+        four = 32'h4;
+        six = 32'h6;
+        ten = 32'ha;
+        low_ten = 32'h3ff;
+        low_four = 32'hf;
+        next_two = 32'h3000;
+        top_two = 32'hc000;
         kept$d = record;
         lock = 32'h0;
         if (kept$q[(64'h5a)+:(1)]) begin
@@ -109455,6 +110427,11 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$halves(cl
             halves[(64'h0)+:(16)] = vertex0;
             halves[(64'h10)+:(16)] = vertex1;
             halves[(64'h20)+:(16)] = vertex2;
+            if (has_short_ids) begin
+                halves[(64'h0)+:(16)] = (vertex0 & low_ten) | (vertex1 << ten);
+                halves[(64'h10)+:(16)] = ((vertex1 >> six) & low_four) | ((vertex2 & low_ten) << four) | ((vertex0 << four) & top_two);
+                halves[(64'h20)+:(16)] = ((vertex1 << two) & next_two) | ((vertex2 << four) & top_two);
+            end
         end
     end
     
@@ -109510,7 +110487,7 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$head(bits
 endmodule // incircle_stream_top_engines$slot3$core$responder$records$stream$head
 
 
-module incircle_stream_top_engines$slot3$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,comes,halves,valid,beat);
+module incircle_stream_top_engines$slot3$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,has_short_ids,has_rests,comes,halves,valid,beat);
     
     // Module arguments
     input wire  clock;
@@ -109518,6 +110495,8 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$packer(cl
     input wire  starts;
     input wire  [14:0] count;
     input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  has_rests;
     input wire  comes;
     input wire  [95:0] halves;
     output reg  valid;
@@ -109555,8 +110534,24 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$packer(cl
     reg  all_came$d;
     wire  all_came$q;
     reg  all_came$clock;
+    reg  [15:0] rests$d;
+    wire  [15:0] rests$q;
+    reg  rests$clock;
+    reg  [1:0] in_group$d;
+    wire  [1:0] in_group$q;
+    reg  in_group$clock;
     
     // Local signals
+    reg  [15:0] earlier;
+    reg  [15:0] together;
+    reg  ends_group;
+    reg  is_short;
+    reg  brings_two;
+    reg  [15:0] third;
+    reg  fills_beat;
+    reg  [15:0] four;
+    reg  [1:0] three_places;
+    reg  [1:0] one_place;
     reg  takes;
     reg  [63:0] sent;
     reg  [63:0] sent_bits;
@@ -109604,6 +110599,16 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$packer(cl
         .q(all_came$q),
         .clock(all_came$clock)
     );
+    incircle_stream_top_engines$slot3$core$responder$records$stream$packer$rests rests(
+        .d(rests$d),
+        .q(rests$q),
+        .clock(rests$clock)
+    );
+    incircle_stream_top_engines$slot3$core$responder$records$stream$packer$in_group in_group(
+        .d(in_group$d),
+        .q(in_group$q),
+        .clock(in_group$clock)
+    );
     
     // Update code
     always @(*) begin
@@ -109620,13 +110625,35 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$packer(cl
         left$clock = clock;
         is_last$clock = clock;
         all_came$clock = clock;
+        rests$clock = clock;
+        in_group$clock = clock;
         left$d = left$q;
         is_last$d = is_last$q;
         all_came$d = all_came$q;
+        rests$d = rests$q;
+        in_group$d = in_group$q;
         one = 32'h1;
         two = 32'h2;
+        four = 32'h4;
+        three_places = 32'h3;
+        one_place = 32'h1;
         valid = is_there$q;
         beat = filled$q;
+        earlier = rests$q >> four;
+        if (~|in_group$q) begin
+            earlier = 32'h0;
+        end
+        together = halves[(64'h20)+:(16)] | earlier;
+        ends_group = is_last$q | (in_group$q == three_places);
+        is_short = vertices_alone & has_short_ids;
+        brings_two = is_short & (~(has_rests & ends_group));
+        third = halves[(64'h20)+:(16)];
+        if (is_short) begin
+            third = together;
+        end
+        if (brings_two) begin
+            third = 32'h0;
+        end
         sent = kept$q;
         kept$d[(64'h10)+:(16)] = 32'h0;
         kept$d[(64'h20)+:(16)] = 32'h0;
@@ -109650,25 +110677,41 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$packer(cl
                         is_there$d = 1'b0;
                         kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                         kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
-                        kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
+                        kept$d[(64'h20)+:(16)] = third;
                         many_are_kept$d = 1'b1;
                         number$d = KeptHalves$Three;
+                        if (brings_two) begin
+                            many_are_kept$d = 1'b0;
+                            number$d = KeptHalves$Two;
+                        end
                     end
                 end
             KeptHalves$One:
                 begin
                     sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
-                    sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
+                    sent[(64'h30)+:(16)] = third;
                     filled$d[(64'h41)+:(1)] = is_last$q;
                     number$d = KeptHalves$Zero;
+                    if (brings_two) begin
+                        is_there$d = 1'b0;
+                        kept$d[(64'h0)+:(16)] = kept$q[(64'h0)+:(16)];
+                        kept$d[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
+                        kept$d[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
+                        many_are_kept$d = 1'b1;
+                        number$d = KeptHalves$Three;
+                    end
                 end
             KeptHalves$Two:
                 begin
                     sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h0)+:(16)] = halves[(64'h20)+:(16)];
+                    kept$d[(64'h0)+:(16)] = third;
                     number$d = KeptHalves$One;
+                    if (brings_two) begin
+                        filled$d[(64'h41)+:(1)] = is_last$q;
+                        number$d = KeptHalves$Zero;
+                    end
                     if (~vertices_alone) begin
                         kept$d[(64'h10)+:(16)] = halves[(64'h30)+:(16)];
                         kept$d[(64'h20)+:(16)] = halves[(64'h40)+:(16)];
@@ -109681,8 +110724,11 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$packer(cl
                 begin
                     sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
                     kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
+                    kept$d[(64'h10)+:(16)] = third;
                     number$d = KeptHalves$Two;
+                    if (brings_two) begin
+                        number$d = KeptHalves$One;
+                    end
                 end
             default:
                 begin
@@ -109693,6 +110739,7 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$packer(cl
                     number$d = KeptHalves$Zero;
                 end
         endcase
+        fills_beat = ((number$q == KeptHalves$One) & (~brings_two)) | ((number$q == KeptHalves$Two) & brings_two);
         sent_bits = sent;
         filled$d[(64'h0)+:(32)] = sent_bits[(32'h0)+:(32)];
         filled$d[(64'h20)+:(32)] = sent_bits[(32'h20)+:(32)];
@@ -109700,7 +110747,9 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$packer(cl
             left$d = left$q - one;
             is_last$d = left$q == two;
             all_came$d = is_last$q;
-            if (is_last$q & (number$q != KeptHalves$One)) begin
+            rests$d = together;
+            in_group$d = in_group$q + one_place;
+            if (is_last$q & (~fills_beat)) begin
                 number$d = KeptHalves$Rest;
             end
         end
@@ -109709,6 +110758,7 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$packer(cl
             kept$d = kept$q;
         end
         if (starts) begin
+            in_group$d = 32'h0;
             left$d = count;
             is_last$d = count == one;
         end
@@ -109757,6 +110807,25 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$packer$fi
     end
           
 endmodule // incircle_stream_top_engines$slot3$core$responder$records$stream$packer$filled
+
+
+module incircle_stream_top_engines$slot3$core$responder$records$stream$packer$in_group(d,q,clock);
+    
+    // Module arguments
+    input wire  [1:0] d;
+    output reg  [1:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 2'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$core$responder$records$stream$packer$in_group
 
 
 module incircle_stream_top_engines$slot3$core$responder$records$stream$packer$is_last(d,q,clock);
@@ -109878,6 +110947,25 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$packer$nu
     end
           
 endmodule // incircle_stream_top_engines$slot3$core$responder$records$stream$packer$number
+
+
+module incircle_stream_top_engines$slot3$core$responder$records$stream$packer$rests(d,q,clock);
+    
+    // Module arguments
+    input wire  [15:0] d;
+    output reg  [15:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 16'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$core$responder$records$stream$packer$rests
 
 
 module incircle_stream_top_engines$slot3$core$responder$records$stream$queue(clock,reset,push,push_data,pop,valid,data);

@@ -1,8 +1,8 @@
 //! Computes the first two words of an answer, status and length, in three ranks of registers.
 //!
 //! 1. A read-out is in range if its last record exists. The first rank adds up the end of the range and the words of
-//!    its records, the second compares the end, and the third chooses. A `Read` has as many words as the first rank
-//!    says; a `Triangles` has half as many, rounded up.
+//!    its records, the second compares the end, and the third chooses. A `Read` has three words for a record. A
+//!    `Triangles` has 12 eighths of a word, with short ids 8 or 9, and the sum is rounded up.
 //! 2. `request.opcode` and `clearing` do not change between the command and the end of its answer, so they enter
 //!    at the last rank.
 //! 3. The low half of the header names the engine and the job. Neither changes while an answer is put together, so they
@@ -35,6 +35,8 @@ pub struct AnswerHead {
     range_end: DFF<Bits<33>>,
     range_bound: DFF<RecordCount>,
     triple: DFF<Word>,
+    /// Eighths of a word that the vertices of the records take.
+    eighths: DFF<Bits<19>>,
     counts_none: DFF<Bit>,
     insert_status: DFF<Bits<3>>,
     /// Registers of the second rank.
@@ -66,7 +68,13 @@ pub struct AnswerHead {
     read_code: Signal<Local, Bits<8>>,
     packed_code: Signal<Local, Bits<8>>,
     packs: Signal<Local, Bit>,
-    rounded: Signal<Local, Word>,
+    few: Signal<Local, RecordCount>,
+    own_words: Signal<Local, Bits<19>>,
+    more: Signal<Local, Bits<19>>,
+    rounded: Signal<Local, Bits<19>>,
+    seven: Signal<Local, Bits<19>>,
+    two_places: Signal<Local, Bits<19>>,
+    three_places: Signal<Local, Bits<19>>,
 }
 
 // The kernel holds the numbers as literals, because rust-hdl allows no constants there. A changed protocol fails here.
@@ -94,7 +102,7 @@ const _: () = assert!(
 impl Logic for AnswerHead {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, range_end, range_bound, triple, counts_none, insert_status);
+        dff_setup!(self, clock, range_end, range_bound, triple, eighths, counts_none, insert_status);
         dff_setup!(self, clock, is_outside, read_length, packed_length, reads_none, report_status);
         dff_setup!(self, clock, answer_status, answer_length, has_none);
         self.none.next = 0.into();
@@ -104,6 +112,9 @@ impl Logic for AnswerHead {
         self.engine_shift.next = 8.into();
         self.read_code.next = 4.into();
         self.packed_code.next = 7.into();
+        self.seven.next = 7.into();
+        self.two_places.next = 2.into();
+        self.three_places.next = 3.into();
 
         // The first rank has the additions alone, because a sum and its comparison in one clock would be too slow.
         self.wide_first.next = bit_cast::<33, 32>(self.request.val().first);
@@ -112,6 +123,17 @@ impl Logic for AnswerHead {
         self.range_bound.d.next = self.records.val();
         self.double_count.next = self.request.val().count << self.one.val();
         self.triple.d.next = self.double_count.val() + self.request.val().count;
+        // Only a range of as many records as there can be gets an answer with a length.
+        self.few.next = bit_cast::<15, 32>(self.request.val().count);
+        self.own_words.next = bit_cast::<19, 15>(self.few.val()) << self.three_places.val();
+        self.more.next = bit_cast::<19, 15>(self.few.val()) << self.two_places.val();
+        if self.request.val().has_short_ids {
+            self.more.next = 0.into();
+            if self.request.val().has_rests {
+                self.more.next = bit_cast::<19, 15>(self.few.val());
+            }
+        }
+        self.eighths.d.next = self.own_words.val() + self.more.val();
         self.counts_none.d.next = self.request.val().count == self.none.val();
         self.insert_status.d.next = 0.into();
         if self.some_refused.val() {
@@ -124,13 +146,12 @@ impl Logic for AnswerHead {
             self.insert_status.d.next = 6.into();
         }
 
-        // The second rank has the comparison. `Triangles` packs two ids into a word, so its length is halved
-        // and rounded up here.
+        // The second rank has the comparison, and rounds the length of a `Triangles` up.
         self.wide_bound.next = bit_cast::<33, 15>(self.range_bound.q.val());
         self.is_outside.d.next = self.range_end.q.val() > self.wide_bound.val();
         self.read_length.d.next = self.triple.q.val();
-        self.rounded.next = self.triple.q.val() + self.one.val();
-        self.packed_length.d.next = self.rounded.val() >> self.one.val();
+        self.rounded.next = self.eighths.q.val() + self.seven.val();
+        self.packed_length.d.next = bit_cast::<32, 19>(self.rounded.val() >> self.three_places.val());
         self.reads_none.d.next = self.counts_none.q.val();
         self.report_status.d.next = self.insert_status.q.val();
 
@@ -183,6 +204,8 @@ impl Logic for AnswerHead {
         }
         self.packs.next = self.request.val().opcode == self.packed_code.val();
         self.head.next.is_packed = self.packs.val();
+        self.head.next.has_short_ids = self.request.val().has_short_ids;
+        self.head.next.has_rests = self.request.val().has_rests;
         self.head.next.is_read = self.packs.val() | (self.request.val().opcode == self.read_code.val());
         self.head.next.length = self.answer_length.q.val();
         self.head.next.is_empty = self.has_none.q.val();

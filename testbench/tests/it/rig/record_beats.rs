@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use crate::rig::stepper::{NamedPorts, Stepper};
-use incircle_protocol::{Layout, CORE_COORD_BITS, MAX_POINTS};
+use incircle_protocol::{Layout, ShortIds, CORE_COORD_BITS, MAX_POINTS};
 use incircle_testkit::SplitMix64;
 
 /// Layout of the words of the largest core.
@@ -64,12 +64,44 @@ impl Columns {
     }
 }
 
-/// The payload of these records, or of their vertices alone, by the protocol's layout.
-pub fn payload_of(records: &[Columns], vertices_alone: bool) -> Vec<u32> {
-    if !vertices_alone {
-        return records.iter().flat_map(Columns::words).collect();
+/// The form of a payload of records.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    Whole,
+    Vertices,
+    Short(ShortIds),
+}
+
+impl Form {
+    pub const ALL: [Self; 4] = [Self::Whole, Self::Vertices, Self::Short(ShortIds::Ten), Self::Short(ShortIds::Twelve)];
+
+    pub fn random(random: &mut SplitMix64) -> Self {
+        Self::ALL[random.below(4) as usize]
     }
-    let length = LAYOUT.triangles_words(records.len() as u32).expect("few records");
+
+    pub fn has_vertices_alone(self) -> bool {
+        self != Self::Whole
+    }
+
+    /// Sets the ports that choose the form; the first one is named differently from block to block. Of whole records the
+    /// form of ids must not matter.
+    pub fn set<U: NamedPorts>(self, block: &mut Stepper<U>, vertices_alone: &str) {
+        block.set(vertices_alone, self.has_vertices_alone());
+        block.set("has_short_ids", matches!(self, Self::Short(_)));
+        block.set("has_rests", self == Self::Short(ShortIds::Twelve));
+        if self == Self::Whole {
+            block.set("has_short_ids", true);
+        }
+    }
+}
+
+/// The payload of these records in this form, by the protocol's layout.
+pub fn payload_of(records: &[Columns], form: Form) -> Vec<u32> {
+    let length = match form {
+        Form::Whole => return records.iter().flat_map(Columns::words).collect(),
+        Form::Short(ids) => return short_payload_of(records, ids),
+        Form::Vertices => LAYOUT.triangles_words(records.len() as u32).expect("few records"),
+    };
     let mut words = vec![0; length as usize];
     for (place, record) in records.iter().enumerate() {
         LAYOUT.vertices_to_words(record.v, &mut words, place);
@@ -77,9 +109,24 @@ pub fn payload_of(records: &[Columns], vertices_alone: bool) -> Vec<u32> {
     words
 }
 
+/// The payload with short ids, bit by bit as `protocol/README.md` says it.
+fn short_payload_of(records: &[Columns], ids: ShortIds) -> Vec<u32> {
+    let mut halves = Vec::new();
+    for group in records.chunks(4) {
+        let mut rests = 0;
+        for Columns { v: [a, b, c], .. } in group {
+            let low = a & 0x3ff | (b & 0x3ff) << 10 | (c & 0x3ff) << 20 | (a >> 10 & 3) << 30;
+            halves.extend([low & 0xffff, low >> 16]);
+            rests = rests >> 4 | (b >> 10 & 3) << 12 | (c >> 10 & 3) << 14;
+        }
+        halves.extend((ids == ShortIds::Twelve).then_some(rests));
+    }
+    halves.chunks(2).map(|pair| pair[0] | pair.get(1).map_or(0, |high| high << 16)).collect()
+}
+
 /// The beats of that payload.
-pub fn beats_of(records: &[Columns], vertices_alone: bool) -> VecDeque<Beat> {
-    let words = payload_of(records, vertices_alone);
+pub fn beats_of(records: &[Columns], form: Form) -> VecDeque<Beat> {
+    let words = payload_of(records, form);
     let count = words.len().div_ceil(2);
     let beat = |(place, words): (usize, &[u32])| Beat {
         low: words[0],
@@ -91,6 +138,6 @@ pub fn beats_of(records: &[Columns], vertices_alone: bool) -> VecDeque<Beat> {
 }
 
 /// Whether the record at this place may have a successor in the next clock.
-pub fn leaves_no_rest(place: usize, vertices_alone: bool) -> bool {
-    vertices_alone || place.is_multiple_of(2)
+pub fn leaves_no_rest(place: usize, form: Form) -> bool {
+    form.has_vertices_alone() || place.is_multiple_of(2)
 }

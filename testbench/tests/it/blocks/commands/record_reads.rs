@@ -3,14 +3,14 @@
 
 use std::collections::VecDeque;
 
-use crate::rig::record_beats::{beats_of, Beat, Columns};
+use crate::rig::record_beats::{beats_of, Beat, Columns, Form};
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::commands::{RecordReads, RecordStream};
 use incircle_testkit::SplitMix64;
 
 named_ports!(
     RecordReads,
-    [reset, starts, first, count, is_packed, runs, read_done, record, takes],
+    [reset, starts, first, count, is_packed, has_short_ids, has_rests, runs, read_done, record, takes],
     [read, read_id, valid, beat],
     clock
 );
@@ -21,15 +21,15 @@ fn reads_give_the_words_of_records_or_their_vertices() {
         let mut random = SplitMix64::new(seed);
         let mut block = Stepper::new("record_reads", RecordReads::default(), 1);
         for run in 0..80 {
-            let is_packed = random.below(2) == 0;
+            let form = Form::random(&mut random);
             let count = 1 + random.below(60) as u32;
             let first = random.below(u64::from((1u32 << 15) - count)) as u32;
             let records: Vec<Columns> = (first..first + count).map(Columns::of).collect();
-            let mut expected = beats_of(&records, is_packed);
+            let mut expected = beats_of(&records, form);
             for reset in [run == 0 || random.below(9) == 0, false] {
                 block.set("reset", reset);
                 block.set("starts", !reset);
-                block.set("is_packed", is_packed);
+                form.set(&mut block, "is_packed");
                 block.set("first", first);
                 block.set("count", count);
                 block.set("runs", false);
