@@ -2,8 +2,8 @@
 //!
 //! A device has them if its [`Identity`](crate::Identity) has the feature [`FEATURE_SHORT_IDS`]. The host chooses the
 //! form in the command word. Ids keep their low bits, so the infinite vertex is all ones, or all ones of its own width
-//! where that is smaller. A record takes a word, and of 12 bits four more, its *rest*; the rests of four records share
-//! half a word behind them.
+//! where that is smaller. A record takes a word, and of 12 bits four more, its *rest*; the rests of eight records share
+//! a word behind them.
 
 /// The bit of [`Identity::features`](crate::Identity::features) of a device that sends short ids.
 pub const FEATURE_SHORT_IDS: u32 = 2;
@@ -13,10 +13,12 @@ pub const TRIANGLES_SHORT: u32 = 8;
 /// The bit beside [`TRIANGLES_SHORT`] that asks for 12 bits rather than 10.
 pub const TRIANGLES_TWELVE: u32 = 4;
 
-/// Records whose rests share half a word.
-const GROUP: usize = 4;
+/// Records whose rests share a word.
+const GROUP: usize = 8;
 /// Bits of each id that are in the word of its record.
 const LOW_BITS: u32 = 10;
+/// Bits of a rest.
+const REST_BITS: usize = 4;
 
 /// How many bits an id takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,7 +32,7 @@ pub enum ShortIds {
 impl ShortIds {
     /// Number of records whose payload ends with a whole word. Ranges of so many records, or of a multiple, may be asked
     /// for one by one, and their payloads put together.
-    pub const WHOLE: u32 = 8;
+    pub const WHOLE: u32 = GROUP as u32;
     /// Most points of a mesh whose ids can be short.
     pub const MOST_IDS: u32 = 0xfff;
 
@@ -70,22 +72,21 @@ impl ShortIds {
     pub const fn words(self, records: u32) -> u64 {
         match self {
             Self::Ten => records as u64,
-            Self::Twelve => (9 * records as u64).div_ceil(8),
+            Self::Twelve => records as u64 + (records as u64).div_ceil(GROUP as u64),
         }
     }
 
     /// The vertices of a record in a payload of `records` records.
     #[inline]
     pub fn vertices_from_words(self, words: &[u32], records: usize, record: usize) -> [u32; 3] {
-        let half = |place: usize| words[place / 2] >> (16 * (place % 2)) & 0xffff;
         let (own, rest) = self.places(records, record);
-        let low = half(own) | half(own + 1) << 16;
+        let low = words[own];
         let mask = (1 << LOW_BITS) - 1;
         let [v0, v1, v2] = [low & mask, low >> LOW_BITS & mask, low >> (2 * LOW_BITS) & mask];
         match rest {
             None => [v0, v1, v2],
             Some((place, shift)) => {
-                let rest = half(place) >> shift;
+                let rest = words[place] >> shift;
                 [v0 | low >> 30 << LOW_BITS, v1 | (rest & 3) << LOW_BITS, v2 | (rest >> 2 & 3) << LOW_BITS]
             }
         }
@@ -94,14 +95,11 @@ impl ShortIds {
     /// Puts the vertices of a record into a payload of `records` records. The words must have been zero there.
     #[inline]
     pub fn vertices_to_words(self, [v0, v1, v2]: [u32; 3], words: &mut [u32], records: usize, record: usize) {
-        let mut put = |place: usize, half: u32| words[place / 2] |= (half & 0xffff) << (16 * (place % 2));
         let mask = (1 << LOW_BITS) - 1;
-        let low = v0 & mask | (v1 & mask) << LOW_BITS | (v2 & mask) << (2 * LOW_BITS) | v0 >> LOW_BITS << 30;
         let (own, rest) = self.places(records, record);
-        put(own, low);
-        put(own + 1, low >> 16);
+        words[own] = v0 & mask | (v1 & mask) << LOW_BITS | (v2 & mask) << (2 * LOW_BITS) | v0 >> LOW_BITS << 30;
         if let Some((place, shift)) = rest {
-            put(place, (v1 >> LOW_BITS & 3 | (v2 >> LOW_BITS & 3) << 2) << shift);
+            words[place] |= (v1 >> LOW_BITS & 3 | (v2 >> LOW_BITS & 3) << 2) << shift;
         }
     }
 
@@ -109,29 +107,21 @@ impl ShortIds {
     pub const fn spare_bits(self, records: usize) -> u32 {
         match self {
             Self::Ten => 0,
-            Self::Twelve => {
-                // Rests fill their half from the top. It is the low half of the last word after one to four records of
-                // eight, and the high half after more.
-                let empty = (1 << (4 * ((GROUP - records % GROUP) % GROUP))) - 1;
-                match records % (2 * GROUP) {
-                    0 => 0,
-                    1..=GROUP => 0xffff_0000 | empty,
-                    _ => empty << 16,
-                }
-            }
+            // Rests fill their word from the top.
+            Self::Twelve => (1 << (REST_BITS * ((GROUP - records % GROUP) % GROUP))) - 1,
         }
     }
 
-    /// The first of the two halves of a record, and the half and the lowest bit of its rest.
+    /// The word of a record, and the word and the lowest bit of its rest.
     fn places(self, records: usize, record: usize) -> (usize, Option<(usize, usize)>) {
         match self {
-            Self::Ten => (2 * record, None),
+            Self::Ten => (record, None),
             Self::Twelve => {
                 let (group, place) = (record / GROUP, record % GROUP);
                 let count = GROUP.min(records - group * GROUP);
-                let first = group * (2 * GROUP + 1);
+                let first = group * (GROUP + 1);
                 // The rest of the last record of a group is at the top.
-                (first + 2 * place, Some((first + 2 * count, 4 * (GROUP - count + place))))
+                (first + place, Some((first + count, REST_BITS * (GROUP - count + place))))
             }
         }
     }

@@ -42,9 +42,8 @@ pub struct RecordReads {
     pub beat: Signal<Out, AnswerBeat>,
     /// The beat is taken at this edge; allowed only while `valid` is high.
     pub takes: Signal<In, Bit>,
-    /// `is_packed` in a register, because it chooses every bit of a beat.
+    /// The form of the payload in registers, because it chooses every bit of a beat.
     vertices_alone: DFF<Bit>,
-    /// `has_short_ids` and `has_rests` in registers, for the same reason.
     ids_are_short: DFF<Bit>,
     rests_follow: DFF<Bit>,
     record_id: DFF<TriangleId>,
@@ -71,8 +70,8 @@ impl Logic for RecordReads {
         clock!(self, clock, stream);
         self.one.next = 1.into();
         self.vertices_alone.d.next = self.is_packed.val();
-        self.ids_are_short.d.next = self.has_short_ids.val();
-        self.rests_follow.d.next = self.has_rests.val();
+        self.ids_are_short.d.next = self.is_packed.val() & self.has_short_ids.val();
+        self.rests_follow.d.next = self.is_packed.val() & self.has_short_ids.val() & self.has_rests.val();
 
         self.asks.next =
             self.runs.val() & self.some_are_left.q.val() & self.stream.has_room.val() & (!self.pauses.q.val());

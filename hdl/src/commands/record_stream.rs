@@ -26,7 +26,7 @@ pub struct RecordStream {
     pub count: Signal<In, RecordCount>,
     /// The payload has the vertices of the records alone; stable from `starts` to the last beat.
     pub vertices_alone: Signal<In, Bit>,
-    /// Ids are short in such a payload, of 10 bits; with `has_rests`, of 12. Both are stable as well.
+    /// The payload has vertices alone, with short ids of 10 bits; with `has_rests`, of 12. Both are as stable.
     pub has_short_ids: Signal<In, Bit>,
     pub has_rests: Signal<In, Bit>,
     /// A record may be asked for.
@@ -85,6 +85,7 @@ impl Logic for RecordStream {
         self.packer.has_rests.next = self.has_rests.val();
         self.packer.comes.next = self.has_come.q.val();
         self.packer.halves.next = self.halves.halves.val();
+        self.packer.rest.next = self.halves.rest.val();
 
         self.queue.reset.next = self.reset.val();
         self.queue.push.next = self.packer.valid.val();

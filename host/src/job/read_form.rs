@@ -100,7 +100,7 @@ mod tests {
         assert_eq!(form.check_spare(layout, &(7..10), &words), Ok(()));
         assert_eq!(form.vertices(layout, 4096, &words, 3, 2), [8191; 3], "the infinite vertex of the device");
         let last = words.len() - 1;
-        for bit in [0, 3, 16, 31] {
+        for bit in [0, 3, 16, 19] {
             let mut wrong = words.clone();
             wrong[last] |= 1 << bit;
             let fault = DeviceFault::SpareHalf { record: 9, word: wrong[last] };

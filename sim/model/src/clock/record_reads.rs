@@ -12,8 +12,8 @@ const ROOM: usize = 4;
 const QUEUE: usize = 16;
 /// Number of halves of a word, 16 bits each, in a full beat.
 const FULL: usize = 4;
-/// Number of records whose rests share a half, with short ids of 12 bits.
-const GROUP: u32 = 4;
+/// Number of records whose rests share a word, with short ids of 12 bits.
+const GROUP: u32 = 8;
 /// Most halves that a record brings.
 const MOST_BROUGHT: usize = 6;
 
@@ -158,18 +158,18 @@ impl Packer {
             Form::Short(ids) => ids,
         };
         let low = v0 & 0x3ff | (v1 & 0x3ff) << 10 | (v2 & 0x3ff) << 20 | (v0 >> 10 & 3) << 30;
-        let mut halves = [low & 0xffff, low >> 16, 0, 0, 0, 0];
+        let own = [low & 0xffff, low >> 16, 0, 0, 0, 0];
         if ids == ShortIds::Ten {
-            return (halves, 2);
+            return (own, 2);
         }
-        self.rests = self.rests >> 4 | (v1 >> 10 & 3 | (v2 >> 10 & 3) << 2) << 12;
+        self.rests = self.rests >> 4 | (v1 >> 10 & 3 | (v2 >> 10 & 3) << 2) << 28;
         self.in_group += 1;
         if self.in_group < GROUP && self.left > 0 {
-            return (halves, 2);
+            return (own, 2);
         }
-        halves[2] = self.rests;
-        (self.rests, self.in_group) = (0, 0);
-        (halves, 3)
+        let rests = std::mem::take(&mut self.rests);
+        self.in_group = 0;
+        ([own[0], own[1], rests & 0xffff, rests >> 16, 0, 0], 4)
     }
 }
 

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 /// Blocks without a test file of their own: the test that runs the block, by its path from `tests/it`,
 /// and why that test is enough.
-const ELSEWHERE: [(&str, &str, &str); 49] = [
+const ELSEWHERE: [(&str, &str, &str); 52] = [
     ("cluster/dual", "cores/chip", "wires between router, slots and collector"),
     ("cluster/engine_slot", "cores/chip", "a core with its queue and a count, at every clock"),
     ("cluster/quad", "cores/chip", "wires between router, slots and collector"),
@@ -40,6 +40,9 @@ const ELSEWHERE: [(&str, &str, &str); 49] = [
     ("ethernet/own_bytes", "blocks/ethernet/udp_port", "the addresses in the frames that go out"),
     ("ethernet/responder", "blocks/ethernet/udp_port", "the answers to ARP and echo requests"),
     ("ethernet/send_choice", "blocks/ethernet/udp_port", "answers and datagrams that share the line"),
+    ("commands/kept_halves", "blocks/commands/record_packer", "the states of the packer, which alone uses them"),
+    ("commands/read_range", "blocks/commands/answer_head", "ranges of every kind, inside and outside the mesh"),
+    ("commands/record_group", "blocks/commands/record_packer", "payloads of every length in every form"),
     ("commands/payload_words", "blocks/commands/responder", "the payload that only the responder asks for"),
     ("leaf/spill_ring", "blocks/leaf/deep_fifo", "the memory behind the deep buffer"),
     ("leaf/unpack", "blocks/engine/visit/issue", "the fields of a structure as wires, in most blocks"),

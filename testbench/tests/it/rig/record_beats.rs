@@ -83,14 +83,28 @@ impl Form {
         self != Self::Whole
     }
 
-    /// Sets the ports that choose the form; the first one is named differently from block to block. Of whole records the
-    /// form of ids must not matter.
-    pub fn set<U: NamedPorts>(self, block: &mut Stepper<U>, vertices_alone: &str) {
-        block.set(vertices_alone, self.has_vertices_alone());
-        block.set("has_short_ids", matches!(self, Self::Short(_)));
-        block.set("has_rests", self == Self::Short(ShortIds::Twelve));
-        if self == Self::Whole {
-            block.set("has_short_ids", true);
+    pub fn has_short_ids(self) -> bool {
+        matches!(self, Self::Short(_))
+    }
+
+    pub fn has_rests(self) -> bool {
+        self == Self::Short(ShortIds::Twelve)
+    }
+
+    /// Sets the ports that choose the form of a payload of records.
+    pub fn set<U: NamedPorts>(self, block: &mut Stepper<U>) {
+        block.set("vertices_alone", self.has_vertices_alone());
+        block.set("has_short_ids", self.has_short_ids());
+        block.set("has_rests", self.has_rests());
+    }
+
+    /// The bits for the ports that choose the form where a command asks for it: the vertices alone, short ids, and those
+    /// of 12 bits. A bit that must not matter is `any`.
+    pub fn asked(self, any: bool) -> [bool; 3] {
+        match self {
+            Self::Whole => [false, any, any],
+            Self::Vertices => [true, false, any],
+            Self::Short(ids) => [true, true, ids == ShortIds::Twelve],
         }
     }
 }
@@ -111,17 +125,16 @@ pub fn payload_of(records: &[Columns], form: Form) -> Vec<u32> {
 
 /// The payload with short ids, bit by bit as `protocol/README.md` says it.
 fn short_payload_of(records: &[Columns], ids: ShortIds) -> Vec<u32> {
-    let mut halves = Vec::new();
-    for group in records.chunks(4) {
+    let mut words = Vec::new();
+    for group in records.chunks(8) {
         let mut rests = 0;
         for Columns { v: [a, b, c], .. } in group {
-            let low = a & 0x3ff | (b & 0x3ff) << 10 | (c & 0x3ff) << 20 | (a >> 10 & 3) << 30;
-            halves.extend([low & 0xffff, low >> 16]);
-            rests = rests >> 4 | (b >> 10 & 3) << 12 | (c >> 10 & 3) << 14;
+            words.push(a & 0x3ff | (b & 0x3ff) << 10 | (c & 0x3ff) << 20 | (a >> 10 & 3) << 30);
+            rests = rests >> 4 | (b >> 10 & 3) << 28 | (c >> 10 & 3) << 30;
         }
-        halves.extend((ids == ShortIds::Twelve).then_some(rests));
+        words.extend((ids == ShortIds::Twelve).then_some(rests));
     }
-    halves.chunks(2).map(|pair| pair[0] | pair.get(1).map_or(0, |high| high << 16)).collect()
+    words
 }
 
 /// The beats of that payload.

@@ -16,9 +16,9 @@ fn answer_heads_follow_the_protocol() {
     let mut bad_ranges = 0;
     for (opcode, is_refused, clocks) in commands(&mut random) {
         let mut answers: Vec<Answer> = vec![];
-        let Asked { engine, tag, .. } = Asked::random(&mut random);
+        let Asked { engine, tag, short_ids, .. } = Asked::random(&mut random);
         for clock in 0..clocks {
-            let asked = Asked { opcode, is_refused, engine, tag, ..Asked::random(&mut random) };
+            let asked = Asked { opcode, is_refused, engine, tag, short_ids, ..Asked::random(&mut random) };
             for (port, value) in [
                 ("opcode", u32::from(asked.opcode)),
                 ("first", asked.first),

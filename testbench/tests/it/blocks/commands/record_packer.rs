@@ -8,7 +8,7 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     RecordPacker,
-    [reset, starts, count, vertices_alone, has_short_ids, has_rests, comes, halves],
+    [reset, starts, count, vertices_alone, has_short_ids, has_rests, comes, halves, rest],
     [valid, beat],
     clock
 );
@@ -19,7 +19,7 @@ fn start(block: &mut Stepper<RecordPacker>, count: usize, form: Form, reset: boo
     block.set("comes", false);
     block.set("starts", true);
     block.set("count", count as u32);
-    form.set(block, "vertices_alone");
+    form.set(block);
     block.set("reset", reset);
     block.settle();
     block.edge();
@@ -27,7 +27,7 @@ fn start(block: &mut Stepper<RecordPacker>, count: usize, form: Form, reset: boo
     block.set("reset", false);
 }
 
-/// The halves that a record brings; those of a whole record that are no ids must not matter.
+/// The halves that a record brings; those that do not count have those of a whole record.
 fn halves(record: Columns, form: Form) -> [u32; 6] {
     let [a, b, c] = record.words().map(|word| [word & 0xffff, word >> 16]);
     let [v0, v1, v2] = record.v;
@@ -36,7 +36,7 @@ fn halves(record: Columns, form: Form) -> [u32; 6] {
         Form::Vertices => [v0, v1, v2, b[1], c[0], c[1]],
         Form::Short(_) => {
             let low = v0 & 0x3ff | (v1 & 0x3ff) << 10 | (v2 & 0x3ff) << 20 | (v0 >> 10 & 3) << 30;
-            [low & 0xffff, low >> 16, (v1 >> 10 & 3) << 12 | (v2 >> 10 & 3) << 14, b[1], c[0], c[1]]
+            [low & 0xffff, low >> 16, b[0], b[1], c[0], c[1]]
         }
     }
 }
@@ -63,6 +63,8 @@ fn packer_leaves_no_gap() {
             for (port, half) in HALVES.into_iter().zip(brought) {
                 block.set(port, half);
             }
+            let bits = next.map_or(5, |(_, Columns { v: [_, b, c], .. })| b >> 10 & 3 | (c >> 10 & 3) << 2);
+            block.set("rest", bits);
             block.settle();
             if block.is("valid") {
                 let beat = Beat::of(block.get("beat"));
@@ -98,7 +100,7 @@ fn packer_shows_the_wave_of_its_header() {
             next = 1;
         }
         let form = if vertices_alone { Form::Vertices } else { Form::Whole };
-        form.set(&mut block, "vertices_alone");
+        form.set(&mut block);
         block.set("starts", starts);
         block.set("count", if vertices_alone { 5u32 } else { 3 });
         block.set("comes", comes);

@@ -22,6 +22,7 @@ fn reads_give_the_words_of_records_or_their_vertices() {
         let mut block = Stepper::new("record_reads", RecordReads::default(), 1);
         for run in 0..80 {
             let form = Form::random(&mut random);
+            let asked = form.asked(random.below(2) == 0);
             let count = 1 + random.below(60) as u32;
             let first = random.below(u64::from((1u32 << 15) - count)) as u32;
             let records: Vec<Columns> = (first..first + count).map(Columns::of).collect();
@@ -29,7 +30,9 @@ fn reads_give_the_words_of_records_or_their_vertices() {
             for reset in [run == 0 || random.below(9) == 0, false] {
                 block.set("reset", reset);
                 block.set("starts", !reset);
-                form.set(&mut block, "is_packed");
+                for (port, bit) in ["is_packed", "has_short_ids", "has_rests"].into_iter().zip(asked) {
+                    block.set(port, bit);
+                }
                 block.set("first", first);
                 block.set("count", count);
                 block.set("runs", false);
@@ -42,7 +45,7 @@ fn reads_give_the_words_of_records_or_their_vertices() {
             block.set("runs", true);
             let mut reads: VecDeque<Option<u32>> =
                 vec![None; 1 + random.below(RecordStream::PATIENCE as u64) as usize].into();
-            let (mut asked, mut clock) = (first, 0);
+            let (mut next, mut clock) = (first, 0);
             let cut = if run % 10 == 9 { random.below(30) } else { 40_000 };
             while !expected.is_empty() && clock < cut {
                 block.set("takes", false);
@@ -52,10 +55,10 @@ fn reads_give_the_words_of_records_or_their_vertices() {
                 block.settle();
                 let reads_now = block.is("read");
                 if reads_now {
-                    block.expect("read_id", asked);
-                    asked += 1;
+                    block.expect("read_id", next);
+                    next += 1;
                 }
-                reads.push_back(reads_now.then(|| asked - 1));
+                reads.push_back(reads_now.then(|| next - 1));
                 let valid = block.is("valid");
                 if valid {
                     assert_eq!(Beat::of(block.get("beat")), expected[0], "run {run}");
@@ -80,7 +83,7 @@ fn reads_give_the_words_of_records_or_their_vertices() {
                 block.edge();
                 block.set("reset", false);
             } else {
-                assert_eq!(asked, first + count, "every record is read once");
+                assert_eq!(next, first + count, "every record is read once");
             }
         }
     }

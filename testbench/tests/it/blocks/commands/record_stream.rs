@@ -28,7 +28,7 @@ fn stream_keeps_every_beat_whatever_is_taken() {
                 block.set("reset", reset);
                 block.set("starts", !reset);
                 block.set("count", records.len() as u32);
-                form.set(&mut block, "vertices_alone");
+                form.set(&mut block);
                 block.set("comes", false);
                 block.set("takes", false);
                 block.settle();
