@@ -732,9 +732,9 @@ module incircle_stream_top_logic$core$answer_head$range(clock,request,records,is
     output reg  [16:0] packed_length;
     
     // Stub signals
-    reg  [32:0] end$d;
-    wire  [32:0] end$q;
-    reg  end$clock;
+    reg  [32:0] range_end$d;
+    wire  [32:0] range_end$q;
+    reg  range_end$clock;
     reg  [14:0] bound$d;
     wire  [14:0] bound$q;
     reg  bound$clock;
@@ -759,9 +759,9 @@ module incircle_stream_top_logic$core$answer_head$range(clock,request,records,is
     reg  [16:0] whole$d;
     wire  [16:0] whole$q;
     reg  whole$clock;
-    reg  [16:0] packed$d;
-    wire  [16:0] packed$q;
-    reg  packed$clock;
+    reg  [16:0] vertices$d;
+    wire  [16:0] vertices$q;
+    reg  vertices$clock;
     
     // Local signals
     reg  [32:0] wide_first;
@@ -776,10 +776,10 @@ module incircle_stream_top_logic$core$answer_head$range(clock,request,records,is
     reg  [16:0] three;
     
     // Sub module instances
-    incircle_stream_top_logic$core$answer_head$range$end end(
-        .d(end$d),
-        .q(end$q),
-        .clock(end$clock)
+    incircle_stream_top_logic$core$answer_head$range$range_end range_end(
+        .d(range_end$d),
+        .q(range_end$q),
+        .clock(range_end$clock)
     );
     incircle_stream_top_logic$core$answer_head$range$bound bound(
         .d(bound$d),
@@ -821,21 +821,21 @@ module incircle_stream_top_logic$core$answer_head$range(clock,request,records,is
         .q(whole$q),
         .clock(whole$clock)
     );
-    incircle_stream_top_logic$core$answer_head$range$packed packed(
-        .d(packed$d),
-        .q(packed$q),
-        .clock(packed$clock)
+    incircle_stream_top_logic$core$answer_head$range$vertices vertices(
+        .d(vertices$d),
+        .q(vertices$q),
+        .clock(vertices$clock)
     );
     
     // Update code
     always @(*) begin
-        end$clock = clock;
+        range_end$clock = clock;
         bound$clock = clock;
         counts_none$clock = clock;
         triple$clock = clock;
         number$clock = clock;
         enlarged$clock = clock;
-        end$d = end$q;
+        range_end$d = range_end$q;
         bound$d = bound$q;
         counts_none$d = counts_none$q;
         triple$d = triple$q;
@@ -844,17 +844,17 @@ module incircle_stream_top_logic$core$answer_head$range(clock,request,records,is
         outside$clock = clock;
         reads_none$clock = clock;
         whole$clock = clock;
-        packed$clock = clock;
+        vertices$clock = clock;
         outside$d = outside$q;
         reads_none$d = reads_none$q;
         whole$d = whole$q;
-        packed$d = packed$q;
+        vertices$d = vertices$q;
         none = 32'h0;
         one = 32'h1;
         three = 32'h3;
         wide_first = ((request[(64'h8)+:(32)]) & 33'h1ffffffff);
         wide_count = ((request[(64'h28)+:(32)]) & 33'h1ffffffff);
-        end$d = wide_first + wide_count;
+        range_end$d = wide_first + wide_count;
         bound$d = records;
         counts_none$d = request[(64'h28)+:(32)] == none;
         few = ((request[(64'h28)+:(32)]) & 15'h7fff);
@@ -867,7 +867,7 @@ module incircle_stream_top_logic$core$answer_head$range(clock,request,records,is
         end
         enlarged$d = count + added;
         wide_bound = ((bound$q) & 33'h1ffffffff);
-        outside$d = end$q > wide_bound;
+        outside$d = range_end$q > wide_bound;
         reads_none$d = counts_none$q;
         whole$d = triple$q;
         more = enlarged$q >> one;
@@ -877,11 +877,11 @@ module incircle_stream_top_logic$core$answer_head$range(clock,request,records,is
                 more = 32'h0;
             end
         end
-        packed$d = number$q + more;
+        vertices$d = number$q + more;
         is_outside = outside$q;
         has_none = reads_none$q;
         whole_length = whole$q;
-        packed_length = packed$q;
+        packed_length = vertices$q;
     end
     
 endmodule // incircle_stream_top_logic$core$answer_head$range
@@ -923,25 +923,6 @@ module incircle_stream_top_logic$core$answer_head$range$counts_none(d,q,clock);
     end
           
 endmodule // incircle_stream_top_logic$core$answer_head$range$counts_none
-
-
-module incircle_stream_top_logic$core$answer_head$range$end(d,q,clock);
-    
-    // Module arguments
-    input wire  [32:0] d;
-    output reg  [32:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 33'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_logic$core$answer_head$range$end
 
 
 module incircle_stream_top_logic$core$answer_head$range$enlarged(d,q,clock);
@@ -1001,23 +982,23 @@ module incircle_stream_top_logic$core$answer_head$range$outside(d,q,clock);
 endmodule // incircle_stream_top_logic$core$answer_head$range$outside
 
 
-module incircle_stream_top_logic$core$answer_head$range$packed(d,q,clock);
+module incircle_stream_top_logic$core$answer_head$range$range_end(d,q,clock);
     
     // Module arguments
-    input wire  [16:0] d;
-    output reg  [16:0] q;
+    input wire  [32:0] d;
+    output reg  [32:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 17'h0;
+       q = 33'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_stream_top_logic$core$answer_head$range$packed
+endmodule // incircle_stream_top_logic$core$answer_head$range$range_end
 
 
 module incircle_stream_top_logic$core$answer_head$range$reads_none(d,q,clock);
@@ -1056,6 +1037,25 @@ module incircle_stream_top_logic$core$answer_head$range$triple(d,q,clock);
     end
           
 endmodule // incircle_stream_top_logic$core$answer_head$range$triple
+
+
+module incircle_stream_top_logic$core$answer_head$range$vertices(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_logic$core$answer_head$range$vertices
 
 
 module incircle_stream_top_logic$core$answer_head$range$whole(d,q,clock);

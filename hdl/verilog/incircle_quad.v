@@ -1915,9 +1915,9 @@ module incircle_core_logic$slot0$core$answer_head$range(clock,request,records,is
     output reg  [16:0] packed_length;
     
     // Stub signals
-    reg  [32:0] end$d;
-    wire  [32:0] end$q;
-    reg  end$clock;
+    reg  [32:0] range_end$d;
+    wire  [32:0] range_end$q;
+    reg  range_end$clock;
     reg  [14:0] bound$d;
     wire  [14:0] bound$q;
     reg  bound$clock;
@@ -1942,9 +1942,9 @@ module incircle_core_logic$slot0$core$answer_head$range(clock,request,records,is
     reg  [16:0] whole$d;
     wire  [16:0] whole$q;
     reg  whole$clock;
-    reg  [16:0] packed$d;
-    wire  [16:0] packed$q;
-    reg  packed$clock;
+    reg  [16:0] vertices$d;
+    wire  [16:0] vertices$q;
+    reg  vertices$clock;
     
     // Local signals
     reg  [32:0] wide_first;
@@ -1959,10 +1959,10 @@ module incircle_core_logic$slot0$core$answer_head$range(clock,request,records,is
     reg  [16:0] three;
     
     // Sub module instances
-    incircle_core_logic$slot0$core$answer_head$range$end end(
-        .d(end$d),
-        .q(end$q),
-        .clock(end$clock)
+    incircle_core_logic$slot0$core$answer_head$range$range_end range_end(
+        .d(range_end$d),
+        .q(range_end$q),
+        .clock(range_end$clock)
     );
     incircle_core_logic$slot0$core$answer_head$range$bound bound(
         .d(bound$d),
@@ -2004,21 +2004,21 @@ module incircle_core_logic$slot0$core$answer_head$range(clock,request,records,is
         .q(whole$q),
         .clock(whole$clock)
     );
-    incircle_core_logic$slot0$core$answer_head$range$packed packed(
-        .d(packed$d),
-        .q(packed$q),
-        .clock(packed$clock)
+    incircle_core_logic$slot0$core$answer_head$range$vertices vertices(
+        .d(vertices$d),
+        .q(vertices$q),
+        .clock(vertices$clock)
     );
     
     // Update code
     always @(*) begin
-        end$clock = clock;
+        range_end$clock = clock;
         bound$clock = clock;
         counts_none$clock = clock;
         triple$clock = clock;
         number$clock = clock;
         enlarged$clock = clock;
-        end$d = end$q;
+        range_end$d = range_end$q;
         bound$d = bound$q;
         counts_none$d = counts_none$q;
         triple$d = triple$q;
@@ -2027,17 +2027,17 @@ module incircle_core_logic$slot0$core$answer_head$range(clock,request,records,is
         outside$clock = clock;
         reads_none$clock = clock;
         whole$clock = clock;
-        packed$clock = clock;
+        vertices$clock = clock;
         outside$d = outside$q;
         reads_none$d = reads_none$q;
         whole$d = whole$q;
-        packed$d = packed$q;
+        vertices$d = vertices$q;
         none = 32'h0;
         one = 32'h1;
         three = 32'h3;
         wide_first = ((request[(64'h8)+:(32)]) & 33'h1ffffffff);
         wide_count = ((request[(64'h28)+:(32)]) & 33'h1ffffffff);
-        end$d = wide_first + wide_count;
+        range_end$d = wide_first + wide_count;
         bound$d = records;
         counts_none$d = request[(64'h28)+:(32)] == none;
         few = ((request[(64'h28)+:(32)]) & 15'h7fff);
@@ -2050,7 +2050,7 @@ module incircle_core_logic$slot0$core$answer_head$range(clock,request,records,is
         end
         enlarged$d = count + added;
         wide_bound = ((bound$q) & 33'h1ffffffff);
-        outside$d = end$q > wide_bound;
+        outside$d = range_end$q > wide_bound;
         reads_none$d = counts_none$q;
         whole$d = triple$q;
         more = enlarged$q >> one;
@@ -2060,11 +2060,11 @@ module incircle_core_logic$slot0$core$answer_head$range(clock,request,records,is
                 more = 32'h0;
             end
         end
-        packed$d = number$q + more;
+        vertices$d = number$q + more;
         is_outside = outside$q;
         has_none = reads_none$q;
         whole_length = whole$q;
-        packed_length = packed$q;
+        packed_length = vertices$q;
     end
     
 endmodule // incircle_core_logic$slot0$core$answer_head$range
@@ -2106,25 +2106,6 @@ module incircle_core_logic$slot0$core$answer_head$range$counts_none(d,q,clock);
     end
           
 endmodule // incircle_core_logic$slot0$core$answer_head$range$counts_none
-
-
-module incircle_core_logic$slot0$core$answer_head$range$end(d,q,clock);
-    
-    // Module arguments
-    input wire  [32:0] d;
-    output reg  [32:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 33'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot0$core$answer_head$range$end
 
 
 module incircle_core_logic$slot0$core$answer_head$range$enlarged(d,q,clock);
@@ -2184,23 +2165,23 @@ module incircle_core_logic$slot0$core$answer_head$range$outside(d,q,clock);
 endmodule // incircle_core_logic$slot0$core$answer_head$range$outside
 
 
-module incircle_core_logic$slot0$core$answer_head$range$packed(d,q,clock);
+module incircle_core_logic$slot0$core$answer_head$range$range_end(d,q,clock);
     
     // Module arguments
-    input wire  [16:0] d;
-    output reg  [16:0] q;
+    input wire  [32:0] d;
+    output reg  [32:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 17'h0;
+       q = 33'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot0$core$answer_head$range$packed
+endmodule // incircle_core_logic$slot0$core$answer_head$range$range_end
 
 
 module incircle_core_logic$slot0$core$answer_head$range$reads_none(d,q,clock);
@@ -2239,6 +2220,25 @@ module incircle_core_logic$slot0$core$answer_head$range$triple(d,q,clock);
     end
           
 endmodule // incircle_core_logic$slot0$core$answer_head$range$triple
+
+
+module incircle_core_logic$slot0$core$answer_head$range$vertices(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot0$core$answer_head$range$vertices
 
 
 module incircle_core_logic$slot0$core$answer_head$range$whole(d,q,clock);
@@ -29304,9 +29304,9 @@ module incircle_core_logic$slot1$core$answer_head$range(clock,request,records,is
     output reg  [16:0] packed_length;
     
     // Stub signals
-    reg  [32:0] end$d;
-    wire  [32:0] end$q;
-    reg  end$clock;
+    reg  [32:0] range_end$d;
+    wire  [32:0] range_end$q;
+    reg  range_end$clock;
     reg  [14:0] bound$d;
     wire  [14:0] bound$q;
     reg  bound$clock;
@@ -29331,9 +29331,9 @@ module incircle_core_logic$slot1$core$answer_head$range(clock,request,records,is
     reg  [16:0] whole$d;
     wire  [16:0] whole$q;
     reg  whole$clock;
-    reg  [16:0] packed$d;
-    wire  [16:0] packed$q;
-    reg  packed$clock;
+    reg  [16:0] vertices$d;
+    wire  [16:0] vertices$q;
+    reg  vertices$clock;
     
     // Local signals
     reg  [32:0] wide_first;
@@ -29348,10 +29348,10 @@ module incircle_core_logic$slot1$core$answer_head$range(clock,request,records,is
     reg  [16:0] three;
     
     // Sub module instances
-    incircle_core_logic$slot1$core$answer_head$range$end end(
-        .d(end$d),
-        .q(end$q),
-        .clock(end$clock)
+    incircle_core_logic$slot1$core$answer_head$range$range_end range_end(
+        .d(range_end$d),
+        .q(range_end$q),
+        .clock(range_end$clock)
     );
     incircle_core_logic$slot1$core$answer_head$range$bound bound(
         .d(bound$d),
@@ -29393,21 +29393,21 @@ module incircle_core_logic$slot1$core$answer_head$range(clock,request,records,is
         .q(whole$q),
         .clock(whole$clock)
     );
-    incircle_core_logic$slot1$core$answer_head$range$packed packed(
-        .d(packed$d),
-        .q(packed$q),
-        .clock(packed$clock)
+    incircle_core_logic$slot1$core$answer_head$range$vertices vertices(
+        .d(vertices$d),
+        .q(vertices$q),
+        .clock(vertices$clock)
     );
     
     // Update code
     always @(*) begin
-        end$clock = clock;
+        range_end$clock = clock;
         bound$clock = clock;
         counts_none$clock = clock;
         triple$clock = clock;
         number$clock = clock;
         enlarged$clock = clock;
-        end$d = end$q;
+        range_end$d = range_end$q;
         bound$d = bound$q;
         counts_none$d = counts_none$q;
         triple$d = triple$q;
@@ -29416,17 +29416,17 @@ module incircle_core_logic$slot1$core$answer_head$range(clock,request,records,is
         outside$clock = clock;
         reads_none$clock = clock;
         whole$clock = clock;
-        packed$clock = clock;
+        vertices$clock = clock;
         outside$d = outside$q;
         reads_none$d = reads_none$q;
         whole$d = whole$q;
-        packed$d = packed$q;
+        vertices$d = vertices$q;
         none = 32'h0;
         one = 32'h1;
         three = 32'h3;
         wide_first = ((request[(64'h8)+:(32)]) & 33'h1ffffffff);
         wide_count = ((request[(64'h28)+:(32)]) & 33'h1ffffffff);
-        end$d = wide_first + wide_count;
+        range_end$d = wide_first + wide_count;
         bound$d = records;
         counts_none$d = request[(64'h28)+:(32)] == none;
         few = ((request[(64'h28)+:(32)]) & 15'h7fff);
@@ -29439,7 +29439,7 @@ module incircle_core_logic$slot1$core$answer_head$range(clock,request,records,is
         end
         enlarged$d = count + added;
         wide_bound = ((bound$q) & 33'h1ffffffff);
-        outside$d = end$q > wide_bound;
+        outside$d = range_end$q > wide_bound;
         reads_none$d = counts_none$q;
         whole$d = triple$q;
         more = enlarged$q >> one;
@@ -29449,11 +29449,11 @@ module incircle_core_logic$slot1$core$answer_head$range(clock,request,records,is
                 more = 32'h0;
             end
         end
-        packed$d = number$q + more;
+        vertices$d = number$q + more;
         is_outside = outside$q;
         has_none = reads_none$q;
         whole_length = whole$q;
-        packed_length = packed$q;
+        packed_length = vertices$q;
     end
     
 endmodule // incircle_core_logic$slot1$core$answer_head$range
@@ -29495,25 +29495,6 @@ module incircle_core_logic$slot1$core$answer_head$range$counts_none(d,q,clock);
     end
           
 endmodule // incircle_core_logic$slot1$core$answer_head$range$counts_none
-
-
-module incircle_core_logic$slot1$core$answer_head$range$end(d,q,clock);
-    
-    // Module arguments
-    input wire  [32:0] d;
-    output reg  [32:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 33'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot1$core$answer_head$range$end
 
 
 module incircle_core_logic$slot1$core$answer_head$range$enlarged(d,q,clock);
@@ -29573,23 +29554,23 @@ module incircle_core_logic$slot1$core$answer_head$range$outside(d,q,clock);
 endmodule // incircle_core_logic$slot1$core$answer_head$range$outside
 
 
-module incircle_core_logic$slot1$core$answer_head$range$packed(d,q,clock);
+module incircle_core_logic$slot1$core$answer_head$range$range_end(d,q,clock);
     
     // Module arguments
-    input wire  [16:0] d;
-    output reg  [16:0] q;
+    input wire  [32:0] d;
+    output reg  [32:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 17'h0;
+       q = 33'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot1$core$answer_head$range$packed
+endmodule // incircle_core_logic$slot1$core$answer_head$range$range_end
 
 
 module incircle_core_logic$slot1$core$answer_head$range$reads_none(d,q,clock);
@@ -29628,6 +29609,25 @@ module incircle_core_logic$slot1$core$answer_head$range$triple(d,q,clock);
     end
           
 endmodule // incircle_core_logic$slot1$core$answer_head$range$triple
+
+
+module incircle_core_logic$slot1$core$answer_head$range$vertices(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot1$core$answer_head$range$vertices
 
 
 module incircle_core_logic$slot1$core$answer_head$range$whole(d,q,clock);
@@ -56693,9 +56693,9 @@ module incircle_core_logic$slot2$core$answer_head$range(clock,request,records,is
     output reg  [16:0] packed_length;
     
     // Stub signals
-    reg  [32:0] end$d;
-    wire  [32:0] end$q;
-    reg  end$clock;
+    reg  [32:0] range_end$d;
+    wire  [32:0] range_end$q;
+    reg  range_end$clock;
     reg  [14:0] bound$d;
     wire  [14:0] bound$q;
     reg  bound$clock;
@@ -56720,9 +56720,9 @@ module incircle_core_logic$slot2$core$answer_head$range(clock,request,records,is
     reg  [16:0] whole$d;
     wire  [16:0] whole$q;
     reg  whole$clock;
-    reg  [16:0] packed$d;
-    wire  [16:0] packed$q;
-    reg  packed$clock;
+    reg  [16:0] vertices$d;
+    wire  [16:0] vertices$q;
+    reg  vertices$clock;
     
     // Local signals
     reg  [32:0] wide_first;
@@ -56737,10 +56737,10 @@ module incircle_core_logic$slot2$core$answer_head$range(clock,request,records,is
     reg  [16:0] three;
     
     // Sub module instances
-    incircle_core_logic$slot2$core$answer_head$range$end end(
-        .d(end$d),
-        .q(end$q),
-        .clock(end$clock)
+    incircle_core_logic$slot2$core$answer_head$range$range_end range_end(
+        .d(range_end$d),
+        .q(range_end$q),
+        .clock(range_end$clock)
     );
     incircle_core_logic$slot2$core$answer_head$range$bound bound(
         .d(bound$d),
@@ -56782,21 +56782,21 @@ module incircle_core_logic$slot2$core$answer_head$range(clock,request,records,is
         .q(whole$q),
         .clock(whole$clock)
     );
-    incircle_core_logic$slot2$core$answer_head$range$packed packed(
-        .d(packed$d),
-        .q(packed$q),
-        .clock(packed$clock)
+    incircle_core_logic$slot2$core$answer_head$range$vertices vertices(
+        .d(vertices$d),
+        .q(vertices$q),
+        .clock(vertices$clock)
     );
     
     // Update code
     always @(*) begin
-        end$clock = clock;
+        range_end$clock = clock;
         bound$clock = clock;
         counts_none$clock = clock;
         triple$clock = clock;
         number$clock = clock;
         enlarged$clock = clock;
-        end$d = end$q;
+        range_end$d = range_end$q;
         bound$d = bound$q;
         counts_none$d = counts_none$q;
         triple$d = triple$q;
@@ -56805,17 +56805,17 @@ module incircle_core_logic$slot2$core$answer_head$range(clock,request,records,is
         outside$clock = clock;
         reads_none$clock = clock;
         whole$clock = clock;
-        packed$clock = clock;
+        vertices$clock = clock;
         outside$d = outside$q;
         reads_none$d = reads_none$q;
         whole$d = whole$q;
-        packed$d = packed$q;
+        vertices$d = vertices$q;
         none = 32'h0;
         one = 32'h1;
         three = 32'h3;
         wide_first = ((request[(64'h8)+:(32)]) & 33'h1ffffffff);
         wide_count = ((request[(64'h28)+:(32)]) & 33'h1ffffffff);
-        end$d = wide_first + wide_count;
+        range_end$d = wide_first + wide_count;
         bound$d = records;
         counts_none$d = request[(64'h28)+:(32)] == none;
         few = ((request[(64'h28)+:(32)]) & 15'h7fff);
@@ -56828,7 +56828,7 @@ module incircle_core_logic$slot2$core$answer_head$range(clock,request,records,is
         end
         enlarged$d = count + added;
         wide_bound = ((bound$q) & 33'h1ffffffff);
-        outside$d = end$q > wide_bound;
+        outside$d = range_end$q > wide_bound;
         reads_none$d = counts_none$q;
         whole$d = triple$q;
         more = enlarged$q >> one;
@@ -56838,11 +56838,11 @@ module incircle_core_logic$slot2$core$answer_head$range(clock,request,records,is
                 more = 32'h0;
             end
         end
-        packed$d = number$q + more;
+        vertices$d = number$q + more;
         is_outside = outside$q;
         has_none = reads_none$q;
         whole_length = whole$q;
-        packed_length = packed$q;
+        packed_length = vertices$q;
     end
     
 endmodule // incircle_core_logic$slot2$core$answer_head$range
@@ -56884,25 +56884,6 @@ module incircle_core_logic$slot2$core$answer_head$range$counts_none(d,q,clock);
     end
           
 endmodule // incircle_core_logic$slot2$core$answer_head$range$counts_none
-
-
-module incircle_core_logic$slot2$core$answer_head$range$end(d,q,clock);
-    
-    // Module arguments
-    input wire  [32:0] d;
-    output reg  [32:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 33'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot2$core$answer_head$range$end
 
 
 module incircle_core_logic$slot2$core$answer_head$range$enlarged(d,q,clock);
@@ -56962,23 +56943,23 @@ module incircle_core_logic$slot2$core$answer_head$range$outside(d,q,clock);
 endmodule // incircle_core_logic$slot2$core$answer_head$range$outside
 
 
-module incircle_core_logic$slot2$core$answer_head$range$packed(d,q,clock);
+module incircle_core_logic$slot2$core$answer_head$range$range_end(d,q,clock);
     
     // Module arguments
-    input wire  [16:0] d;
-    output reg  [16:0] q;
+    input wire  [32:0] d;
+    output reg  [32:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 17'h0;
+       q = 33'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot2$core$answer_head$range$packed
+endmodule // incircle_core_logic$slot2$core$answer_head$range$range_end
 
 
 module incircle_core_logic$slot2$core$answer_head$range$reads_none(d,q,clock);
@@ -57017,6 +56998,25 @@ module incircle_core_logic$slot2$core$answer_head$range$triple(d,q,clock);
     end
           
 endmodule // incircle_core_logic$slot2$core$answer_head$range$triple
+
+
+module incircle_core_logic$slot2$core$answer_head$range$vertices(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot2$core$answer_head$range$vertices
 
 
 module incircle_core_logic$slot2$core$answer_head$range$whole(d,q,clock);
@@ -84082,9 +84082,9 @@ module incircle_core_logic$slot3$core$answer_head$range(clock,request,records,is
     output reg  [16:0] packed_length;
     
     // Stub signals
-    reg  [32:0] end$d;
-    wire  [32:0] end$q;
-    reg  end$clock;
+    reg  [32:0] range_end$d;
+    wire  [32:0] range_end$q;
+    reg  range_end$clock;
     reg  [14:0] bound$d;
     wire  [14:0] bound$q;
     reg  bound$clock;
@@ -84109,9 +84109,9 @@ module incircle_core_logic$slot3$core$answer_head$range(clock,request,records,is
     reg  [16:0] whole$d;
     wire  [16:0] whole$q;
     reg  whole$clock;
-    reg  [16:0] packed$d;
-    wire  [16:0] packed$q;
-    reg  packed$clock;
+    reg  [16:0] vertices$d;
+    wire  [16:0] vertices$q;
+    reg  vertices$clock;
     
     // Local signals
     reg  [32:0] wide_first;
@@ -84126,10 +84126,10 @@ module incircle_core_logic$slot3$core$answer_head$range(clock,request,records,is
     reg  [16:0] three;
     
     // Sub module instances
-    incircle_core_logic$slot3$core$answer_head$range$end end(
-        .d(end$d),
-        .q(end$q),
-        .clock(end$clock)
+    incircle_core_logic$slot3$core$answer_head$range$range_end range_end(
+        .d(range_end$d),
+        .q(range_end$q),
+        .clock(range_end$clock)
     );
     incircle_core_logic$slot3$core$answer_head$range$bound bound(
         .d(bound$d),
@@ -84171,21 +84171,21 @@ module incircle_core_logic$slot3$core$answer_head$range(clock,request,records,is
         .q(whole$q),
         .clock(whole$clock)
     );
-    incircle_core_logic$slot3$core$answer_head$range$packed packed(
-        .d(packed$d),
-        .q(packed$q),
-        .clock(packed$clock)
+    incircle_core_logic$slot3$core$answer_head$range$vertices vertices(
+        .d(vertices$d),
+        .q(vertices$q),
+        .clock(vertices$clock)
     );
     
     // Update code
     always @(*) begin
-        end$clock = clock;
+        range_end$clock = clock;
         bound$clock = clock;
         counts_none$clock = clock;
         triple$clock = clock;
         number$clock = clock;
         enlarged$clock = clock;
-        end$d = end$q;
+        range_end$d = range_end$q;
         bound$d = bound$q;
         counts_none$d = counts_none$q;
         triple$d = triple$q;
@@ -84194,17 +84194,17 @@ module incircle_core_logic$slot3$core$answer_head$range(clock,request,records,is
         outside$clock = clock;
         reads_none$clock = clock;
         whole$clock = clock;
-        packed$clock = clock;
+        vertices$clock = clock;
         outside$d = outside$q;
         reads_none$d = reads_none$q;
         whole$d = whole$q;
-        packed$d = packed$q;
+        vertices$d = vertices$q;
         none = 32'h0;
         one = 32'h1;
         three = 32'h3;
         wide_first = ((request[(64'h8)+:(32)]) & 33'h1ffffffff);
         wide_count = ((request[(64'h28)+:(32)]) & 33'h1ffffffff);
-        end$d = wide_first + wide_count;
+        range_end$d = wide_first + wide_count;
         bound$d = records;
         counts_none$d = request[(64'h28)+:(32)] == none;
         few = ((request[(64'h28)+:(32)]) & 15'h7fff);
@@ -84217,7 +84217,7 @@ module incircle_core_logic$slot3$core$answer_head$range(clock,request,records,is
         end
         enlarged$d = count + added;
         wide_bound = ((bound$q) & 33'h1ffffffff);
-        outside$d = end$q > wide_bound;
+        outside$d = range_end$q > wide_bound;
         reads_none$d = counts_none$q;
         whole$d = triple$q;
         more = enlarged$q >> one;
@@ -84227,11 +84227,11 @@ module incircle_core_logic$slot3$core$answer_head$range(clock,request,records,is
                 more = 32'h0;
             end
         end
-        packed$d = number$q + more;
+        vertices$d = number$q + more;
         is_outside = outside$q;
         has_none = reads_none$q;
         whole_length = whole$q;
-        packed_length = packed$q;
+        packed_length = vertices$q;
     end
     
 endmodule // incircle_core_logic$slot3$core$answer_head$range
@@ -84273,25 +84273,6 @@ module incircle_core_logic$slot3$core$answer_head$range$counts_none(d,q,clock);
     end
           
 endmodule // incircle_core_logic$slot3$core$answer_head$range$counts_none
-
-
-module incircle_core_logic$slot3$core$answer_head$range$end(d,q,clock);
-    
-    // Module arguments
-    input wire  [32:0] d;
-    output reg  [32:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 33'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$slot3$core$answer_head$range$end
 
 
 module incircle_core_logic$slot3$core$answer_head$range$enlarged(d,q,clock);
@@ -84351,23 +84332,23 @@ module incircle_core_logic$slot3$core$answer_head$range$outside(d,q,clock);
 endmodule // incircle_core_logic$slot3$core$answer_head$range$outside
 
 
-module incircle_core_logic$slot3$core$answer_head$range$packed(d,q,clock);
+module incircle_core_logic$slot3$core$answer_head$range$range_end(d,q,clock);
     
     // Module arguments
-    input wire  [16:0] d;
-    output reg  [16:0] q;
+    input wire  [32:0] d;
+    output reg  [32:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 17'h0;
+       q = 33'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_core_logic$slot3$core$answer_head$range$packed
+endmodule // incircle_core_logic$slot3$core$answer_head$range$range_end
 
 
 module incircle_core_logic$slot3$core$answer_head$range$reads_none(d,q,clock);
@@ -84406,6 +84387,25 @@ module incircle_core_logic$slot3$core$answer_head$range$triple(d,q,clock);
     end
           
 endmodule // incircle_core_logic$slot3$core$answer_head$range$triple
+
+
+module incircle_core_logic$slot3$core$answer_head$range$vertices(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$slot3$core$answer_head$range$vertices
 
 
 module incircle_core_logic$slot3$core$answer_head$range$whole(d,q,clock);

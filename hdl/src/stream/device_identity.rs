@@ -6,9 +6,8 @@ use super::axi::RegisterIndex;
 use crate::commands::types::Word;
 use crate::leaf::Parameter;
 use incircle_protocol::{
-    Config, StreamRegister, CORE_COORD_BITS, CORE_VERSION, ENGINES_SHIFT, FEATURES_SHIFT,
-    FEATURE_SHORT_IDS, MAGIC, PROTOCOL_VERSION, STREAM_FIFO_BEATS,
-    STREAM_VERSION,
+    Config, StreamRegister, CORE_COORD_BITS, CORE_VERSION, ENGINES_SHIFT, FEATURES_SHIFT, FEATURE_SHORT_IDS, MAGIC,
+    PROTOCOL_VERSION, STREAM_FIFO_BEATS, STREAM_VERSION,
 };
 use rust_hdl_core::prelude::*;
 
