@@ -26590,7 +26590,7 @@ module incircle_core_logic$slot0$core$responder$records$stream$packer(clock,rese
                         kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                         kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
                         if (~has_short_ids) begin
-                            kept$d[(64'h20)+:(16)] = third;
+                            kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
                         end
                     end
                 end
@@ -26598,14 +26598,14 @@ module incircle_core_logic$slot0$core$responder$records$stream$packer(clock,rese
                 begin
                     sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
-                    sent[(64'h30)+:(16)] = third;
+                    sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
                 end
             KeptNumber$Two:
                 begin
                     sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
                     kept$d[(64'h0)+:(16)] = third;
-                    if (brings_rests | (~vertices_alone)) begin
+                    if (has_short_ids | (~vertices_alone)) begin
                         kept$d[(64'h10)+:(16)] = fourth;
                     end
                     if (~vertices_alone) begin
@@ -26617,7 +26617,7 @@ module incircle_core_logic$slot0$core$responder$records$stream$packer(clock,rese
                 begin
                     sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
                     kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h10)+:(16)] = third;
+                    kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
                 end
             default:
                 begin
@@ -53979,7 +53979,7 @@ module incircle_core_logic$slot1$core$responder$records$stream$packer(clock,rese
                         kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                         kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
                         if (~has_short_ids) begin
-                            kept$d[(64'h20)+:(16)] = third;
+                            kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
                         end
                     end
                 end
@@ -53987,14 +53987,14 @@ module incircle_core_logic$slot1$core$responder$records$stream$packer(clock,rese
                 begin
                     sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
-                    sent[(64'h30)+:(16)] = third;
+                    sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
                 end
             KeptNumber$Two:
                 begin
                     sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
                     kept$d[(64'h0)+:(16)] = third;
-                    if (brings_rests | (~vertices_alone)) begin
+                    if (has_short_ids | (~vertices_alone)) begin
                         kept$d[(64'h10)+:(16)] = fourth;
                     end
                     if (~vertices_alone) begin
@@ -54006,7 +54006,7 @@ module incircle_core_logic$slot1$core$responder$records$stream$packer(clock,rese
                 begin
                     sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
                     kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h10)+:(16)] = third;
+                    kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
                 end
             default:
                 begin

@@ -30903,7 +30903,7 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$packer(cl
                         kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                         kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
                         if (~has_short_ids) begin
-                            kept$d[(64'h20)+:(16)] = third;
+                            kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
                         end
                     end
                 end
@@ -30911,14 +30911,14 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$packer(cl
                 begin
                     sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
-                    sent[(64'h30)+:(16)] = third;
+                    sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
                 end
             KeptNumber$Two:
                 begin
                     sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
                     kept$d[(64'h0)+:(16)] = third;
-                    if (brings_rests | (~vertices_alone)) begin
+                    if (has_short_ids | (~vertices_alone)) begin
                         kept$d[(64'h10)+:(16)] = fourth;
                     end
                     if (~vertices_alone) begin
@@ -30930,7 +30930,7 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$packer(cl
                 begin
                     sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
                     kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h10)+:(16)] = third;
+                    kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
                 end
             default:
                 begin
@@ -58292,7 +58292,7 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$packer(cl
                         kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                         kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
                         if (~has_short_ids) begin
-                            kept$d[(64'h20)+:(16)] = third;
+                            kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
                         end
                     end
                 end
@@ -58300,14 +58300,14 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$packer(cl
                 begin
                     sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
-                    sent[(64'h30)+:(16)] = third;
+                    sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
                 end
             KeptNumber$Two:
                 begin
                     sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
                     kept$d[(64'h0)+:(16)] = third;
-                    if (brings_rests | (~vertices_alone)) begin
+                    if (has_short_ids | (~vertices_alone)) begin
                         kept$d[(64'h10)+:(16)] = fourth;
                     end
                     if (~vertices_alone) begin
@@ -58319,7 +58319,7 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$packer(cl
                 begin
                     sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
                     kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h10)+:(16)] = third;
+                    kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
                 end
             default:
                 begin

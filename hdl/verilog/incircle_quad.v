@@ -26644,7 +26644,7 @@ module incircle_core_logic$slot0$core$responder$records$stream$packer(clock,rese
                         kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                         kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
                         if (~has_short_ids) begin
-                            kept$d[(64'h20)+:(16)] = third;
+                            kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
                         end
                     end
                 end
@@ -26652,14 +26652,14 @@ module incircle_core_logic$slot0$core$responder$records$stream$packer(clock,rese
                 begin
                     sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
-                    sent[(64'h30)+:(16)] = third;
+                    sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
                 end
             KeptNumber$Two:
                 begin
                     sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
                     kept$d[(64'h0)+:(16)] = third;
-                    if (brings_rests | (~vertices_alone)) begin
+                    if (has_short_ids | (~vertices_alone)) begin
                         kept$d[(64'h10)+:(16)] = fourth;
                     end
                     if (~vertices_alone) begin
@@ -26671,7 +26671,7 @@ module incircle_core_logic$slot0$core$responder$records$stream$packer(clock,rese
                 begin
                     sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
                     kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h10)+:(16)] = third;
+                    kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
                 end
             default:
                 begin
@@ -54033,7 +54033,7 @@ module incircle_core_logic$slot1$core$responder$records$stream$packer(clock,rese
                         kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                         kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
                         if (~has_short_ids) begin
-                            kept$d[(64'h20)+:(16)] = third;
+                            kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
                         end
                     end
                 end
@@ -54041,14 +54041,14 @@ module incircle_core_logic$slot1$core$responder$records$stream$packer(clock,rese
                 begin
                     sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
-                    sent[(64'h30)+:(16)] = third;
+                    sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
                 end
             KeptNumber$Two:
                 begin
                     sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
                     kept$d[(64'h0)+:(16)] = third;
-                    if (brings_rests | (~vertices_alone)) begin
+                    if (has_short_ids | (~vertices_alone)) begin
                         kept$d[(64'h10)+:(16)] = fourth;
                     end
                     if (~vertices_alone) begin
@@ -54060,7 +54060,7 @@ module incircle_core_logic$slot1$core$responder$records$stream$packer(clock,rese
                 begin
                     sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
                     kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h10)+:(16)] = third;
+                    kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
                 end
             default:
                 begin
@@ -81422,7 +81422,7 @@ module incircle_core_logic$slot2$core$responder$records$stream$packer(clock,rese
                         kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                         kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
                         if (~has_short_ids) begin
-                            kept$d[(64'h20)+:(16)] = third;
+                            kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
                         end
                     end
                 end
@@ -81430,14 +81430,14 @@ module incircle_core_logic$slot2$core$responder$records$stream$packer(clock,rese
                 begin
                     sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
-                    sent[(64'h30)+:(16)] = third;
+                    sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
                 end
             KeptNumber$Two:
                 begin
                     sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
                     kept$d[(64'h0)+:(16)] = third;
-                    if (brings_rests | (~vertices_alone)) begin
+                    if (has_short_ids | (~vertices_alone)) begin
                         kept$d[(64'h10)+:(16)] = fourth;
                     end
                     if (~vertices_alone) begin
@@ -81449,7 +81449,7 @@ module incircle_core_logic$slot2$core$responder$records$stream$packer(clock,rese
                 begin
                     sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
                     kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h10)+:(16)] = third;
+                    kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
                 end
             default:
                 begin
@@ -108811,7 +108811,7 @@ module incircle_core_logic$slot3$core$responder$records$stream$packer(clock,rese
                         kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                         kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
                         if (~has_short_ids) begin
-                            kept$d[(64'h20)+:(16)] = third;
+                            kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
                         end
                     end
                 end
@@ -108819,14 +108819,14 @@ module incircle_core_logic$slot3$core$responder$records$stream$packer(clock,rese
                 begin
                     sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
-                    sent[(64'h30)+:(16)] = third;
+                    sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
                 end
             KeptNumber$Two:
                 begin
                     sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
                     kept$d[(64'h0)+:(16)] = third;
-                    if (brings_rests | (~vertices_alone)) begin
+                    if (has_short_ids | (~vertices_alone)) begin
                         kept$d[(64'h10)+:(16)] = fourth;
                     end
                     if (~vertices_alone) begin
@@ -108838,7 +108838,7 @@ module incircle_core_logic$slot3$core$responder$records$stream$packer(clock,rese
                 begin
                     sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
                     kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h10)+:(16)] = third;
+                    kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
                 end
             default:
                 begin

@@ -30957,7 +30957,7 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$packer(cl
                         kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                         kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
                         if (~has_short_ids) begin
-                            kept$d[(64'h20)+:(16)] = third;
+                            kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
                         end
                     end
                 end
@@ -30965,14 +30965,14 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$packer(cl
                 begin
                     sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
-                    sent[(64'h30)+:(16)] = third;
+                    sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
                 end
             KeptNumber$Two:
                 begin
                     sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
                     kept$d[(64'h0)+:(16)] = third;
-                    if (brings_rests | (~vertices_alone)) begin
+                    if (has_short_ids | (~vertices_alone)) begin
                         kept$d[(64'h10)+:(16)] = fourth;
                     end
                     if (~vertices_alone) begin
@@ -30984,7 +30984,7 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$packer(cl
                 begin
                     sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
                     kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h10)+:(16)] = third;
+                    kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
                 end
             default:
                 begin
@@ -58346,7 +58346,7 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$packer(cl
                         kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                         kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
                         if (~has_short_ids) begin
-                            kept$d[(64'h20)+:(16)] = third;
+                            kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
                         end
                     end
                 end
@@ -58354,14 +58354,14 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$packer(cl
                 begin
                     sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
-                    sent[(64'h30)+:(16)] = third;
+                    sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
                 end
             KeptNumber$Two:
                 begin
                     sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
                     kept$d[(64'h0)+:(16)] = third;
-                    if (brings_rests | (~vertices_alone)) begin
+                    if (has_short_ids | (~vertices_alone)) begin
                         kept$d[(64'h10)+:(16)] = fourth;
                     end
                     if (~vertices_alone) begin
@@ -58373,7 +58373,7 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$packer(cl
                 begin
                     sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
                     kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h10)+:(16)] = third;
+                    kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
                 end
             default:
                 begin
@@ -85735,7 +85735,7 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$packer(cl
                         kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                         kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
                         if (~has_short_ids) begin
-                            kept$d[(64'h20)+:(16)] = third;
+                            kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
                         end
                     end
                 end
@@ -85743,14 +85743,14 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$packer(cl
                 begin
                     sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
-                    sent[(64'h30)+:(16)] = third;
+                    sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
                 end
             KeptNumber$Two:
                 begin
                     sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
                     kept$d[(64'h0)+:(16)] = third;
-                    if (brings_rests | (~vertices_alone)) begin
+                    if (has_short_ids | (~vertices_alone)) begin
                         kept$d[(64'h10)+:(16)] = fourth;
                     end
                     if (~vertices_alone) begin
@@ -85762,7 +85762,7 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$packer(cl
                 begin
                     sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
                     kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h10)+:(16)] = third;
+                    kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
                 end
             default:
                 begin
@@ -113124,7 +113124,7 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$packer(cl
                         kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                         kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
                         if (~has_short_ids) begin
-                            kept$d[(64'h20)+:(16)] = third;
+                            kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
                         end
                     end
                 end
@@ -113132,14 +113132,14 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$packer(cl
                 begin
                     sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
-                    sent[(64'h30)+:(16)] = third;
+                    sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
                 end
             KeptNumber$Two:
                 begin
                     sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
                     kept$d[(64'h0)+:(16)] = third;
-                    if (brings_rests | (~vertices_alone)) begin
+                    if (has_short_ids | (~vertices_alone)) begin
                         kept$d[(64'h10)+:(16)] = fourth;
                     end
                     if (~vertices_alone) begin
@@ -113151,7 +113151,7 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$packer(cl
                 begin
                     sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
                     kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h10)+:(16)] = third;
+                    kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
                 end
             default:
                 begin

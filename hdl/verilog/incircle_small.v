@@ -25323,7 +25323,7 @@ module incircle_core_logic$responder$records$stream$packer(clock,reset,starts,co
                         kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                         kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
                         if (~has_short_ids) begin
-                            kept$d[(64'h20)+:(16)] = third;
+                            kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
                         end
                     end
                 end
@@ -25331,14 +25331,14 @@ module incircle_core_logic$responder$records$stream$packer(clock,reset,starts,co
                 begin
                     sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
-                    sent[(64'h30)+:(16)] = third;
+                    sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
                 end
             KeptNumber$Two:
                 begin
                     sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
                     kept$d[(64'h0)+:(16)] = third;
-                    if (brings_rests | (~vertices_alone)) begin
+                    if (has_short_ids | (~vertices_alone)) begin
                         kept$d[(64'h10)+:(16)] = fourth;
                     end
                     if (~vertices_alone) begin
@@ -25350,7 +25350,7 @@ module incircle_core_logic$responder$records$stream$packer(clock,reset,starts,co
                 begin
                     sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
                     kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h10)+:(16)] = third;
+                    kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
                 end
             default:
                 begin

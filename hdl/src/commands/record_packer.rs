@@ -94,7 +94,8 @@ impl Logic for RecordPacker {
             self.fourth.next = self.group.rests.val().get_bits::<16>(16);
         }
         // Kept halves come before those of the new record. What does not fit into the beat is kept, with zeros behind
-        // it, because it may be the last beat.
+        // it, because it may be the last beat. Short ids leave no half or two, so beside one half or three the third
+        // half is always that of the record, not that of the rests.
         self.sent.next = self.kept.q.val();
         self.kept.d.next.half1 = 0.into();
         self.kept.d.next.half2 = 0.into();
@@ -111,20 +112,20 @@ impl Logic for RecordPacker {
                     self.kept.d.next.half0 = self.halves.val().half0;
                     self.kept.d.next.half1 = self.halves.val().half1;
                     if !self.has_short_ids.val() {
-                        self.kept.d.next.half2 = self.third.val();
+                        self.kept.d.next.half2 = self.halves.val().half2;
                     }
                 }
             }
             KeptNumber::One => {
                 self.sent.next.half1 = self.halves.val().half0;
                 self.sent.next.half2 = self.halves.val().half1;
-                self.sent.next.half3 = self.third.val();
+                self.sent.next.half3 = self.halves.val().half2;
             }
             KeptNumber::Two => {
                 self.sent.next.half2 = self.halves.val().half0;
                 self.sent.next.half3 = self.halves.val().half1;
                 self.kept.d.next.half0 = self.third.val();
-                if self.brings_rests.val() | (!self.vertices_alone.val()) {
+                if self.has_short_ids.val() | (!self.vertices_alone.val()) {
                     self.kept.d.next.half1 = self.fourth.val();
                 }
                 if !self.vertices_alone.val() {
@@ -135,7 +136,7 @@ impl Logic for RecordPacker {
             KeptNumber::Three => {
                 self.sent.next.half3 = self.halves.val().half0;
                 self.kept.d.next.half0 = self.halves.val().half1;
-                self.kept.d.next.half1 = self.third.val();
+                self.kept.d.next.half1 = self.halves.val().half2;
             }
             _ => {}
         }
